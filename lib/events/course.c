@@ -12,7 +12,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { room = course_most_degree + 1, coarse_room = course_coarse_degree + 1 };
+enum { room = course_most_degree + 1, coarse_room = course_coarse_degree + 1, at_rest = -1 };
 
 static const double pi = 3.14159265358979323846;
 
@@ -21,7 +21,7 @@ bool course_init(struct course *course, size_t size, const bool *used)
     *course = (struct course){.size = size};
     for (size_t i = 0; i < size; i++) course->count += used[i];
     size_t count = course->count;
-    course->component = calloc(count + 1, sizeof(int));
+    course->component = calloc(3 * count + 1, sizeof(int));
     size_t grids =
         count > 0 ? (size_t)coarse_room * (2 * coarse_room + 1) + (size_t)room * (2 * room + 1) : 0;
     course->coefficients = calloc((size_t)2 * room * count + 5 * count + size + grids + 1, sizeof(double));
@@ -30,6 +30,8 @@ bool course_init(struct course *course, size_t size, const bool *used)
         course_free(course);
         return false;
     }
+    course->top = course->component + count;
+    course->fresh = course->top + count;
     course->samples = course->coefficients + room * count;
     course->doubt = course->samples + room * count;
     course->scale = course->doubt + count;
@@ -104,6 +106,7 @@ static void prepare(struct course *course, int degree)
 
 static int take_samples(struct course *course, course_sampler *sample, void *context)
 {
+    course->enclosed.from = NAN;
     double radius = (course->to - course->from) / 2, middle = course->from + radius;
     for (int k = 0; k <= course->degree; k++) {
         double t = middle + radius * course->grid->node[k];
@@ -124,6 +127,13 @@ static bool all_equal(int degree, const double *sample)
     return true;
 }
 
+/* The Chebyshev series through the samples. Its matrix is symmetric, and sums that go side by side take half of the time. */
+static void set_series(int width, const double *row, const double *sample, double *restrict series)
+{
+    for (int k = 0; k < width; k++, row += width)
+        for (int j = 0; j < width; j++) series[j] += row[j] * sample[k];
+}
+
 /* The polynomial of component i in powers of s; returns its size. Terms that are roundings of the samples are
  * left to the doubt: in powers they would be 2^(d-1) times as large. */
 static double set_powers_of(struct course *course, size_t i, double *series)
@@ -131,14 +141,13 @@ static double set_powers_of(struct course *course, size_t i, double *series)
     const double rounding = DBL_EPSILON;
     int width = course->degree + 1;
     double *c = course->coefficients + i * room, size = 0;
-    const double *sample = course->samples + i * room, *row = course->grid->series,
-                 *power = course->grid->power;
-    for (int k = 0; k < width; k++) size = fmax(size, fabs(sample[k]));
+    const double *sample = course->samples + i * room, *power = course->grid->power;
+    for (int k = 0; k < width; k++) size = interval_larger(fabs(sample[k]), size);
+    set_series(width, course->grid->series, sample, series);
     memset(c, 0, room * sizeof *c);
-    for (int j = 0; j < width; j++, row += width, power += width) {
-        series[j] = 0;
-        for (int k = 0; k < width; k++) series[j] += row[k] * sample[k];
+    for (int j = 0; j < width; j++, power += width) {
         if (j > 0 && fabs(series[j]) <= rounding * size) continue;
+        course->top[i] = j;
         for (int k = j % 2; k <= j; k += 2) c[k] += series[j] * power[k];
     }
     return size;
@@ -155,7 +164,8 @@ static bool rests(struct course *course, size_t i)
     const double *sample = course->samples + i * room;
     course->doubt[i] = course->noise[i];
     course->coefficients[i * room] = sample[0];
-    return all_equal(course->degree, sample);
+    course->top[i] = all_equal(course->degree, sample) ? at_rest : 0;
+    return course->top[i] == at_rest;
 }
 
 /* Is what the polynomial of component i leaves out too much? Its size is that of the last terms. Those of
@@ -231,22 +241,29 @@ static struct interval around(double centre, double radius)
     return interval_widen(centre - radius, centre + radius, 1);
 }
 
-void course_enclose(struct course *course, const struct stretch *stretch)
+void course_enclose(struct course *course, const struct stretch *stretch, const bool *wanted)
 {
     double radius = (course->to - course->from) / 2, middle = course->from + radius, b[room];
     if (!(radius > 0)) return;
     double s0 = (stretch->middle - middle) / radius, r = stretch_radius(stretch) / radius;
+    bool other = stretch->from != course->enclosed.from || stretch->to != course->enclosed.to;
+    if (other) memset(course->fresh, 0, course->count * sizeof *course->fresh);
+    course->enclosed = *stretch;
     for (size_t i = 0; i < course->count; i++) {
+        if (course->fresh[i] || (wanted && !wanted[i])) continue;
+        course->fresh[i] = true;
         const double *c = course->coefficients + i * room;
         double doubt = course->doubt[i], bend = 0, slope = 0, power = 1;
         struct enclosure *now = &course->now[course->component[i]];
-        if (all_equal(course->degree, course->samples + i * room)) {
+        int top = course->top[i];
+        if (top == at_rest) {
             *now = enclosure_point(c[0]);
             if (doubt > 0) now->value = now->middle = around(c[0], doubt);
             continue;
         }
-        shift(course->degree, c, s0, b);
-        for (int k = 2; k <= course->degree; k++) {
+        b[1] = 0;
+        shift(top, c, s0, b);
+        for (int k = 2; k <= top; k++) {
             power *= r;
             slope += k * fabs(b[k]) * power;
             bend += fabs(b[k]) * power * r;

@@ -29,9 +29,10 @@ struct course_grid {
 };
 
 struct course {
-    size_t size, count;          /* of y; components that are followed */
-    int *component;              /* count */
-    int degree;                  /* of this piece */
+    size_t size, count; /* of y; components that are followed */
+    int *component;     /* count */
+    int *top;           /* count: the highest power that a component has, below zero where it rests */
+    int degree;         /* of this piece */
     struct course_grid grids[2]; /* the coarse one, another one */
     const struct course_grid *grid;
     double from, to;       /* of the present piece */
@@ -44,7 +45,9 @@ struct course {
     double *tail;          /* count: the share of its last terms in the present piece */
     double *samples;       /* (most_degree + 1) x count */
     double *y;             /* size */
-    struct enclosure *now; /* size: result of course_enclose */
+    struct enclosure *now; /* size: result of course_enclose, */
+    struct stretch enclosed; /* over this stretch; from NAN: none */
+    int *fresh;              /* count: which of them are */
 };
 
 /* For vectors of `size` components, of which those flagged in `used` are followed. False when memory is out.
@@ -64,7 +67,8 @@ int course_set(struct course *course, double from, double to, int degree, double
 /* Follow it as far as `to` by a series of degree 4. */
 int course_set_coarse(struct course *course, double from, double to, course_sampler *sample, void *context);
 
-/* The components over a stretch of the present piece, in course->now. */
-void course_enclose(struct course *course, const struct stretch *stretch);
+/* The components over a stretch of the present piece, in course->now: those that are wanted, a flag for each that is
+ * followed; all of them for NULL. */
+void course_enclose(struct course *course, const struct stretch *stretch, const bool *wanted);
 
 #endif

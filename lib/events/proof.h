@@ -29,6 +29,7 @@ struct proof_group {
     bool proved;         /* it has enclosures */
     bool aside;          /* searched in a turn of its own: see scan.h */
     bool open, again;    /* still to be searched; in the next piece as well */
+    bool idle;           /* HUGE_VAL, all of it, until the functions are others: nothing to search */
     bool stuck;          /* enclosures tell nothing: left to samples until the functions are others */
     double clear;        /* none becomes negative up to here; NAN: not searched */
     double width;        /* of stretches that have told enough */

@@ -327,7 +327,7 @@ static int look_by_enclosures(struct scan *scan, double from, double *limit)
         struct proof_group *group = &scan->groups[g];
         bool turn = group->aside == scan->aside && !is_silent(scan, group),
              proved = group->proved && !group->stuck;
-        group->open = turn && proved;
+        group->open = turn && proved && !group->idle;
         leave_to_samples(scan, group, turn && !proved);
     }
     if (!any_open(scan)) return 0;

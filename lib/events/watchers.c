@@ -230,10 +230,19 @@ static bool is_enclosed(const struct fbd_state *state, const struct watcher *wat
     }
 }
 
+/* What slips does not break away, and what sticks does not stop. */
+static bool is_idle(const struct fbd_state *state, const struct watcher *watcher)
+{
+    if (watcher->kind == watch_slip_stop) return state->slip[watcher->index] == stick;
+    return watcher->kind == watch_stick_limit && state->slip[watcher->index] != stick;
+}
+
 void watchers_follow(struct watchers *watchers, const struct fbd_state *state)
 {
     struct watcher_set *set = &watchers->moving;
     watchers_hold(watchers, state);
+    for (size_t g = 0; g < set->group_count; g++)
+        set->groups[g].idle = is_idle(state, &set->watchers[set->groups[g].first]);
     if (!state->sliding) return;
     bool known = !state_sliding(state) || outlook_knows_shares(state);
     for (size_t g = 0; g < set->group_count; g++)

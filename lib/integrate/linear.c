@@ -189,11 +189,22 @@ static void set_terms(struct linear *s)
 
 static void sum_terms(const struct linear *s, double theta, double *y)
 {
-    for (size_t i = 0; i < s->dim; i++) {
-        double sum = 0;
-        for (int k = s->used - 1; k >= 0; k--) sum = theta * (s->term[(size_t)k * s->dim + i] + sum);
+    size_t dim = s->dim, i = 0;
+    for (; i + 1 < dim; i += 2) { /* two at a time */
+        const double *first = s->term + i, *term = first + (size_t)s->used * dim;
+        double sum = 0, next = 0;
+        while (term > first) {
+            term -= dim;
+            sum = theta * (term[0] + sum);
+            next = theta * (term[1] + next);
+        }
         y[i] = s->y0[i] + sum;
+        y[i + 1] = s->y0[i + 1] + next;
     }
+    if (i == dim) return;
+    double sum = 0;
+    for (int k = s->used - 1; k >= 0; k--) sum = theta * (s->term[(size_t)k * dim + i] + sum);
+    y[i] = s->y0[i] + sum;
 }
 
 /* rise += Phi(h) f for |h| below the lowest rung. */

@@ -192,6 +192,7 @@ void run_free(struct run *run)
     scan_free(&run->search.moving);
     watchers_free(&run->watchers);
     course_free(&run->course);
+    free(run->search.reads);
     poles_free(&run->poles);
     mechanisms_free(&run->mechanisms);
     contacts_work_free(&run->contacts);

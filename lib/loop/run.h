@@ -101,9 +101,10 @@ struct snap {
 /* What events are looked for with, beside the watchers. */
 struct event_search {
     struct scan timed, moving;
-    struct stretch enclosed;     /* that the course has been enclosed over */
+    bool *reads; /* for each group of moving functions which components of the course it reads */
     bool paced, paced_by_motion; /* sampled functions may change as fast as formulas do, of the motion too */
     bool follows_places;         /* the course has places in the world */
+    bool leads;                  /* there are drives or surfaces that may lead (run_lead) */
     bool wakes; /* there are levels of what wakes up with the motion (expr_switch_is_silent) */
 };
 

@@ -39,12 +39,13 @@ static bool any_leads(const struct run *run)
 void run_lead(const struct run *run, double t, double *y)
 {
     const struct plan *plan = &run->model->plan;
-    struct instant at = state_instant_at(run->during, t, y);
     double acceleration;
-    for (size_t i = 0; i < plan->mode_count; i++) {
+    for (size_t i = 0; run->search.leads && i < plan->mode_count; i++) {
         const struct mode *mode = &plan->modes[i];
-        if (run->during->slip[i] != stick) continue; /* drives always stick */
-        if (mode->kind == mode_drive) y[mode->coordinate] = formula_value(&mode->position, &at);
+        bool drives = mode->kind == mode_drive; /* always stick */
+        if (!drives && !leads(run, i)) continue;
+        struct instant at = state_instant_at(run->during, t, y);
+        if (drives) y[mode->coordinate] = formula_value(&mode->position, &at);
         if (leads(run, i)) y[plan->n + mode->coordinate] = friction_surface_speed(mode, &at, &acceleration);
     }
 }
@@ -75,10 +76,9 @@ static void enclose_timed(void *context, size_t group, const struct stretch *str
 static void enclose_moving(void *context, size_t group, const struct stretch *stretch, struct enclosure *out)
 {
     struct run *run = context;
-    if (stretch->from != run->search.enclosed.from || stretch->to != run->search.enclosed.to) {
-        course_enclose(&run->course, stretch);
-        run->search.enclosed = *stretch;
-    }
+    /* What slides shares forces that other groups read. */
+    const bool *wanted = state_sliding(run->during) ? NULL : run->search.reads + group * run->course.count;
+    course_enclose(&run->course, stretch, wanted);
     watchers_enclose(&run->watchers, &run->watchers.moving, group, run->during, stretch, run->course.now,
                      out);
 }
@@ -144,7 +144,6 @@ static double follow_course(void *context, double from, double to, bool coarse)
         negligible = fmax(negligible, 1e-13);
         degree = course_most_degree;
     }
-    run->search.enclosed.from = NAN;
     set_noise(run);
     coarse = coarse && degree > simple && run->options.step == 0;
     int status = coarse ? course_set_coarse(&run->course, from, to, sample_course, run)
@@ -233,8 +232,9 @@ static double end_of_turn(struct run *run, const struct formula *formula, double
     for (int halving = 0; halving < most_halvings; halving++) {
         struct stretch stretch = stretch_between(from, to);
         if (run->search.paced_by_motion) {
-            course_enclose(&run->course, &stretch);
+            course_enclose(&run->course, &stretch, NULL);
             hold_noise(run);
+            run->course.enclosed.from = NAN;
         }
         double radians = radians_of(run, formula, &stretch);
         if (!(radians > most) || !(stretch.middle > from)) return to;
@@ -291,6 +291,22 @@ static void mark_paced(struct run *run, bool *used)
     }
 }
 
+/* Which components of the course each group of functions reads; `used` has room for all. */
+static bool mark_reads(struct run *run, bool *used, size_t size)
+{
+    const struct watcher_set *set = &run->watchers.moving;
+    const struct course *course = &run->course;
+    bool *reads = run->search.reads = calloc(set->group_count * course->count + 1, sizeof *reads);
+    for (size_t g = 0; reads && g < set->group_count; g++) {
+        const struct proof_group *group = &set->groups[g];
+        const struct watcher_set own = {.watchers = set->watchers + group->first, .count = group->count};
+        memset(used, 0, size * sizeof *used);
+        watchers_mark_used(run->model, &own, used);
+        for (size_t k = 0; k < course->count; k++) *reads++ = used[course->component[k]];
+    }
+    return run->search.reads != NULL;
+}
+
 static bool make_course(struct run *run)
 {
     size_t size = extended_size(run->model);
@@ -299,7 +315,7 @@ static bool make_course(struct run *run)
     watchers_mark_used(run->model, &run->watchers.moving, used);
     mark_paced(run, used);
     for (size_t i = plan_size(&run->model->plan); i < size; i++) run->search.follows_places |= used[i];
-    bool made = course_init(&run->course, size, used);
+    bool made = course_init(&run->course, size, used) && mark_reads(run, used, size);
     free(used);
     return made;
 }
@@ -338,5 +354,9 @@ bool run_make_scans(struct run *run)
     if (!scan_init(&run->search.timed, timed->count, sample_timed, run)) return false;
     if (!scan_init(&run->search.moving, moving->count, sample_moving, run)) return false;
     run->search.wakes = any_wakes(run);
+    for (size_t i = 0; i < run->model->plan.mode_count; i++) {
+        const struct mode *mode = &run->model->plan.modes[i];
+        run->search.leads |= mode->kind == mode_drive || mode->surface_speed.expr;
+    }
     return use_enclosures(run);
 }

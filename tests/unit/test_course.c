@@ -36,7 +36,7 @@ static void check_piece(struct course *course, const struct layer *layer)
 {
     for (int k = 0; k <= 16; k++) {
         double t = fmin(course->from + (course->to - course->from) * k / 16.0, course->to);
-        course_enclose(course, &(struct stretch){t, t, t});
+        course_enclose(course, &(struct stretch){t, t, t}, NULL);
         double error = fabs(course->now[1].middle.high - layer_value(layer, t));
         if (!(error <= 1e-7 * layer->size + interval_width(course->now[1].middle)))
             fail_msg("off by %g at %.17g of a piece from %.17g to %.17g", error, t, course->from, course->to);
