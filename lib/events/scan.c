@@ -9,10 +9,11 @@
 #include "events/cubic.h"
 
 /* A function that needs more samples of one interval is too fast for it, or noise. Nor are they worth more right-hand
- * sides than two thousand attempts of a step by bsimp at its longest: where the inside of a step is walked again for each
- * sample that may be 64 of them, and one interval took minutes in which nobody could interrupt the run. */
+ * sides than a thousand attempts of a step by bsimp at its longest, or two thousand by others: where the inside of a step is
+ * walked again for each sample that may be 64 of them, and one interval took minutes in which nobody could interrupt
+ * the run. */
 enum { most_samples = 4096, spare_points = 3 };
-static const unsigned long most_work = 500000;
+static const unsigned long most_work = 300000;
 
 struct scan_point {
     double t;
@@ -417,12 +418,13 @@ struct budget {
 
 static struct budget budget_from_here(const struct scan *scan)
 {
-    return (struct budget){scan->samples + most_samples, scan->work ? *scan->work + most_work : 0};
+    return (struct budget){scan->samples + most_samples,
+                           scan->work ? scan->work(scan->context) + most_work : 0};
 }
 
 static bool is_spent(const struct scan *scan, const struct budget *budget)
 {
-    return scan->samples >= budget->samples || (scan->work && *scan->work >= budget->work);
+    return scan->samples >= budget->samples || (scan->work && scan->work(scan->context) >= budget->work);
 }
 
 /* Panel by panel. A panel whose functions are not resolved is halved; one that cannot be halved any more is

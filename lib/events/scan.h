@@ -32,6 +32,9 @@ typedef double scan_follower(void *context, double from, double to, bool coarse)
 /* The end of the first panel of an interval for series, above `from`. */
 typedef double scan_paneller(void *context, double from, double to);
 
+/* What samples have cost so far, in right-hand sides: an interval is given up after so much of it, too. */
+typedef unsigned long scan_worker(void *context);
+
 struct scan {
     size_t count;
     scan_sampler *sample;
@@ -54,9 +57,7 @@ struct scan {
     bool aside;            /* this turn: only groups that are searched aside, else only the others */
     scan_paneller *panel;  /* NULL: any length will do */
     double soon;           /* how long a first look by samples is to be at most; 0: any length */
-    const unsigned long
-        *work; /* what samples cost (right-hand sides so far), if that can be much: an interval is given up
-                                  after so much of it, too */
+    scan_worker *work;     /* NULL: samples cost little */
 
     struct prover prover;
     struct series series;
@@ -79,8 +80,8 @@ bool scan_use_enclosures(struct scan *scan, struct proof_group *groups, size_t c
 bool scan_init(struct scan *scan, size_t count, scan_sampler *sample, void *context);
 void scan_free(struct scan *scan);
 
-/* Look at (from, to]. 1: found, see `t` and `crossed`; 0: nothing; 2: given up after too many samples, or too much work for them,
- * see `clear`; negative: what the sampler returned.
+/* Look at (from, to]. 1: found, see `t` and `crossed`; 0: nothing; 2: given up after too many samples, or too
+ * much work for them, see `clear`; negative: what the sampler returned.
  * Functions that start at or below zero are looked at once they have been seen positive, except those that
  * are still negative at the end. */
 int scan_interval(struct scan *scan, double from, double to);

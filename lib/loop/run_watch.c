@@ -67,6 +67,13 @@ static int sample_moving(void *context, double t, double *values, double *rate)
     return 0;
 }
 
+/* Where the inside of a step is the step made again: a Jacobian is about as many right-hand sides as it has columns. */
+static unsigned long work_so_far(void *context)
+{
+    const struct counted_system *system = &((const struct run *)context)->system;
+    return system->rhs + system->jacobians * system->inner.dimension;
+}
+
 static void enclose_timed(void *context, size_t group, const struct stretch *stretch, struct enclosure *out)
 {
     struct run *run = context;
@@ -325,7 +332,7 @@ static bool use_enclosures(struct run *run)
     const struct watcher_set *timed = &run->watchers.timed, *moving = &run->watchers.moving;
     run->search.timed.horizon = run->options.until;
     run->search.moving.panel = end_of_panel;
-    run->search.moving.work = &run->system.rhs;
+    run->search.moving.work = work_so_far;
     return scan_use_enclosures(&run->search.timed, timed->groups, timed->group_count, enclose_timed, NULL) &&
            scan_use_enclosures(&run->search.moving, moving->groups, moving->group_count, enclose_moving,
                                follow_course) &&

@@ -19,7 +19,8 @@ enum {
     most_table = 60000, /* bytes of CSV, then the writer refuses */
     waits_a_look = 16,  /* questions between two looks at the clock, which asks the system */
     most_arrows = 64,
-    keeps_plots = 1, /* of sixteen */
+    most_seconds = 20, /* of the processor, for an input that is invented */
+    keeps_plots = 1,   /* of sixteen */
     keeps_page = 2,
 };
 
@@ -297,8 +298,15 @@ static void ask(struct input *input)
     fbd_state_free(state);
 }
 
+static void claim_in_time(clock_t since)
+{
+    double took = (double)(clock() - since) / CLOCKS_PER_SEC;
+    if (fuzz_hurries && took > most_seconds) fuzz_fail("it took %.3g s", took);
+}
+
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
+    clock_t since = clock();
     const char *text = (const char *)data;
     struct input input = {.errors = fbd_errors_new(),
                           .names_nan = names_nan(text, size),
@@ -314,5 +322,6 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     }
     fbd_model_free(model);
     fbd_errors_free(input.errors);
+    claim_in_time(since);
     return 0;
 }
