@@ -11,7 +11,8 @@ static const double run_length = 1, taken_up = 0.4;
 
 /* What the library says of a scene: its forces at one time, where bodies are then and at the end. */
 struct answers {
-    struct absolute at, end; /* positions and velocities alone */
+    struct absolute at, end;                       /* positions and velocities alone */
+    double q[3 * most_bodies], v[3 * most_bodies]; /* the library's own at `at` */
     size_t count[most_bodies];
     fbd_arrow arrow[most_bodies][most_arrows];
     char name[most_bodies][most_arrows][64];
@@ -42,6 +43,7 @@ static void take_place(struct absolute *absolute, const struct scene *scene, fbd
 static void take_forces(struct answers *answers, const struct scene *scene, fbd_state *state)
 {
     take_place(&answers->at, scene, state);
+    library_state(scene, state, answers->q, answers->v);
     for (int b = 0; b < scene->body_count; b++) {
         answers->count[b] = fbd_diagram(state, (size_t)b, answers->arrow[b], most_arrows);
         if (answers->count[b] > most_arrows) answers->count[b] = most_arrows;
@@ -220,17 +222,16 @@ static double tolerance_of(enum variant variant, bool state)
     return state ? 1e-7 : variant == variant_later ? 1e-9 : 1e-10;
 }
 
-/* The scene taken up: where it is then is its start. */
+/* The scene taken up: where it is then is its start. By the library's own numbers: on the way through the places of the
+ * bodies what stands still on a curve gets a speed of roundings, and would slip. */
 static void start_there(struct scene *scene, const struct answers *one)
 {
-    double q[3 * most_bodies], v[3 * most_bodies];
     int k = 0;
-    absolute_coordinates(&one->at, q, v);
     for (int i = 0; i < scene->state_count; i++) scene->state[i].initial = one->at.z[i];
     for (int b = 0; b < scene->body_count; b++)
         for (int i = 0; i < coordinate_count(scene->body[b].motion); i++, k++) {
-            scene->body[b].q[i] = q[k];
-            scene->body[b].v[i] = v[k];
+            scene->body[b].q[i] = one->q[k];
+            scene->body[b].v[i] = one->v[k];
         }
 }
 
