@@ -110,6 +110,9 @@ struct absolute {
     double force_size, acceleration_size; /* the largest terms */
     double condition;
     bool redundant, accelerations_unique, consistent;
+    /* Of an integration, the first step that ended where a guide is pushed to neither side: each newton more of its normal force
+     * brings so much friction that it takes it away again (Painleve). Its start and its end; INFINITY before. */
+    double unpushed_from, unpushed_to;
     bool modes_in_doubt; /* redundant conditions leave open what something that holds takes */
 };
 
@@ -192,6 +195,9 @@ bool absolute_settle(struct absolute *absolute);
 
 /* Turn the sign of normal forces of guides where they have turned; false when nothing was to be turned. */
 bool absolute_turn_guides(struct absolute *absolute);
+
+/* Is there a guide whose normal force is of the wrong sign on either side? At the state as it is. */
+bool absolute_jams(struct absolute *absolute);
 
 /* Size of the largest violation of any limit of the grips in the present modes, over the largest force. */
 double absolute_excess(const struct absolute *absolute);

@@ -347,6 +347,20 @@ static bool runs_away(const struct absolute *absolute)
     return false;
 }
 
+/* Where nothing pushes a guide to either side there is no motion to compare: the library has to have said so, and nobody else
+ * may. True when that is settled. */
+static bool compare_jams(const struct absolute *absolute, fbd_outcome end, struct outcome *outcome)
+{
+    const double rounding = 1e-9;
+    if (isinf(absolute->unpushed_to)) return false;
+    if (outcome->until >= absolute->unpushed_to && (end == FBD_DONE || end == FBD_BROKEN))
+        fail(outcome, run_failed, "it goes on at t = %.9g, where no normal force goes with its friction",
+             absolute->unpushed_to);
+    bool there = outcome->until >= absolute->unpushed_from - rounding;
+    outcome->jammed = there && end == FBD_FAILED;
+    return outcome->jammed;
+}
+
 static void compare_run(const struct scene *scene, const struct absolute *start, const fbd_model *model,
                         double until, struct outcome *outcome)
 {
@@ -372,6 +386,7 @@ static void compare_run(const struct scene *scene, const struct absolute *start,
         struct absolute absolute = *start;
         fbd_outcome end = fbd_result_outcome(result);
         outcome->ran = absolute_integrate(&absolute, until, 1e-11);
+        if (compare_jams(&ahead, end, outcome)) outcome->ran = false;
         bool given_up = end == FBD_INTERRUPTED && outcome->sensitive;
         if (outcome->ran && end != FBD_DONE && end != FBD_BROKEN && (given_up || runs_away(&absolute)))
             outcome->sensitive = true;

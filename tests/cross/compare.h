@@ -25,6 +25,7 @@ struct outcome {
     double error, size; /* of what differs; size: what it is measured against */
     bool ran, broke_off, sensitive;
     bool pulsed; /* the library has gone over pulses that are shorter than its steps */
+    bool jammed; /* it ended where friction leaves no normal force, by both */
     double until;
     double worst_acceleration, worst_force, worst_state; /* relative, of what agrees */
 };

@@ -22,7 +22,7 @@
 #include "write.h"
 
 struct counts {
-    unsigned long scenes, unfit, runs, broke_off, sensitive, pulsed, verdicts[verdict_count];
+    unsigned long scenes, unfit, runs, broke_off, sensitive, pulsed, jammed, verdicts[verdict_count];
     double acceleration, force, state;
     unsigned long variants[variant_count], variant_runs, variant_failures[variant_count];
     double variant_force, variant_state; /* of those that are not moved by 1e6 m */
@@ -106,6 +106,7 @@ static void check_scene(uint64_t seed, enum focus focus, bool run, struct counts
     counts->broke_off += outcome.broke_off;
     counts->sensitive += outcome.sensitive;
     counts->pulsed += outcome.pulsed;
+    counts->jammed += outcome.jammed;
     counts->acceleration = fmax(counts->acceleration, outcome.worst_acceleration);
     counts->force = fmax(counts->force, outcome.worst_force);
     counts->state = fmax(counts->state, outcome.worst_state);
@@ -172,6 +173,7 @@ static void add_counts(struct counts *sum, const struct counts *counts)
     sum->broke_off += counts->broke_off;
     sum->sensitive += counts->sensitive;
     sum->pulsed += counts->pulsed;
+    sum->jammed += counts->jammed;
     for (int i = 0; i < verdict_count; i++) sum->verdicts[i] += counts->verdicts[i];
     sum->acceleration = fmax(sum->acceleration, counts->acceleration);
     sum->force = fmax(sum->force, counts->force);
@@ -223,8 +225,8 @@ static void report(const struct plan *plan, const struct counts *counts)
            "start)\n",
            mark, counts->scenes, (unsigned long long)plan->first, compared, counts->unfit);
     printf("%s%lu runs, of these %lu up to their first event, %lu too sensitive to compare, %lu with pulses "
-           "shorter than steps\n",
-           mark, counts->runs, counts->broke_off, counts->sensitive, counts->pulsed);
+           "shorter than steps, %lu that jam\n",
+           mark, counts->runs, counts->broke_off, counts->sensitive, counts->pulsed, counts->jammed);
     printf("%slargest differences: accelerations %.2g, forces %.2g of the largest term, states %.2g\n", mark,
            counts->acceleration, counts->force, counts->state);
     for (int i = agrees + 1; i < verdict_count; i++) {

@@ -119,10 +119,15 @@ bool absolute_integrate(struct absolute *absolute, double until, double toleranc
             h *= error > 1e4 || !(error < 1e300) ? 0.3 : 0.6;
             continue;
         }
+        double begin = t;
         t = last ? until : t + h;
         absolute->t = t;
         if (!absolute_project(absolute, true) || shortest_piece(absolute) < 0.05) return false;
         if (!wraps_stay(absolute)) return false;
+        if (isinf(absolute->unpushed_to) && absolute_jams(absolute)) {
+            absolute->unpushed_from = begin;
+            absolute->unpushed_to = t;
+        }
         h *= error < 1e-4 ? 2 : error < 1e-2 ? 1.3 : 1;
     }
     return true;

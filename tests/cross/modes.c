@@ -84,6 +84,19 @@ bool absolute_turn_guides(struct absolute *absolute)
     return turned;
 }
 
+bool absolute_jams(struct absolute *absolute)
+{
+    absolute_solve(absolute, false);
+    if (!absolute_turn_guides(absolute)) return false;
+    absolute_solve(absolute, false);
+    for (int i = 0; i < absolute->grip_count; i++) {
+        const struct grip *grip = &absolute->grip[i];
+        if (is_two_sided(absolute, grip) && normal_force(absolute, grip) < -1e-9 * absolute->force_size)
+            return true;
+    }
+    return false;
+}
+
 static void solve_with_guides(struct absolute *absolute)
 {
     absolute_solve(absolute, true);

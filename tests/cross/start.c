@@ -257,6 +257,7 @@ void absolute_start(struct absolute *absolute, const struct scene *scene)
     memset(absolute, 0, sizeof *absolute);
     absolute->scene = scene;
     absolute->n = 3 * scene->body_count;
+    absolute->unpushed_from = absolute->unpushed_to = INFINITY;
     for (int b = 0; b < scene->body_count; b++) {
         absolute->first_mass[b] = absolute->mass[b] = mass_of(&scene->body[b]);
         for (int i = 0; i < coordinate_count(scene->body[b].motion); i++, k++) {
