@@ -62,7 +62,8 @@ struct watchers {
     int *zeros;                /* scratch for that: places where it is zero */
     double *place;             /* such a place, and as many zeros */
     double *fast, *quiet;      /* per pair that drives alone make slip: its largest speed; 0, or where a step
-                                  starts with next to none how fast it may seem to turn back */
+                                  starts with next to none how fast it may seem to turn back. Of what is one-sided:
+                                  how far beyond it was left open */
     double *most, *band; /* per user event: largest size of the difference; 0, or where a step starts in the
                             band its half width */
 };

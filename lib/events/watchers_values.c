@@ -51,14 +51,15 @@ static double user_value(const struct watch *watch, const struct view *view, dou
 
 /* Closed: the force. Open: what is left to where it closes; just after it has opened that is rounding, and
  * rounding closes nothing. */
-static double one_sided_value(const struct watcher *watcher, const struct view *view, double *rate)
+static double one_sided_value(const struct watchers *watchers, const struct watcher *watcher,
+                              const struct view *view, double *rate)
 {
     const struct fbd_model *model = view->state->model;
     int tie = model->plan.modes[watcher->index].tie;
     struct one_sided now = one_sided_at(model, &view->at, watcher->index);
     if (view->at.slip[watcher->index] != stick) {
         *rate = -now.rate;
-        return now.rounding - now.excess;
+        return now.rounding + watchers->quiet[watcher->index] - now.excess;
     }
     double lambda_rate = view->state->tree->z[model->tree->ties[tie].first_row];
     *rate = model->plan.modes[watcher->index].kind == mode_rope ? -lambda_rate : lambda_rate;
@@ -293,7 +294,7 @@ void watchers_evaluate(const struct watchers *watchers, const struct watcher_set
             rates[i] *= armed;
             break;
         }
-        case watch_one_sided: values[i] = one_sided_value(watcher, &view, &rates[i]); break;
+        case watch_one_sided: values[i] = one_sided_value(watchers, watcher, &view, &rates[i]); break;
         case watch_share: values[i] = share_value(state, watcher, &rates[i]); break;
         case watch_lift: values[i] = lift_value(watcher, &view, &rates[i]); break;
         case watch_gap: values[i] = gap_value(watchers, watcher, &view, &rates[i]); break;
@@ -339,6 +340,7 @@ static void calm_driven(struct watchers *watchers, const struct fbd_state *state
 {
     const double near = 10;
     for (size_t i = 0; i < state->model->plan.mode_count; i++) {
+        if (mode_is_one_sided(&state->model->plan.modes[i])) continue;
         watchers->quiet[i] = 0;
         if (state->slip_driven[i] == 0) continue;
         struct instant at = state_instant(state);

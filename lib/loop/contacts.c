@@ -329,6 +329,7 @@ static bool look_at_contacts(struct run *run)
     impulse_look(run->state);
     int count = contacts_find_strikers(run);
     bool struck = any_closes(run, count);
+    if (struck && run_take_in_ropes(run)) count = contacts_find_strikers(run);
     if (struck) {
         if (!contacts_strike(run, count)) return false;
         for (int i = 0; i < count; i++) note_impact(run, i);

@@ -287,6 +287,29 @@ static void drop_rounding(struct run *run, int count)
     }
 }
 
+/* So has what slides or turns and is brought to rest, or to the speed of the surface that it rubs on: to the rounding of the
+ * answers to the impulses. */
+static void stop_rounding(struct run *run, int count)
+{
+    const double rounding = 1e-12;
+    const struct fbd_model *model = run->model;
+    const struct tree *tree = tree_of(run);
+    const struct instant at = state_instant(run->state);
+    for (int k = 1; k < tree->count; k++) {
+        const struct tree_link *link = &tree->links[k];
+        if (joint_freedom(link->kind) != 1) continue;
+        const struct mode *mode = link->pair < 0 ? NULL : &model->plan.modes[link->pair];
+        double *v = &run->state->y[model->plan.n + link->coordinate], given = 0, ignored;
+        double surface = mode ? friction_surface_speed(mode, &at, &ignored) : 0;
+        for (int i = 0; i < 2 * count; i++)
+            given +=
+                fabs(impulse_of(&run->contacts, i) *
+                     run->contacts.answers[(size_t)i * (size_t)model->plan.n + (size_t)link->coordinate]);
+        if (fabs(*v) <= rounding * given) *v = 0;
+        if (fabs(*v - surface) <= rounding * given) *v = surface;
+    }
+}
+
 /* What the friction of slides has come to: their slips, and the work that it takes. */
 static void end_slips(struct run *run, int rows)
 {
@@ -321,6 +344,7 @@ void contacts_apply_impulses(struct run *run, int count)
     }
     end_slips(run, 2 * count);
     drop_rounding(run, count);
+    stop_rounding(run, count);
     if (drives) note_drives(run, count, jointed_kinetic_energy(run->state) - before);
 }
 

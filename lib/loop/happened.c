@@ -26,9 +26,19 @@ struct change {
     bool stopped; /* its velocity has come to zero */
 };
 
+/* What is open at no more than rounding beyond where it closes is no farther from that by the rounding of another place. */
+static double left_beyond(const struct run *run, int pair)
+{
+    const struct instant at = state_instant(run->state);
+    if (run->state->slip[pair] == stick) return 0;
+    const struct one_sided now = one_sided_at(run->model, &at, pair);
+    return now.excess > 0 && now.excess <= now.near ? now.excess : 0;
+}
+
 static void note_one_sided(struct run *run, const struct change *change)
 {
     const struct mode *mode = &run->model->plan.modes[change->pair];
+    run->watchers.quiet[change->pair] = left_beyond(run, change->pair);
     bool rope = run->model->tree->ties[mode->tie].law->way;
     if (change->before == stick && change->after != stick)
         run_note(run, rope ? FBD_EVENT_ROPE_SLACK : FBD_EVENT_LIFT_OFF, mode->body, mode->load, -1);

@@ -85,14 +85,18 @@ void run_check_pulleys(struct run *run)
     }
 }
 
-void run_take_in_ropes(struct run *run)
+bool run_take_in_ropes(struct run *run)
 {
+    bool any = false;
     const struct tree *tree = run->model->tree;
     const struct instant at = state_instant(run->state);
     for (int i = 0; i < tree->tie_count; i++) {
         const struct tie *tie = &tree->ties[i];
         if (tie->kind != constraint_rope || run->state->slip[tie->pair] == stick) continue;
         struct one_sided rope = one_sided_at(run->model, &at, tie->pair);
-        if (rope.excess >= -rope.rounding) run->state->slip[tie->pair] = stick;
+        if (!(rope.excess >= -rope.rounding)) continue;
+        run->state->slip[tie->pair] = stick;
+        any = true;
     }
+    return any;
 }

@@ -95,5 +95,6 @@ void moreau_run(const struct moreau_system *system, double until, int steps, dou
             q[i] += h / 2 * (v[i] + u[i]);
             v[i] = u[i];
         }
+        if (system->lift) system->lift(system->scene, q);
     }
 }

@@ -38,6 +38,8 @@ struct moreau_system {
     void (*solve)(const void *scene, const double *q, double *b);
     /* All that is closed at q, in an order of its own that lasts. */
     void (*rows)(const void *scene, double t, const double *q, struct moreau_rows *rows);
+    /* Places out of gaps that have closed by the way of a step; NULL: they stay where they are. */
+    void (*lift)(const void *scene, double *q);
 };
 
 /* From q, v at t = 0 to `until` in `steps` steps. */

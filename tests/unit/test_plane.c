@@ -25,8 +25,8 @@ enum { kind_count = sizeof kinds / sizeof *kinds };
 static struct named step(const struct scene *scene, int steps)
 {
     const struct kind *kind = kinds[scene->kind];
-    const struct moreau_system system = {scene->count * kind->size, scene, kind->forces, kind->solve,
-                                         kind->rows};
+    const struct moreau_system system = {
+        scene->count * kind->size, scene, kind->forces, kind->solve, kind->rows, NULL};
     double q[moreau_most] = {0}, v[moreau_most] = {0};
     struct named named = {0};
     kind->start(scene, q, v);
