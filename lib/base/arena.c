@@ -16,7 +16,7 @@ struct arena_chunk {
 };
 
 /* Chunks grow from the first to the largest, since many an arena holds no more than one expression. What is
- * handed out is cleared, and nothing else. */
+ * handed out is cleared where that is asked for, and nothing else. */
 enum { first_chunk = 512, largest_chunk = 16384 };
 
 static size_t round_up(size_t size)
@@ -42,7 +42,7 @@ static bool add_chunk(struct arena *arena, size_t wanted, bool *clear)
     return true;
 }
 
-void *arena_array(struct arena *arena, size_t count, size_t size)
+void *arena_take(struct arena *arena, size_t count, size_t size, bool cleared)
 {
     if (size != 0 && count > (SIZE_MAX / 2) / size) {
         arena->failed = true;
@@ -59,7 +59,12 @@ void *arena_array(struct arena *arena, size_t count, size_t size)
     chunk = arena->chunks;
     void *start = (char *)chunk->data + chunk->used;
     chunk->used += wanted;
-    return clear ? start : memset(start, 0, wanted);
+    return clear || !cleared ? start : memset(start, 0, wanted);
+}
+
+void *arena_array(struct arena *arena, size_t count, size_t size)
+{
+    return arena_take(arena, count, size, true);
 }
 
 char *arena_text(struct arena *arena, const char *text, size_t length)

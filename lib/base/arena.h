@@ -23,6 +23,9 @@ struct arena {
 /* `count` zeroed objects of `size` bytes, or NULL when memory is out or count * size overflows. */
 void *arena_array(struct arena *arena, size_t count, size_t size);
 
+/* The same, cleared or not: tables that are written as a whole before they are read need not be. */
+void *arena_take(struct arena *arena, size_t count, size_t size, bool cleared);
+
 /* A zero-terminated copy of the first `length` bytes of `text`, or NULL. */
 char *arena_text(struct arena *arena, const char *text, size_t length);
 

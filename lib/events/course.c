@@ -9,27 +9,24 @@
  */
 #include "events/course.h"
 
-#include <stdlib.h>
 #include <string.h>
 
 enum { room = course_most_degree + 1, coarse_room = course_coarse_degree + 1, at_rest = -1 };
 
 static const double pi = 3.14159265358979323846;
 
-bool course_init(struct course *course, size_t size, const bool *used)
+bool course_init(struct course *course, size_t size, const bool *used, struct arena *memory)
 {
     *course = (struct course){.size = size};
     for (size_t i = 0; i < size; i++) course->count += used[i];
     size_t count = course->count;
-    course->component = calloc(3 * count + 1, sizeof(int));
     size_t grids =
         count > 0 ? (size_t)coarse_room * (2 * coarse_room + 1) + (size_t)room * (2 * room + 1) : 0;
-    course->coefficients = calloc((size_t)2 * room * count + 5 * count + size + grids + 1, sizeof(double));
-    course->now = calloc(size + 1, sizeof *course->now);
-    if (!course->component || !course->coefficients || !course->now) {
-        course_free(course);
-        return false;
-    }
+    course->component = ARENA_ARRAY(memory, 3 * count, int);
+    course->coefficients = ARENA_ARRAY(memory, (size_t)2 * room * count + 5 * count + size, double);
+    double *behind = arena_take(memory, grids, sizeof *behind, false);
+    course->now = ARENA_ARRAY(memory, size, struct enclosure);
+    if (memory->failed) return false;
     course->top = course->component + count;
     course->fresh = course->top + count;
     course->samples = course->coefficients + room * count;
@@ -39,7 +36,6 @@ bool course_init(struct course *course, size_t size, const bool *used)
     course->tail = course->floor + count;
     course->noise = course->tail + count;
     course->y = course->noise + count;
-    double *behind = course->y + size;
     for (size_t i = 0; i < 2; i++) {
         size_t own = i == 0 ? coarse_room : room;
         course->grids[i] = (struct course_grid){0, behind, behind + own, behind + own * (own + 1)};
@@ -50,14 +46,6 @@ bool course_init(struct course *course, size_t size, const bool *used)
         if (used[i]) course->component[k++] = (int)i;
     }
     return true;
-}
-
-void course_free(struct course *course)
-{
-    free(course->component);
-    free(course->coefficients);
-    free(course->now);
-    *course = (struct course){0};
 }
 
 void course_start(struct course *course)

@@ -15,6 +15,7 @@
 
 #include <stddef.h>
 
+#include "base/arena.h"
 #include "expr/interval.h"
 
 enum { course_most_degree = 16, course_coarse_degree = 4 };
@@ -50,10 +51,9 @@ struct course {
     int *fresh;              /* count: which of them are */
 };
 
-/* For vectors of `size` components, of which those flagged in `used` are followed. False when memory is out.
- */
-bool course_init(struct course *course, size_t size, const bool *used);
-void course_free(struct course *course);
+/* For vectors of `size` components, of which those flagged in `used` are followed. Made of `memory`; false when that is
+ * out. */
+bool course_init(struct course *course, size_t size, const bool *used, struct arena *memory);
 
 /* Another step: what is small is measured against sizes within one step. */
 void course_start(struct course *course);

@@ -2,7 +2,6 @@
 #include "events/mechanisms.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "dynamics/constraint.h"
@@ -16,23 +15,17 @@ struct mechanism {
     double way;   /* [m] the longest that a coordinate has gone since, turning at that arm */
 };
 
-bool mechanisms_init(struct mechanisms *mechanisms, const struct fbd_model *model)
+bool mechanisms_init(struct mechanisms *mechanisms, const struct fbd_model *model, struct arena *memory)
 {
     *mechanisms = (struct mechanisms){0};
     if (!model->tree || model->tree->tie_count == 0) return true;
-    size_t links = (size_t)model->tree->count;
-    mechanisms->of = calloc(links, sizeof *mechanisms->of);
-    mechanisms->members = calloc(links, sizeof *mechanisms->members);
-    mechanisms->start = calloc(3 * (size_t)model->plan.n + 1, sizeof *mechanisms->start);
-    mechanisms->given = mechanisms->start ? mechanisms->start + model->plan.n : NULL;
-    return mechanisms->of && mechanisms->members && mechanisms->start;
-}
-
-void mechanisms_free(struct mechanisms *mechanisms)
-{
-    free(mechanisms->of);
-    free(mechanisms->members);
-    free(mechanisms->start);
+    size_t links = (size_t)model->tree->count, n = (size_t)model->plan.n;
+    mechanisms->of = ARENA_ARRAY(memory, links, int);
+    mechanisms->members = ARENA_ARRAY(memory, links, struct mechanism);
+    mechanisms->start = ARENA_ARRAY(memory, 3 * n, double);
+    if (memory->failed) return false;
+    mechanisms->given = mechanisms->start + n;
+    return true;
 }
 
 /* Disjoint sets with halved paths (Tarjan and van Leeuwen, Journal of the ACM 31 (1984) 245). */

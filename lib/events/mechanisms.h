@@ -24,9 +24,8 @@ struct mechanisms {
     double *given;             /* the floors that the stepper has, of coordinates and rates */
 };
 
-/* False when memory is out. Nothing is allocated for a model without couplings. */
-bool mechanisms_init(struct mechanisms *mechanisms, const struct fbd_model *model);
-void mechanisms_free(struct mechanisms *mechanisms);
+/* Made of `memory`; false when that is out. A model without couplings takes nothing. */
+bool mechanisms_init(struct mechanisms *mechanisms, const struct fbd_model *model, struct arena *memory);
 
 /* Who is joined to whom in the modes and at the place of a state that has been evaluated. */
 void mechanisms_join(struct mechanisms *mechanisms, const struct fbd_state *state);

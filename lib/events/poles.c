@@ -2,7 +2,6 @@
 #include "events/poles.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "dynamics/absolute.h"
@@ -10,19 +9,16 @@
 /* A divisor below this part of its largest size is zero unless there is a pole. */
 static const double negligible = 1e-12;
 
-bool poles_init(struct poles *poles, const struct fbd_model *model)
+bool poles_init(struct poles *poles, const struct fbd_model *model, struct arena *memory)
 {
     const struct plan *plan = &model->plan;
     *poles = (struct poles){0};
     for (size_t i = 0; i < plan->pole_count; i++) poles->count += plan->poles[i].count;
     if (poles->count == 0) return true;
     size_t count = poles->count;
-    poles->most = calloc(7 * count + plan_size(plan), sizeof(double));
-    poles->grows = calloc(count, sizeof(bool));
-    if (!poles->most || !poles->grows) {
-        poles_free(poles);
-        return false;
-    }
+    poles->most = ARENA_ARRAY(memory, 7 * count + plan_size(plan), double);
+    poles->grows = ARENA_ARRAY(memory, count, bool);
+    if (memory->failed) return false;
     poles->before = poles->most + count;
     poles->part = poles->before + count;
     poles->start = poles->part + count;
@@ -31,13 +27,6 @@ bool poles_init(struct poles *poles, const struct fbd_model *model)
     poles->end_rate = poles->end + count;
     poles->dy = poles->end_rate + count;
     return true;
-}
-
-void poles_free(struct poles *poles)
-{
-    free(poles->most);
-    free(poles->grows);
-    *poles = (struct poles){0};
 }
 
 /* At an instant and along a direction that are extended (absolute.h). */

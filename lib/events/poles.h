@@ -30,9 +30,8 @@ struct poles {
     double *dy; /* 2 n: the direction of the motion */
 };
 
-/* For a model; false when memory is out (then all is freed). A model without poles takes nothing. */
-bool poles_init(struct poles *poles, const struct fbd_model *model);
-void poles_free(struct poles *poles);
+/* For a model, made of `memory`; false when that is out. A model without poles takes nothing. */
+bool poles_init(struct poles *poles, const struct fbd_model *model, struct arena *memory);
 
 /* The longest step from an evaluated state that is within reach of no pole, and the pole that bounds it;
  * infinite and NULL where none is approached. */

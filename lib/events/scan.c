@@ -3,7 +3,6 @@
 
 #include <float.h>
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "events/cubic.h"
@@ -27,18 +26,19 @@ static int take_counted(void *context, double t, double *values, double *rates)
     return scan->sample(scan->context, t, values, rates);
 }
 
-bool scan_init(struct scan *scan, size_t count, scan_sampler *sample, void *context)
+bool scan_init(struct scan *scan, size_t count, scan_sampler *sample, void *context, struct arena *memory)
 {
     *scan = (struct scan){.count = count, .sample = sample, .context = context};
     if (count == 0) return true; /* nothing is looked for */
-    scan->points = calloc(spare_points, sizeof *scan->points);
-    scan->memory = calloc((size_t)2 * spare_points * count + 1, sizeof *scan->memory);
-    scan->crossed = calloc(6 * count + 1, sizeof *scan->crossed);
-    scan->lone = calloc(count + 1, sizeof *scan->lone);
-    if (!scan->points || !scan->memory || !scan->crossed || !scan->lone) {
-        scan_free(scan);
-        return false;
-    }
+    scan->points = ARENA_ARRAY(memory, spare_points, struct scan_point);
+    double *next = ARENA_ARRAY(memory, 2 * spare_points * count, double);
+    scan->crossed = ARENA_ARRAY(memory, 6 * count, bool);
+    scan->lone = ARENA_ARRAY(memory, count, struct proof_group);
+    scan->prover.now = ARENA_ARRAY(memory, 2 * count, struct enclosure); /* a group has no more than all */
+    scan->prover.waiting = ARENA_ARRAY(memory, count, bool);
+    series_init(&scan->series, count, memory);
+    if (memory->failed) return false;
+    scan->prover.end = scan->prover.now + count;
     scan->sampled = scan->crossed + count;
     scan->chosen = scan->sampled + count;
     scan->dipped = scan->chosen + count;
@@ -48,49 +48,19 @@ bool scan_init(struct scan *scan, size_t count, scan_sampler *sample, void *cont
         scan->sampled[i] = true;
         scan->lone[i] = (struct proof_group){.first = i, .count = 1};
     }
-    double *next = scan->memory;
     for (int i = 0; i < spare_points; i++, next += 2 * count)
         scan->points[i] = (struct scan_point){0, next, next + count};
-    scan->prover.now = calloc(2, sizeof *scan->prover.now);
-    scan->prover.waiting = calloc(1, sizeof *scan->prover.waiting);
-    if (scan->prover.now && scan->prover.waiting && series_init(&scan->series, count)) {
-        scan->prover.end = scan->prover.now + 1;
-        return true;
-    }
-    scan_free(scan);
-    return false;
+    return true;
 }
 
-void scan_free(struct scan *scan)
-{
-    series_free(&scan->series);
-    free(scan->prover.now);
-    free(scan->prover.waiting);
-    free(scan->points);
-    free(scan->memory);
-    free(scan->crossed);
-    free(scan->lone);
-    *scan = (struct scan){0};
-}
-
-bool scan_use_enclosures(struct scan *scan, struct proof_group *groups, size_t count, proof_enclose *enclose,
+void scan_use_enclosures(struct scan *scan, struct proof_group *groups, size_t count, proof_enclose *enclose,
                          scan_follower *follow)
 {
-    if (scan->count == 0) return true;
-    size_t most = 1;
-    for (size_t g = 0; g < count; g++)
-        if (groups[g].count > most) most = groups[g].count;
-    free(scan->prover.now);
-    free(scan->prover.waiting);
-    scan->prover.now = calloc(2 * most, sizeof *scan->prover.now);
-    scan->prover.waiting = calloc(most, sizeof *scan->prover.waiting);
-    if (!scan->prover.now || !scan->prover.waiting) return false;
-    scan->prover.end = scan->prover.now + most;
+    if (scan->count == 0) return;
     scan->enclose = enclose;
     scan->groups = groups;
     scan->group_count = count;
     scan->follow = follow;
-    return true;
 }
 
 /* ---- looking */

@@ -46,7 +46,6 @@ struct scan {
     double clear;    /* result: no function becomes negative up to here (meant for a return of 2) */
     long samples;    /* counted */
     struct scan_point *points; /* two ends of a bracket and a spare one */
-    double *memory;
 
     /* Set by the caller after scan_init, or left NULL for functions without enclosures. */
     struct proof_group *groups;
@@ -71,14 +70,12 @@ struct scan {
     bool *waits;            /* count: of these, those that have not been seen positive in this interval */
 };
 
-/* With these enclosures; `groups` are in the order of the functions and cover all of them. False when memory
- * is out. */
-bool scan_use_enclosures(struct scan *scan, struct proof_group *groups, size_t count, proof_enclose *enclose,
+/* With these enclosures; `groups` are in the order of the functions and cover all of them. */
+void scan_use_enclosures(struct scan *scan, struct proof_group *groups, size_t count, proof_enclose *enclose,
                          scan_follower *follow);
 
-/* False when memory is out. */
-bool scan_init(struct scan *scan, size_t count, scan_sampler *sample, void *context);
-void scan_free(struct scan *scan);
+/* Made of `memory`; false when that is out. */
+bool scan_init(struct scan *scan, size_t count, scan_sampler *sample, void *context, struct arena *memory);
 
 /* Look at (from, to]. 1: found, see `t` and `crossed`; 0: nothing; 2: given up after too many samples, or too
  * much work for them, see `clear`; negative: what the sampler returned.

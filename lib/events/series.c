@@ -10,7 +10,6 @@
 #include "events/series.h"
 
 #include <assert.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "numeric/lu.h"
@@ -96,12 +95,13 @@ static void set_rates_matrix(double *matrix)
     }
 }
 
-bool series_init(struct series *series, size_t count)
+void series_init(struct series *series, size_t count, struct arena *memory)
 {
     size_t matrices = count > 0 ? place_of_matrix(series_levels) : 0;
     *series = (struct series){.count = count};
-    series->values = calloc((3 * nodes + 8) * count + matrices + 1, sizeof(double));
-    if (!series->values) return false;
+    series->values = ARENA_ARRAY(memory, (3 * nodes + 8) * count, double);
+    series->matrices = arena_take(memory, matrices, sizeof *series->matrices, false);
+    if (memory->failed) return;
     series->rates = series->values + nodes * count;
     series->c = series->rates + nodes * count;
     series->doubt = series->c + nodes * count;
@@ -112,14 +112,6 @@ bool series_init(struct series *series, size_t count)
     series->rate = series->value + count;
     series->rounding = series->rate + count;
     series->off = series->rounding + count;
-    series->matrices = series->off + count;
-    return true;
-}
-
-void series_free(struct series *series)
-{
-    free(series->values);
-    *series = (struct series){0};
 }
 
 void series_start(struct series *series)

@@ -19,6 +19,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
+#include "base/arena.h"
 #include "expr/interval.h"
 
 enum { series_levels = 3, series_most_degree = 16, series_nodes = series_most_degree + 1 };
@@ -43,9 +44,8 @@ struct series {
 /* Fill values[count] and rates[count] at t; non-zero stops. */
 typedef int series_sampler(void *context, double t, double *values, double *rates);
 
-/* False when memory is out. */
-bool series_init(struct series *series, size_t count);
-void series_free(struct series *series);
+/* Made of `memory`, which fails when it is out. */
+void series_init(struct series *series, size_t count, struct arena *memory);
 
 /* Another step: sizes are those within one step. */
 void series_start(struct series *series);

@@ -135,7 +135,8 @@ static bool group_watchers(struct arena *memory, const struct fbd_model *model, 
     return true;
 }
 
-bool watchers_init(struct watchers *watchers, const struct fbd_model *model, double tolerance, bool multistep)
+bool watchers_init(struct watchers *watchers, const struct fbd_model *model, double tolerance, bool multistep,
+                   struct arena *memory)
 {
     /* The errors of a multistep method hang together over many steps: towards a terminal speed msadams was
      * seen to be off by 160 tolerances inside of its steps, where one-step methods are by 5. */
@@ -147,7 +148,6 @@ bool watchers_init(struct watchers *watchers, const struct fbd_model *model, dou
     *watchers = (struct watchers){0};
     add_all(watchers, model); /* once to count, once to fill */
     size_t timed = watchers->timed.count, moving = watchers->moving.count;
-    struct arena *memory = &watchers->memory;
     watchers->timed = (struct watcher_set){.watchers = ARENA_ARRAY(memory, timed + 1, struct watcher)};
     watchers->moving = (struct watcher_set){.watchers = ARENA_ARRAY(memory, moving + 1, struct watcher)};
     watchers->scratch = ARENA_ARRAY(memory, 6 * margins + 1, double);
@@ -159,25 +159,14 @@ bool watchers_init(struct watchers *watchers, const struct fbd_model *model, dou
     watchers->fired = ARENA_ARRAY(memory, plan->watch_count + 1, double);
     watchers->most = ARENA_ARRAY(memory, 2 * plan->watch_count + 1, double);
     watchers->fast = ARENA_ARRAY(memory, 2 * plan->mode_count + 1, double);
-    if (memory->failed) {
-        watchers_free(watchers);
-        return false;
-    }
+    if (memory->failed) return false;
     for (size_t i = 0; i < plan->watch_count; i++) watchers->fired[i] = (double)NAN;
     watchers->width = tolerances * (multistep ? together : 1) * tolerance;
     watchers->band = watchers->most + plan->watch_count;
     watchers->quiet = watchers->fast + plan->mode_count;
     add_all(watchers, model);
-    if (group_watchers(memory, model, &watchers->timed) && group_watchers(memory, model, &watchers->moving))
-        return true;
-    watchers_free(watchers);
-    return false;
-}
-
-void watchers_free(struct watchers *watchers)
-{
-    arena_free(&watchers->memory);
-    *watchers = (struct watchers){0};
+    return group_watchers(memory, model, &watchers->timed) &&
+           group_watchers(memory, model, &watchers->moving);
 }
 
 /* ---- sizes, and what is enclosed */

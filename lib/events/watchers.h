@@ -48,7 +48,6 @@ struct watcher_set {
 };
 
 struct watchers {
-    struct arena memory;       /* of all that follows */
     struct watcher_set timed;  /* functions of t alone */
     struct watcher_set moving; /* all others */
     double *scratch;           /* margins, rates and roundings of one kink */
@@ -68,10 +67,9 @@ struct watchers {
                             band its half width */
 };
 
-/* Build the sets for a model; false when memory is out (then all is freed). */
-bool watchers_init(struct watchers *watchers, const struct fbd_model *model, double tolerance,
-                   bool multistep);
-void watchers_free(struct watchers *watchers);
+/* Build the sets for a model, of `memory`; false when that is out. */
+bool watchers_init(struct watchers *watchers, const struct fbd_model *model, double tolerance, bool multistep,
+                   struct arena *memory);
 
 /* values[count] and rates[count] (along the motion) of a set at an instant. +HUGE_VAL and 0 for what cannot
  * happen in the present modes. `state` lends its modes and scratch; (t, y) may be any point of a step. Kinks

@@ -26,36 +26,36 @@ static size_t most_strikers(const struct tree *tree)
     return count;
 }
 
-static bool meetings_init(struct contacts_work *work, const struct fbd_model *model)
+static bool meetings_init(struct contacts_work *work, const struct fbd_model *model, struct arena *memory)
 {
     const struct tree *tree = model->tree;
     size_t ties = (size_t)tree->tie_count, meetings = (size_t)tree->meeting_count;
     if (!has_meetings(model)) return true;
-    work->bounces = calloc(meetings, sizeof *work->bounces);
-    work->was_closed = calloc(2 * ties, sizeof *work->was_closed);
-    work->asleep = calloc(meetings, sizeof *work->asleep);
-    work->deep = calloc(meetings, sizeof *work->deep);
+    work->bounces = ARENA_ARRAY(memory, meetings, struct bounces);
+    work->was_closed = ARENA_ARRAY(memory, 2 * ties, bool);
+    work->asleep = ARENA_ARRAY(memory, meetings, bool);
+    work->deep = ARENA_ARRAY(memory, meetings, double);
     work->trial = state_new(model);
-    if (!work->bounces || !work->was_closed || !work->asleep || !work->deep || !work->trial) return false;
+    if (memory->failed || !work->trial) return false;
     work->touching = work->was_closed + ties;
     for (size_t i = 0; i < meetings; i++)
         work->bounces[i] = (struct bounces){.feature = -1, .rests_from = HUGE_VAL};
     return true;
 }
 
-bool contacts_work_init(struct contacts_work *work, const struct fbd_model *model)
+bool contacts_work_init(struct contacts_work *work, const struct fbd_model *model, struct arena *memory)
 {
     *work = (struct contacts_work){0};
     size_t most = model->tree ? most_strikers(model->tree) : 0, n = (size_t)model->plan.n;
     size_t pairs = model->plan.mode_count, rows = 2 * most, all = rows + pairs;
     if (most == 0) return true;
-    work->strikers = calloc(most, sizeof *work->strikers);
-    work->points = calloc(most, sizeof *work->points);
-    work->rows = calloc(rows + 2 * pairs, sizeof *work->rows);
-    work->slide = calloc(pairs + 1, sizeof *work->slide);
-    work->W = calloc(all * (all + pairs + n + 4) + pairs + plan_size(&model->plan) + 1, sizeof *work->W);
-    if (!meetings_init(work, model)) return false;
-    if (!work->strikers || !work->points || !work->rows || !work->slide || !work->W) return false;
+    work->strikers = ARENA_ARRAY(memory, most, struct striker);
+    work->points = ARENA_ARRAY(memory, most, struct impacts_point);
+    work->rows = ARENA_ARRAY(memory, rows + 2 * pairs, int);
+    work->slide = ARENA_ARRAY(memory, pairs, struct impacts_slide);
+    size_t extended = plan_size(&model->plan) + 1; /* with the speed of approach (place_contact) */
+    work->W = ARENA_ARRAY(memory, all * (all + pairs + n + 4) + pairs + extended, double);
+    if (!meetings_init(work, model, memory) || memory->failed) return false;
     work->modes = work->rows + rows;
     work->slides = work->modes + pairs;
     work->B = work->W + all * all;
@@ -66,21 +66,6 @@ bool contacts_work_init(struct contacts_work *work, const struct fbd_model *mode
     work->slide_before = work->later + 2 * all;
     work->y = work->slide_before + pairs;
     return true;
-}
-
-void contacts_work_free(struct contacts_work *work)
-{
-    free(work->strikers);
-    free(work->points);
-    free(work->rows);
-    free(work->slide);
-    free(work->W);
-    free(work->bounces);
-    free(work->was_closed);
-    free(work->asleep);
-    free(work->deep);
-    state_free(work->trial);
-    *work = (struct contacts_work){0};
 }
 
 /* ---- what touches */

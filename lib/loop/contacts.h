@@ -78,9 +78,8 @@ struct contacts_work {
     bool plastic; /* the next ones are to be, whatever their e */
 };
 
-/* False when memory is out. */
-bool contacts_work_init(struct contacts_work *work, const struct fbd_model *model);
-void contacts_work_free(struct contacts_work *work);
+/* Made of `memory`, all but `trial`; false when that is out. */
+bool contacts_work_init(struct contacts_work *work, const struct fbd_model *model, struct arena *memory);
 
 /* Find what touches, let it have its impacts, and close what stays. To be called before the modes settle. */
 void run_contacts(struct run *run);

@@ -15,16 +15,10 @@ bool passages_init(struct run *run)
     struct passages *passages = &run->passages;
     passages->end = HUGE_VAL;
     if (plan->slide_count == 0) return true;
-    passages->list = calloc((size_t)plan->branches, sizeof *passages->list);
+    passages->list = ARENA_ARRAY(&run->memory, (size_t)plan->branches, struct passage);
     for (int i = 0; passages->list && i < plan->branches; i++) passages->list[i].left.t = -HUGE_VAL;
-    passages->sticks = calloc(plan->mode_count + 1, sizeof *passages->sticks);
-    return passages->list && passages->sticks;
-}
-
-void passages_free(struct passages *passages)
-{
-    free(passages->list);
-    free(passages->sticks);
+    passages->sticks = ARENA_ARRAY(&run->memory, plan->mode_count, bool);
+    return !run->memory.failed;
 }
 
 static bool may_end(const struct run *run, const struct kink *kink, int part)

@@ -37,7 +37,6 @@ struct passages {
 
 /* False when memory is out. */
 bool passages_init(struct run *run);
-void passages_free(struct passages *passages);
 
 /* A switch has just been passed. */
 void passages_remember(struct run *run, const struct watcher *watcher);

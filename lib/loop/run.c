@@ -38,7 +38,7 @@ static bool chooses_structure(const struct run *run)
 static bool make_stepper(struct run *run)
 {
     size_t n = (size_t)run->model->plan.n;
-    bool *angle = calloc(n + 1, sizeof *angle);
+    bool *angle = ARENA_ARRAY(&run->memory, n, bool);
     if (!angle) return false;
     for (size_t i = 0; i < n; i++) angle[i] = run->model->scene->coordinates[i].angle;
     if (chooses_structure(run)) {
@@ -54,33 +54,23 @@ static bool make_stepper(struct run *run)
     bool automatic = run->options.automatic && plan_size(&run->model->plan) <= method_most_stiff_states;
     automatic = automatic && !structure_is_exact(run->kind);
     run->stepper = switcher_alloc(&options, automatic ? method_find("rodas5p") : NULL);
-    free(angle);
     return run->stepper != NULL;
-}
-
-static bool make_decided(struct decided *decided, const struct plan *plan)
-{
-    size_t branches = (size_t)plan->branches, pairs = plan->mode_count;
-    decided->branches = calloc(branches + 2 * pairs + 1, sizeof(bool));
-    if (!decided->branches) return false;
-    decided->slips = decided->branches + branches;
-    decided->pulls = decided->slips + pairs;
-    return true;
 }
 
 static bool make_run(struct run *run, const struct state_start *begin)
 {
     const struct plan *plan = &run->model->plan;
+    struct arena *memory = &run->memory;
     size_t n = (size_t)plan->n, size = plan_size(plan);
     run->state = begin ? state_new_from(run->model, begin) : state_new(run->model);
     run->during = state_new(run->model);
     size_t links = run->model->tree ? (size_t)run->model->tree->count : 0;
     size_t sizes = n + 2 * links + 2 * run->model->body_count;
-    run->work.y = calloc(5 * size + plan_rates(plan) + sizes + 1, sizeof *run->work.y);
+    run->work.y = ARENA_ARRAY(memory, 5 * size + plan_rates(plan) + sizes, double);
     if (!run->state || !run->during || !run->work.y || !run_make_scans(run)) return false;
     if (run->state->tree) run->state->tree->accuracy = run->during->tree->accuracy = run->options.tolerance;
-    if (!poles_init(&run->poles, run->model)) return false;
-    if (!mechanisms_init(&run->mechanisms, run->model)) return false;
+    if (!poles_init(&run->poles, run->model, memory)) return false;
+    if (!mechanisms_init(&run->mechanisms, run->model, memory)) return false;
     run->work.f = run->work.y + size;
     run->work.sample = run->work.f + size;
     run->work.aside = run->work.sample + size;
@@ -89,19 +79,20 @@ static bool make_run(struct run *run, const struct state_start *begin)
     run->grain.turned = run->grain.accelerations + n;
     run->grain.cancelled = run->grain.turned + 2 * links;
     size_t functions = 2 * run->search.moving.count, timed = 3 * run->search.timed.count;
-    run->work.values = calloc((functions > timed ? functions : timed) + 1, sizeof *run->work.values);
-    run->work.kept = calloc(2 * size + 1, sizeof *run->work.kept);
-    run->work.crossed = calloc(run->search.moving.count + 1, sizeof *run->work.crossed);
-    run->recent.anchor = calloc(2 * size + 1, sizeof *run->recent.anchor);
-    run->work.arrows = calloc(diagram_most_arrows(run->model), sizeof *run->work.arrows);
-    if (!contacts_work_init(&run->contacts, run->model) || !passages_init(run)) return false;
+    run->work.values = ARENA_ARRAY(memory, functions > timed ? functions : timed, double);
+    run->work.kept = ARENA_ARRAY(memory, 2 * size, double);
+    run->work.crossed = ARENA_ARRAY(memory, run->search.moving.count, bool);
+    run->recent.anchor = ARENA_ARRAY(memory, 2 * size, double);
+    run->work.arrows = ARENA_ARRAY(memory, diagram_most_arrows(run->model), struct arrow);
+    run->decided.branches = ARENA_ARRAY(memory, (size_t)plan->branches + 2 * plan->mode_count, bool);
+    if (!contacts_work_init(&run->contacts, run->model, memory) || !passages_init(run)) return false;
     run->watchers.asleep = run->contacts.asleep;
     run->watchers.deep = run->contacts.deep;
-    run->impact_work = calloc(run->model->load_count + 1, sizeof *run->impact_work);
+    run->impact_work = ARENA_ARRAY(memory, run->model->load_count, double);
     run->snap.pair = -1;
-    if (!run->work.values || !run->work.kept || !run->work.crossed || !run->recent.anchor ||
-        !run->work.arrows || !run->impact_work)
-        return false;
+    if (memory->failed) return false;
+    run->decided.slips = run->decided.branches + plan->branches;
+    run->decided.pulls = run->decided.slips + plan->mode_count;
     const struct tree *tree = run->model->tree;
     bool meets = tree && tree->meeting_count > 0, couples = tree && tree->tie_count > 0;
     run->lazy = plan->mode_count == 0 && plan->kink_count == 0 && run->poles.count == 0 && !meets;
@@ -111,7 +102,7 @@ static bool make_run(struct run *run, const struct state_start *begin)
     gsl_odeiv2_system system = {.jacobian = jacobian, .dimension = size};
     system.function = rates_call(run->rates, &system.params);
     counted_system_init(&run->system, &system);
-    if (!make_decided(&run->decided, plan) || !make_stepper(run)) return false;
+    if (!make_stepper(run)) return false;
     return run->kind != structure_linear || linear_pace_init(&run->pace, size);
 }
 
@@ -188,27 +179,12 @@ void run_free(struct run *run)
     if (!run) return;
     switcher_free(run->stepper);
     linear_pace_free(&run->pace);
-    scan_free(&run->search.timed);
-    scan_free(&run->search.moving);
-    watchers_free(&run->watchers);
-    course_free(&run->course);
-    free(run->search.reads);
-    poles_free(&run->poles);
-    mechanisms_free(&run->mechanisms);
-    contacts_work_free(&run->contacts);
+    state_free(run->contacts.trial);
     state_free(run->state);
     state_free(run->during);
     rates_free(run->rates);
-    free(run->decided.branches);
     free(run->log.events);
-    free(run->work.y);
-    free(run->work.values);
-    free(run->work.kept);
-    free(run->work.crossed);
-    free(run->recent.anchor);
-    free(run->work.arrows);
-    free(run->impact_work);
-    passages_free(&run->passages);
+    arena_free(&run->memory);
     free(run);
 }
 

@@ -147,6 +147,7 @@ struct recent {
 };
 
 struct run {
+    struct arena memory; /* of what is made once for all of the run */
     const struct fbd_model *model;
     struct run_options options;
     enum structure kind;      /* in use: general unless options.structure and options.automatic */

@@ -5,7 +5,6 @@
  */
 #include <float.h>
 #include <gsl/gsl_errno.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "dynamics/absolute.h"
@@ -303,7 +302,7 @@ static bool mark_reads(struct run *run, bool *used, size_t size)
 {
     const struct watcher_set *set = &run->watchers.moving;
     const struct course *course = &run->course;
-    bool *reads = run->search.reads = calloc(set->group_count * course->count + 1, sizeof *reads);
+    bool *reads = run->search.reads = ARENA_ARRAY(&run->memory, set->group_count * course->count, bool);
     for (size_t g = 0; reads && g < set->group_count; g++) {
         const struct proof_group *group = &set->groups[g];
         const struct watcher_set own = {.watchers = set->watchers + group->first, .count = group->count};
@@ -317,14 +316,12 @@ static bool mark_reads(struct run *run, bool *used, size_t size)
 static bool make_course(struct run *run)
 {
     size_t size = extended_size(run->model);
-    bool *used = calloc(size + 1, sizeof *used);
+    bool *used = ARENA_ARRAY(&run->memory, size, bool);
     if (!used) return false;
     watchers_mark_used(run->model, &run->watchers.moving, used);
     mark_paced(run, used);
     for (size_t i = plan_size(&run->model->plan); i < size; i++) run->search.follows_places |= used[i];
-    bool made = course_init(&run->course, size, used) && mark_reads(run, used, size);
-    free(used);
-    return made;
+    return course_init(&run->course, size, used, &run->memory) && mark_reads(run, used, size);
 }
 
 static bool use_enclosures(struct run *run)
@@ -333,10 +330,10 @@ static bool use_enclosures(struct run *run)
     run->search.timed.horizon = run->options.until;
     run->search.moving.panel = end_of_panel;
     run->search.moving.work = work_so_far;
-    return scan_use_enclosures(&run->search.timed, timed->groups, timed->group_count, enclose_timed, NULL) &&
-           scan_use_enclosures(&run->search.moving, moving->groups, moving->group_count, enclose_moving,
-                               follow_course) &&
-           make_course(run);
+    scan_use_enclosures(&run->search.timed, timed->groups, timed->group_count, enclose_timed, NULL);
+    scan_use_enclosures(&run->search.moving, moving->groups, moving->group_count, enclose_moving,
+                        follow_course);
+    return make_course(run);
 }
 
 /* Is there something that wakes up with the motion, not at times alone? */
@@ -356,10 +353,10 @@ bool run_make_scans(struct run *run)
 {
     double tolerance = run->options.tolerance;
     bool multistep = run->options.method->multistep;
-    if (!watchers_init(&run->watchers, run->model, tolerance, multistep)) return false;
+    if (!watchers_init(&run->watchers, run->model, tolerance, multistep, &run->memory)) return false;
     const struct watcher_set *timed = &run->watchers.timed, *moving = &run->watchers.moving;
-    if (!scan_init(&run->search.timed, timed->count, sample_timed, run)) return false;
-    if (!scan_init(&run->search.moving, moving->count, sample_moving, run)) return false;
+    if (!scan_init(&run->search.timed, timed->count, sample_timed, run, &run->memory)) return false;
+    if (!scan_init(&run->search.moving, moving->count, sample_moving, run, &run->memory)) return false;
     run->search.wakes = any_wakes(run);
     for (size_t i = 0; i < run->model->plan.mode_count; i++) {
         const struct mode *mode = &run->model->plan.modes[i];

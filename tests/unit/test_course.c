@@ -59,12 +59,13 @@ static size_t follow(struct course *course, struct layer *layer, double from, do
 /* A search that is cut short by an event it has found looks at the layer by itself first. */
 static size_t pieces_along(struct layer *layer)
 {
+    struct arena memory = {0};
     struct course course;
-    assert_true(course_init(&course, 2, (bool[]){true, true}));
+    assert_true(course_init(&course, 2, (bool[]){true, true}, &memory));
     course_start(&course);
     double behind = layer->from + 20 * layer->width;
     size_t pieces = follow(&course, layer, layer->from, behind) + follow(&course, layer, behind, 1);
-    course_free(&course);
+    arena_free(&memory);
     return pieces;
 }
 

@@ -36,10 +36,12 @@ static unsigned long work_so_far(void *context)
     return ((const struct bench *)context)->work;
 }
 
+static struct arena memory; /* of the scan of a test */
+
 static int scan_once(struct scan *scan, struct bench *bench, double from, double to)
 {
     if (bench->fails_at == 0) bench->fails_at = HUGE_VAL;
-    assert_true(scan_init(scan, bench->count, sample, bench));
+    assert_true(scan_init(scan, bench->count, sample, bench, &memory));
     for (size_t i = 0; i < bench->count; i++) scan->crossed[i] = bench->resumed;
     scan_pass_over(scan);
     if (bench->dear > 0) scan->work = work_so_far;
@@ -55,7 +57,7 @@ static void expect_zero(function *f, double from, double to, double zero, double
     assert_true(scan.crossed[0]);
     double allowed = roundings * DBL_EPSILON * fabs(zero);
     if (fabs(scan.t - zero) > allowed) fail_msg("zero at %.17g, expected %.17g", scan.t, zero);
-    scan_free(&scan);
+    arena_free(&memory);
 }
 
 static void expect_none(function *f, double from, double to)
@@ -63,7 +65,7 @@ static void expect_none(function *f, double from, double to)
     struct bench bench = {.functions = {f}, .count = 1};
     struct scan scan;
     assert_int_equal(scan_once(&scan, &bench, from, to), 0);
-    scan_free(&scan);
+    arena_free(&memory);
 }
 
 static double falling_line(double t, double *rate)
@@ -181,7 +183,7 @@ static void what_is_negative_from_the_start_is_left_alone_in_a_search_that_is_re
     struct bench bench = {.functions = {negative, inactive}, .count = 2, .resumed = true};
     struct scan scan;
     assert_int_equal(scan_once(&scan, &bench, 0, 1), 0);
-    scan_free(&scan);
+    arena_free(&memory);
     expect_none(inactive, 0, 1);
 }
 
@@ -194,7 +196,7 @@ static void zeros_at_one_instant_are_taken_together(void **unused)
     assert_true(scan.crossed[0]);
     assert_false(scan.crossed[1]);
     assert_true(scan.crossed[2]);
-    scan_free(&scan);
+    arena_free(&memory);
 }
 
 static void the_earlier_of_two_functions_wins(void **unused)
@@ -206,7 +208,7 @@ static void the_earlier_of_two_functions_wins(void **unused)
     assert_false(scan.crossed[0]);
     assert_true(scan.crossed[1]);
     assert_true(fabs(scan.t - acos(0)) <= 4 * DBL_EPSILON * scan.t);
-    scan_free(&scan);
+    arena_free(&memory);
 }
 
 static void a_function_that_outruns_the_samples_bounds_the_next_interval(void **unused)
@@ -216,11 +218,11 @@ static void a_function_that_outruns_the_samples_bounds_the_next_interval(void **
     struct scan scan;
     assert_int_equal(scan_once(&scan, &bench, 0, 0.1), 0);
     assert_true(scan.resolved == HUGE_VAL);
-    scan_free(&scan);
+    arena_free(&memory);
     bench.functions[0] = fast_cosine;
     assert_int_equal(scan_once(&scan, &bench, 0, 0.5), 1);
     assert_true(scan.resolved <= 1);
-    scan_free(&scan);
+    arena_free(&memory);
 }
 
 static void a_failing_sample_ends_the_scan(void **unused)
@@ -229,7 +231,7 @@ static void a_failing_sample_ends_the_scan(void **unused)
     struct bench bench = {.functions = {cosine}, .count = 1, .fails_at = 0.5};
     struct scan scan;
     assert_int_equal(scan_once(&scan, &bench, 0, 1), -7);
-    scan_free(&scan);
+    arena_free(&memory);
 }
 
 static double noise(double t, double *rate)
@@ -249,7 +251,7 @@ static void dear_samples_are_given_up_sooner(void **unused)
         assert_true(scan_once(&scan, &bench, 0, 1) >= 0);
         if (dear <= 50) assert_true(scan.samples >= 4096);
         assert_true(scan.samples < 8192 + 200 && bench.work < 800000 + 200 * dear);
-        scan_free(&scan);
+        arena_free(&memory);
     }
 }
 
@@ -273,7 +275,7 @@ static void what_is_left_out_does_not_hide_others(void **unused)
     scan_start(&scan);
     assert_int_equal(scan_interval(&scan, 0, 4), 1);
     assert_true(scan.crossed[0] && fabs(scan.t - 1) < 1e-14);
-    scan_free(&scan);
+    arena_free(&memory);
 }
 
 int main(void)
