@@ -180,6 +180,15 @@ static double end_of_returns(const struct bounces *bounces)
     return best;
 }
 
+/* In a crowd ropes are kept as well that are let go by no more than nobody sees. */
+static void keep_ropes(struct run *run, const struct bounces *bounces, double unseen, int count)
+{
+    struct contacts_work *work = &run->contacts;
+    double interval = bounces->t[0] - bounces->t[1];
+    for (int i = 0; i < count; i++)
+        work->strikers[i].stays |= work->strikers[i].rope && work->v[(ptrdiff_t)2 * i] * interval <= unseen;
+}
+
 /* The end of such a series, once ropes are let go by no more than nobody sees; they are kept then. */
 static double end_of_tugs(struct run *run, const struct bounces *bounces, double unseen, int count)
 {
@@ -232,6 +241,7 @@ static double end_of_series(struct run *run, int i, int count)
         if (low) left = fmin(left, sum_of_bounces(run, index, v, a));
     }
     if (crowd && !(left < HUGE_VAL)) left = 0;
+    if (crowd) keep_ropes(run, bounces, unseen, count);
     double tugs = end_of_tugs(run, bounces, unseen, count);
     return tugs < HUGE_VAL ? tugs : run->state->t + left;
 }

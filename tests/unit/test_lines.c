@@ -2,7 +2,7 @@
  *
  * Random scenes of one to three discs on one line, with stops, contacts, ropes, dry friction on surfaces at rest and moving,
  * springs, dampers and pushes, against a time stepping that knows no events (moreau.h). FBD_LINES=1000 tries so many,
- * FBD_LINES_SEED=17 begins there, FBD_LINES_UNTIL=0.5 ends each at that time.
+ * FBD_LINES_SEED=17 begins there, FBD_LINES_UNTIL=0.5 ends each at that time, FBD_LINES_SHOW=1 prints the models.
  */
 #include <setjmp.h>
 #include <stdarg.h>
@@ -344,6 +344,7 @@ static bool agrees(uint64_t seed, struct line line, bool *sensitive)
     double end[2 * most_discs], fine[2 * most_discs], coarse[2 * most_discs], off = 0, difference = 0;
     char text[6000];
     write_line(&line, text, sizeof text);
+    if (getenv("FBD_LINES_SHOW")) puts(text);
     step_through(&line, first_steps / 2, false, coarse);
     bool done = run_line(text, line.count, end);
     for (int steps = first_steps; steps <= most_steps; steps *= 2) {
