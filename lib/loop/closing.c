@@ -133,6 +133,9 @@ static double measure(struct run *run)
             reach = fmax(reach, vec_norm(s->p) + arm);
             speed = fmax(speed, vec_norm(s->v) + fabs(s->omega) * arm);
         }
+    /* An angle has a stop also where nothing has a length, as of a wheel about its centre. */
+    for (int i = 0; i < tree->meeting_count; i++)
+        if (tree->meetings[i].stop != 0) reach = fmax(reach, tree->meetings[i].reach);
     run->drift.reach = fmax(run->drift.reach, reach);
     run->drift.speed = fmax(run->drift.speed, speed);
     return reach;
