@@ -70,7 +70,7 @@ SEED = 1000000
 KIND =
 cross-check: $(BUILD)/.tests
 	ninja -C $(BUILD)
-	$(BUILD)/tests/cross/cross_check --scenes $(SCENES) --seed $(SEED) --variants 10 --jobs 2 $(if $(KIND),--of $(KIND))
+	$(BUILD)/tests/cross/cross_check --scenes $(SCENES) --seed $(SEED) --variants 10 --rest 4 --jobs 2 $(if $(KIND),--of $(KIND))
 
 # What is promised of speed, measured: writes docs/accuracy.md and one table of all bounds, $(BUILD)/bench.md; some
 # minutes. `make measurements` is for what judges nothing.

@@ -183,3 +183,17 @@ bool balance_lack(struct fbd_state *state, struct arrow *arrows, struct text *la
     if (worst.what) say(state, &worst, lack);
     return worst.what != NULL;
 }
+
+double balance_size(const struct fbd_state *state, struct arrow *arrows)
+{
+    const struct instant at = state_instant(state);
+    double size = 0;
+    for (int b = 0; b < (int)state->model->body_count; b++) {
+        const struct model_body *body = &state->model->bodies[b];
+        const struct sums sums = sums_of(state, b, arrows);
+        const double m = body_mass(body, &at), I_G = body_inertia(body, &at).I_G;
+        if (m > 0) size = fmax(size, sums.force / m);
+        if (I_G > 0) size = fmax(size, sums.moment / I_G);
+    }
+    return size;
+}

@@ -18,4 +18,8 @@
  * diagram_most_arrows. */
 bool balance_lack(struct fbd_state *state, struct arrow *arrows, struct text *lack);
 
+/* The accelerations that the forces on a body would give it if none met another: the largest of all bodies, at the
+ * evaluated state. Those that balance leave some roundings of it. */
+double balance_size(const struct fbd_state *state, struct arrow *arrows);
+
 #endif

@@ -15,10 +15,11 @@
 #include "dynamics/statics.h"
 #include "dynamics/tree.h"
 #include "numeric/lu.h"
+#include "rest/balance.h"
 #include "rest/independent.h"
 #include "rest/start.h"
 
-struct balance {
+struct resting {
     struct fbd_state *state;
     double *work;  /* scratch of state_jacobian: dfdy, then dfdt */
     double *share; /* with couplings 1 - P, n x n, else NULL */
@@ -28,10 +29,11 @@ struct balance {
     double *scale; /* unknowns: what makes the rates of states as large as accelerations */
     double *Q;     /* n: generalized forces without those of couplings, which do no work along a step */
     double *slots, *lambda; /* of rest_forces; lambda is zero */
+    struct arrow *arrows;   /* scratch of balance_size */
 };
 
 /* The unknowns: coordinates, and the states of the file's own, whose rates are to be zero beside accelerations. */
-static size_t unknowns_of(const struct balance *balance)
+static size_t unknowns_of(const struct resting *balance)
 {
     return plan_rates(&balance->state->model->plan);
 }
@@ -57,7 +59,7 @@ static void put_place(struct fbd_state *state, const double *x)
 }
 
 /* At rest at q, or at the place on the couplings that is nearest to it. */
-static void set_coordinates(struct balance *balance, const gsl_vector *q)
+static void set_coordinates(struct resting *balance, const gsl_vector *q)
 {
     struct fbd_state *state = balance->state;
     size_t n = (size_t)state->model->plan.n;
@@ -68,7 +70,7 @@ static void set_coordinates(struct balance *balance, const gsl_vector *q)
 
 static int forces(const gsl_vector *q, void *context, gsl_vector *f)
 {
-    struct balance *balance = context;
+    struct resting *balance = context;
     struct fbd_state *state = balance->state;
     set_coordinates(balance, q);
     state_evaluate(state);
@@ -80,7 +82,7 @@ static int forces(const gsl_vector *q, void *context, gsl_vector *f)
 }
 
 /* The slope of residual i with unknown j, as far as the couplings let it go. */
-static double slope_of(const struct balance *balance, size_t i, size_t j)
+static double slope_of(const struct resting *balance, size_t i, size_t j)
 {
     const struct plan *plan = &balance->state->model->plan;
     size_t n = (size_t)plan->n;
@@ -94,7 +96,7 @@ static double slope_of(const struct balance *balance, size_t i, size_t j)
 }
 
 /* A state whose rate nothing changes here stays where it is. */
-static void hold_inert(const struct balance *balance, gsl_matrix *J)
+static void hold_inert(const struct resting *balance, gsl_matrix *J)
 {
     for (size_t i = (size_t)balance->state->model->plan.n; i < J->size1; i++) {
         double most = 0;
@@ -105,7 +107,7 @@ static void hold_inert(const struct balance *balance, gsl_matrix *J)
 
 static int slopes(const gsl_vector *q, void *context, gsl_matrix *J)
 {
-    struct balance *balance = context;
+    struct resting *balance = context;
     struct fbd_state *state = balance->state;
     size_t size = plan_size(&state->model->plan);
     double *dfdy = balance->work, *dfdt = dfdy + size * size;
@@ -191,7 +193,7 @@ static bool newton_step(struct newton *newton, double h)
 }
 
 /* The size of coordinate i, here or at the start: 1 rad, or the length that it is. */
-static double size_of(const struct balance *balance, size_t i, double q)
+static double size_of(const struct resting *balance, size_t i, double q)
 {
     const struct fbd_model *model = balance->state->model;
     if (i < (size_t)model->plan.n && model->scene->coordinates[i].angle) return 1;
@@ -199,13 +201,13 @@ static double size_of(const struct balance *balance, size_t i, double q)
 }
 
 /* Put what the state has, which is on the couplings, back into q. */
-static void take_coordinates(const struct balance *balance, gsl_vector *q)
+static void take_coordinates(const struct resting *balance, gsl_vector *q)
 {
     for (size_t i = 0; i < q->size; i++) gsl_vector_set(q, i, balance->state->y[place_of(balance->state, i)]);
 }
 
 /* The work of the forces along the step, as far as the couplings let it go. */
-static double work_along(const struct balance *balance, const struct newton *newton)
+static double work_along(const struct resting *balance, const struct newton *newton)
 {
     size_t n = newton->n;
     double work = 0;
@@ -219,7 +221,7 @@ static double work_along(const struct balance *balance, const struct newton *new
 
 /* The step for h; its largest part over the 0.3 of its size that it may be, or infinity where it goes uphill:
  * beyond an h that unstable directions allow it would go to the balance that they leave. */
-static double stride(const struct balance *balance, struct newton *newton, double h)
+static double stride(const struct resting *balance, struct newton *newton, double h)
 {
     double most = 0;
     if (!newton_step(newton, h)) return HUGE_VAL;
@@ -243,7 +245,7 @@ static double first_h(const struct newton *newton)
     return most > 0 ? 1 / most : 1;
 }
 
-static bool let_down(struct balance *balance, struct newton *newton)
+static bool let_down(struct resting *balance, struct newton *newton)
 {
     enum { most_steps = 2000 };
     const double shortest = 1e-300, longest = 1e300; /* a step that is infinite is never halved */
@@ -275,7 +277,7 @@ static bool let_down(struct balance *balance, struct newton *newton)
 
 /* Newton would not go on from here by more than a hundredth of the size that coordinates had at the start:
  * else forces have only died out on the way to infinity (K/x^2). */
-static bool arrived(struct balance *balance, struct newton *newton)
+static bool arrived(struct resting *balance, struct newton *newton)
 {
     size_t n = newton->n;
     double slope = 0;
@@ -292,13 +294,15 @@ static bool arrived(struct balance *balance, struct newton *newton)
 /* ---- the nearest of several */
 
 /* Newton from q, on to where it gets no better; the state is moved to the best place. */
-static bool find_balance_from(struct balance *balance, gsl_vector *q, gsl_multiroot_fdfsolver *solver)
+static bool find_balance_from(struct resting *balance, gsl_vector *q, gsl_multiroot_fdfsolver *solver)
 {
     enum { most_iterations = 200 };
     gsl_multiroot_function_fdf function = {forces, slopes, both, q->size, balance};
     int status = gsl_multiroot_fdfsolver_set(solver, &function, q);
     double least = imbalance(solver->f);
-    for (int i = 0; i < most_iterations && status == GSL_SUCCESS && least > 0; i++) {
+    /* A balance already: what can move freely would be sent anywhere by roundings. */
+    bool there = least <= balance->zero;
+    for (int i = 0; !there && i < most_iterations && status == GSL_SUCCESS && least > 0; i++) {
         status = gsl_multiroot_fdfsolver_iterate(solver);
         bool better = imbalance(solver->f) < least;
         if (!better && least <= balance->zero) break;
@@ -333,7 +337,7 @@ static double distance_between(const double *a, const double *b, size_t n)
 }
 
 /* 1 found, 0 none near, -1 out of memory. */
-static int search(struct balance *balance)
+static int search(struct resting *balance)
 {
     enum { most_trials = 11 };
     struct fbd_state *state = balance->state;
@@ -375,7 +379,7 @@ static double reach_of(const struct fbd_state *state)
 
 /* Accelerations at rest where it starts are what others are measured against; false when they are not finite.
  */
-static bool measure(struct balance *balance)
+static bool measure(struct resting *balance)
 {
     struct fbd_state *state = balance->state;
     size_t n = (size_t)state->model->plan.n;
@@ -383,7 +387,8 @@ static bool measure(struct balance *balance)
     if (balance->share) state_project(state, false);
     state_evaluate(state);
     double size = equilibrium_size(state);
-    balance->zero = 1e-13 * size;
+    /* What starts in balance has accelerations of roundings alone, which are no measure. */
+    balance->zero = fmax(1e-13 * size, 1e-15 * balance_size(state, balance->arrows));
     for (size_t i = 0; i < unknowns_of(balance); i++) balance->scale[i] = 1;
     for (size_t i = n; i < unknowns_of(balance); i++) {
         double rate = fabs(state->a[i]) + own_rate_size(state, (int)(i - n));
@@ -393,26 +398,28 @@ static bool measure(struct balance *balance)
     return isfinite(size);
 }
 
-static void balance_free(struct balance *balance)
+static void balance_free(struct resting *balance)
 {
     free(balance->work);
     free(balance->share);
     free(balance->start);
+    free(balance->arrows);
 }
 
 /* 1 made, 0 the start is not finite, -1 out of memory. */
-static int balance_new(struct balance *balance, struct fbd_state *state)
+static int balance_new(struct resting *balance, struct fbd_state *state)
 {
     size_t n = (size_t)state->model->plan.n, size = plan_size(&state->model->plan),
            unknowns = plan_rates(&state->model->plan);
     bool tied = state->model->tree && state->model->tree->tie_count > 0;
     size_t slots = (size_t)state->model->plan.slots;
     size_t rows = tied ? (size_t)state->model->tree->row_count : 0;
-    *balance = (struct balance){.state = state,
+    *balance = (struct resting){.state = state,
                                 .work = calloc(size * size + size + 1, sizeof(double)),
                                 .share = tied ? calloc(n * n + 1, sizeof(double)) : NULL,
-                                .start = calloc(2 * unknowns + n + slots + rows + 1, sizeof(double))};
-    if (!balance->work || !balance->start || (tied && !balance->share)) return -1;
+                                .start = calloc(2 * unknowns + n + slots + rows + 1, sizeof(double)),
+                                .arrows = calloc(diagram_most_arrows(state->model), sizeof *balance->arrows)};
+    if (!balance->work || !balance->start || !balance->arrows || (tied && !balance->share)) return -1;
     balance->scale = balance->start + unknowns;
     balance->Q = balance->scale + unknowns;
     balance->slots = balance->Q + n;
@@ -423,7 +430,7 @@ static int balance_new(struct balance *balance, struct fbd_state *state)
 
 int equilibrium_search(struct fbd_state *state)
 {
-    struct balance balance;
+    struct resting balance;
     int made = balance_new(&balance, state), found = made > 0 ? search(&balance) : made;
     balance_free(&balance);
     return found;
@@ -433,7 +440,7 @@ int equilibrium_search(struct fbd_state *state)
  * found, 0 none, -1 out of memory. */
 int equilibrium_settle(struct fbd_state *state)
 {
-    struct balance balance;
+    struct resting balance;
     struct newton newton = {0};
     int made = balance_new(&balance, state);
     if (made > 0 && !newton_new(&newton, unknowns_of(&balance))) made = -1;

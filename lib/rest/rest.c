@@ -2,6 +2,7 @@
  *
  * Questions of rest: what never comes to it, and where the scene does.
  */
+#include <stdlib.h>
 #include <string.h>
 
 #include "base/call.h"
@@ -10,6 +11,7 @@
 #include "dynamics/own.h"
 #include "dynamics/statics.h"
 #include "expr/table.h"
+#include "rest/balance.h"
 #include "rest/equilibrium.h"
 #include "rest/start.h"
 #include "rest/statics.h"
@@ -115,14 +117,19 @@ static bool is_beyond_an_end(const struct fbd_state *state)
 
 bool equilibrium_holds(struct fbd_state *state)
 {
-    const double rounding = 1e-6;
+    const double rounding = 1e-6, of_forces = 1e-9;
     double most = 0;
     if (state->model->plan.kink_count == 0) return true;
     if (!modes_settle(state, NULL) || is_beyond_an_end(state)) return false;
     for (int i = 0; i < state->model->plan.n; i++) most = larger(most, fabs(state->a[i]));
     for (int i = 0; i < state->model->plan.own; i++)
         if (!(fabs(state->a[state->model->plan.n + i]) <= rounding * own_rate_size(state, i))) return false;
-    return most <= rounding * equilibrium_size(state);
+    if (most <= rounding * equilibrium_size(state)) return true;
+    struct arrow *arrows = calloc(diagram_most_arrows(state->model), sizeof *arrows);
+    if (!arrows) state->holds.found = holds_no_memory;
+    bool balanced = arrows && most <= of_forces * balance_size(state, arrows);
+    free(arrows);
+    return balanced;
 }
 
 void equilibrium_refuse(fbd_errors *errors)

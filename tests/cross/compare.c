@@ -9,23 +9,19 @@
 #include "fbd.h"
 #include "write.h"
 
-enum { most_arrows = 200 };
-
 /* Of the largest term: rounding by the condition of the scenes that are let in. States: what two integrations
  * at tolerances of 1e-12 leave after a second. */
 static const double force_tolerance = 1e-10, state_tolerance = 1e-7;
 
 const char *verdict_name(enum verdict verdict)
 {
-    static const char *const names[] = {"agrees",        "refused by the library",
-                                        "forces differ", "accelerations differ",
-                                        "terms differ",  "run failed",
-                                        "states differ"};
+    static const char *const names[] = {
+        "agrees",     "refused by the library", "forces differ",  "accelerations differ", "terms differ",
+        "run failed", "states differ",          "statics differ", "linearizations differ"};
     return names[verdict];
 }
 
-__attribute__((format(printf, 3, 4))) static void fail(struct outcome *outcome, enum verdict verdict,
-                                                       const char *format, ...)
+void outcome_fail(struct outcome *outcome, enum verdict verdict, const char *format, ...)
 {
     if (outcome->verdict != agrees) return;
     va_list arguments;
@@ -87,14 +83,12 @@ static bool is_alone(const struct scene *scene, int b)
     return alone;
 }
 
-static void compare_body_forces(const struct absolute *absolute, fbd_state *state, int b,
-                                struct outcome *outcome)
+void compare_arrows(const struct absolute *absolute, int b, const fbd_arrow *arrows, size_t count,
+                    struct outcome *outcome)
 {
     static const char *const parts[] = {"fx", "fy", "moment about G"};
-    fbd_arrow arrows[most_arrows];
     bool used[most_arrows] = {false};
     const char *body = absolute->scene->body[b].name;
-    size_t count = fbd_diagram(state, (size_t)b, arrows, most_arrows);
     double size = absolute->force_size, sum[3];
     for (int i = 0; i < absolute->wrench_count; i++) {
         const struct wrench *ours = &absolute->wrench[i];
@@ -103,15 +97,15 @@ static void compare_body_forces(const struct absolute *absolute, fbd_state *stat
         if (is_alone(absolute->scene, b)) sum[2] = ours->w[2];
         for (int k = 0; k < 3 && ours->unique; k++)
             if (differ(sum[k], ours->w[k], size, force_tolerance, &outcome->worst_force))
-                fail(outcome, forces_differ,
-                     "%s.%s, %s: library %.15g, independent %.15g (largest term %.3g)", body, ours->name,
-                     parts[k], sum[k], ours->w[k], size);
+                outcome_fail(outcome, forces_differ,
+                             "%s.%s, %s: library %.15g, independent %.15g (largest term %.3g)", body,
+                             ours->name, parts[k], sum[k], ours->w[k], size);
     }
     for (size_t i = 0; i < count; i++)
         if (!used[i] &&
             !(hypot(arrows[i].fx, arrows[i].fy) + fabs(arrows[i].couple) <= force_tolerance * size))
-            fail(outcome, forces_differ, "%s.%s: the independent assembly has no such force", body,
-                 arrows[i].name);
+            outcome_fail(outcome, forces_differ, "%s.%s: the independent assembly has no such force", body,
+                         arrows[i].name);
 }
 
 /* ---- accelerations, by the equations */
@@ -158,12 +152,14 @@ static void compare_equations(const struct absolute *absolute, fbd_state *state,
         while (strcmp(scene->body[b].name, equation.body) != 0) b++;
         double ours = acceleration_of(absolute, b, equation.coordinate);
         if (differ(equation.acceleration, ours, size, force_tolerance, &outcome->worst_acceleration))
-            fail(outcome, accelerations_differ, "%s.%s: library %.15g, independent %.15g (largest term %.3g)",
-                 equation.body, equation.coordinate, equation.acceleration, ours, size);
+            outcome_fail(outcome, accelerations_differ,
+                         "%s.%s: library %.15g, independent %.15g (largest term %.3g)", equation.body,
+                         equation.coordinate, equation.acceleration, ours, size);
         if (differ(equation.sum, equation.inertia * equation.acceleration, force_size, force_tolerance,
                    &outcome->worst_force))
-            fail(outcome, terms_differ, "%s.%s: sum of terms %.15g, inertia times acceleration %.15g",
-                 equation.body, equation.coordinate, equation.sum, equation.inertia * equation.acceleration);
+            outcome_fail(outcome, terms_differ, "%s.%s: sum of terms %.15g, inertia times acceleration %.15g",
+                         equation.body, equation.coordinate, equation.sum,
+                         equation.inertia * equation.acceleration);
     }
     fbd_equations_free(equations);
 }
@@ -171,7 +167,11 @@ static void compare_equations(const struct absolute *absolute, fbd_state *state,
 static void compare_instant(const struct absolute *absolute, fbd_state *state, struct outcome *outcome)
 {
     compare_equations(absolute, state, outcome);
-    for (int b = 0; b < absolute->scene->body_count; b++) compare_body_forces(absolute, state, b, outcome);
+    for (int b = 0; b < absolute->scene->body_count; b++) {
+        fbd_arrow arrows[most_arrows];
+        size_t count = fbd_diagram(state, (size_t)b, arrows, most_arrows);
+        compare_arrows(absolute, b, arrows, count, outcome);
+    }
 }
 
 /* ---- runs */
@@ -250,16 +250,16 @@ static void compare_coordinates(const struct absolute *absolute, const struct sc
     for (int i = 0; i < scene->state_count; i++) {
         double z = NAN, most = fmax(1, fabs(absolute->z[i]));
         if (!state_value(state, i, &z) || differ(z, absolute->z[i], most, state_tolerance, &none))
-            fail(outcome, states_differ, "states.z%d at t = %g: library %.15g; independent %.15g", i,
-                 outcome->until, z, absolute->z[i]);
+            outcome_fail(outcome, states_differ, "states.z%d at t = %g: library %.15g; independent %.15g", i,
+                         outcome->until, z, absolute->z[i]);
     }
     for (int i = 0; i < k; i++) {
         if (!differ(q[i], our_q[i], size, state_tolerance, &none) &&
             !differ(v[i], our_v[i], size, state_tolerance, &none))
             continue;
-        fail(outcome, states_differ,
-             "coordinate %d at t = %g: library %.15g, rate %.15g; independent %.15g, rate %.15g", i,
-             outcome->until, q[i], v[i], our_q[i], our_v[i]);
+        outcome_fail(outcome, states_differ,
+                     "coordinate %d at t = %g: library %.15g, rate %.15g; independent %.15g, rate %.15g", i,
+                     outcome->until, q[i], v[i], our_q[i], our_v[i]);
         return;
     }
     outcome->worst_state = fmax(outcome->worst_state, none);
@@ -293,7 +293,7 @@ static void compare_ends(const struct absolute *start, const struct absolute *ab
     if (ends.verdict == agrees) return;
     outcome->sensitive = scene_is_sensitive(start, absolute, outcome->until);
     outcome->pulsed = !outcome->sensitive && goes_over_pulses(absolute, scene, model, outcome->until);
-    if (!outcome->sensitive && !outcome->pulsed) fail(outcome, ends.verdict, "%s", ends.what);
+    if (!outcome->sensitive && !outcome->pulsed) outcome_fail(outcome, ends.verdict, "%s", ends.what);
 }
 
 /* Once more at the end of the run, from the library's own state: other angles, closed loops. */
@@ -325,7 +325,7 @@ fbd_result *library_run(const fbd_model *model, double until, fbd_simulation **s
     options.tolerance = 1e-12;
     *simulation = fbd_simulation_new(model, &options, NULL);
     if (!*simulation) {
-        fail(outcome, run_failed, "no simulation");
+        outcome_fail(outcome, run_failed, "no simulation");
         return NULL;
     }
     clock_t since = clock();
@@ -333,7 +333,7 @@ fbd_result *library_run(const fbd_model *model, double until, fbd_simulation **s
                                      .progress = is_too_long,
                                      .progress_context = &since};
     fbd_result *result = fbd_simulation_run(*simulation, &recording);
-    if (!result) fail(outcome, run_failed, "no result");
+    if (!result) outcome_fail(outcome, run_failed, "no result");
     /* Known: on some tracks the search for events takes for ever; counted with those that are not compared. */
     if (result && clock() - since > 3 * CLOCKS_PER_SEC) outcome->sensitive = true;
     return result;
@@ -354,8 +354,9 @@ static bool compare_jams(const struct absolute *absolute, fbd_outcome end, struc
     const double rounding = 1e-9;
     if (isinf(absolute->unpushed_to)) return false;
     if (outcome->until >= absolute->unpushed_to && (end == FBD_DONE || end == FBD_BROKEN))
-        fail(outcome, run_failed, "it goes on at t = %.9g, where no normal force goes with its friction",
-             absolute->unpushed_to);
+        outcome_fail(outcome, run_failed,
+                     "it goes on at t = %.9g, where no normal force goes with its friction",
+                     absolute->unpushed_to);
     bool there = outcome->until >= absolute->unpushed_from - rounding;
     outcome->jammed = there && end == FBD_FAILED;
     return outcome->jammed;
@@ -391,8 +392,9 @@ static void compare_run(const struct scene *scene, const struct absolute *start,
         if (outcome->ran && end != FBD_DONE && end != FBD_BROKEN && (given_up || runs_away(&absolute)))
             outcome->sensitive = true;
         else if (outcome->ran && end != FBD_DONE && end != FBD_BROKEN)
-            fail(outcome, run_failed, "%s",
-                 end == FBD_INTERRUPTED ? "takes more than 20000 steps" : fbd_simulation_reason(simulation));
+            outcome_fail(outcome, run_failed, "%s",
+                         end == FBD_INTERRUPTED ? "takes more than 20000 steps"
+                                                : fbd_simulation_reason(simulation));
         else if (outcome->ran)
             compare_ends(start, &absolute, scene, model, fbd_result_state(result), outcome);
         if (outcome->ran && !outcome->broke_off)
@@ -413,7 +415,8 @@ fbd_model *library_model(const struct scene *scene, double until, struct outcome
     for (size_t i = 0; !model && i < fbd_errors_count(errors); i++) {
         const fbd_error error = fbd_errors_get(errors, i);
         if (error.severity == FBD_ERROR)
-            fail(outcome, refused, "%d:%d: %s [%s]", error.line, error.column, error.message, error.id);
+            outcome_fail(outcome, refused, "%d:%d: %s [%s]", error.line, error.column, error.message,
+                         error.id);
     }
     fbd_errors_free(errors);
     return model;
@@ -425,7 +428,7 @@ void scene_compare(const struct scene *scene, struct absolute *absolute, double 
     memset(outcome, 0, sizeof *outcome);
     fbd_model *model = library_model(scene, until, outcome);
     if (!model) {
-        fail(outcome, refused, "no model");
+        outcome_fail(outcome, refused, "no model");
         return;
     }
     fbd_state *state = fbd_state_new(model);

@@ -16,8 +16,13 @@ enum verdict {
     terms_differ, /* an equation's sum is not inertia times acceleration */
     run_failed,
     states_differ,
+    run_verdicts,
+    statics_differ = run_verdicts, /* rest.h */
+    linearizations_differ,
     verdict_count,
 };
+
+enum { most_arrows = 200 }; /* of a body */
 
 struct outcome {
     enum verdict verdict;
@@ -44,6 +49,14 @@ fbd_result *library_run(const fbd_model *model, double until, fbd_simulation **s
 bool state_value(const fbd_state *state, int i, double *z); /* number i of those of the scene */
 bool library_state(const struct scene *scene, const fbd_state *state, double *q, double *v);
 double library_change(fbd_simulation *simulation);
+
+/* The first thing that differs is kept. */
+__attribute__((format(printf, 3, 4))) void outcome_fail(struct outcome *outcome, enum verdict verdict,
+                                                        const char *format, ...);
+
+/* The forces on a body against the wrenches of the independent assembly. */
+void compare_arrows(const struct absolute *absolute, int b, const fbd_arrow *arrows, size_t count,
+                    struct outcome *outcome);
 
 const char *verdict_name(enum verdict verdict);
 

@@ -2,11 +2,11 @@
  *
  * Random scenes by the library and by the independent assembly.
  *
- *     cross_check [--scenes N] [--seed FIRST] [--runs K] [--variants K] [--jobs J] [--of KIND] [--tap]
+ *     cross_check [--scenes N] [--seed FIRST] [--runs K] [--variants K] [--rest K] [--jobs J] [--of KIND] [--tap]
  *     cross_check [--of KIND] --show SEED
  *
- * Scenes FIRST, FIRST + 1, ...; every K-th (default: each) is also run for a second. Scenes that fail are
- * shrunk and printed. Exit code 1 when any has failed. KIND: tracks, slots, windings, masses, rolls, spools.
+ * Scenes FIRST, FIRST + 1, ...; every K-th (default: each) is also run for a second. With `rest`
+ * every K-th is brought to rest, for its statics and its linearisation (rest.h). Scenes that fail are shrunk and printed. Exit code 1 when any has failed. KIND: tracks, slots, windings, masses, rolls, spools.
  */
 #include <gsl/gsl_errno.h>
 #include <stdio.h>
@@ -18,6 +18,7 @@
 #include "compare.h"
 #include "generate.h"
 #include "invariance.h"
+#include "rest.h"
 #include "shrink.h"
 #include "write.h"
 
@@ -25,12 +26,14 @@ struct counts {
     unsigned long scenes, unfit, runs, broke_off, sensitive, pulsed, jammed, verdicts[verdict_count];
     double acceleration, force, state;
     unsigned long variants[variant_count], variant_runs, variant_failures[variant_count];
+    unsigned long balanced[2], rest_failures[2]; /* statics, linearisations */
+    double rest_force, rest_slope;
     double variant_force, variant_state; /* of those that are not moved by 1e6 m */
 };
 
 struct plan {
     uint64_t scenes, first, stride;
-    unsigned runs, variants;
+    unsigned runs, variants, rest;
     enum focus focus;
     bool tap;
 };
@@ -88,7 +91,7 @@ static unsigned long failures(const struct counts *counts)
 {
     unsigned long sum = counts->scenes - counts->unfit - counts->verdicts[agrees];
     for (int i = 0; i < variant_count; i++) sum += counts->variant_failures[i];
-    return sum;
+    return sum + counts->rest_failures[0] + counts->rest_failures[1];
 }
 
 static void check_scene(uint64_t seed, enum focus focus, bool run, struct counts *counts)
@@ -156,12 +159,73 @@ static void check_variants(uint64_t seed, enum focus focus, struct counts *count
     }
 }
 
+/* ---- at rest */
+
+static bool compare_at_rest(const struct scene *scene, bool freely, struct outcome *outcome)
+{
+    static struct absolute absolute;
+    static struct scene balanced;
+    if (freely)
+        return scene_balance_freely(scene, &balanced, &absolute) &&
+               scene_compare_linear(&balanced, &absolute, outcome);
+    return scene_balance(scene, &balanced, &absolute) && scene_compare_statics(&balanced, &absolute, outcome);
+}
+
+struct wanted_rest {
+    bool freely;
+    enum verdict verdict;
+    struct outcome outcome;
+};
+
+static bool rests_alike(void *context, struct scene *scene)
+{
+    struct wanted_rest *wanted = context;
+    struct outcome outcome;
+    if (!compare_at_rest(scene, wanted->freely, &outcome) || outcome.verdict != wanted->verdict) return false;
+    wanted->outcome = outcome;
+    return true;
+}
+
+/* The scene is printed as it is in balance. */
+static void print_at_rest(struct scene *scene, bool freely, const struct outcome *outcome)
+{
+    static struct absolute absolute;
+    static struct scene balanced;
+    struct wanted_rest wanted = {freely, outcome->verdict, *outcome};
+    printf("# seed %llu at rest: %s: %s\n", (unsigned long long)scene->seed, verdict_name(outcome->verdict),
+           outcome->what);
+    scene_shrink(scene, rests_alike, &wanted);
+    printf("# shrunk: %s\n", wanted.outcome.what);
+    bool balances = freely ? scene_balance_freely(scene, &balanced, &absolute)
+                           : scene_balance(scene, &balanced, &absolute);
+    print_scene(balances ? &balanced : scene);
+    fflush(stdout);
+}
+
+static void check_rest(uint64_t seed, enum focus focus, struct counts *counts)
+{
+    static struct scene scene;
+    static struct absolute absolute;
+    for (int freely = 0; freely < 2; freely++) {
+        struct outcome outcome;
+        if (!scene_generate(&scene, &absolute, seed, focus)) return;
+        if (!compare_at_rest(&scene, freely, &outcome)) continue;
+        counts->balanced[freely]++;
+        counts->rest_force = fmax(counts->rest_force, outcome.worst_force);
+        counts->rest_slope = fmax(counts->rest_slope, outcome.worst_state);
+        if (outcome.verdict == agrees) continue;
+        counts->rest_failures[freely]++;
+        if (failures(counts) <= most_printed) print_at_rest(&scene, freely, &outcome);
+    }
+}
+
 static void check_share(const struct plan *plan, uint64_t share, struct counts *counts)
 {
     for (uint64_t i = share; i < plan->scenes; i += plan->stride) {
         uint64_t seed = plan->first + i;
         check_scene(seed, plan->focus, plan->runs > 0 && seed % plan->runs == 0, counts);
         if (plan->variants > 0 && seed % plan->variants == 0) check_variants(seed, plan->focus, counts);
+        if (plan->rest > 0 && seed % plan->rest == 0) check_rest(seed, plan->focus, counts);
     }
 }
 
@@ -181,6 +245,12 @@ static void add_counts(struct counts *sum, const struct counts *counts)
     sum->variant_runs += counts->variant_runs;
     sum->variant_force = fmax(sum->variant_force, counts->variant_force);
     sum->variant_state = fmax(sum->variant_state, counts->variant_state);
+    sum->rest_force = fmax(sum->rest_force, counts->rest_force);
+    sum->rest_slope = fmax(sum->rest_slope, counts->rest_slope);
+    for (int i = 0; i < 2; i++) {
+        sum->balanced[i] += counts->balanced[i];
+        sum->rest_failures[i] += counts->rest_failures[i];
+    }
     for (int i = 0; i < variant_count; i++) {
         sum->variants[i] += counts->variants[i];
         sum->variant_failures[i] += counts->variant_failures[i];
@@ -229,7 +299,7 @@ static void report(const struct plan *plan, const struct counts *counts)
            mark, counts->runs, counts->broke_off, counts->sensitive, counts->pulsed, counts->jammed);
     printf("%slargest differences: accelerations %.2g, forces %.2g of the largest term, states %.2g\n", mark,
            counts->acceleration, counts->force, counts->state);
-    for (int i = agrees + 1; i < verdict_count; i++) {
+    for (int i = agrees + 1; i < run_verdicts; i++) {
         if (plan->tap)
             printf("%s %d - %s\n", counts->verdicts[i] ? "not ok" : "ok", i,
                    (const char *const[]){"", "scenes are accepted", "forces agree", "accelerations agree",
@@ -248,11 +318,26 @@ static void report_variants(const struct plan *plan, const struct counts *counts
            mark, counts->variant_runs, counts->variant_force, counts->variant_state);
     for (int i = 0; i < variant_count; i++)
         if (plan->tap)
-            printf("%s %d - %lu scenes %s\n", counts->variant_failures[i] ? "not ok" : "ok",
-                   verdict_count + i, counts->variants[i], variant_name((enum variant)i));
+            printf("%s %d - %lu scenes %s\n", counts->variant_failures[i] ? "not ok" : "ok", run_verdicts + i,
+                   counts->variants[i], variant_name((enum variant)i));
         else
             printf("%lu scenes %s: %lu differ\n", counts->variants[i], variant_name((enum variant)i),
                    counts->variant_failures[i]);
+}
+
+static void report_rest(const struct plan *plan, const struct counts *counts)
+{
+    static const char *const what[] = {"statics", "linearisations"};
+    const char *mark = plan->tap ? "# " : "";
+    if (plan->rest == 0) return;
+    printf("%sat rest: largest differences: forces %.2g of the largest, slopes %.2g\n", mark,
+           counts->rest_force, counts->rest_slope);
+    for (int i = 0; i < 2; i++)
+        if (plan->tap)
+            printf("%s %d - %lu %s agree\n", counts->rest_failures[i] ? "not ok" : "ok",
+                   run_verdicts + (plan->variants > 0 ? variant_count : 0) + i, counts->balanced[i], what[i]);
+        else
+            printf("%lu %s: %lu differ\n", counts->balanced[i], what[i], counts->rest_failures[i]);
 }
 
 static enum focus focus_called(const char *name)
@@ -288,14 +373,18 @@ int main(int count, char **arguments)
         if (strcmp(arguments[i], "--seed") == 0) plan.first = number;
         if (strcmp(arguments[i], "--runs") == 0) plan.runs = (unsigned)number;
         if (strcmp(arguments[i], "--variants") == 0) plan.variants = (unsigned)number;
+        if (strcmp(arguments[i], "--rest") == 0) plan.rest = (unsigned)number;
         if (strcmp(arguments[i], "--jobs") == 0 && number > 0) plan.stride = number;
     }
     struct counts counts = {0};
     gsl_set_error_handler_off();
-    if (plan.tap) printf("1..%d\n", verdict_count - 1 + (plan.variants > 0 ? variant_count : 0));
+    if (plan.tap)
+        printf("1..%d\n",
+               run_verdicts - 1 + (plan.variants > 0 ? variant_count : 0) + (plan.rest > 0 ? 2 : 0));
     fflush(stdout);
     if (!check_all(&plan, &counts)) return 2;
     report(&plan, &counts);
     report_variants(&plan, &counts);
+    report_rest(&plan, &counts);
     return failures(&counts) == 0 ? 0 : 1;
 }

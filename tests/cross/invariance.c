@@ -1,11 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "invariance.h"
 
-#include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
 
-enum { most_arrows = 64 };
+enum { most_kept = 64 };
 
 static const double run_length = 1, taken_up = 0.4;
 
@@ -14,22 +13,11 @@ struct answers {
     struct absolute at, end;                       /* positions and velocities alone */
     double q[3 * most_bodies], v[3 * most_bodies]; /* the library's own at `at` */
     size_t count[most_bodies];
-    fbd_arrow arrow[most_bodies][most_arrows];
-    char name[most_bodies][most_arrows][64];
+    fbd_arrow arrow[most_bodies][most_kept];
+    char name[most_bodies][most_kept][64];
     double change, size;
     bool ended;
 };
-
-__attribute__((format(printf, 3, 4))) static void fail(struct outcome *outcome, enum verdict verdict,
-                                                       const char *format, ...)
-{
-    if (outcome->verdict != agrees) return;
-    va_list arguments;
-    va_start(arguments, format);
-    vsnprintf(outcome->what, sizeof outcome->what, format, arguments);
-    va_end(arguments);
-    outcome->verdict = verdict;
-}
 
 static void take_place(struct absolute *absolute, const struct scene *scene, fbd_state *state)
 {
@@ -45,8 +33,8 @@ static void take_forces(struct answers *answers, const struct scene *scene, fbd_
     take_place(&answers->at, scene, state);
     library_state(scene, state, answers->q, answers->v);
     for (int b = 0; b < scene->body_count; b++) {
-        answers->count[b] = fbd_diagram(state, (size_t)b, answers->arrow[b], most_arrows);
-        if (answers->count[b] > most_arrows) answers->count[b] = most_arrows;
+        answers->count[b] = fbd_diagram(state, (size_t)b, answers->arrow[b], most_kept);
+        if (answers->count[b] > most_kept) answers->count[b] = most_kept;
         for (size_t i = 0; i < answers->count[b]; i++) {
             const fbd_arrow *arrow = &answers->arrow[b][i];
             snprintf(answers->name[b][i], sizeof answers->name[b][i], "%s", arrow->name);
@@ -165,8 +153,9 @@ static void compare_forces(const struct absolute *absolute, const struct scene *
             for (int k = 0; k < 3; k++) {
                 double error = fabs(want[k] - got[k]) / other->size;
                 if (!(error <= tolerance))
-                    fail(outcome, forces_differ, "%s.%s, part %d: %.15g there, but %.15g (largest %.3g)",
-                         scene->body[b].name, name, k, got[k], want[k], other->size);
+                    outcome_fail(outcome, forces_differ,
+                                 "%s.%s, part %d: %.15g there, but %.15g (largest %.3g)", scene->body[b].name,
+                                 name, k, got[k], want[k], other->size);
                 else
                     outcome->worst_force = fmax(outcome->worst_force, error);
             }
@@ -276,6 +265,7 @@ bool scene_compare_variant(const struct scene *scene, const struct absolute *abs
     struct absolute end = *absolute;
     outcome->sensitive =
         !absolute_integrate(&end, run_length, 1e-11) || scene_is_sensitive(absolute, &end, run_length);
-    if (!outcome->sensitive) fail(outcome, states_differ, "ends differ by %.3g of their size", difference);
+    if (!outcome->sensitive)
+        outcome_fail(outcome, states_differ, "ends differ by %.3g of their size", difference);
     return true;
 }

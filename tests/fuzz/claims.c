@@ -10,6 +10,12 @@
 
 #include "fuzz.h"
 
+void claim_in_time(clock_t since, double most)
+{
+    double took = (double)(clock() - since) / CLOCKS_PER_SEC;
+    if (fuzz_hurries && took > most) fuzz_fail("it took %.3g s", took);
+}
+
 void claim_finite(const char *what, double value)
 {
     if (!isfinite(value)) fuzz_fail("%s is %g", what, value);

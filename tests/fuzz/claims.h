@@ -8,8 +8,13 @@
 
 #include <stdbool.h>
 #include <stddef.h>
+#include <time.h>
 
 #include "fbd.h"
+
+/* An input that is invented takes no longer than so many seconds of the processor since clock() was `since`. libFuzzer's
+ * own clock is that of the wall: beside other work it tells what is endless, not what is slow. */
+void claim_in_time(clock_t since, double most);
 
 /* A number is finite. */
 void claim_finite(const char *what, double value);

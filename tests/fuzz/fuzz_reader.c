@@ -6,6 +6,8 @@
 #include "fbd.h"
 #include "fuzz.h"
 
+enum { most_seconds = 10 }; /* of the processor, for an input that is invented */
+
 /* What can be asked of a model without a state. */
 static void look_at(const fbd_model *model)
 {
@@ -24,6 +26,7 @@ static void look_at(const fbd_model *model)
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
+    clock_t since = clock();
     fbd_errors *errors = fbd_errors_new();
     fbd_model *model = fbd_model_parse((const char *)data, size, "fuzzed.yaml", NULL, 0, errors);
     claim_notes(errors);
@@ -32,5 +35,6 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     if (model) look_at(model);
     fbd_model_free(model);
     fbd_errors_free(errors);
+    claim_in_time(since, most_seconds);
     return 0;
 }

@@ -11,6 +11,7 @@
 #include <cmocka.h>
 
 #include <gsl/gsl_errno.h>
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -86,6 +87,39 @@ static void where_there_is_no_equilibrium_none_is_found(void **unused)
     end_look(&looked);
 }
 
+/* Without gravity nothing but the forces says what an acceleration of roundings is: a rod that is pulled toward its pivot is in
+ * balance there, and A is theta'' = 3 F/(m L) theta; it was taken about the other balance, half a turn away. */
+static void what_starts_in_balance_is_looked_at_there(void **unused)
+{
+    (void)unused;
+    struct looked looked =
+        look("fbd: 1\ngravity: 0\nbodies:\n  rod:\n    {shape: rod, mass: 1 kg, length: 1 m,\n"
+             "     motion: {pivot: {point: left}}, initial: {theta: 180 deg},\n"
+             "     forces: [applied: {name: F, fx: 1 N, at: right}]}\n");
+    assert_non_null(looked.linear);
+    double theta;
+    assert_true(fbd_state_get(looked.state, "rod.theta", &theta));
+    assert_true(fabs(theta - acos(-1)) < 1e-15);
+    assert_true(fabs(fbd_linearization_matrix(looked.linear)[2] - 3) < 1e-14);
+    end_look(&looked);
+}
+
+/* Forces on a free body that take each other up: it was said that no balance was found, or one was looked for elsewhere. */
+static void what_is_free_stays_where_it_starts_in_balance(void **unused)
+{
+    (void)unused;
+    struct looked looked =
+        look("fbd: 1\ngravity: 0\nbodies:\n  b:\n    {shape: disc, mass: 1 kg, radius: 0.1 m,\n"
+             "     motion: planar, initial: {x: 0.3 m, theta: 0.7 rad}, forces: [\n"
+             "     applied: {name: F, value: 0.3 N, angle: 1.1 rad, frame: body},\n"
+             "     applied: {name: G, value: -0.3 N, angle: 1.8 rad}]}\n");
+    assert_non_null(looked.linear);
+    double x, theta;
+    assert_true(fbd_state_get(looked.state, "b.x", &x) && fbd_state_get(looked.state, "b.theta", &theta));
+    assert_true(x == 0.3 && theta == 0.7);
+    end_look(&looked);
+}
+
 int main(void)
 {
     gsl_set_error_handler_off();
@@ -94,6 +128,8 @@ int main(void)
         cmocka_unit_test(the_frequencies_beside_it_stay),
         cmocka_unit_test(a_start_far_away_finds_the_true_equilibrium),
         cmocka_unit_test(where_there_is_no_equilibrium_none_is_found),
+        cmocka_unit_test(what_starts_in_balance_is_looked_at_there),
+        cmocka_unit_test(what_is_free_stays_where_it_starts_in_balance),
     };
     return cmocka_run_group_tests_name("linearize", tests, NULL, NULL);
 }
