@@ -40,9 +40,10 @@ static void unite(int *of, int a, int b)
     of[find(of, a)] = find(of, b);
 }
 
+/* Once all are united and `of` names the one that stands for them. */
 static struct mechanism *mechanism_of(const struct mechanisms *mechanisms, int link)
 {
-    return &mechanisms->members[find(mechanisms->of, link)];
+    return &mechanisms->members[mechanisms->of[link]];
 }
 
 /* The links that a row joins, without the ground. */
@@ -80,6 +81,7 @@ void mechanisms_join(struct mechanisms *mechanisms, const struct fbd_state *stat
         if (tree->links[i].parent > 0) unite(mechanisms->of, i, tree->links[i].parent);
     for (int j = 0; j < tree->row_count; j++)
         if (tree_takes_part(tree, &at, j)) join_row(mechanisms, &state->tree->rows[j]);
+    for (int i = 1; i < tree->count; i++) mechanisms->of[i] = find(mechanisms->of, i);
     for (int j = 0; j < tree->row_count; j++)
         if (tree_takes_part(tree, &at, j)) measure_row(mechanisms, &state->tree->rows[j]);
     for (int i = 1; i < tree->count; i++) {

@@ -31,7 +31,7 @@ bool scan_init(struct scan *scan, size_t count, scan_sampler *sample, void *cont
     *scan = (struct scan){.count = count, .sample = sample, .context = context};
     if (count == 0) return true; /* nothing is looked for */
     scan->points = ARENA_ARRAY(memory, spare_points, struct scan_point);
-    double *next = ARENA_ARRAY(memory, 2 * spare_points * count, double);
+    double *next = ARENA_ARRAY(memory, (size_t)2 * spare_points * count, double);
     scan->crossed = ARENA_ARRAY(memory, 6 * count, bool);
     scan->lone = ARENA_ARRAY(memory, count, struct proof_group);
     scan->prover.now = ARENA_ARRAY(memory, 2 * count, struct enclosure); /* a group has no more than all */
