@@ -39,7 +39,7 @@ struct disc {
     double min, max, e;         /* stops, infinite without */
     double spring;              /* to the next disc, as long as at the start */
     double leash, rope;         /* lengths of ropes: from (0, 0), and to the next disc; infinite without */
-    struct push push;
+    struct push push, press;    /* along the line, and onto it */
 };
 
 struct line {
@@ -135,7 +135,7 @@ static void keep_taut(struct line *line, int i)
     if (disc[1].x - disc->x < 2.001 * radius && disc[1].v < disc->v) disc->v = disc[1].v = 0;
 }
 
-/* Ropes, some taut from the start on, and contacts that bounce as the time stepping has it, with the law of Moreau. */
+/* Ropes, some taut from the start on, what presses on the guides, and contacts that bounce as the time stepping has it, with the law of Moreau. */
 static struct line draw_roped_line(uint64_t seed)
 {
     struct line line = draw_line(seed);
@@ -144,6 +144,8 @@ static struct line draw_roped_line(uint64_t seed)
     line.moreau = true;
     for (int i = 0; i < line.count; i++) {
         struct disc *disc = &line.discs[i];
+        disc->press = (struct push){perhaps(&numbers, 0.5, 0, 0.9) * disc->mass * g,
+                                    random_between(&numbers, 0.5, 15), random_between(&numbers, 0, 6), 0};
         if (chance(&numbers, 0.3)) disc->leash = disc->x + perhaps(&numbers, 0.8, 0.01, 0.3);
         double slack = perhaps(&numbers, 0.8, 0.01, 0.3);
         if (i + 1 == line.count || !chance(&numbers, 0.5)) continue;
@@ -160,7 +162,7 @@ static struct line draw_roped_line(uint64_t seed)
 
 static int write_disc(const struct disc *disc, int i, char *text, size_t size)
 {
-    char stops[120] = "", pulse[60] = "", friction[240] = "", rub[120] = "";
+    char stops[120] = "", pulse[60] = "", friction[240] = "", rub[120] = "", press[200] = "";
     if (disc->min > -HUGE_VAL) snprintf(stops, sizeof stops, ", min: %.17g", disc->min);
     size_t length = strlen(stops);
     if (disc->max < HUGE_VAL) snprintf(stops + length, sizeof stops - length, ", max: %.17g", disc->max);
@@ -169,6 +171,10 @@ static int write_disc(const struct disc *disc, int i, char *text, size_t size)
     if (disc->rub > 0)
         snprintf(rub, sizeof rub, "      - applied: {name: rub, value: \"-%.17g*sign(v - %.17g)\"}\n",
                  disc->rub, disc->rub_speed);
+    if (disc->press.A > 0)
+        snprintf(press, sizeof press,
+                 "      - applied: {name: press, angle: -90 deg, value: \"%.17g*sin(%.17g*t + %.17g)\"}\n",
+                 disc->press.A, disc->press.w, disc->press.phase);
     if (disc->pulse > 0) snprintf(pulse, sizeof pulse, "*max(0, cos(%.17g*t))", disc->pulse);
     if (disc->mu > 0 || disc->lists_zero)
         snprintf(friction, sizeof friction,
@@ -179,9 +185,9 @@ static int write_disc(const struct disc *disc, int i, char *text, size_t size)
                     "    motion: {slide: {along: 0 deg%s}}\n    initial: {x: %.17g, v: %.17g}\n    forces:\n"
                     "      - gravity\n      - normal\n%s"
                     "      - applied: {name: push, value: \"%.17g*sin(%.17g*t + %.17g) + %.17g\"}\n%s"
-                    "      - spring: {stiffness: %.17g}\n      - damper: {coefficient: %.17g}\n",
+                    "      - spring: {stiffness: %.17g}\n      - damper: {coefficient: %.17g}\n%s",
                     i, radius, disc->mass, stops, disc->x, disc->v, friction, disc->push.A, disc->push.w,
-                    disc->push.phase, disc->push.B, rub, disc->k, disc->c);
+                    disc->push.phase, disc->push.B, rub, disc->k, disc->c, press);
 }
 
 static void write_line(const struct line *line, char *text, size_t size)
@@ -254,9 +260,10 @@ static void find_rows(const void *scene, double t, const double *q, struct morea
     const struct line *line = scene;
     for (int i = 0; i < line->count; i++) {
         const struct disc *disc = &line->discs[i];
+        double N = disc->mass * g + disc->press.A * sin(disc->press.w * t + disc->press.phase);
         struct moreau_row rub = {.kind = moreau_rub,
                                  .aim = disc->surface + disc->shaken * sin(3 * t),
-                                 .most = disc->mu * fmax(0, cos(disc->pulse * t)) * disc->mass * g,
+                                 .most = disc->mu * fmax(0, cos(disc->pulse * t)) * N,
                                  .normal = -1};
         rub.w[i] = 1;
         if (disc->mu > 0) rows->row[rows->count++] = rub;
