@@ -147,6 +147,7 @@ static struct line draw_roped_line(uint64_t seed)
         disc->press = (struct push){perhaps(&numbers, 0.5, 0, 0.9) * disc->mass * g,
                                     random_between(&numbers, 0.5, 15), random_between(&numbers, 0, 6), 0};
         if (chance(&numbers, 0.3)) disc->leash = disc->x + perhaps(&numbers, 0.8, 0.01, 0.3);
+        if (disc->leash == disc->min) disc->leash += 0.01; /* no way to move at all */
         double slack = perhaps(&numbers, 0.8, 0.01, 0.3);
         if (i + 1 == line.count || !chance(&numbers, 0.5)) continue;
         bool touches =
