@@ -304,14 +304,20 @@ static double reach_of_touch(const struct run *run, int index)
     return deep > near && deep <= contacts_late * near ? 1.001 * deep : near;
 }
 
+/* Features of all that touches, and where they are. */
+static void find_touching(struct run *run)
+{
+    impulse_look(run->state);
+    for (int i = 0; i < tree_of(run)->meeting_count; i++)
+        contacts_find_touching(run, i, reach_of_touch(run, i));
+    impulse_look(run->state);
+}
+
 /* One look at all that touches. True when shapes have been moved, and others are to be looked at. */
 static bool look_at_contacts(struct run *run)
 {
-    const struct tree *tree = tree_of(run);
     bool moved = false;
-    impulse_look(run->state);
-    for (int i = 0; i < tree->meeting_count; i++) contacts_find_touching(run, i, reach_of_touch(run, i));
-    impulse_look(run->state);
+    find_touching(run);
     int count = contacts_find_strikers(run);
     bool struck = any_closes(run, count);
     if (struck && run_take_in_ropes(run)) count = contacts_find_strikers(run);
@@ -357,7 +363,10 @@ bool run_start_contacts(struct run *run, struct lack *lack)
 
 void run_strike_taut(struct run *run)
 {
-    impulse_look(run->state);
+    if (has_meetings(run->model))
+        find_touching(run);
+    else
+        impulse_look(run->state);
     run_take_in_ropes(run);
     int count = contacts_find_strikers(run);
     if (!any_closes(run, count) || !contacts_strike(run, count)) return;
