@@ -336,32 +336,32 @@ static double user_rate(const struct watch *watch, struct fbd_state *state)
 }
 
 /* The speed that what has never moved would have by the force of its friction alone, which it has borne so far. */
-static double speed_to_come(struct fbd_state *state, int pair)
+static double speed_to_come(const struct fbd_state *state, int pair)
 {
     const struct fbd_model *model = state->model;
     const struct model_body *body = &model->bodies[model->plan.modes[pair].body];
     const struct instant at = state_instant(state);
-    double *slots = state_scratch(state).slots;
-    force_balance(model, &at, slots);
-    double limit = friction_at(model, pair, &at, slots).limit,
+    double limit = friction_at(model, pair, &at, state->slots).limit,
            inertia = body->kind == motion_pivot ? body->I_O : body->inertia.mass;
     return inertia > 0 ? limit * fabs(state->t) / inertia : 0;
 }
 
-/* What breaks away at its limit has no acceleration yet but for rounding, which may be the other way. */
-static void calm_beginning(struct watchers *watchers, struct fbd_state *state, size_t pair)
+/* What breaks away at its limit has no acceleration yet but for rounding, which may be the other way. It is for the first
+ * step alone: what others hold does not move, and sticks again behind it. */
+static void calm_beginning(struct watchers *watchers, const struct fbd_state *state, size_t pair)
 {
-    const double least = 1e-14, band = 1e-13;
+    const double band = 1e-13;
     const struct instant at = state_instant(state);
     if (state->slip[pair] == stick || !mode_is_joint_friction(&state->model->plan.modes[pair])) return;
     double v = fabs(slip_velocity(state->model, (int)pair, &at)), *fast = &watchers->fast[pair];
-    if (v == 0) *fast = fmax(*fast, speed_to_come(state, (int)pair));
     *fast = fmax(*fast, v);
-    if (v <= least * *fast) watchers->quiet[pair] = band * *fast;
+    if (v > 0) return;
+    *fast = fmax(*fast, speed_to_come(state, (int)pair));
+    watchers->quiet[pair] = band * *fast;
 }
 
 /* What drives bring to rest smoothly and take on again has a speed of rounding for a while. */
-static void calm_driven(struct watchers *watchers, struct fbd_state *state, double step)
+static void calm_driven(struct watchers *watchers, const struct fbd_state *state, double step)
 {
     const double near = 10;
     for (size_t i = 0; i < state->model->plan.mode_count; i++) {
