@@ -347,16 +347,16 @@ static double speed_to_come(const struct fbd_state *state, int pair)
 }
 
 /* What breaks away at its limit has no acceleration yet but for rounding, which may be the other way. It is for the first
- * step alone: what others hold does not move, and sticks again behind it. */
-static void calm_beginning(struct watchers *watchers, const struct fbd_state *state, size_t pair)
+ * steps alone, as long as they are an instant: what others hold does not move, and sticks again behind them. */
+static void calm_beginning(struct watchers *watchers, const struct fbd_state *state, size_t pair, double step)
 {
-    const double band = 1e-13;
+    const double band = 1e-13, least = 1e-14, instant = 1e-9;
     const struct instant at = state_instant(state);
     if (state->slip[pair] == stick || !mode_is_joint_friction(&state->model->plan.modes[pair])) return;
     double v = fabs(slip_velocity(state->model, (int)pair, &at)), *fast = &watchers->fast[pair];
     *fast = fmax(*fast, v);
-    if (v > 0) return;
-    *fast = fmax(*fast, speed_to_come(state, (int)pair));
+    if (v == 0) *fast = fmax(*fast, speed_to_come(state, (int)pair));
+    if (v > 0 && (step > instant * fabs(state->t) || v > least * *fast)) return;
     watchers->quiet[pair] = band * *fast;
 }
 
@@ -368,7 +368,7 @@ static void calm_driven(struct watchers *watchers, const struct fbd_state *state
         if (mode_is_one_sided(&state->model->plan.modes[i])) continue;
         watchers->quiet[i] = 0;
         if (state->slip_driven[i] == 0) {
-            calm_beginning(watchers, state, i);
+            calm_beginning(watchers, state, i, step);
             continue;
         }
         struct instant at = state_instant(state);
