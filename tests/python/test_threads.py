@@ -167,12 +167,12 @@ def round():
     except fbd.Error:
         pass
 
-for i in range(30):
+for i in range(120): # what allocators keep has come to its size
     round()
 before = size()
-for i in range(120):
+for i in range(60):
     round()
-print((size() - before) / 120)
+print((size() - before) / 60)
 """
 
 
