@@ -143,6 +143,59 @@ static struct vec direction_at(const struct draft *draft, double x)
     return vec_scale(1 / vec_norm(d), d);
 }
 
+/* ---- what 24 nodes do not see
+ *
+ * A bend that is much shorter than the panel lies between them. So r' is enclosed (interval.h) over stretches of the panel: one
+ * over which it varies by little hides nothing; another is compared with the series at its middle, and halved. */
+
+/* r' over p +- radius. */
+static void enclose_slope(const struct draft *draft, double p, double radius, struct interval slope[2])
+{
+    const struct expr *const formulas[2] = {draft->curve->x, draft->curve->y};
+    const int *const branches[2] = {draft->piece->branch_x, draft->piece->branch_y};
+    const struct stretch stretch = stretch_between(p - radius, p + radius);
+    const struct enclosure y = {{stretch.from, stretch.to}, interval_point(1), interval_point(p)};
+    for (int i = 0; i < 2; i++) slope[i] = expr_enclose(formulas[i], &stretch, &y, branches[i]).rate;
+}
+
+/* Is r' another than its series says, at p? */
+static bool differs(const struct draft *draft, double p)
+{
+    const double seen = 1e-6;
+    struct curve_jet jet = curve_jet_at(draft->curve, draft->piece, p);
+    double x = 2 * (p - draft->from) / draft->wide - 1;
+    struct vec series = {series_at(draft->x, order, x), series_at(draft->y, order, x)};
+    return !(vec_norm(vec_sub(jet.d, series)) <= seen * draft->fastest);
+}
+
+/* Stretches are taken from the left; what is left of a half that is looked at later lies on the stack with its depth. Where
+ * enclosures stay wide, as next to a root, they are given up after so many. */
+static bool hides_something(const struct draft *draft)
+{
+    enum { deepest = 40, most = 2000 };
+    const double little = 0.05;
+    struct {
+        double p, radius;
+    } stack[deepest + 2] = {{draft->from + draft->wide / 2, draft->wide / 2}};
+    const double least = ldexp(draft->wide, -deepest);
+    int waiting = 1;
+    for (int count = 0; waiting > 0 && count < most; count++) {
+        double p = stack[--waiting].p, radius = stack[waiting].radius;
+        struct interval slope[2];
+        enclose_slope(draft, p, radius, slope);
+        double width = fmax(interval_width(slope[0]), interval_width(slope[1]));
+        if (width <= little * draft->fastest || radius <= least) continue;
+        if (differs(draft, p)) return true;
+        stack[waiting].p = p + radius / 2;
+        stack[waiting++].radius = radius / 2;
+        stack[waiting].p = p - radius / 2;
+        stack[waiting++].radius = radius / 2;
+    }
+    return false;
+}
+
+/* ---- panels */
+
 /* Is the panel one? `share` is what its numbers leave of the digits. */
 static bool fit_panel(const struct draft *draft, double share, struct curve_panel *panel)
 {
@@ -167,7 +220,7 @@ static bool fit_panel(const struct draft *draft, double share, struct curve_pane
     fit(draft->cosines, bend, panel->bend);
     double turn = most_from(panel->bend, 0) * panel->length;
     return ends(panel->u, share, 1) && turn <= most_turn &&
-           ends(panel->bend, lost * share, fmax(turn, 1e-3) / panel->length);
+           ends(panel->bend, lost * share, fmax(turn, 1e-3) / panel->length) && !hides_something(draft);
 }
 
 static bool add(struct panel_list *list, const struct curve_panel *panel)
