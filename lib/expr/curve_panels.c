@@ -168,8 +168,8 @@ static bool differs(const struct draft *draft, double p)
     return !(vec_norm(vec_sub(jet.d, series)) <= seen * draft->fastest);
 }
 
-/* Stretches are taken from the left; what is left of a half that is looked at later lies on the stack with its depth. Where
- * enclosures stay wide, as next to a root, they are given up after so many. */
+/* Stretches are taken from the left; right halves wait on the stack, one of each depth. Where enclosures stay wide, as next to
+ * a root, it is given up after so many: nothing is known then, and the panel is taken as it is. */
 static bool hides_something(const struct draft *draft)
 {
     enum { deepest = 40, most = 2000 };

@@ -280,7 +280,8 @@ void run_check_ends(struct run *run);
 
 /* Slack ropes that are taut but for rounding become so, and take part in the impact of another: two that
  * strike each other taut in turn, a plastic impact each, come to that within a few events, and there they are
- * one impact. Links and rows are those of the state. */
+ * one impact. So do those at their full length in what strikes their bodies. Whether there were any. Links and rows are
+ * those of the state. */
 bool run_take_in_ropes(struct run *run);
 
 /* Has the step that ends at run->work.y been brought back so far that its method has to start anew? */
