@@ -111,24 +111,47 @@ static bool scale_to_17(double value, struct scaled *scaled, int *exponent)
     return false;
 }
 
+/* What is common to all: the sign, and numbers that are left to others. False for those. */
+static bool begin(struct scaled *scaled, int *exponent, double value)
+{
+    return value != 0 && isfinite(value) && scale_to_17(fabs(value), scaled, exponent);
+}
+
+/* Write a decimal of so many digits, 9.99... of which may have become 10. */
+static int write_rounded(char *buffer, bool minus, uint64_t decimal, int digits, uint64_t limit, int exponent)
+{
+    bool carried = decimal >= limit;
+    if (minus) *buffer++ = '-';
+    return minus + write_decimal(buffer, carried ? decimal / 10 : decimal, digits, exponent + carried);
+}
+
 int shortest_write(char buffer[shortest_size], double value)
 {
     const uint64_t least_mantissa = UINT64_C(1) << 52;
     struct scaled scaled;
-    int exponent, sign = value < 0;
-    double size = fabs(value);
+    int exponent;
     if (value == 0 && !signbit(value)) return write(buffer, "0", 1, 0);
-    if (value == 0 || !isfinite(value) || !scale_to_17(size, &scaled, &exponent)) return -1;
+    if (!begin(&scaled, &exponent, value)) return -1;
     if (scaled.m == least_mantissa) return -1; /* its neighbours are not equally far */
-    if (sign) *buffer = '-';
     wide step = 100;
     uint64_t limit = ten_to_16 / 10;
     for (int digits = most_digits - 2; digits <= most_digits; digits++, step /= 10, limit *= 10) {
         uint64_t decimal = round_to(&scaled, step);
-        if (digits < most_digits && !reads_back(&scaled, decimal, step)) continue;
-        bool carried = decimal >= limit; /* 9.99... became 10 */
-        return sign +
-               write_decimal(buffer + sign, carried ? decimal / 10 : decimal, digits, exponent + carried);
+        if (digits == most_digits || reads_back(&scaled, decimal, step))
+            return write_rounded(buffer, value < 0, decimal, digits, limit, exponent);
     }
     return -1;
+}
+
+int rounded_write(char buffer[shortest_size], double value, int digits)
+{
+    struct scaled scaled;
+    int exponent;
+    if (digits < 1 || digits > most_digits) return -1;
+    if (value == 0 && !signbit(value)) return write(buffer, "0", 1, 0);
+    if (!begin(&scaled, &exponent, value)) return -1;
+    wide step = 1;
+    uint64_t limit = 10 * ten_to_16;
+    for (int i = digits; i < most_digits; i++, limit /= 10) step *= 10;
+    return write_rounded(buffer, value < 0, round_to(&scaled, step), digits, limit, exponent);
 }

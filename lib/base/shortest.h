@@ -17,4 +17,7 @@ enum { shortest_size = 32 };
  * length, or -1 for a number that is left to others. */
 int shortest_write(char buffer[shortest_size], double value);
 
+/* Write what %.*g with so many digits writes in the C locale. Returns its length, or -1 as above. */
+int rounded_write(char buffer[shortest_size], double value, int digits);
+
 #endif

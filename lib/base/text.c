@@ -2,6 +2,7 @@
 #include "base/text.h"
 
 #include "base/format.h"
+#include "base/shortest.h"
 #include "base/utf8.h"
 
 #include <math.h>
@@ -79,7 +80,9 @@ void text_number(struct text *text, double value, int digits)
 {
     char buffer[64];
     double shown = value == 0 ? 0.0 : value; /* -0 and 0 read the same */
-    if (format_into(buffer, sizeof buffer, "%.*g", digits, shown) < 0) return;
+    if (rounded_write(buffer, shown, digits) < 0 &&
+        format_into(buffer, sizeof buffer, "%.*g", digits, shown) < 0)
+        return;
     text->odd |= !isfinite(value);
     text_add(text, buffer);
 }

@@ -7,6 +7,7 @@
 #include <float.h>
 #include <locale.h>
 #include <stdio.h>
+#include <stdlib.h>
 
 #include "random_numbers.h"
 
@@ -78,6 +79,24 @@ static void random_doubles_survive_printing_and_reading(void **state)
     }
 }
 
+static void short_numbers_are_those_of_strtod(void **state)
+{
+    (void)state;
+    struct random_numbers numbers = {7};
+    for (int i = 0; i < 100000; i++) {
+        char text[64], whole[32];
+        double back = NAN;
+        uint64_t bits = random_bits(&numbers);
+        int length = 1 + (int)(bits % 17);
+        snprintf(whole, sizeof whole, "%0*llu", 17,
+                 (unsigned long long)(random_bits(&numbers) % 100000000000000000));
+        snprintf(text, sizeof text, "%.*s.%.*se%d", length / 2, whole, length - length / 2,
+                 whole + length / 2, (int)(bits / 17 % 61) - 30);
+        assert_true(expr_number(text, strlen(text), &back));
+        if (back != strtod(text, NULL)) fail_msg("%s gave %.17g", text, back);
+    }
+}
+
 static void what_is_no_yaml_number_is_no_number(void **state)
 {
     (void)state;
@@ -114,6 +133,7 @@ int main(void)
         cmocka_unit_test(numbers_are_rounded_correctly),
         cmocka_unit_test(a_digit_beyond_all_that_are_kept_still_decides_a_tie),
         cmocka_unit_test(random_doubles_survive_printing_and_reading),
+        cmocka_unit_test(short_numbers_are_those_of_strtod),
         cmocka_unit_test(what_is_no_yaml_number_is_no_number),
         cmocka_unit_test(numbers_do_not_depend_on_the_locale),
     };

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * The shortest decimals by integers are those that printf and strtod find by trying.
+ * The shortest decimals by integers are those that printf and strtod find by trying, and rounded ones those of printf.
  */
 #include <math.h>
 #include <setjmp.h>
@@ -26,9 +26,22 @@ static void by_trying(char *buffer, size_t size, double value)
     }
 }
 
+static void check_rounded(double value)
+{
+    for (int digits = 1; digits <= 17; digits++) {
+        char quick[shortest_size], slow[64];
+        int length = rounded_write(quick, value, digits);
+        if (length < 0) continue;
+        snprintf(slow, sizeof slow, "%.*g", digits, value);
+        assert_string_equal(quick, slow);
+        assert_int_equal(length, strlen(slow));
+    }
+}
+
 /* False where the number is left to others. */
 static bool check(double value)
 {
+    check_rounded(value);
     char quick[shortest_size], slow[64];
     int length = shortest_write(quick, value);
     if (length < 0) return false;
@@ -71,6 +84,9 @@ static void numbers_that_are_special(void **state)
         for (size_t i = 0; i < sizeof special / sizeof *special; i++) check(special[i]);
     }
     assert_true(check(0.0));
+    char buffer[shortest_size];
+    assert_true(rounded_write(buffer, 1.0 / 3, 6) > 0 && rounded_write(buffer, -2.5, 1) > 0);
+    assert_true(rounded_write(buffer, 1.0, 0) < 0 && rounded_write(buffer, 1.0, 18) < 0);
     assert_false(check(-0.0) || check(HUGE_VAL) || check(NAN) || check(5e-324) || check(1.7e308));
 }
 
