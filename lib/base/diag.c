@@ -3,6 +3,7 @@
 
 #include "base/format.h"
 #include "base/utf8.h"
+#include "base/zeroed.h"
 
 #include <stdarg.h>
 #include <stdlib.h>
@@ -12,7 +13,7 @@ enum { most_notes = 200 }; /* a file with more faults than this is not a model f
 
 fbd_errors *fbd_errors_new(void)
 {
-    fbd_errors *errors = calloc(1, sizeof *errors);
+    fbd_errors *errors = zeroed(sizeof *errors);
     if (errors) errors->limit = most_notes;
     return errors;
 }

@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "base/zeroed.h"
 #include "dynamics/diagram.h"
 #include "dynamics/energy.h"
 #include "dynamics/friction.h"
@@ -80,13 +81,16 @@ static bool note_arrow(const struct fbd_model *model, const struct model_body *b
     struct pos at = place_of(model, body, arrow);
     const char *on = body->name, *name = arrow->name;
     const double force[] = {arrow->force.x, arrow->force.y};
+    const double moments[] = {arrow->couple, arrow_moment(arrow, G)};
+    double sum = force[0] + force[1] + moments[0] + moments[1] + arrow->power;
+    for (int k = 0; k < body->count; k++) sum += arrow->share[k];
+    if (isfinite(sum)) return false; /* mostly, and then so are all */
     const char *toward = arrow->load >= 0 ? model->loads[arrow->load].source->toward : NULL;
     if (toward && not_finite_note(found, force[0], at,
                                   "the force `%s` on `%s`, which has no direction where "
                                   "it acts at the point that it is directed to (%s),",
                                   name, on, toward))
         return true;
-    const double moments[] = {arrow->couple, arrow_moment(arrow, G)};
     const char *singular = arrow->load >= 0 ? load_law(model->loads[arrow->load].source)->singular : NULL;
     if (singular && (not_finite_note(found, force[0], at, "`%s` on `%s`, %s,", name, on, singular) ||
                      not_finite_note(found, moments[0], at, "`%s` on `%s`, %s,", name, on, singular)))
@@ -164,7 +168,7 @@ static bool note_limits(const struct fbd_state *state, struct not_finite *found)
 
 enum finite finite_check(const struct fbd_state *state, struct not_finite *found)
 {
-    struct arrow *arrows = calloc(diagram_most_arrows(state->model), sizeof *arrows);
+    struct arrow *arrows = zeroed(diagram_most_arrows(state->model) * sizeof *arrows);
     if (!arrows) return finite_no_memory;
     struct not_finite unused; /* mostly all are finite, and no order is asked for */
     bool fine = !note_arrows(state, arrows, all_arrows, &unused);

@@ -69,6 +69,16 @@ static struct operand quantity_operand(const struct quantity *quantity)
     return result;
 }
 
+/* ---- a number and nothing else */
+
+/* One beyond all numbers is left to the parser, and its message. */
+static bool read_number(struct span span, struct operand *whole)
+{
+    if (span.length == 0 || number_length(span.text, span.length) != span.length) return false;
+    *whole = build_constant(number_value(span.text, span.length), (struct kind){.free = true}, span.at);
+    return isfinite(whole->value);
+}
+
 /* ---- a quantity of the wrong dimension */
 
 /* `4 N*t` is 4 newton times tonnes; who means the variable t writes `4[N]*t`. NULL when no name of the unit
@@ -205,7 +215,10 @@ static struct expr *compile_span(struct arena *arena, struct span span, const st
     }
     bool is_quantity = read_quantity(span, scope->units, &quantity);
     lex_start(&parser.lexer, span.text, span.length, span.at, errors);
-    whole = is_quantity ? quantity_operand(&quantity) : parse_all(&parser);
+    if (is_quantity)
+        whole = quantity_operand(&quantity);
+    else if (!read_number(span, &whole))
+        whole = parse_all(&parser);
     struct expr *expr = NULL;
     if (builder.scratch.failed) {
         diag_out_of_memory(errors);

@@ -71,6 +71,7 @@ static void take(const struct instr *instr, bool jumps, enum expr_degree *degree
 enum expr_degree expr_degree(const struct expr *expr)
 {
     enum expr_degree degree[frame_limit];
+    if (expr_is_constant(expr)) return expr_constant_between;
     bool jumps = begin(expr, INT_MAX, degree);
     for (size_t i = 0; i < expr->operations; i++) {
         const struct instr *instr = &expr->code[i];

@@ -39,6 +39,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/zeroed.h"
 #include "integrate/dop853.h"
 #include "integrate/linear.h"
 #include "integrate/nystrom.h"
@@ -94,7 +95,7 @@ struct dense *dense_alloc(const struct layout *layout)
     size_t n = layout->pairs, m = layout->extra, size = layout_size(layout);
     if (size > SIZE_MAX / 16 / sizeof(struct pair)) return NULL;
     size_t bytes = n * sizeof(struct pair) + m * sizeof(struct single) + 3 * size * sizeof(double);
-    struct dense *d = calloc(1, sizeof *d + bytes);
+    struct dense *d = zeroed(sizeof *d + bytes);
     if (!d) return NULL;
     d->pairs = n;
     d->extra = m;

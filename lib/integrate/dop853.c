@@ -8,6 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/zeroed.h"
 #include "integrate/dop853_table.h"
 
 enum { dense_terms = 8 };
@@ -41,7 +42,7 @@ static double *vector(struct dop853 *s, int index)
 static void *dop853_alloc(size_t n)
 {
     if (n > (SIZE_MAX - sizeof(struct dop853)) / (v_count * sizeof(double))) return NULL;
-    struct dop853 *s = calloc(1, sizeof *s + v_count * n * sizeof(double));
+    struct dop853 *s = zeroed(sizeof *s + v_count * n * sizeof(double));
     if (s) s->n = n;
     return s;
 }

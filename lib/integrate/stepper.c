@@ -8,6 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/zeroed.h"
 #include "integrate/dop853.h"
 #include "integrate/first_step.h"
 #include "integrate/linear.h"
@@ -35,7 +36,7 @@ static struct stepper *state_alloc(size_t n)
 {
     enum { vectors = 8 };
     if (n == 0 || n > (SIZE_MAX - sizeof(struct stepper)) / (vectors * sizeof(double))) return NULL;
-    struct stepper *s = calloc(1, sizeof *s + vectors * n * sizeof(double));
+    struct stepper *s = zeroed(sizeof *s + vectors * n * sizeof(double));
     if (!s) return NULL;
     s->n = n;
     s->y0 = s->memory;

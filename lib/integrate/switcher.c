@@ -7,6 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/zeroed.h"
 #include "integrate/stiffness.h"
 #include "integrate/weights.h"
 
@@ -36,7 +37,7 @@ static bool prepare_pair(struct switcher *s, const struct stepper_options *optio
 
 struct switcher *switcher_alloc(const struct stepper_options *options, const struct method *stiff)
 {
-    struct switcher *s = calloc(1, sizeof *s);
+    struct switcher *s = zeroed(sizeof *s);
     if (!s) return NULL;
     s->n = layout_size(&options->layout);
     s->methods[0] = options->method;

@@ -8,6 +8,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/zeroed.h"
+
 enum { most_tries = 500 };
 
 struct walk {
@@ -22,7 +24,7 @@ struct walk {
 struct walk *walk_alloc(size_t n)
 {
     if (n == 0 || n > SIZE_MAX / sizeof(double) / 4) return NULL;
-    struct walk *walk = calloc(1, sizeof *walk + 2 * n * sizeof(double));
+    struct walk *walk = zeroed(sizeof *walk + 2 * n * sizeof(double));
     if (walk) walk->n = n;
     return walk;
 }

@@ -8,6 +8,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/zeroed.h"
+
 struct weights {
     size_t pairs, size; /* of the layout: number of q, number of all components */
     double tolerance;
@@ -328,7 +330,7 @@ static struct weights *weights_state(const struct layout *layout)
 {
     size_t pairs = layout->pairs, size = layout_size(layout);
     if (size == 0 || size > (SIZE_MAX - sizeof(struct weights)) / (8 * sizeof(double))) return NULL;
-    struct weights *w = calloc(1, sizeof *w + (size + 9 * pairs) * sizeof(double));
+    struct weights *w = zeroed(sizeof *w + (size + 9 * pairs) * sizeof(double));
     if (!w) return NULL;
     w->pairs = pairs;
     w->size = size;

@@ -3,6 +3,8 @@
 
 #include <stdlib.h>
 
+#include "base/zeroed.h"
+
 /* ---- connected components by union and find: parent[b] leads to a body of the same group, the first one in
  * the end */
 
@@ -79,7 +81,8 @@ static void join_all(const struct scene *scene, int *parent, struct division *di
         else if (body->count == 0) /* has no motion of its own that could be integrated */
             join(parent, (int)b, 0);
         join_read(scene, parent, body->mass.expr, (int)b);
-        for (size_t i = 0; i < body->load_count; i++) join_load(scene, parent, &body->loads[i], (int)b);
+        for (size_t i = 0; scene->body_count > 1 && i < body->load_count; i++)
+            join_load(scene, parent, &body->loads[i], (int)b);
     }
     for (size_t b = 1; scene->own_count > 0 && b < scene->body_count; b++) join(parent, (int)b, 0);
     for (size_t i = 0; i < scene->event_count; i++) {
@@ -198,7 +201,7 @@ static bool allocate(struct division *division, const struct scene *scene, int *
            constraints = scene->constraint_count, absolutes = scene->absolute_count;
     size_t slots = 1 + scene_size(scene) + hand_slots + absolutes;
     size_t things = bodies + events + couplings + constraints + absolutes;
-    division->memory = calloc(3 * bodies + slots + 2 * things, sizeof *division->memory);
+    division->memory = zeroed((3 * bodies + slots + 2 * things) * sizeof *division->memory);
     if (!division->memory) return false;
     division->group_of_body = division->memory;
     division->group_of_event = division->group_of_body + bodies;
@@ -223,7 +226,7 @@ bool division_make(struct division *division, const struct fbd_model *model)
         *moved = next + bodies;
     join_all(scene, parent, division);
     division->count = number_groups(scene, parent, division);
-    division->selections = calloc(division->count + 1, sizeof *division->selections);
+    division->selections = zeroed((division->count + 1) * sizeof *division->selections);
     if (!division->selections) return false;
     sort_by_group(division, division->group_of_body, bodies, sorted, next, bodies_of);
     sort_by_group(division, division->group_of_event, events, sorted_events, next, events_of);

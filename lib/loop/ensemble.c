@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/zeroed.h"
 #include "dynamics/constraint.h"
 #include "rest/balance.h"
 
@@ -122,8 +123,8 @@ static bool make_groups(struct ensemble *ensemble)
         if (!division_make(&ensemble->division, ensemble->model)) return false;
         if (ensemble->division.count > 1) ensemble->count = ensemble->division.count;
     }
-    ensemble->groups = calloc(ensemble->count, sizeof *ensemble->groups);
-    ensemble->queue = calloc(2 * ensemble->count, sizeof *ensemble->queue);
+    ensemble->groups = zeroed(ensemble->count * sizeof *ensemble->groups);
+    ensemble->queue = zeroed(2 * ensemble->count * sizeof *ensemble->queue);
     if (!ensemble->groups || !ensemble->queue) return false;
     ensemble->due = ensemble->queue + ensemble->count;
     bool divided = ensemble->count > 1;
@@ -143,7 +144,7 @@ static bool make_groups(struct ensemble *ensemble)
 
 struct ensemble *ensemble_new(const struct fbd_model *model, const struct run_options *options)
 {
-    struct ensemble *ensemble = calloc(1, sizeof *ensemble);
+    struct ensemble *ensemble = zeroed(sizeof *ensemble);
     if (!ensemble) return NULL;
     ensemble->model = model;
     ensemble->options = *options;
@@ -151,7 +152,7 @@ struct ensemble *ensemble_new(const struct fbd_model *model, const struct run_op
     ensemble->from = ensemble->t = options->start ? options->start->t : 0;
     ensemble->next_told = HUGE_VAL;
     ensemble->state = state_new(model);
-    ensemble->arrows = calloc(diagram_most_arrows(model), sizeof *ensemble->arrows);
+    ensemble->arrows = zeroed(diagram_most_arrows(model) * sizeof *ensemble->arrows);
     if (!ensemble->state || !ensemble->arrows || !make_groups(ensemble)) {
         ensemble_free(ensemble);
         return NULL;

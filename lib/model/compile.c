@@ -289,8 +289,8 @@ static bool allocate(struct fbd_model *model)
                       scene->own_count + 3 * scene->body_count;
     model->plan.rates = ARENA_ARRAY(&model->arena, scene->own_count, struct formula);
     model->plan.watches = ARENA_ARRAY(&model->arena, scene->event_count, struct watch);
-    model->plan.kinks = ARENA_ARRAY(&model->arena, formulas, struct kink);
-    model->plan.poles = ARENA_ARRAY(&model->arena, formulas, struct pole);
+    model->plan.kinks = arena_take(&model->arena, formulas, sizeof(struct kink), false);
+    model->plan.poles = arena_take(&model->arena, formulas, sizeof(struct pole), false);
     return !model->arena.failed;
 }
 

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/zeroed.h"
 #include "dynamics/contact.h"
 #include "dynamics/finite.h"
 #include "dynamics/friction.h"
@@ -206,7 +207,7 @@ static bool is_free_to_move(struct fbd_state *state, struct fbd_state *other, st
 /* The forces account for the motion. */
 static bool is_balanced(struct fbd_state *state, struct lack *lack)
 {
-    struct arrow *arrows = calloc(diagram_most_arrows(state->model), sizeof *arrows);
+    struct arrow *arrows = zeroed(diagram_most_arrows(state->model) * sizeof *arrows);
     bool balanced = arrows && !balance_lack(state, arrows, &lack->text);
     if (arrows && !balanced) lack->id = "forces-unbalanced";
     free(arrows);
@@ -245,8 +246,10 @@ bool start_ready(struct fbd_state *state, struct fbd_state *other, const char *w
     *lack = (struct lack){0};
     if (state->holds.found == holds_no_memory) return false;
     if (!start_fits(state, other, settled, what, lack)) return false;
-    if (settled) state_project(state, false); /* what slips is not closed */
-    settled = modes_settle(state, NULL);
+    /* What slips is not closed; and where places have gone back, or branches are taken at speeds that are held. */
+    bool again = !settled || state->model->tree || state->model->plan.kink_count > 0;
+    if (settled) state_project(state, false);
+    if (again) settled = modes_settle(state, NULL);
     return start_finite(state, lack) && rubs_against_motion(state, lack) &&
            is_settled(state, settled, lack) && rests_on_surfaces(state, lack) && is_solved(state, lack) &&
            is_free_to_move(state, other, lack) && is_balanced(state, lack);

@@ -173,9 +173,7 @@ static void put_outcome(const struct ensemble *run, struct text *text)
                  run->refused->end.refusal_at.column, run->reason, run->refused->end.refusal);
     else if (run->refused)
         snprintf(reason, sizeof reason, "%s: %s [%s]", file, run->reason, run->refused->end.refusal);
-    else
-        snprintf(reason, sizeof reason, "%s", run->reason);
-    put_end(text, status_of(run->outcome), reason);
+    put_end(text, status_of(run->outcome), run->refused ? reason : run->reason);
 }
 
 static enum row_end put_run(struct row_maker *maker, struct ensemble *run, struct ledger *ledger,
@@ -192,7 +190,8 @@ static enum row_end put_run(struct row_maker *maker, struct ensemble *run, struc
     }
     const struct observed observed = {run, ledger, maker->extremes};
     columns_put(columns, &observed, text);
-    text_printf(text, ",%zu", run->event_count);
+    text_add(text, ",");
+    text_exact(text, (double)run->event_count);
     put_outcome(run, text);
     return run->outcome == FBD_DONE || run->outcome == FBD_STOPPED ? row_well : row_failed;
 }
