@@ -37,7 +37,9 @@ double slip_velocity(const struct fbd_model *model, int pair, const struct insta
 double settling_velocity(const struct fbd_state *state, const struct decided *decided, int pair)
 {
     struct instant at = state_instant(state);
-    if (decided && state->slip[pair] == stick && state->model->plan.modes[pair].kind != mode_single) return 0;
+    if (decided && (state->slip[pair] == stick || state->slip_rests[pair]) &&
+        state->model->plan.modes[pair].kind != mode_single)
+        return 0;
     return slip_velocity(state->model, pair, &at);
 }
 
@@ -259,9 +261,17 @@ static bool settle(struct fbd_state *state, const struct decided *decided)
     return false;
 }
 
+/* What begins to slip here was at rest, and is: rounding would have it slip already, perhaps to the other side. */
+static void note_rests(struct fbd_state *state)
+{
+    for (size_t pair = 0; pair < state->model->plan.mode_count; pair++)
+        state->slip_rests[pair] = state->slip[pair] == stick;
+}
+
 bool modes_settle(struct fbd_state *state, const struct decided *decided)
 {
     struct sliding *sliding = state->sliding;
+    note_rests(state);
     if (!sliding) return settle(state, decided);
     memset(sliding->aside, 0, state->model->plan.mode_count * sizeof *sliding->aside);
     for (int i = 0; i < state->model->plan.branches; i++)

@@ -31,7 +31,7 @@ static struct fbd_state *allocate(const struct fbd_model *model)
     size_t rates = plan_rates(plan), extended = extended_size(model);
     size_t extra = model->absolute_count > 0 ? 2 * extended : 0;
     size_t doubles = extended + rates + (size_t)plan->slots + scratch_size(plan) + extra;
-    size_t ints = 2 * (size_t)plan->branches + 7 * plan->mode_count;
+    size_t ints = 2 * (size_t)plan->branches + 8 * plan->mode_count;
     size_t tree = model->tree ? sizeof(struct tree_work) + tree_work_size(model) : 0;
     size_t sliding = plan->slide_count > 0 ? sizeof(struct sliding) + sliding_size(model) : 0;
     struct fbd_state *state =
@@ -62,6 +62,7 @@ static struct fbd_state *allocate(const struct fbd_model *model)
     state->slip_forced = state->slip_before + plan->mode_count;
     state->slip_barely = state->slip_forced + plan->mode_count;
     state->slip_idle = state->slip_barely + plan->mode_count;
+    state->slip_rests = state->slip_idle + plan->mode_count;
     for (size_t i = 0; i < plan->mode_count; i++) state->pull[i] = 1;
     return state;
 }

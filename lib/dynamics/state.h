@@ -35,6 +35,7 @@ struct fbd_state {
     int *branch_before;                           /* scratch for settling: plan.branches */
     int *slip_before, *slip_forced, *slip_barely; /* and plan.mode_count each */
     int *slip_idle;          /* and: the side on which friction slips that has no force in any of its modes */
+    int *slip_rests;         /* and: friction that was at rest when the settling of a run began */
     int *slip_driven;        /* and: the side on which drives alone make it slip, 0 where forces do */
     double *scratch;         /* see struct scratch */
     double *extended;        /* scratch of absolute.h */
