@@ -119,23 +119,32 @@ static double least_impulse(const struct run *run, int count, double moment)
     return least;
 }
 
+/* Impulses and velocities of a jam, and which impulses are none; below zero where there is no jam. One that ends a slow slip
+ * beside a fast one has small impulses, which a moment that is short against the fast one would hide. */
+static double find_jam(struct run *run, int count)
+{
+    enum { shorter = 32, most_moments = 3 };
+    double moment = short_moment(run, count);
+    for (int k = 0; k < most_moments && moment > 0; k++, moment /= shorter) {
+        run->contacts.plastic = true;
+        bool solved = solve_jam(run, count, moment);
+        run->contacts.plastic = false;
+        double least = solved ? least_impulse(run, count, moment) : 0;
+        for (size_t i = 0; solved && i < (size_t)count; i++)
+            if (run->contacts.P[2 * i] > least) return least;
+    }
+    return -1;
+}
+
 bool run_jam(struct run *run)
 {
     struct contacts_work *work = &run->contacts;
-    bool any = false;
     if (!run->model->tree || run->model->tree->meeting_count == 0) return false;
     impulse_look(run->state);
     int count = contacts_find_strikers(run);
     let_go(run, count);
-    double moment = short_moment(run, count);
-    if (moment == 0) return false;
-    work->plastic = true;
-    bool solved = solve_jam(run, count, moment);
-    work->plastic = false;
-    if (!solved) return false;
-    double least = least_impulse(run, count, moment);
-    for (size_t i = 0; i < (size_t)count; i++) any |= work->P[2 * i] > least;
-    if (!any) return false;
+    double least = find_jam(run, count);
+    if (least < 0) return false;
     contacts_find_strikers(run); /* with the velocities before */
     contacts_apply_impulses(run, count);
     for (size_t i = 0; i < (size_t)count; i++) note_jam(run, (int)i, work->P[2 * i] > least);
