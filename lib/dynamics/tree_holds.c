@@ -98,11 +98,15 @@ static void set_pull(struct fbd_state *state, int pair, double N)
 
 /* Where a corner touches two surfaces, what one of them holds by friction the other one presses: how much each of them
  * takes is open, and what is found has one at its limit that does not move. Then it slips, by nothing. Of two surfaces
- * that press at nearly the same place one may have no force, and open by next to nothing. */
+ * that press at nearly the same place one may have no force, and open by next to nothing. And what slips by rounding may
+ * as well keep still: keeps_still. */
 static int barely_holds(const struct gathered *all, size_t i)
 {
     const double rounding = 1e-9;
     const struct hold *hold = &all->problem.holds[i];
+    bool slips = hold->kind == hold_friction && hold->slip == 0 && hold->mode != hold_keeps;
+    if (slips && !holds_is_on_open(&all->problem, hold) && holds_is_still(&all->problem, i, rounding))
+        return keeps_still;
     if (hold->slip != 0 || hold->mode != hold_keeps) return 0;
     if (hold->kind == hold_one_sided) {
         double most = 0;
@@ -322,6 +326,22 @@ static int surface_under(const struct fbd_state *state, int pair)
     return state->model->tree->ties[mode_of(state, pair)->tie].surface;
 }
 
+/* Look at what has been solved. What slips by rounding and contradicts that keeps still: beside what sticks along the same
+ * line it has no motion of its own. */
+static enum agreement look_at_solved(struct fbd_state *state, const struct decided *decided, int *forced)
+{
+    enum agreement found = look(state, decided, forced, true);
+    for (size_t k = 0; k < state->model->plan.mode_count && found == differs; k++) {
+        int pair = state->holds.contradicts;
+        if (pair < 0 || state->slip_barely[pair] != keeps_still) break;
+        state->slip_barely[pair] = 0;
+        state->slip[pair] = stick;
+        state->holds.contradicts = -1;
+        found = look(state, decided, forced, true);
+    }
+    return found;
+}
+
 /* Solve, and let rates decide what is at its limit, one after the other. False where the forces do not agree
  * with what was solved. */
 static bool decide(struct fbd_state *state, const struct decided *decided, int *forced)
@@ -330,13 +350,13 @@ static bool decide(struct fbd_state *state, const struct decided *decided, int *
     for (int round = 0; round <= count; round++) {
         memset(barely, 0, (size_t)count * sizeof *barely);
         if (solve(state, decided, forced, barely) >= holds_none) return false;
-        enum agreement found = look(state, decided, forced, true);
+        enum agreement found = look_at_solved(state, decided, forced);
         if (found == agrees) return true;
         bool more = found == at_limit;
         int on = found == differs ? surface_under(state, state->holds.contradicts) : -1;
         for (int pair = 0; pair < count && found == differs; pair++) {
             bool contradicts = pair == state->holds.contradicts || pair == on;
-            if (barely[pair] == 0 || (mode_is_one_sided(mode_of(state, pair)) && !contradicts)) continue;
+            if (barely[pair] == 0 || barely[pair] == keeps_still || (mode_is_one_sided(mode_of(state, pair)) && !contradicts)) continue;
             forced[pair] = state->slip[pair] = barely[pair];
             more = true;
         }
