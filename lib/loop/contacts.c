@@ -32,12 +32,13 @@ static bool meetings_init(struct contacts_work *work, const struct fbd_model *mo
     size_t ties = (size_t)tree->tie_count, meetings = (size_t)tree->meeting_count;
     if (!has_meetings(model)) return true;
     work->bounces = ARENA_ARRAY(memory, meetings, struct bounces);
-    work->was_closed = ARENA_ARRAY(memory, 2 * ties, bool);
+    work->was_closed = ARENA_ARRAY(memory, 3 * ties, bool);
     work->asleep = ARENA_ARRAY(memory, meetings, bool);
     work->deep = ARENA_ARRAY(memory, meetings, double);
     work->trial = state_new(model);
     if (memory->failed || !work->trial) return false;
     work->touching = work->was_closed + ties;
+    work->moves = work->touching + ties;
     for (size_t i = 0; i < meetings; i++)
         work->bounces[i] = (struct bounces){.feature = -1, .rests_from = HUGE_VAL};
     return true;

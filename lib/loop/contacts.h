@@ -68,6 +68,7 @@ struct contacts_work {
     bool *asleep;            /* of each meeting: too far apart for the step */
     double *deep;   /* of each meeting: how deep it was left open, at a corner that another side is next to */
     bool *touching; /* of each tie: scratch */
+    bool *moves;    /* and: for put_down.c */
     bool *was_closed; /* of each tie, when it was looked at last */
     struct fbd_state *trial;
     double speed; /* the largest of what has touched so far */

@@ -81,6 +81,41 @@ static double way_since(const struct run *run, const struct tree_work *before)
     return way;
 }
 
+/* Is anything that touches deeper than what counts as touching? */
+static bool is_deep(const struct run *run)
+{
+    const struct tree *tree = tree_of(run);
+    bool deep = false;
+    for (int i = 0; i < tree->tie_count; i++) {
+        const struct tie *tie = &tree->ties[i];
+        if (tie->kind != constraint_contact || run->state->slip[tie->surface] != stick) continue;
+        deep |= run->state->tree->rows[tie->first_row].g.x < -meeting_near(run->model, run->state->tree, tie->meeting);
+    }
+    return deep;
+}
+
+/* Where what sticks does not let all that touches lie on what it touches, it goes along its surface by as little: its place
+ * there is no better known. */
+static void move_along(struct run *run)
+{
+    const struct tree *tree = tree_of(run);
+    struct fbd_state *state = run->state;
+    bool *moves = run->contacts.moves;
+    for (int i = 0; i < tree->tie_count; i++) {
+        const struct tie *tie = &tree->ties[i];
+        moves[i] = tie->kind == constraint_contact && tie->pair >= 0 && state->slip[tie->surface] == stick &&
+                   state->slip[tie->pair] == stick;
+        if (moves[i]) state->slip[tie->pair] = slip_plus;
+    }
+    state_project_position(state);
+    impulse_look(state);
+    for (int i = 0; i < tree->tie_count; i++) {
+        if (!moves[i]) continue;
+        tie_rezero(run->model, state->tree, i);
+        state->slip[tree->ties[i].pair] = stick;
+    }
+}
+
 /* Move shapes onto what they touch, and their speeds with `all`. False, with the state as it was, when that takes any of
  * them far, as what leans flat against something while the feet of both stick. */
 static bool move_a_little(struct run *run, bool all)
@@ -91,10 +126,10 @@ static bool move_a_little(struct run *run, bool all)
         near = fmax(near, meeting_near(run->model, state->tree, i));
     state_copy(before, state);
     impulse_look(before);
-    if (all)
-        state_project(state, false);
-    else
-        state_project_position(state);
+    state_project_position(state);
+    impulse_look(state);
+    if (is_deep(run)) move_along(run);
+    if (all) state_project_velocity(state, false);
     impulse_look(state);
     bool little = way_since(run, before->tree) <= levers * wide * near;
     if (!little) memcpy(state->y, before->y, plan_size(&run->model->plan) * sizeof *state->y);
