@@ -132,7 +132,10 @@ static bool move_a_little(struct run *run, bool all)
     if (all) state_project_velocity(state, false);
     impulse_look(state);
     bool little = way_since(run, before->tree) <= levers * wide * near;
-    if (!little) memcpy(state->y, before->y, plan_size(&run->model->plan) * sizeof *state->y);
+    if (!little) {
+        state_copy(state, before);
+        impulse_look(state);
+    }
     return little;
 }
 
@@ -200,20 +203,30 @@ int contacts_settle_down(struct run *run, int strikers)
     return count;
 }
 
-bool contacts_lift_others(struct run *run)
+/* Have the features that touch of what is deeper than touching, by no more than what is put down moves others. */
+static bool find_deep(struct run *run)
 {
-    const struct tree *tree = tree_of(run);
     struct fbd_state *state = run->state;
     const struct instant at = state_instant(state);
-    bool *was_touching = run->contacts.touching, any = false;
-    for (int i = 0; i < tree->tie_count; i++) was_touching[i] = state->tree->ties[i].feature != no_feature;
-    for (int i = 0; i < tree->meeting_count; i++) {
+    bool any = false;
+    for (int i = 0; i < tree_of(run)->meeting_count; i++) {
         double near = meeting_near(run->model, state->tree, i), deep = meeting_depth(run->model, &at, i);
         if (!(deep > near && deep < levers * wide * near)) continue;
         contacts_find_touching(run, i, fmax(wide * near, 1.001 * deep));
         any = true;
     }
-    any = any && move_a_little(run, false);
+    return any;
+}
+
+/* What is lifted out may be moved into others, which are lifted out with it. */
+bool contacts_lift_others(struct run *run)
+{
+    enum { most_rounds = 8 };
+    const struct tree *tree = tree_of(run);
+    bool *was_touching = run->contacts.touching, any = false;
+    for (int i = 0; i < tree->tie_count; i++)
+        was_touching[i] = run->state->tree->ties[i].feature != no_feature;
+    for (int round = 0; round < most_rounds && find_deep(run) && move_a_little(run, false); round++) any = true;
     open_others(run, was_touching);
     return any;
 }
