@@ -356,7 +356,9 @@ static bool decide(struct fbd_state *state, const struct decided *decided, int *
         int on = found == differs ? surface_under(state, state->holds.contradicts) : -1;
         for (int pair = 0; pair < count && found == differs; pair++) {
             bool contradicts = pair == state->holds.contradicts || pair == on;
-            if (barely[pair] == 0 || barely[pair] == keeps_still || (mode_is_one_sided(mode_of(state, pair)) && !contradicts)) continue;
+            if (barely[pair] == 0 || barely[pair] == keeps_still ||
+                (mode_is_one_sided(mode_of(state, pair)) && !contradicts))
+                continue;
             forced[pair] = state->slip[pair] = barely[pair];
             more = true;
         }

@@ -89,7 +89,8 @@ static bool is_deep(const struct run *run)
     for (int i = 0; i < tree->tie_count; i++) {
         const struct tie *tie = &tree->ties[i];
         if (tie->kind != constraint_contact || run->state->slip[tie->surface] != stick) continue;
-        deep |= run->state->tree->rows[tie->first_row].g.x < -meeting_near(run->model, run->state->tree, tie->meeting);
+        deep |= run->state->tree->rows[tie->first_row].g.x <
+                -meeting_near(run->model, run->state->tree, tie->meeting);
     }
     return deep;
 }
@@ -226,7 +227,8 @@ bool contacts_lift_others(struct run *run)
     bool *was_touching = run->contacts.touching, any = false;
     for (int i = 0; i < tree->tie_count; i++)
         was_touching[i] = run->state->tree->ties[i].feature != no_feature;
-    for (int round = 0; round < most_rounds && find_deep(run) && move_a_little(run, false); round++) any = true;
+    for (int round = 0; round < most_rounds && find_deep(run) && move_a_little(run, false); round++)
+        any = true;
     open_others(run, was_touching);
     return any;
 }
