@@ -29,14 +29,25 @@ static void factor_tree(struct fbd_state *state)
     tree_factor(tree, work);
 }
 
-/* What holds on one side only holds nothing. */
-static void let_go(const struct fbd_model *model, int *modes)
+static bool is_asked_for(const struct impulse_lines *lines, int row)
+{
+    for (int i = 0; i < lines->row_count; i++)
+        if (lines->rows[i] == row) return true;
+    return false;
+}
+
+/* What holds on one side only holds nothing. What rolls without a limit does so on. */
+static void let_go(const struct fbd_model *model, const struct impulse_lines *lines, int *modes)
 {
     for (size_t i = 0; i < model->plan.mode_count; i++) {
         const struct mode *mode = &model->plan.modes[i];
-        bool rolls = mode->tie >= 0 && model->tree->ties[mode->tie].meeting < 0;
-        bool one_sided = mode->kind == mode_rope || mode->kind == mode_contact;
-        if (one_sided || (mode_is_friction(mode) && !rolls)) modes[i] = slip_plus;
+        const struct tie *tie = mode->tie >= 0 ? &model->tree->ties[mode->tie] : NULL;
+        bool surface = mode->kind == mode_surface && tie_takes_blows(tie);
+        bool couples = tie && tie->meeting < 0 && !tie_takes_blows(tie);
+        if (mode->kind == mode_rope || mode->kind == mode_contact || (mode_is_friction(mode) && !couples))
+            modes[i] = slip_plus;
+        else if (surface && modes[i] == stick)
+            modes[i] = tie->pair >= 0 || is_asked_for(lines, tie->first_row + 1) ? slip_plus : loose;
     }
 }
 
@@ -88,7 +99,7 @@ void impulse_answers(struct fbd_state *state, const struct impulse_lines *lines,
     struct instant at = state_instant(state);
     factor_tree(state);
     memcpy(modes, state->slip, model->plan.mode_count * sizeof *modes);
-    let_go(model, modes);
+    let_go(model, lines, modes);
     at.slip = modes;
     work->projecting = true;
     work->damping = exact;

@@ -3,7 +3,7 @@
  * What impulses do: the velocities that unit impulses along rows of one-sided ties give to all bodies,
  * through every joint and every coupling that holds both ways.
  *
- * Contacts and ropes are no part of what holds: their impulses are what is asked about. So are those of dry
+ * Contacts, ropes and what rolls or follows a cam are no part of what holds: their impulses are what is asked about. So are those of dry
  * friction on slides, which go with the impulses across their guides. A bearing whose friction is a moment
  * has none.
  */

@@ -280,18 +280,9 @@ bool state_is_fixed(struct fbd_state *state)
     return independent == plan->n;
 }
 
-/* What the impulses of the rows take: each is between a velocity along its row and none. */
-static double taken_by_rows(const struct place *place)
+bool state_project_velocity(struct fbd_state *state, bool assemble)
 {
-    double taken = 0;
-    for (int j = 0; j < place->model->tree->row_count; j++)
-        taken -= place->at.tree->z[j] * place->at.tree->rows[j].g.x1 / 2;
-    return taken;
-}
-
-/* `taken` may be NULL. */
-static bool project_velocity(struct fbd_state *state, bool assemble, double *taken)
-{
+    if (!has_ties(state->model)) return true;
     struct place place = place_of(state, assemble);
     prepare(&place);
     double speed = speed_of(&place);
@@ -301,24 +292,11 @@ static bool project_velocity(struct fbd_state *state, bool assemble, double *tak
         if (misfit_of(&place).velocity == 0) break;
         factor(&place, least_damping);
         move(&place, true, 1);
-        if (taken) *taken += taken_by_rows(&place);
     }
     prepare(&place);
     bool there = misfit_of(&place).velocity <= 1e-9 * fmax(speed, speed_of(&place));
     release(&place);
     return there;
-}
-
-bool state_project_velocity(struct fbd_state *state, bool assemble)
-{
-    return !has_ties(state->model) || project_velocity(state, assemble, NULL);
-}
-
-double state_strike(struct fbd_state *state)
-{
-    double taken = 0;
-    if (has_ties(state->model)) project_velocity(state, false, &taken);
-    return taken;
 }
 
 static bool project_position(struct fbd_state *state, const struct place *place)

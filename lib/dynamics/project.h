@@ -53,7 +53,4 @@ void return_to_constraints(const struct fbd_model *model, const struct instant *
 /* The state's velocities alone. */
 bool state_project_velocity(struct fbd_state *state, bool assemble);
 
-/* The same as the plastic impact of rows that have just closed: returns the work that their impulses take. */
-double state_strike(struct fbd_state *state);
-
 #endif

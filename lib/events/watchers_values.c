@@ -352,7 +352,7 @@ static void calm_beginning(struct watchers *watchers, const struct fbd_state *st
 {
     const double band = 1e-13, least = 1e-14, instant = 1e-9;
     const struct instant at = state_instant(state);
-    if (state->slip[pair] == stick || !mode_is_joint_friction(&state->model->plan.modes[pair])) return;
+    if (state->slip[pair] == stick || !mode_is_friction(&state->model->plan.modes[pair])) return;
     double v = fabs(slip_velocity(state->model, (int)pair, &at)), *fast = &watchers->fast[pair];
     *fast = fmax(*fast, v);
     if (v == 0) *fast = fmax(*fast, speed_to_come(state, (int)pair));

@@ -99,9 +99,10 @@ static double sum_of_intervals(const struct bounces *bounces)
  * 76, 2011). Their heights are below the rounding of places, and rest is a motion, too: after so many, at rest. Of an
  * impact that leaves nothing, plastic ones for example, the speed that it took tells what is to be seen: those of a disc
  * that comes and goes are far apart, and no series. */
+enum { many = 20 };
+
 static bool is_crowd(struct bounces *bounces, double speed, double unseen)
 {
-    enum { many = 20 };
     double interval = bounces->t[0] - bounces->t[1];
     bool seen = bounces->count < 2 || speed * interval > unseen;
     bounces->unseen = seen ? 0 : bounces->unseen + 1;
@@ -140,13 +141,13 @@ static double leaving_speed(const struct run *run, int meeting, int count)
 
 /* ---- ropes that are let go by what strikes a surface, and throw it up again when they get taut */
 
-/* The largest speed with which ropes are let go by the last impact. */
+/* The largest speed with which ropes, and surfaces of what does not bounce, are let go by the last impact. */
 static double slackening_speed(const struct run *run, int count)
 {
     const struct contacts_work *work = &run->contacts;
     double most = 0;
     for (int i = 0; i < count; i++)
-        if (work->strikers[i].rope) most = fmax(most, work->v[(ptrdiff_t)2 * i]);
+        if (!work->strikers[i].contact) most = fmax(most, work->v[(ptrdiff_t)2 * i]);
     return most;
 }
 
@@ -186,7 +187,8 @@ static void keep_ropes(struct run *run, const struct bounces *bounces, double un
     struct contacts_work *work = &run->contacts;
     double interval = bounces->t[0] - bounces->t[1];
     for (int i = 0; i < count; i++)
-        work->strikers[i].stays |= work->strikers[i].rope && work->v[(ptrdiff_t)2 * i] * interval <= unseen;
+        work->strikers[i].stays |=
+            !work->strikers[i].contact && work->v[(ptrdiff_t)2 * i] * interval <= unseen;
 }
 
 /* The end of such a series, once ropes are let go by no more than nobody sees; they are kept then. */
@@ -195,7 +197,7 @@ static double end_of_tugs(struct run *run, const struct bounces *bounces, double
     double leaving = slackening_speed(run, count), end = end_of_returns(bounces);
     if (leaving == 0 || leaving * (bounces->returned[0] - bounces->returned[1]) > unseen) return HUGE_VAL;
     for (int i = 0; i < count && end < HUGE_VAL; i++)
-        run->contacts.strikers[i].stays = run->contacts.strikers[i].rope;
+        run->contacts.strikers[i].stays = !run->contacts.strikers[i].contact;
     return end;
 }
 
@@ -205,7 +207,7 @@ static bool any_leaves(const struct run *run, int i, int count)
     const struct contacts_work *work = &run->contacts;
     const double *v = work->v;
     for (int k = 0; k < count; k++, v += 2)
-        if (!work->strikers[k].rope && *v > -leaving_rounding * work->strikers[i].v_n) return true;
+        if (work->strikers[k].contact && *v > -leaving_rounding * work->strikers[i].v_n) return true;
     return false;
 }
 
@@ -253,7 +255,7 @@ bool contacts_end_bounces(struct run *run, int count)
     run->contacts.struck = count;
     for (int i = 0; i < count; i++) {
         const struct striker *striker = &run->contacts.strikers[i];
-        if (striker->rope || striker->v_n >= 0) continue;
+        if (!striker->contact || striker->v_n >= 0) continue;
         int index = tree_of(run)->ties[striker->tie].meeting;
         const struct bounces *bounces = &run->contacts.bounces[index];
         if (bounces->count > 0 && bounces->t[0] == run->state->t)
@@ -269,7 +271,7 @@ bool contacts_end_bounces(struct run *run, int count)
 /* Friction -mu p sign(v_t) of what slips; what sticks does so by another row. */
 static double rubbing(const struct contacts_work *work, int i)
 {
-    if (work->strikers[i].rope) return 0;
+    if (!work->strikers[i].rubs) return 0;
     double v_t = work->v[(ptrdiff_t)2 * i + 1];
     return v_t > 0 ? -work->points[i].mu : v_t < 0 ? work->points[i].mu : 0;
 }
@@ -277,7 +279,7 @@ static double rubbing(const struct contacts_work *work, int i)
 static bool leaves_for_the_last_time(const struct run *run, int i)
 {
     const struct contacts_work *work = &run->contacts;
-    if (work->strikers[i].rope) return work->strikers[i].stays; /* also with those that are not let go */
+    if (!work->strikers[i].contact) return work->strikers[i].stays; /* also with those that are not let go */
     if (!(work->v[(ptrdiff_t)2 * i] > 0)) return false;
     return work->bounces[tree_of(run)->ties[work->strikers[i].tie].meeting].rests_from < HUGE_VAL;
 }
@@ -310,6 +312,15 @@ void contacts_take_leaving_speeds(struct run *run, int count)
     free(which);
 }
 
+/* Within what nobody sees whether it is let go. */
+static double unseen_of(const struct run *run, const struct striker *striker)
+{
+    const double nobody_sees = 1e-9; /* of a rope */
+    const struct instant at = state_instant(run->state);
+    if (striker->rope) return nobody_sees * run->state->tree->ties[striker->tie].zero;
+    return one_sided_at(run->model, &at, tree_of(run)->ties[striker->tie].surface).near;
+}
+
 /* Do ropes get taut ever faster, in turn? Compared over two of them, as intervals alternate. */
 static bool hurries(const struct bounces *tugs)
 {
@@ -319,19 +330,28 @@ static bool hurries(const struct bounces *tugs)
 
 void contacts_end_tugs(struct run *run, int count)
 {
-    const double nobody_sees = 1e-9; /* of a rope */
     struct contacts_work *work = &run->contacts;
-    double leaving = slackening_speed(run, count), length = HUGE_VAL;
+    double leaving = slackening_speed(run, count), unseen = HUGE_VAL;
     const double *t = work->tugs.returned;
+    double speed = 0;
     note_return(&work->tugs, run->state->t);
+    remember(&work->tugs, run->state->t, 0);
     for (int i = 0; i < count; i++)
-        if (work->strikers[i].rope) length = fmin(length, run->state->tree->ties[work->strikers[i].tie].zero);
-    if (leaving == 0 || !hurries(&work->tugs) || leaving * (t[0] - t[2]) > nobody_sees * length) return;
+        if (!work->strikers[i].contact) unseen = fmin(unseen, unseen_of(run, &work->strikers[i]));
+    for (int i = 0; i < count; i++) speed = fmax(speed, -work->strikers[i].v_n);
+    is_crowd(&work->tugs, speed, unseen);
+    if (leaving == 0 || !hurries(&work->tugs) || leaving * (t[0] - t[2]) > unseen) return;
     double before = jointed_kinetic_energy(run->state);
-    for (int i = 0; i < count; i++) work->strikers[i].stays = work->strikers[i].rope;
+    for (int i = 0; i < count; i++) work->strikers[i].stays = !work->strikers[i].contact;
     contacts_take_leaving_speeds(run, count);
     run->impact_work[tree_of(run)->ties[work->strikers[0].tie].load] +=
         jointed_kinetic_energy(run->state) - before;
+}
+
+double contacts_crowd_of_tugs(const struct run *run)
+{
+    const struct bounces *tugs = &run->contacts.tugs;
+    return tugs->unseen >= many ? tugs->t[0] - tugs->t[1] : 0;
 }
 
 /* ---- their end */

@@ -22,7 +22,8 @@ static size_t most_strikers(const struct tree *tree)
 {
     size_t count = 0;
     for (int i = 0; i < tree->tie_count; i++)
-        count += tree->ties[i].kind == constraint_contact || tree->ties[i].kind == constraint_rope;
+        count += tree->ties[i].kind == constraint_contact || tree->ties[i].kind == constraint_rope ||
+                 tie_takes_blows(&tree->ties[i]);
     return count;
 }
 
@@ -153,7 +154,15 @@ static double normal_rate(const struct run *run, const struct striker *striker)
     return striker->rope ? -rate : rate;
 }
 
-/* All contacts that touch, and ropes that are taut. Returns their number. */
+/* Does it take part as things are? */
+static bool is_striker(const struct run *run, int i)
+{
+    const struct tie *tie = &tree_of(run)->ties[i];
+    if (tie->kind == constraint_contact) return run->state->tree->ties[i].feature != no_feature;
+    if (tie->kind == constraint_rope) return run->state->slip[tie->pair] == stick;
+    return tie_takes_blows(tie) && run->state->slip[tie->surface] == stick;
+}
+
 int contacts_find_strikers(struct run *run)
 {
     const struct tree *tree = tree_of(run);
@@ -161,19 +170,24 @@ int contacts_find_strikers(struct run *run)
     int count = 0;
     for (int i = 0; i < tree->tie_count; i++) {
         const struct tie *tie = &tree->ties[i];
-        bool touches = tie->kind == constraint_contact && run->state->tree->ties[i].feature != no_feature;
-        bool taut = tie->kind == constraint_rope && run->state->slip[tie->pair] == stick;
-        if (!touches && !taut) continue;
+        if (!is_striker(run, i)) continue;
         struct striker *striker = &work->strikers[count++];
-        *striker = (struct striker){.tie = i, .rope = taut};
+        bool rope = tie->kind == constraint_rope;
+        bool contact = tie->meeting >= 0;
+        *striker = (struct striker){.tie = i,
+                                    .contact = contact,
+                                    .rope = rope,
+                                    .rubs = contact || (!rope && tie->pair >= 0)};
         if (tie->reels) striker->reel = rope_reel_rate(run->state, i);
         const struct row *rows = &run->state->tree->rows[tie->first_row];
         striker->v_n = normal_rate(run, striker);
         work->speed = fmax(work->speed, speed_at(run, rows));
-        striker->v_t = touches ? rows[1].g.x1 : 0;
+        striker->v_t = tie->row_count > 1 && !rope ? rows[1].g.x1 : 0;
         /* Rounding of redundant points contradicts itself, and next to a slow impact that is not little. */
         if (fabs(striker->v_n) <= no_speed(run, rows)) striker->v_n = 0;
         if (fabs(striker->v_t) <= no_speed(run, rows)) striker->v_t = 0;
+        striker->rubs |=
+            striker->v_t != 0; /* a roll without a limit, which lands: it holds along its line from then on */
     }
     return count;
 }
@@ -205,7 +219,7 @@ static void note_impact(struct run *run, int i)
     double taken = striker_taken(striker, v, P);
     run->impact_work[tie->load] += taken;
     bool struck = striker->v_n < 0 || (p > 0 && parts(run, i));
-    if (striker->rope || !struck) return;
+    if (!striker->contact || !struck) return; /* ropes and landings have events of their own */
     int body = tie->end[0].body;
     struct run_event *event = run_note(run, FBD_EVENT_IMPACT, body, tie->load, -1);
     if (!event) return;
@@ -213,7 +227,7 @@ static void note_impact(struct run *run, int i)
         p, tau, taken, {striker->v_n, v[0]}, {striker->v_t, v[1]}, work->makes && taken > 0, work->in_turn};
 }
 
-/* What an impact has made slack is no more taut by its length. */
+/* What an impact has made slack is no more taut by its length, and what it has lifted off is open. */
 static void let_slack(struct run *run, int pair)
 {
     run->state->slip[pair] = slip_plus;
@@ -229,6 +243,10 @@ void contacts_open_or_close(struct run *run, int count, bool struck)
         bool leaves = struck ? parts(run, i) : striker->v_n > 0;
         if (striker->rope) {
             if (leaves && !striker->stays) let_slack(run, tie->pair);
+            continue;
+        }
+        if (leaves && !striker->contact) {
+            if (!striker->stays) let_slack(run, tie->surface);
             continue;
         }
         if (leaves) {
@@ -278,9 +296,11 @@ static void leave_switches(struct run *run)
     if (s) sliding_drop(s);
 }
 
-/* What stuck and has got a speed slips. */
-static void unstick(struct run *run)
+/* What stuck and has got a speed slips. In a crowd of blows that nobody sees, `interval` apart, it sticks where it would not
+ * come far until the next: it is its friction, at its limit for as long as that, that might make the next one. */
+static void unstick(struct run *run, double interval)
 {
+    const double nobody_sees = 1e-9;
     leave_switches(run);
     const struct fbd_model *model = run->model;
     struct instant at = state_instant(run->state);
@@ -290,6 +310,7 @@ static void unstick(struct run *run)
         double v = slip_velocity(model, pair, &at),
                before = run->recent.anchor[3 * model->plan.n + mode->coordinate];
         if (fabs(v) <= 1e-14 * before) continue;
+        if (interval > 0 && fabs(v) * interval <= nobody_sees) continue;
         run->state->slip[pair] = v > 0 ? slip_plus : slip_minus;
     }
 }
@@ -326,7 +347,7 @@ static bool look_at_contacts(struct run *run)
         if (!contacts_strike(run, count)) return false;
         for (int i = 0; i < count; i++) note_impact(run, i);
         impulse_look(run->state);
-        unstick(run);
+        unstick(run, 0);
     }
     bool rests = struck && contacts_end_bounces(run, count);
     contacts_open_or_close(run, count, struck);
@@ -362,7 +383,7 @@ bool run_start_contacts(struct run *run, struct lack *lack)
     return true;
 }
 
-void run_strike_taut(struct run *run)
+void run_strike_closed(struct run *run)
 {
     if (has_meetings(run->model))
         find_touching(run);
@@ -375,7 +396,7 @@ void run_strike_taut(struct run *run)
     contacts_end_tugs(run, count);
     impulse_look(run->state);
     contacts_open_or_close(run, count, true);
-    unstick(run);
+    unstick(run, contacts_crowd_of_tugs(run));
 }
 
 static bool is_closed(const struct run *run, const struct fbd_state *state, int tie)

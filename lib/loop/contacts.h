@@ -36,24 +36,26 @@ struct bounces {
     double returned[12];
 };
 
-/* One row that takes part in an impact. */
+/* What takes part in an impact: a contact, a rope, what rolls or follows a cam. */
 struct striker {
     int tie;
+    bool contact; /* it may bounce; all others are plastic */
     bool rope;
+    bool rubs;       /* it has a row along its surface, too, in which there may be friction */
     double v_n, v_t; /* before */
     double reel;     /* of a rope: how fast it grows by itself */
-    bool stays;      /* a rope that an impact lets go, for so little that it is kept taut (bounces.c) */
+    bool stays;      /* no contact, and let go by an impact, for so little that it is kept (bounces.c) */
 };
 
 /* The work of its impulses P on the bodies, with the speeds v after. */
 static inline double striker_taken(const struct striker *striker, const double v[2], const double P[2])
 {
     double across = P[0] * ((striker->v_n + v[0]) / 2 - striker->reel);
-    return striker->rope ? across : across + P[1] * (striker->v_t + v[1]) / 2;
+    return striker->rubs ? across + P[1] * (striker->v_t + v[1]) / 2 : across;
 }
 
 struct contacts_work {
-    struct striker *strikers; /* room for all contacts and ropes */
+    struct striker *strikers; /* room for all that may take part */
     int struck;               /* how many took part in the last impact */
     struct impacts_point *points;
     int *rows, *modes;
@@ -64,7 +66,7 @@ struct contacts_work {
     double *W, *B, *answers, *v, *P, *y;
     double *later;           /* two velocities and impulses of each striker, beside v and P */
     struct bounces *bounces; /* of each meeting */
-    struct bounces tugs;     /* of ropes, which get taut in turn */
+    struct bounces tugs;     /* of ropes that get taut, and what lands, in turn */
     bool *asleep;            /* of each meeting: too far apart for the step */
     double *deep;   /* of each meeting: how deep it was left open, at a corner that another side is next to */
     bool *touching; /* of each tie: scratch */
@@ -99,9 +101,9 @@ bool run_jam(struct run *run);
 void run_note_sign(struct run *run);
 void run_check_jam(struct run *run, bool evaluated);
 
-/* A rope has just got taut: it, all other taut ropes and all that touches have an impact together, in which
- * ropes are plastic. What it makes slack is decided. */
-void run_strike_taut(struct run *run);
+/* A rope has just got taut, or what rolls or follows a cam is back on its surface: it, all other taut ropes and all that
+ * touches have an impact together, in which they are plastic. What it makes slack or lifts off is decided. */
+void run_strike_closed(struct run *run);
 
 /* A drive that moves, and how many do. */
 const struct mode *run_only_drive(const struct run *run, int *moving);
@@ -146,14 +148,17 @@ void contacts_apply_impulses(struct run *run, int count);
  * sticks. */
 void contacts_open_or_close(struct run *run, int count, bool struck);
 
-/* A rope has got taut, and by that lets others go, which do the same to it in turn: once by no more than nobody sees all
- * stay taut. */
+/* A rope has got taut or something has landed, and by that lets others go, which do the same to it in turn: once by no
+ * more than nobody sees all stay. */
 void contacts_end_tugs(struct run *run, int count);
+
+/* The interval between the last two of many of them in a row that nobody sees; 0 elsewhere. */
+double contacts_crowd_of_tugs(const struct run *run);
 
 /* Give the ties of meeting `index` the features that touch within `near`. */
 void contacts_find_touching(struct run *run, int index, double near);
 
-/* All contacts that touch, and ropes that are taut; returns their number. */
+/* All contacts that touch, ropes that are taut, and what presses on its surface; returns their number. */
 int contacts_find_strikers(struct run *run);
 
 /* e of a meeting at a speed of approach; below zero after failing the run. */

@@ -33,7 +33,7 @@ static void free_accelerations(const struct run *run, int i, double c[2])
     const struct striker *striker = &run->contacts.strikers[i];
     const struct row *rows = &run->contacts.trial->tree->rows[tree_of(run)->ties[striker->tie].first_row];
     c[0] = striker->rope ? -rows[0].g.x2 : rows[0].g.x2;
-    c[1] = striker->rope ? 0 : rows[1].g.x2;
+    c[1] = striker->rubs ? rows[1].g.x2 : 0;
 }
 
 static void let_go(struct run *run, int count)

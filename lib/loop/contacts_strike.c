@@ -37,6 +37,7 @@ double contacts_restitution(struct run *run, int meeting, double approach)
 
 static bool set_point(struct run *run, int i)
 {
+    const double no_limit = 1e6; /* so that what rolls without one stops to slip at once */
     struct contacts_work *work = &run->contacts;
     const struct striker *striker = &work->strikers[i];
     const struct tie *tie = &tree_of(run)->ties[striker->tie];
@@ -44,18 +45,19 @@ static bool set_point(struct run *run, int i)
     work->points[i] = (struct impacts_point){0, 0};
     if (striker->rope) return true;
     if (tie->pair >= 0) work->points[i].mu = formula_value(&run->model->plan.modes[tie->pair].mu_k, &at);
-    if (work->plastic) return true;
+    if (tie->pair < 0 && !striker->contact && striker->rubs) work->points[i].mu = no_limit;
+    if (work->plastic || !striker->contact) return true;
     work->points[i].e = contacts_restitution(run, tie->meeting, fmax(0, -striker->v_n));
     return work->points[i].e >= 0;
 }
 
-/* The law of the point that closes fastest. */
+/* The law of the contact that closes fastest; what is plastic in any case has none. */
 static enum impact_law law_of(const struct run *run, int count)
 {
     const struct contacts_work *work = &run->contacts;
     int best = -1;
     for (int i = 0; i < count; i++)
-        if (!work->strikers[i].rope && (best < 0 || work->strikers[i].v_n < work->strikers[best].v_n))
+        if (work->strikers[i].contact && (best < 0 || work->strikers[i].v_n < work->strikers[best].v_n))
             best = i;
     if (best < 0) return impact_stronge;
     const struct tie *tie = &tree_of(run)->ties[work->strikers[best].tie];
@@ -126,7 +128,7 @@ static void find_answers(struct run *run, int rows)
     impulse_answers(run->state, &lines, work->modes, work->W, work->B, work->answers);
 }
 
-/* Rows 2 i and 2 i + 1; a rope has one, and its normal points the other way. Slides come behind. */
+/* Rows 2 i and 2 i + 1, of which what does not rub has one; the normal of a rope points the other way. Slides come behind. */
 static void set_answers(struct run *run, int count)
 {
     struct contacts_work *work = &run->contacts;
@@ -135,7 +137,7 @@ static void set_answers(struct run *run, int count)
         int first = tree_of(run)->ties[work->strikers[i].tie].first_row;
         int *row = work->rows + (ptrdiff_t)2 * i;
         row[0] = first;
-        row[1] = work->strikers[i].rope ? first : first + 1;
+        row[1] = work->strikers[i].rubs ? first + 1 : first;
     }
     find_slides(run);
     find_answers(run, rows);
@@ -143,14 +145,15 @@ static void set_answers(struct run *run, int count)
     set_slides(run, rows);
     int all = rows + work->slide_count;
     for (int i = 0; i < count; i++) {
-        if (!work->strikers[i].rope) continue;
+        const double sign = work->strikers[i].rope ? -1 : 1;
+        if (work->strikers[i].rubs) continue;
         for (int k = 0; k < all; k++) {
-            work->W[(2 * i) * all + k] *= -1;
-            work->W[k * all + 2 * i] *= -1;
+            work->W[(2 * i) * all + k] *= sign;
+            work->W[k * all + 2 * i] *= sign;
             work->W[(2 * i + 1) * all + k] = work->W[k * all + 2 * i + 1] = 0;
         }
         for (int k = 0; k < work->slide_count; k++) {
-            work->B[k * all + 2 * i] *= -1;
+            work->B[k * all + 2 * i] *= sign;
             work->B[k * all + 2 * i + 1] = 0;
         }
     }
@@ -159,8 +162,9 @@ static void set_answers(struct run *run, int count)
 /* The impulse of row i of the strikers; a rope pulls the other way, and has one row. */
 static double impulse_of(const struct contacts_work *work, int i)
 {
-    if (!work->strikers[i / 2].rope) return work->P[i];
-    return i % 2 == 0 ? -work->P[i] : 0;
+    const struct striker *striker = &work->strikers[i / 2];
+    if (i % 2 == 1) return striker->rubs ? work->P[i] : 0;
+    return striker->rope ? -work->P[i] : work->P[i];
 }
 
 /* ---- work of drives

@@ -135,7 +135,7 @@ static bool refuse_end_of_slot(struct run *run, int pair)
 }
 
 /* A tension that ends is left to settling. A rope that becomes taut takes at once the velocities that would
- * lengthen it: a plastic impact, with the impulses that every other coupling needs for it. */
+ * lengthen it, and so does what lands: a plastic impact, with the impulses that everything else gives for it. */
 static void one_sided_event(struct run *run, int pair)
 {
     if (run->state->slip[pair] == stick) {
@@ -144,20 +144,15 @@ static void one_sided_event(struct run *run, int pair)
         return;
     }
     if (refuse_end_of_slot(run, pair) || refuse_jerk(run, pair)) return;
-    double before = jointed_kinetic_energy(run->state);
-    bool rope = run->model->plan.modes[pair].kind == mode_rope;
+    const struct mode *mode = &run->model->plan.modes[pair];
+    const double before = jointed_kinetic_energy(run->state), taken = run->impact_work[mode->load];
     run->state->slip[pair] = stick;
-    if (rope) run_strike_taut(run);
-    double taken = state_strike(run->state); /* of a rope, rounding only */
+    run_strike_closed(run);
+    state_project_velocity(run->state, false); /* rounding only */
     drop_rounding(run);
-    double change = jointed_kinetic_energy(run->state) - before;
-    int moving;
-    const struct mode *drive = run_only_drive(run, &moving);
     run->snap.pair = pair;
-    run->snap.work = rope || moving != 1 ? change : -taken;
-    if (rope) return;
-    run->impact_work[run->model->plan.modes[pair].load] += run->snap.work;
-    if (moving == 1) run->impact_work[drive->load] += change - run->snap.work;
+    run->snap.work = mode->kind == mode_rope ? jointed_kinetic_energy(run->state) - before
+                                             : run->impact_work[mode->load] - taken;
 }
 
 /* Is the way in which the event is passed now one that is asked for? */

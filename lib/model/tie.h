@@ -77,6 +77,12 @@ static inline bool tie_presses(const struct tie *tie)
     return tie->law->surface || tie->source->presses != 0;
 }
 
+/* Is it a surface whose impulses are found with those of contacts and ropes? What rolls is, and a follower on its cam. */
+static inline bool tie_takes_blows(const struct tie *tie)
+{
+    return tie->surface >= 0 && (tie->kind == constraint_roll || tie->kind == constraint_slot);
+}
+
 /* Add a tie of contact `index` of the scene for one feature of the meeting. */
 void tie_of_contact(struct fbd_model *model, int index, int meeting);
 
