@@ -150,49 +150,51 @@ static void drive_arrow(const struct fbd_model *model, const struct model_body *
         act_along(body, joint, drive, arrow);
 }
 
-static struct arrow posed_arrow(const struct fbd_model *model, int index, const struct pose *pose,
-                                const struct instant *at, const double *slots)
+/* In its place: copies of what has just been written wait for it. */
+static void pose_arrow(const struct fbd_model *model, int index, const struct pose *pose,
+                       const struct instant *at, const double *slots, struct arrow *arrow)
 {
     const struct model_load *load = &model->loads[index];
     const struct model_body *body = &model->bodies[load->body];
     const struct load *source = load->source;
     const struct joint joint = joint_of(body, at);
     struct motion_of_point point = point_motion(body, pose, load->point);
-    struct arrow arrow = {.name = source->name, .load = index, .point = load_place(load, point.p, at)};
+    *arrow = (struct arrow){.name = source->name, .load = index, .point = load_place(load, point.p, at)};
     switch (source->kind) {
-    case load_gravity: arrow.force = vec_scale(body_mass(body, at), model->scene->gravity); break;
-    case load_drive: drive_arrow(model, body, &joint, slots, &arrow); break;
+    case load_gravity: arrow->force = vec_scale(body_mass(body, at), model->scene->gravity); break;
+    case load_drive: drive_arrow(model, body, &joint, slots, arrow); break;
     case load_rope:
     case load_belt:
     case load_contact:
     case load_carried:
     case load_normal: break; /* a reaction: set from the sum of the others */
     case load_friction:
-        act_along(body, &joint, friction_at(model, body->friction, at, slots).force, &arrow);
+        act_along(body, &joint, friction_at(model, body->friction, at, slots).force, arrow);
         break;
-    case moment_friction: arrow.couple = friction_at(model, body->friction, at, slots).force; break;
-    case load_applied: arrow.force = applied_force(load, pose, at); break;
+    case moment_friction: arrow->couple = friction_at(model, body->friction, at, slots).force; break;
+    case load_applied: arrow->force = applied_force(load, pose, at); break;
     case load_spring:
-    case load_damper: spring_arrow(model, load, &joint, point, at, &arrow); break;
-    case load_drag: arrow.force = drag_of_load(load, point.v, at); break;
+    case load_damper: spring_arrow(model, load, &joint, point, at, arrow); break;
+    case load_drag: arrow->force = drag_of_load(load, point.v, at); break;
     case load_potential:
-    case moment_potential: potential_arrow(body, load, &joint, at, &arrow); break;
-    case moment_applied: arrow.couple = formula_value(&load->value, at); break;
+    case moment_potential: potential_arrow(body, load, &joint, at, arrow); break;
+    case moment_applied: arrow->couple = formula_value(&load->value, at); break;
     case moment_spring:
-        arrow.couple = -source->stiffness * (at->y[body->first + body->count - 1] - source->free_length);
+        arrow->couple = -source->stiffness * (at->y[body->first + body->count - 1] - source->free_length);
         break;
     case moment_damper:
-        arrow.couple = -source->coefficient * at->y[body->first_rate + body->count - 1];
+        arrow->couple = -source->coefficient * at->y[body->first_rate + body->count - 1];
         break;
     }
-    return arrow;
 }
 
 struct arrow load_arrow(const struct fbd_model *model, int index, const struct instant *at,
                         const double *slots)
 {
     struct pose pose = body_pose(&model->bodies[model->loads[index].body], at);
-    return posed_arrow(model, index, &pose, at, slots);
+    struct arrow arrow;
+    pose_arrow(model, index, &pose, at, slots, &arrow);
+    return arrow;
 }
 
 /* ---- shares and reactions */
@@ -286,7 +288,7 @@ size_t diagram_list(const struct fbd_model *model, int index, const struct insta
     const struct pose pose = body_pose(body, at);
     size_t count = (size_t)body->load_count;
     for (size_t i = 0; i < count; i++)
-        arrows[i] = posed_arrow(model, body->first_load + (int)i, &pose, at, slots);
+        pose_arrow(model, body->first_load + (int)i, &pose, at, slots, &arrows[i]);
     if (body->place.link > 0) return tree_diagram_add(model, index, at, slots, arrows);
     return add_guide(model, body, at, a, arrows, count);
 }
