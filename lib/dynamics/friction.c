@@ -126,12 +126,13 @@ enum slip friction_decide(const struct friction_values *now, const struct fricti
 {
     /* With mu_k > mu_s (nobody's friction, but anybody's file) slipping would start against itself: then the
      * larger one holds. */
-    double limit = now->limit;
+    double limit = now->limit,
+           hold = now->hold != 0 ? now->hold : rate->hold; /* of none its rate tells the side */
     double excess = fabs(now->hold) - limit;
     if (fabs(excess) <= friction_rounding(now)) {
         double d_limit = now->limit_static >= now->limit_kinetic ? rate->limit_static : rate->limit_kinetic;
-        excess = (now->hold > 0 ? rate->hold : -rate->hold) - d_limit;
+        excess = (hold > 0 ? rate->hold : -rate->hold) - d_limit;
     }
     if (excess <= 0) return stick;
-    return now->hold < 0 ? slip_plus : slip_minus; /* the other forces push by -hold */
+    return hold < 0 ? slip_plus : slip_minus; /* the other forces push by -hold */
 }

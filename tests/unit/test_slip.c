@@ -210,6 +210,31 @@ static void a_law_with_a_root_stops_as_well(void **unused)
     checks_end(&checks);
 }
 
+/* A law that has nothing at rest, where no force acts yet: it slips to the side to which the force grows, without an event.
+ * v' = A t - g v / v_1 with v(0) = 0. */
+static void a_law_without_a_limit_slips_where_the_force_goes(void **unused)
+{
+    (void)unused;
+    struct checks checks = {0};
+    for (int side = -1; side <= 1; side += 2) {
+        char text[300];
+        snprintf(text, sizeof text,
+                 "fbd: 1\nbodies:\n  b:\n    mass: 1\n    motion: slide\n    forces:\n      - gravity\n"
+                 "      - normal\n      - friction: \"slip/1[m/s]\"\n"
+                 "      - applied: {value: \"%d[N/s]*t\"}\nsimulate: {until: 3 s}\n",
+                 2 * side);
+        struct trial trial = trial_parse(text);
+        trial_start(&trial, NULL);
+        trial_finish(&trial);
+        check_that(&checks, "done", trial.outcome == FBD_DONE);
+        check_that(&checks, "no event", fbd_simulation_event_count(trial.simulation) == 0);
+        double want = 2 * (3 / g - (1 - exp(-3 * g)) / (g * g));
+        check_close(&checks, "v", trial_get(&trial, "v"), side * want, 1e-9);
+        trial_close(&trial);
+    }
+    checks_end(&checks);
+}
+
 /* On a running belt x'' = -k x/m + mu(v_b - x') g: about k x = mu m g the law's slope is a damper, and a
  * negative one where friction falls. */
 static void steady_slip_is_linearised(void **unused)
@@ -299,6 +324,7 @@ int main(void)
         cmocka_unit_test(at_rest_the_slip_is_zero),
         cmocka_unit_test(a_kink_in_the_slip_is_an_event),
         cmocka_unit_test(a_law_with_a_root_stops_as_well),
+        cmocka_unit_test(a_law_without_a_limit_slips_where_the_force_goes),
         cmocka_unit_test(steady_slip_is_linearised),
         cmocka_unit_test(a_law_written_by_hand_is_the_same),
     };
