@@ -448,6 +448,25 @@ static bool settle(struct run *run)
     }
 }
 
+/* What has closed at rest within what counts as touching is put where it closes; what sticks gives way to that by as
+ * much, as it would have gone on to. A step does not move what sticks, and would take it from what else is closed. */
+static void close_up(struct run *run)
+{
+    const struct plan *plan = &run->model->plan;
+    const struct instant at = state_instant(run->state);
+    bool apart = false;
+    for (int pair = 0; pair < (int)plan->mode_count; pair++) {
+        enum mode_kind kind = plan->modes[pair].kind;
+        if (kind != mode_rope && kind != mode_surface) continue;
+        if (run->state->slip[pair] != stick || run->during->slip[pair] == stick) continue;
+        struct one_sided now = one_sided_at(run->model, &at, pair);
+        apart |= fabs(now.excess) > now.rounding;
+    }
+    if (!apart) return;
+    state_project_position(run->state);
+    state_evaluate(run->state);
+}
+
 void run_apply(struct run *run, const bool *timed, const bool *moving)
 {
     const struct plan *plan = &run->model->plan;
@@ -466,6 +485,7 @@ void run_apply(struct run *run, const bool *timed, const bool *moving)
     if (run->contacts.due) run_contacts(run);
     run->contacts.due = false;
     if (!settle(run) && run->end.outcome == FBD_GOING) fail_unsettled(run);
+    if (run->end.outcome == FBD_GOING) close_up(run);
     run_check_drives(run);
     run_check_counts(run);
     run_note_happened(run, first, moving);
