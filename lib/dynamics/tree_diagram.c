@@ -67,11 +67,16 @@ double tree_more(const struct model_body *body, const struct instant *at)
     return -s->turning * (body_inertia(body, at).I_G * tree_angular_acceleration(body, at) + vec_cross(r, f));
 }
 
+static void oppose(struct arrow *arrow, const char *name)
+{
+    arrow->name = name;
+    arrow->force = vec_scale(-1, arrow->force);
+    arrow->couple = -arrow->couple;
+}
+
 static struct arrow opposite(struct arrow arrow, const char *name)
 {
-    arrow.name = name;
-    arrow.force = vec_scale(-1, arrow.force);
-    arrow.couple = -arrow.couple;
+    oppose(&arrow, name);
     return arrow;
 }
 
@@ -246,19 +251,21 @@ static struct arrow weld_reaction(const struct fbd_model *model, int b, const st
     return (struct arrow){.load = -1, .force = sum.force, .point = point, .couple = sum.moment};
 }
 
-/* The reaction of the joint of body b on it. */
-static struct arrow reaction_arrow(const struct fbd_model *model, int b, const struct instant *at,
-                                   const double *slots)
+/* The reaction of the joint of body b on it; in its place, as pose_arrow. */
+static void reaction_fill(const struct fbd_model *model, int b, const struct instant *at, const double *slots,
+                          struct arrow *arrow)
 {
     const struct model_body *body = &model->bodies[b];
     const struct tree_state *s = link_of(body, at);
-    struct arrow arrow = {.load = -1, .force = s->F.force, .point = s->p};
-    if (is_guided(body)) arrow = slide_reaction(model, body, at, slots);
-    if (body->kind == motion_particle)
-        arrow = (struct arrow){.load = -1, .point = s->p, .couple = s->F.moment}; /* it does not turn */
-    if (body->kind == motion_weld) arrow = weld_reaction(model, b, at, slots);
-    arrow.name = body->reaction;
-    return arrow;
+    if (is_guided(body))
+        *arrow = slide_reaction(model, body, at, slots);
+    else if (body->kind == motion_weld)
+        *arrow = weld_reaction(model, b, at, slots);
+    else if (body->kind == motion_particle) /* it does not turn */
+        *arrow = (struct arrow){.load = -1, .point = s->p, .couple = s->F.moment};
+    else
+        *arrow = (struct arrow){.load = -1, .force = s->F.force, .point = s->p};
+    arrow->name = body->reaction;
 }
 
 /* ---- the whole */
@@ -281,8 +288,10 @@ static size_t fill_child(const struct fbd_model *model, int c, const struct inst
     }
     if (child->drive >= 0)
         arrows[count++] = opposite(load_arrow(model, child->drive, at, slots), child->drive_on_parent);
-    if (child->reaction)
-        arrows[count++] = opposite(reaction_arrow(model, c, at, slots), child->reaction_on_parent);
+    if (child->reaction) {
+        reaction_fill(model, c, at, slots, &arrows[count]);
+        oppose(&arrows[count++], child->reaction_on_parent);
+    }
     return count;
 }
 
@@ -309,7 +318,7 @@ size_t tree_diagram_add(const struct fbd_model *model, int index, const struct i
     }
     if (body->drive >= 0) arrows[count++] = load_arrow(model, body->drive, at, slots);
     if (model->tree->tie_count > 0) count += fill_ties(model, index, at, arrows + count);
-    if (body->reaction) arrows[count++] = reaction_arrow(model, index, at, slots);
+    if (body->reaction) reaction_fill(model, index, at, slots, &arrows[count++]);
     for (int c = body->child; c >= 0; c = model->bodies[c].sibling)
         count += fill_child(model, c, at, slots, arrows + count);
     return count;

@@ -263,10 +263,10 @@ static void set_own_floor(struct run *run, int i, double lasts)
  * 128 rods, error estimates of dop853 are up to 4 roundings of the gross forces of the worst rod, seldom 10.
  * The worst of many is worse: one of a thousand rods that lie still but for rounding is above 16 in every
  * step, and has steps a thousand times as short as the motion of the others needs. */
-static double roundings_of(const struct fbd_model *model, int link)
+static double roundings_of(const struct fbd_model *model, bool in_tree)
 {
     const double single = 2, jointed = 16, few = 16;
-    if (link == 0 || !model->tree) return single;
+    if (!in_tree || !model->tree) return single;
     double links = model->tree->count - 1;
     return jointed * (1 + fmax(0, log2(links / few)));
 }
@@ -279,15 +279,15 @@ static void set_noise(struct run *run)
     changes(run, at, true, run->grain.along);
     if (run->model->tree) measure_turns(run, at);
     measure_cancelled(run, at);
+    const double roundings[] = {roundings_of(run->model, false), roundings_of(run->model, true)};
     for (size_t b = 0; b < run->model->body_count; b++) {
         const struct model_body *body = &run->model->bodies[b];
-        double gross[most_coordinates_of_a_body] = {0},
-               roundings = roundings_of(run->model, body->place.link);
+        double gross[most_coordinates_of_a_body] = {0};
         add_gross_forces(run, (int)b, at, gross);
         for (int k = 0; k < body->count; k++) {
             int i = body->first + k;
             double of_time = fabs(at->t * run->grain.along[i]),
-                   of_sum = roundings * gross[k] * plan->inverse_inertia[i];
+                   of_sum = roundings[body->place.link > 0] * gross[k] * plan->inverse_inertia[i];
             double noise = DBL_EPSILON * (of_sum + of_time);
             run->grain.accelerations[i] = isfinite(noise) ? noise : 0;
             switcher_set_noise(run->stepper, (size_t)i, run->grain.accelerations[i]);
