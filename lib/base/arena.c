@@ -30,7 +30,7 @@ static size_t round_up(size_t size)
 static bool add_chunk(struct arena *arena, size_t wanted, bool *clear)
 {
     size_t next = arena->chunks ? 4 * arena->chunks->size : first_chunk;
-    if (next > largest_chunk) next = largest_chunk;
+    if (next > largest_chunk || arena->much_room) next = largest_chunk;
     *clear = wanted >= next;
     size_t room = wanted > next ? wanted : next, size = sizeof(struct arena_chunk) + room;
     struct arena_chunk *chunk = *clear ? calloc(1, size) : malloc(size);

@@ -17,7 +17,8 @@ struct arena_chunk;
 
 struct arena {
     struct arena_chunk *chunks;
-    bool failed; /* true once any allocation has failed */
+    bool failed;    /* true once any allocation has failed */
+    bool much_room; /* the first chunk is as large as any: of what is made and freed again and again */
 };
 
 /* `count` zeroed objects of `size` bytes, or NULL when memory is out or count * size overflows. */

@@ -337,7 +337,7 @@ static struct fbd_model *compile(struct scene *scene, bool labels, const struct 
         return NULL;
     }
     model->scene = scene;
-    model->scene_lent = like != NULL;
+    model->scene_lent = model->arena.much_room = like != NULL;
     struct builder builder = {.model = model, .errors = errors};
     bool done = allocate(model);
     for (size_t b = 0; done && b < scene->body_count; b++)
