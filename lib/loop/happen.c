@@ -459,8 +459,12 @@ static void close_up(struct run *run)
         enum mode_kind kind = plan->modes[pair].kind;
         if (kind != mode_rope && kind != mode_surface) continue;
         if (run->state->slip[pair] != stick || run->during->slip[pair] == stick) continue;
+        const int tie = plan->modes[pair].tie;
         struct one_sided now = one_sided_at(run->model, &at, pair);
         apart |= fabs(now.excess) > now.rounding;
+        /* What has turned in the air rolls on from where it is. */
+        if (run->model->tree->ties[tie].kind == constraint_roll)
+            tie_rezero(run->model, run->state->tree, tie);
     }
     if (!apart) return;
     state_project_position(run->state);

@@ -50,6 +50,7 @@ static void a_landing_rubs(void **unused)
         const double tau = cases[i].tau, before = cases[i].omega * r, after = before + 3 * tau / m;
         check_close(&checks, "t", trial_to_event(&trial, FBD_EVENT_LANDING, NULL, 0), 0.2, tiny);
         check_close(&checks, "vx", trial_get(&trial, "vx"), tau / m, tiny);
+        check_close(&checks, "x", trial_get(&trial, "x"), 0, tiny);
         check_close(&checks, "vy", trial_get(&trial, "vy"), 0, tiny);
         check_close(&checks, "omega", trial_get(&trial, "omega"), cases[i].omega + 2 * tau / (m * r), 1e-7);
         for (size_t k = 0; k < fbd_simulation_event_count(trial.simulation); k++) {
@@ -59,6 +60,8 @@ static void a_landing_rubs(void **unused)
             snprintf(takes, sizeof takes, "takes %.6g J", m / 2 - tau * (before + after) / 2);
             check_that(&checks, takes, strstr(event.detail, takes));
         }
+        trial_to(&trial, 0.25);
+        check_that(&checks, "it goes on from there", fabs(trial_get(&trial, "x")) < 0.3);
         trial_close(&trial);
     }
     checks_end(&checks);
@@ -104,10 +107,36 @@ static void a_jerk_lifts_a_follower(void **unused)
     checks_end(&checks);
 }
 
+/* It lifts off while it rolls, turns in the air, and lands sticking: it is still where it was (what sticks was put back to
+ * where it would be, had it rolled all the way, which is some 2 m off here). */
+static void it_rolls_on_from_where_it_lands(void **unused)
+{
+    struct checks checks = {0};
+    struct trial trial = trial_parse(
+        "fbd: 1\ngravity: 10\nground: {lines: {floor: {along: 0}}}\nbodies:\n  wheel:\n    shape: disc\n"
+        "    radius: 0.2\n    mass: 2\n    motion: planar\n    initial: {y: 0.2}\n    forces:\n      - "
+        "gravity\n"
+        "      - applied: {name: up, value: \"40[N]*pulse(t, 0.1[s], 0.2[s])\", angle: 90 deg}\n"
+        "    moments: [applied: {name: turn, value: \"2[N*m]*(pulse(t, 0.2[s], 0.2[s]) - pulse(t, 0.4[s], "
+        "0.2[s]))\"}]\n"
+        "couplings:\n  - roll: {body: wheel, on: floor, static: 0.3}\nsimulate: {until: 2}\n");
+    (void)unused;
+    trial_start(&trial, NULL);
+    trial_to(&trial, 0.65);
+    check_close(&checks, "it is in the air", trial_get(&trial, "theta"), 2, 1e-8);
+    trial_finish(&trial);
+    check_that(&checks, "it comes to its end", trial.outcome == FBD_DONE);
+    check_close(&checks, "x", trial_get(&trial, "x"), 0, 1e-8);
+    check_close(&checks, "theta", trial_get(&trial, "theta"), 2, 1e-8);
+    trial_close(&trial);
+    checks_end(&checks);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_landing_rubs),
+        cmocka_unit_test(it_rolls_on_from_where_it_lands),
         cmocka_unit_test(a_jerk_lifts_a_wheel),
         cmocka_unit_test(a_jerk_lifts_a_follower),
     };
