@@ -125,12 +125,26 @@ static int write_rounded(char *buffer, bool minus, uint64_t decimal, int digits,
     return minus + write_decimal(buffer, carried ? decimal / 10 : decimal, digits, exponent + carried);
 }
 
+/* A count: its digits, without a power of ten. */
+static int write_whole(char *buffer, uint64_t whole)
+{
+    char digits[most_digits];
+    int first = most_digits;
+    do digits[--first] = (char)('0' + whole % 10);
+    while (whole /= 10);
+    memcpy(buffer, digits + first, (size_t)(most_digits - first));
+    buffer[most_digits - first] = '\0';
+    return most_digits - first;
+}
+
 int shortest_write(char buffer[shortest_size], double value)
 {
     const uint64_t least_mantissa = UINT64_C(1) << 52;
+    const double largest_whole = 1e15;
     struct scaled scaled;
     int exponent;
-    if (value == 0 && !signbit(value)) return write(buffer, "0", 1, 0);
+    if (value >= 0 && value < largest_whole && !signbit(value) && value == (double)(uint64_t)value)
+        return write_whole(buffer, (uint64_t)value);
     if (!begin(&scaled, &exponent, value)) return -1;
     if (scaled.m == least_mantissa) return -1; /* its neighbours are not equally far */
     wide step = 100;

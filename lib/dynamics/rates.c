@@ -82,24 +82,24 @@ static void choose(struct row *row)
     row->steady = row->inverse * (row->c0 - row->friction);
 }
 
-static struct row row_of(const struct rates *rates, int b, int coordinate)
+/* In its place: a row is large. */
+static void set_row(const struct rates *rates, int b, int coordinate, struct row *row)
 {
     const struct fbd_state *state = rates->state;
     const struct plan *plan = &state->model->plan;
     const struct body_terms *terms = &plan->bodies[b];
-    struct row row = {.all = rates,
-                      .q = coordinate,
-                      .v = plan->n + coordinate,
-                      .inverse = plan->inverse_inertia[coordinate]};
+    *row = (struct row){.all = rates,
+                        .q = coordinate,
+                        .v = plan->n + coordinate,
+                        .inverse = plan->inverse_inertia[coordinate]};
     if (terms->friction >= 0 && state->slip[terms->friction] == stick) {
-        row.function = held_row;
-        row.rate = plan->modes[terms->friction].surface_speed.constant;
-        return row;
+        row->function = held_row;
+        row->rate = plan->modes[terms->friction].surface_speed.constant;
+        return;
     }
-    take_terms(plan, terms, &row);
-    if (terms->friction >= 0) row.friction = constant_friction(plan, terms, state);
-    choose(&row);
-    return row;
+    take_terms(plan, terms, row);
+    if (terms->friction >= 0) row->friction = constant_friction(plan, terms, state);
+    choose(row);
 }
 
 static bool is_pulled_particle(const struct model_body *body, const struct body_terms *terms)
@@ -157,7 +157,7 @@ static void bind_body(struct rates *rates, int b)
     const struct body_terms *terms = &state->model->plan.bodies[b];
     struct row *next = &rates->rows[rates->count];
     if (rates->kind == rates_by_rows && stands_by_itself(&state->model->plan, body, terms, state)) {
-        for (int k = 0; k < body->count; k++) *next++ = row_of(rates, b, body->first + k);
+        for (int k = 0; k < body->count; k++) set_row(rates, b, body->first + k, next++);
     } else if (rates->kind == rates_by_rows && is_pulled_particle(body, terms)) {
         *next++ = row_of_particle(rates, b);
     } else {
