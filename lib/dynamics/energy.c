@@ -76,6 +76,7 @@ static double integrate(struct integrand *integrand, double from, double to)
         *all[] = {load->value.expr, load->angle.expr, load->fx.expr, load->fy.expr};
     size_t count = 0;
     double ends[most_pieces + 1];
+    if (!isfinite(to - from)) return (double)NAN;
     for (size_t i = 0; i < sizeof all / sizeof *all; i++)
         if (all[i]) formulas[count++] = all[i];
     int pieces = pieces_cut(formulas, count, integrand->body->first + 1, from, to, most_pieces, ends);

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "expr/pieces.h"
 
+#include <math.h>
 #include <stdlib.h>
 
 #include "expr/interval.h"
@@ -130,6 +131,10 @@ int pieces_cut(const struct expr *const *formulas, size_t count, int slot, doubl
     ends[0] = from;
     ends[1] = to;
     if (switches_of(&walk) == 0 || !is_of_one(&walk)) return 1;
+    if (!isfinite(to - from)) { /* its halves are as long */
+        ends[most] = from;
+        return pieces_too_many;
+    }
     int pieces = start(&walk) ? cut(&walk, from, to, most, ends) : pieces_no_memory;
     end(&walk);
     return pieces;

@@ -358,9 +358,26 @@ static void stretches_next_to_nothing_are_one_piece(void **state)
     end_trial(&trial);
 }
 
+/* Halves of a stretch that is longer than numbers go are as long: the search did not end. */
+static void stretches_beyond_numbers_are_not_cut(void **state)
+{
+    (void)state;
+    const double ends[][2] = {{0, HUGE_VAL}, {-HUGE_VAL, 0}, {-DBL_MAX, DBL_MAX}, {1, (double)NAN}};
+    struct trial trial = must_compile("sign(x)");
+    const struct expr *formula = trial.expr;
+    for (size_t i = 0; i < sizeof ends / sizeof *ends; i++) {
+        double cut[9];
+        assert_int_equal(pieces_cut(&formula, 1, 1, ends[i][0], ends[i][1], 8, cut), pieces_too_many);
+    }
+    double cut[9];
+    assert_int_equal(pieces_cut(&formula, 1, 1, -DBL_MAX / 4, DBL_MAX / 4, 8, cut), 2);
+    end_trial(&trial);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(stretches_beyond_numbers_are_not_cut),
         cmocka_unit_test(away_from_its_kink_a_switch_takes_the_side_of_the_value),
         cmocka_unit_test(on_its_kink_a_switch_takes_the_side_to_which_the_motion_goes),
         cmocka_unit_test(at_rest_on_its_kink_a_switch_takes_its_plain_side_and_sign_is_zero),
