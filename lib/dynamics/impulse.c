@@ -43,7 +43,7 @@ static void let_go(const struct fbd_model *model, const struct impulse_lines *li
         const struct mode *mode = &model->plan.modes[i];
         const struct tie *tie = mode->tie >= 0 ? &model->tree->ties[mode->tie] : NULL;
         bool surface = mode->kind == mode_surface && tie_takes_blows(tie);
-        bool couples = tie && tie->meeting < 0 && !tie_takes_blows(tie);
+        bool couples = tie && tie->kind == constraint_capstan;
         if (mode->kind == mode_rope || mode->kind == mode_contact || (mode_is_friction(mode) && !couples))
             modes[i] = slip_plus;
         else if (surface && modes[i] == stick)
@@ -56,6 +56,13 @@ static int link_of(const struct fbd_model *model, int pair)
     return model->bodies[model->plan.modes[pair].body].place.link;
 }
 
+/* The row along which friction of a slot rubs; NULL on a slide. */
+static const struct row *row_of(const struct fbd_state *state, int pair)
+{
+    int tie = state->model->plan.modes[pair].tie;
+    return tie < 0 ? NULL : &state->tree->rows[state->model->tree->ties[tie].first_row + 1];
+}
+
 /* x for the impulse alone, and of all rows that hold what answers to it. */
 static void answer(struct fbd_state *state, const struct instant *at, const struct impulse_lines *lines,
                    int j)
@@ -63,19 +70,21 @@ static void answer(struct fbd_state *state, const struct instant *at, const stru
     const struct tree *tree = state->model->tree;
     struct tree_work *work = state->tree;
     memset(work->x, 0, (size_t)tree->count * sizeof *work->x);
-    if (j < lines->row_count)
-        row_apply(&work->rows[lines->rows[j]], 1, work->x);
+    int slide = j < lines->row_count ? -1 : lines->slides[j - lines->row_count];
+    const struct row *row = slide < 0 ? &work->rows[lines->rows[j]] : row_of(state, slide);
+    if (row)
+        row_apply(row, 1, work->x);
     else
-        work->x[link_of(state->model, lines->slides[j - lines->row_count])].g = 1;
+        work->x[link_of(state->model, slide)].g = 1;
     tree_inward(tree, work, 1, tree->count);
     tree_outward(tree, work, 1, tree->count, work->unit);
     for (int k = 0; k < tree_unknowns(tree); k++)
         work->z[k] = k < tree->row_count && tree_takes_part(tree, at, k) ? -tree_row_answer(work, k) : 0;
 }
 
-/* Add to column j what work->x and work->unit have. */
-static void add_column(struct fbd_state *state, const struct impulse_lines *lines, int j, double *W,
-                       double *B, double *velocities)
+/* Add to column j what work->x and work->unit have, and what has been solved for, z or NULL. */
+static void add_column(struct fbd_state *state, const struct impulse_lines *lines, int j, const double *z,
+                       double *W, double *B, double *velocities)
 {
     const struct fbd_model *model = state->model;
     int rows = lines->row_count, count = rows + lines->slide_count;
@@ -83,8 +92,12 @@ static void add_column(struct fbd_state *state, const struct impulse_lines *line
     for (int i = 0; i < rows; i++) W[i * count + j] += tree_row_answer(state->tree, lines->rows[i]);
     for (int i = 0; i < lines->slide_count; i++) {
         int pair = lines->slides[i];
-        W[(rows + i) * count + j] += state->tree->unit[model->plan.modes[pair].coordinate];
-        B[i * count + j] += tree_normal_in(model->tree, state->tree, link_of(model, pair));
+        const struct row *row = row_of(state, pair);
+        int along = row ? (int)(row - state->tree->rows) : -1;
+        W[(rows + i) * count + j] +=
+            row ? tree_row_answer(state->tree, along) : state->tree->unit[model->plan.modes[pair].coordinate];
+        if (!row) B[i * count + j] += tree_normal_in(model->tree, state->tree, link_of(model, pair));
+        if (row && z) B[i * count + j] += z[along - 1];
     }
 }
 
@@ -109,10 +122,10 @@ void impulse_answers(struct fbd_state *state, const struct impulse_lines *lines,
     memset(answers, 0, count * n * sizeof *answers);
     for (size_t j = 0; j < count; j++) {
         answer(state, &at, lines, (int)j);
-        add_column(state, lines, (int)j, W, B, answers + j * n);
+        add_column(state, lines, (int)j, NULL, W, B, answers + j * n);
         double *own = &W[j * count + j], alone = *own;
         tree_system_solve(model, &at, work->z);
-        add_column(state, lines, (int)j, W, B, answers + j * n);
+        add_column(state, lines, (int)j, work->z, W, B, answers + j * n);
         if ((int)j >= lines->row_count && *own <= immovable * alone) *own = 0;
     }
     work->projecting = false;

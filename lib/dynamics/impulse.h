@@ -4,7 +4,7 @@
  * through every joint and every coupling that holds both ways.
  *
  * Contacts, ropes and what rolls or follows a cam are no part of what holds: their impulses are what is asked about. So are those of dry
- * friction on slides, which go with the impulses across their guides. A bearing whose friction is a moment
+ * friction on slides and in slots, which go with the impulses across their guides. A bearing whose friction is a moment
  * has none.
  */
 #ifndef FBD_DYNAMICS_IMPULSE_H
@@ -12,7 +12,7 @@
 
 #include "dynamics/state.h"
 
-/* Impulses along rows of ties, and behind them along the coordinates of slides, by the pairs of their friction. */
+/* Impulses along rows of ties, and behind them along slides and slots, by the pairs of their friction. */
 struct impulse_lines {
     int row_count, slide_count;
     const int *rows, *slides;

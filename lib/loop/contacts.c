@@ -306,9 +306,10 @@ static void unstick(struct run *run, double interval)
     struct instant at = state_instant(run->state);
     for (int pair = 0; pair < (int)model->plan.mode_count; pair++) {
         const struct mode *mode = &model->plan.modes[pair];
-        if (!mode_is_joint_friction(mode) || run->state->slip[pair] != stick) continue;
+        bool slot = mode->kind == mode_tangent && tie_is_guide(&tree_of(run)->ties[mode->tie]);
+        if (!(slot || mode_is_joint_friction(mode)) || run->state->slip[pair] != stick) continue;
         double v = slip_velocity(model, pair, &at),
-               before = run->recent.anchor[3 * model->plan.n + mode->coordinate];
+               before = slot ? 0 : run->recent.anchor[3 * model->plan.n + mode->coordinate];
         if (fabs(v) <= 1e-14 * before) continue;
         if (interval > 0 && fabs(v) * interval <= nobody_sees) continue;
         run->state->slip[pair] = v > 0 ? slip_plus : slip_minus;

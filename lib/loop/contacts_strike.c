@@ -64,7 +64,7 @@ static enum impact_law law_of(const struct run *run, int count)
     return (enum impact_law)run->model->scene->constraints[tie->constraint].contact.law;
 }
 
-/* ---- friction of slides that the impulses press on their guides */
+/* ---- friction of slides, and in slots, that the impulses press on their guides */
 
 /* Those that rub, on a guide across which there may be impulses. */
 static void find_slides(struct run *run)
@@ -74,8 +74,9 @@ static void find_slides(struct run *run)
     work->slide_count = 0;
     for (int pair = 0; pair < (int)plan->mode_count && !work->plastic; pair++) {
         const struct mode *mode = &plan->modes[pair];
-        if (mode->kind == mode_joint && mode->normal_slot >= 0 && friction_rubs(mode))
-            work->slides[work->slide_count++] = pair;
+        bool guided = mode->kind == mode_tangent ? tie_is_guide(&tree_of(run)->ties[mode->tie])
+                                                 : mode->kind == mode_joint && mode->normal_slot >= 0;
+        if (guided && friction_rubs(mode)) work->slides[work->slide_count++] = pair;
     }
 }
 
@@ -240,19 +241,13 @@ static void note_drives(struct run *run, int count, double change)
     }
 }
 
-/* How the impulses of others divide round a drum is not followed, nor what friction in a slot takes of them. */
+/* How the impulses of others divide round a drum is not followed. */
 static void refuse_rubbing(struct run *run)
 {
     const struct tree *tree = tree_of(run);
     for (int i = 0; i < tree->tie_count; i++) {
         const struct tie *tie = &tree->ties[i];
         bool closed = tie->surface < 0 || run->state->slip[tie->surface] == stick;
-        if (tie->kind == constraint_groove && closed && friction_rubs(&run->model->plan.modes[tie->pair]))
-            run_fail(
-                run, FBD_BROKEN,
-                "at t = %.9g something strikes while the slot `%s` holds: how much of the blow its friction "
-                "takes is not followed. End the run before, by an event, or leave out that friction",
-                run_time(run), tie->name);
         if (tie->kind != constraint_capstan || !closed) continue;
         run_fail(
             run, FBD_BROKEN,
@@ -323,10 +318,12 @@ static void end_slips(struct run *run, int rows)
     for (int i = 0; i < work->slide_count; i++) {
         int pair = work->slides[i];
         const struct mode *mode = &plan->modes[pair];
-        double ignored, surface = friction_surface_speed(mode, &at, &ignored);
+        double ignored, surface = mode->tie < 0 ? friction_surface_speed(mode, &at, &ignored) : 0;
         double v = work->v[rows + i], P = work->P[rows + i];
         run->impact_work[mode->load] += P * ((work->slide_before[i] + v) / 2 + surface);
-        if (v == 0) run->state->y[plan->n + mode->coordinate] = surface;
+        if (v == 0 && mode->tie < 0) run->state->y[plan->n + mode->coordinate] = surface;
+        if (v == 0 && mode->tie >= 0 && run->state->slip[pair] != stick)
+            tie_rezero(run->model, run->state->tree, mode->tie);
         run->state->slip[pair] = v > 0 ? slip_plus : v < 0 ? slip_minus : stick;
     }
 }
@@ -352,7 +349,7 @@ void contacts_apply_impulses(struct run *run, int count)
     if (drives) note_drives(run, count, jointed_kinetic_energy(run->state) - before);
 }
 
-static void fail_impact(struct run *run, enum impacts_end end)
+static void fail_impact(struct run *run, enum impacts_end end, enum impact_law law)
 {
     static const char *const what[] = {
         [impacts_endless] = "go on among each other without end: try `simulate: {impacts: simultaneous}`",
@@ -362,6 +359,12 @@ static void fail_impact(struct run *run, enum impacts_end end)
     };
     if (end == impacts_no_memory)
         run_fail(run, FBD_OUT_OF_MEMORY, "out of memory");
+    else if (end == impacts_unsolvable && !impact_by_velocity(law))
+        run_fail(run, FBD_FAILED,
+                 "at t = %.9g the impulses of a blow have no solution: friction on a guide or in a slot "
+                 "feeds what "
+                 "presses there, as in Painleve's paradox. Less friction, or end the run before, by an event",
+                 run_time(run));
     else
         run_fail(run, FBD_FAILED, "at t = %.9g impacts at several points %s", run_time(run), what[end]);
 }
@@ -388,7 +391,8 @@ bool contacts_solve_impact(struct run *run, int count)
                               .P = work->P};
     enum impacts_end end = impacts_solve(&impacts);
     if (end != impacts_done) {
-        if (!work->plastic || end == impacts_no_memory) fail_impact(run, end); /* a jam says more */
+        if (!work->plastic || end == impacts_no_memory)
+            fail_impact(run, end, impacts.law); /* a jam says more */
         return false;
     }
     double size = 0;

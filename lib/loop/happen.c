@@ -87,31 +87,18 @@ static void stop_slipping(struct run *run, int pair)
     run->state->y[run->model->plan.n + mode->coordinate] = friction_surface_speed(mode, &at, &acceleration);
 }
 
-/* The impulses in the strands of a rope that jerks round a drum are not followed, nor is what friction in a slot takes of a
- * blow, its own landing or that of a rope. */
+/* The impulses in the strands of a rope that jerks round a drum are not followed. */
 static bool refuse_jerk(struct run *run, int pair)
 {
     const struct tree *tree = run->model->tree;
     const struct tie *tie = &tree->ties[run->model->plan.modes[pair].tie];
-    if (tie->kind == constraint_capstan)
-        run_fail(
-            run, FBD_BROKEN,
-            "at t = %.9g the rope `%s` snaps taut round its drum: how much of the jerk friction takes is not "
-            "followed. End the run before, by an event",
-            run_time(run), tie->name);
-    if (tie->kind == constraint_capstan) return true;
-    for (int i = 0; i < tree->tie_count; i++) {
-        const struct tie *slot = &tree->ties[i];
-        if (slot->kind != constraint_groove || !friction_rubs(&run->model->plan.modes[slot->pair])) continue;
-        if (slot != tie && slot->surface >= 0 && run->state->slip[slot->surface] != stick) continue;
-        run_fail(
-            run, FBD_BROKEN,
-            "at t = %.9g `%s` jerks: how much of that the friction in the slot `%s` takes is not followed. "
-            "End the run before, by an event, or leave out that friction",
-            run_time(run), tie->name, slot->name);
-        return true;
-    }
-    return false;
+    if (tie->kind != constraint_capstan) return false;
+    run_fail(
+        run, FBD_BROKEN,
+        "at t = %.9g the rope `%s` snaps taut round its drum: how much of the jerk friction takes is not "
+        "followed. End the run before, by an event",
+        run_time(run), tie->name);
+    return true;
 }
 
 /* What was off its slot lands on it. A roller that strikes its end would have to go round that. */
@@ -463,7 +450,7 @@ static void close_up(struct run *run)
         struct one_sided now = one_sided_at(run->model, &at, pair);
         apart |= fabs(now.excess) > now.rounding;
         /* What has turned in the air rolls on from where it is. */
-        if (run->model->tree->ties[tie].kind == constraint_roll)
+        if (run->model->tree->ties[tie].row_count > 1 && kind == mode_surface)
             tie_rezero(run->model, run->state->tree, tie);
     }
     if (!apart) return;
@@ -489,10 +476,10 @@ void run_apply(struct run *run, const bool *timed, const bool *moving)
     if (run->contacts.due) run_contacts(run);
     run->contacts.due = false;
     if (!settle(run) && run->end.outcome == FBD_GOING) fail_unsettled(run);
-    if (run->end.outcome == FBD_GOING) close_up(run);
     run_check_drives(run);
     run_check_counts(run);
     run_note_happened(run, first, moving);
+    if (run->end.outcome == FBD_GOING) close_up(run); /* what sticks now does so from here on */
     run_release_contacts(run);
     refuse_sliding(run, moving);
     run_apply_touched(run, true);

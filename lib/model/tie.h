@@ -80,7 +80,13 @@ static inline bool tie_presses(const struct tie *tie)
 /* Is it a surface whose impulses are found with those of contacts and ropes? What rolls is, and a follower on its cam. */
 static inline bool tie_takes_blows(const struct tie *tie)
 {
-    return tie->surface >= 0 && (tie->kind == constraint_roll || tie->kind == constraint_slot);
+    return tie->surface >= 0 && tie->meeting < 0 && tie->kind != constraint_capstan;
+}
+
+/* A slot that rubs and holds on both sides is a guide. */
+static inline bool tie_is_guide(const struct tie *tie)
+{
+    return tie->kind == constraint_groove && tie->surface < 0;
 }
 
 /* Add a tie of contact `index` of the scene for one feature of the meeting. */
