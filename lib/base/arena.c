@@ -44,11 +44,11 @@ static bool add_chunk(struct arena *arena, size_t wanted, bool *clear)
 
 void *arena_take(struct arena *arena, size_t count, size_t size, bool cleared)
 {
-    if (size != 0 && count > (SIZE_MAX / 2) / size) {
+    size_t bytes;
+    if (__builtin_mul_overflow(count, size, &bytes) || bytes > SIZE_MAX / 2) {
         arena->failed = true;
         return NULL;
     }
-    size_t bytes = count * size;
     size_t wanted = round_up(bytes > 0 ? bytes : 1);
     struct arena_chunk *chunk = arena->chunks;
     bool clear = false;
