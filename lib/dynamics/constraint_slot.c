@@ -68,11 +68,21 @@ static bool foot_near(const struct tie *tie, struct vec u, double *s)
     return false;
 }
 
+/* A place at a distance from u may go on to be the nearest one near by where another part of the curve has come nearer,
+ * onto which what flies would fall unseen. On a curve that does not close, the ends are for others to watch. */
+static double nearest_of_all(const struct tie *tie, struct vec u, double s)
+{
+    const struct curve *curve = tie->source->curve;
+    if (tie->surface < 0 || !curve->closed) return s;
+    double other = curve_nearer(curve, u, vec_norm(vec_sub(u, foot_at(tie, s, false).at.r)));
+    return !isnan(other) && foot_near(tie, u, &other) ? other : s;
+}
+
 static double foot_of(const struct tie *tie, struct vec u, double guess)
 {
     double s = guess;
     if (!tie->source->curve) return u.x;
-    if (foot_near(tie, u, &s)) return s;
+    if (foot_near(tie, u, &s)) return nearest_of_all(tie, u, s);
     s = curve_near(tie->source->curve, u);
     double rough = s;
     return foot_near(tie, u, &s) ? s : rough;
@@ -176,4 +186,16 @@ struct room slot_room(const struct view *view, const struct tie *tie, const stru
     struct jet s = length_of(tie, &slot, &foot, at);
     double size = fmax(isfinite(from) ? fabs(from) : 0, isfinite(to) ? fabs(to) : 0);
     return end == 0 ? (struct room){s.x - from, s.x1, size} : (struct room){to - s.x, -s.x1, size};
+}
+
+struct flight slot_flight(const struct fbd_model *model, const struct tree_work *work, int index)
+{
+    const double pi = 3.14159265358979323846;
+    const struct view view = {model, model->tree, (struct tree_work *)work, false, NULL, NULL};
+    const struct tie *tie = &model->tree->ties[index];
+    const struct curve *curve = tie->source->curve;
+    const struct slot_view slot = look(&view, tie);
+    return (struct flight){.apart = work->rows[tie->first_row].g.x,
+                           .speed = hypot(slot.u.x.x1, slot.u.y.x1),
+                           .radius = curve ? curve->length / (2 * pi) : vec_norm(jet_value(slot.u))};
 }

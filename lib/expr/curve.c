@@ -313,16 +313,23 @@ double curve_length_at(const struct curve *curve, double p)
     return wanted == 0 ? panel->s : panel->s + panel->length * (1 + x) / 2;
 }
 
-double curve_near(const struct curve *curve, struct vec r)
+/* A panel is passed over by its length: no place of it is farther than that from another one. */
+double curve_nearer(const struct curve *curve, struct vec r, double distance)
 {
-    double least = HUGE_VAL, nearest = curve->from;
+    double nearest = (double)NAN;
     for (int k = 0; k < curve->panel_count; k++) {
         const struct curve_panel *panel = &curve->panels[k];
+        if (!(vec_norm(vec_sub(panel->at[panel_samples / 2], r)) < distance + panel->length)) continue;
         for (int j = 0; j <= panel_samples; j++) {
-            struct vec off = vec_sub(panel->at[j], r);
-            double away = vec_dot(off, off);
-            if (away < least) least = away, nearest = panel->p + panel->wide * j / panel_samples;
+            double away = vec_norm(vec_sub(panel->at[j], r));
+            if (away < distance) distance = away, nearest = panel->p + panel->wide * j / panel_samples;
         }
     }
-    return curve_length_at(curve, nearest);
+    return isnan(nearest) ? nearest : curve_length_at(curve, nearest);
+}
+
+double curve_near(const struct curve *curve, struct vec r)
+{
+    double s = curve_nearer(curve, r, HUGE_VAL);
+    return isnan(s) ? curve_length_at(curve, curve->from) : s;
 }

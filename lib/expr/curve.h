@@ -73,6 +73,9 @@ double curve_slope_rate(const struct curve *curve, const int *piece, double s);
 /* The arc length of the place that is nearest to r among sixteen of each panel: where to begin to look for the foot. */
 double curve_near(const struct curve *curve, struct vec r);
 
+/* The same where that is nearer than `distance`; NAN where none of them is. */
+double curve_nearer(const struct curve *curve, struct vec r, double distance);
+
 /* The arc length at parameter p within its range, and back. */
 double curve_length_at(const struct curve *curve, double p);
 double curve_parameter(const struct curve *curve, double s);

@@ -296,6 +296,42 @@ void run_watch_slots(struct run *run, struct moment *t)
     }
 }
 
+/* ---- a point that is off its slot comes back to it */
+
+/* Within the last step. */
+static bool flight_at(struct run *run, int tie, double t, struct flight *flight)
+{
+    if (switcher_dense(run->stepper, moment_at(t), run->work.aside) != 0) return false;
+    look(run, t, run->work.aside);
+    *flight = slot_flight(run->model, run->during->tree, tie);
+    return true;
+}
+
+/* How far it is off bends where another place of the slot has come nearer, and may fall to nothing and grow again on its way
+ * through a cam. So a stretch is as long as it stays apart, or else short against the slot. */
+static double until_near(struct run *run, int tie, double from, double to)
+{
+    enum { most_halvings = 12 };
+    const double speeds = 1.5, share = 0.25;
+    struct flight a, b;
+    if (!flight_at(run, tie, from, &a)) return to;
+    for (int k = 0; k < most_halvings; k++) {
+        if (!flight_at(run, tie, to, &b)) return to;
+        double way = speeds * fmax(a.speed, b.speed) * (to - from);
+        if (a.apart + b.apart > way || way <= share * a.radius) return to;
+        to = from + (to - from) / 2;
+    }
+    return to;
+}
+
+double run_slot_flight(struct run *run, double from, double to)
+{
+    const struct tree *tree = run->model->tree;
+    for (int i = 0; tree && i < tree->tie_count; i++)
+        if (slot_is_open(&tree->ties[i], run->during->slip)) to = until_near(run, i, from, to);
+    return to;
+}
+
 /* ---- the whole */
 
 void run_watch_ends(struct run *run, struct moment *t)
