@@ -88,7 +88,7 @@ static void draw(struct random_numbers *numbers, struct cam *cam)
     for (int i = 0; i < 2; i++) {
         cam->a[i] = random_between(numbers, 0, 0.35) * cam->r0;
         cam->b[i] = random_between(numbers, 0, 2 * pi);
-        cam->k[i] = 1 + (int)(random_bits(numbers) % 4);
+        cam->k[i] = 1 + (int)(random_bits(numbers) % 7);
     }
 }
 
