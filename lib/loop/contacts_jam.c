@@ -125,13 +125,14 @@ static double find_jam(struct run *run, int count)
 {
     enum { shorter = 32, most_moments = 3 };
     double moment = short_moment(run, count);
-    for (int k = 0; k < most_moments && moment > 0; k++, moment /= shorter) {
+    for (int k = 0; k < most_moments && moment > 0; k++) {
         run->contacts.plastic = true;
         bool solved = solve_jam(run, count, moment);
         run->contacts.plastic = false;
         double least = solved ? least_impulse(run, count, moment) : 0;
         for (size_t i = 0; solved && i < (size_t)count; i++)
             if (run->contacts.P[2 * i] > least) return least;
+        moment /= shorter;
     }
     return -1;
 }
