@@ -130,13 +130,9 @@ struct room tie_room(const struct fbd_model *model, const struct tree_work *work
 static const double slot_rounding = 6e-12;
 bool slot_is_open(const struct tie *tie, const int *slip);
 
-/* Of a point that flies beside its slot: how far off it is, how fast it moves in the frame of the slot, by which that varies
- * at most, and the radius of a circle as long as the curve; of a straight slot that is how far its point is from its
- * origin. After constraints_evaluate(). */
-struct flight {
-    double apart, speed, radius;
-};
-struct flight slot_flight(const struct fbd_model *model, const struct tree_work *work, int index);
+/* The radius of a circle as long as the curve of a slot; of a straight one its reach, which is how far its point is from
+ * the origin of its frame. After constraints_evaluate(). */
+double slot_radius(const struct fbd_model *model, const struct tree_work *work, int index, double *reach);
 
 /* The straight piece of a rope after place k, beside the discs there (without one, what the rope is long). */
 struct room rope_piece(const struct fbd_model *model, const struct tree_work *work, int index, int k);

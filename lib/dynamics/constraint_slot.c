@@ -188,14 +188,12 @@ struct room slot_room(const struct view *view, const struct tie *tie, const stru
     return end == 0 ? (struct room){s.x - from, s.x1, size} : (struct room){to - s.x, -s.x1, size};
 }
 
-struct flight slot_flight(const struct fbd_model *model, const struct tree_work *work, int index)
+double slot_radius(const struct fbd_model *model, const struct tree_work *work, int index, double *reach)
 {
     const double pi = 3.14159265358979323846;
     const struct view view = {model, model->tree, (struct tree_work *)work, false, NULL, NULL};
     const struct tie *tie = &model->tree->ties[index];
     const struct curve *curve = tie->source->curve;
-    const struct slot_view slot = look(&view, tie);
-    return (struct flight){.apart = work->rows[tie->first_row].g.x,
-                           .speed = hypot(slot.u.x.x1, slot.u.y.x1),
-                           .radius = curve ? curve->length / (2 * pi) : vec_norm(jet_value(slot.u))};
+    *reach = vec_norm(jet_value(look(&view, tie).u));
+    return curve ? curve->length / (2 * pi) : *reach;
 }

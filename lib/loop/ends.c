@@ -296,39 +296,61 @@ void run_watch_slots(struct run *run, struct moment *t)
     }
 }
 
-/* ---- a point that is off its slot comes back to it */
+/* ---- a point that is off its slot comes back to it, a slack rope gets taut */
+
+/* How far off it is, by how much that varies in a second at most, and how far it may go in a stretch over which it is a
+ * function without surprises: a quarter of the radius of a slot, or what a slack rope goes while nothing at it turns by
+ * more than a radian. */
+struct flight {
+    double apart, speed, way;
+};
+
+static bool is_slack(const struct fbd_state *state, const struct tie *tie)
+{
+    return tie->kind == constraint_rope && tie->pair >= 0 && state->slip[tie->pair] != stick;
+}
 
 /* Within the last step. */
-static bool flight_at(struct run *run, int tie, double t, struct flight *flight)
+static bool flight_at(struct run *run, int index, double t, struct flight *flight)
 {
+    const struct tie *tie = &run->model->tree->ties[index];
     if (switcher_dense(run->stepper, moment_at(t), run->work.aside) != 0) return false;
     look(run, t, run->work.aside);
-    *flight = slot_flight(run->model, run->during->tree, tie);
+    const struct instant at = state_instant(run->during);
+    const bool slack = is_slack(run->during, tie);
+    struct one_sided now = one_sided_at(run->model, &at, slack ? tie->pair : tie->surface);
+    double reach = 0, radius = slack ? 0 : slot_radius(run->model, run->during->tree, index, &reach);
+    flight->apart = -now.excess;
+    flight->speed = 2 * (tie->end_count > 1 ? tie->end_count - 1 : 1) * (now.speed + now.turning * reach);
+    flight->way = slack ? flight->speed / now.turning : radius / 4;
     return true;
 }
 
-/* How far it is off bends where another place of the slot has come nearer, and may fall to nothing and grow again on its way
- * through a cam. So a stretch is as long as it stays apart, or else short against the slot. */
-static double until_near(struct run *run, int tie, double from, double to)
+/* How far it is off bends where another place of a slot has come nearer, and may fall to nothing and grow again on its way
+ * through a cam, or as a crank turns that pulls a rope. So a stretch is as long as it stays apart, or else short. */
+static double until_near(struct run *run, int index, double from, double to)
 {
     enum { most_halvings = 12 };
-    const double speeds = 1.5, share = 0.25;
+    const double speeds = 1.5;
     struct flight a, b;
-    if (!flight_at(run, tie, from, &a)) return to;
+    if (!flight_at(run, index, from, &a)) return to;
     for (int k = 0; k < most_halvings; k++) {
-        if (!flight_at(run, tie, to, &b)) return to;
+        if (!flight_at(run, index, to, &b)) return to;
         double way = speeds * fmax(a.speed, b.speed) * (to - from);
-        if (a.apart + b.apart > way || way <= share * a.radius) return to;
+        if (a.apart + b.apart > way || way <= speeds * fmax(a.way, b.way)) return to;
         to = from + (to - from) / 2;
     }
     return to;
 }
 
-double run_slot_flight(struct run *run, double from, double to)
+double run_flights(struct run *run, double from, double to)
 {
     const struct tree *tree = run->model->tree;
-    for (int i = 0; tree && i < tree->tie_count; i++)
-        if (slot_is_open(&tree->ties[i], run->during->slip)) to = until_near(run, i, from, to);
+    for (int i = 0; tree && i < tree->tie_count; i++) {
+        const struct tie *tie = &tree->ties[i];
+        if (slot_is_open(tie, run->during->slip) || is_slack(run->during, tie))
+            to = until_near(run, i, from, to);
+    }
     return to;
 }
 

@@ -270,8 +270,9 @@ void run_check_pulleys(struct run *run);
  * events are looked for. Fails the run where it comes back behind the slot. */
 void run_watch_slots(struct run *run, struct moment *t);
 
-/* The end of the first stretch of (from, to] of the step in which such points stay far from their slots, or do not go far. */
-double run_slot_flight(struct run *run, double from, double to);
+/* The end of the first stretch of (from, to] of the step in which such points stay far from their slots and slack ropes from
+ * being taut, or do not go far. */
+double run_flights(struct run *run, double from, double to);
 
 /* Where a coupling has come to an end within the step that ends at *t (a rope is unwound, a point is at the end of its
  * slot), cut the step there and end the run (ends.c). */

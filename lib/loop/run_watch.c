@@ -261,7 +261,7 @@ static bool varies(const struct formula *formula)
 }
 
 /* The end of the first panel in which no force or friction, and no body that may meet another,
- * turns by more than three radians, no gap bends, and no point comes back to its slot from afar. What joints make
+ * turns by more than three radians, no gap bends, and nothing gets taut or comes back to its slot from afar. What joints make
  * of several of them changes no faster, but where they pass a singular position; there steps are short. */
 static double end_of_panel(void *context, double from, double to)
 {
@@ -269,7 +269,7 @@ static double end_of_panel(void *context, double from, double to)
     struct run *run = context;
     double turned = run_contact_radians(run, to - from);
     if (turned > most) to = from + (to - from) * (most / turned);
-    to = run_slot_flight(run, from, run_contact_bend(run, from, to));
+    to = run_flights(run, from, run_contact_bend(run, from, to));
     if (!run->search.paced) return to;
     double followed = run->search.paced_by_motion ? follow_course(run, from, to, false) : to;
     if (followed < to) to = followed; /* NAN: there is no motion to ask */
