@@ -249,18 +249,20 @@ static bool pulls(struct fbd_state *state, const double *slots, const struct dec
 
 /* ---- all of them */
 
-/* Friction that sticks to a surface which accelerates, and something closed that does not let it: both have their rows,
- * and the forces of such rows mean nothing. The friction, or -1. */
+/* Friction that sticks, and something closed that does not let it: its surface accelerates, or what drives takes away what
+ * it is closed with, as a cam that recedes. Both have their rows, and the forces of such rows mean nothing. The friction,
+ * or -1. */
 static int pulled_against(const struct fbd_state *state, const struct decided *decided, const int *forced)
 {
     const struct instant at = state_instant(state);
     int count = (int)state->model->plan.mode_count, against = -1;
+    const bool given = model_has_speeds_given(state->model);
     for (int pair = 0; pair < count && against < 0; pair++) {
         double surface = 0;
         const struct mode *hold = mode_of(state, pair);
         if (!mode_is_joint_friction(hold) || state->slip[pair] != stick) continue;
         friction_surface_speed(hold, &at, &surface);
-        if (surface != 0 && hold_in_question(state, decided, forced, pair)) against = pair;
+        if ((surface != 0 || given) && hold_in_question(state, decided, forced, pair)) against = pair;
     }
     for (int pair = 0; pair < count && against >= 0; pair++) {
         const struct mode *hold = mode_of(state, pair);

@@ -227,14 +227,15 @@ const struct mode *run_only_drive(const struct run *run, int *moving)
     return only;
 }
 
-/* The only drive that moves has done what kinetic energy has changed by, less what the impulses have taken. Of several
- * each has done what the impulses on all that it carries tell, as if that kept its motion on it. */
-static void note_drives(struct run *run, int count, double change)
+/* The only drive that moves has done what kinetic energy has changed by, less what the impulses have taken and friction of
+ * slides, `rubbed`, has done. Of several each has done what the impulses on all that it carries tell, as if that kept its
+ * motion on it. */
+static void note_drives(struct run *run, int count, double change, double rubbed)
 {
     const struct plan *plan = &run->model->plan;
     int moving;
     const struct mode *only = run_only_drive(run, &moving);
-    if (moving == 1) run->impact_work[only->load] += change - taken_by(&run->contacts, count);
+    if (moving == 1) run->impact_work[only->load] += change - taken_by(&run->contacts, count) - rubbed;
     for (int pair = 0; moving > 1 && pair < (int)plan->mode_count; pair++) {
         const struct mode *mode = &plan->modes[pair];
         if (mode->kind == mode_drive) run->impact_work[mode->load] += drive_work(run, mode, count);
@@ -309,9 +310,10 @@ static void stop_rounding(struct run *run, int count)
     }
 }
 
-/* What the friction of slides has come to: their slips, and the work that it takes. */
-static void end_slips(struct run *run, int rows)
+/* What the friction of slides has come to: their slips, and the work that it does, which is returned. */
+static double end_slips(struct run *run, int rows)
 {
+    double all = 0;
     struct contacts_work *work = &run->contacts;
     const struct plan *plan = &run->model->plan;
     struct instant at = state_instant(run->state);
@@ -320,12 +322,15 @@ static void end_slips(struct run *run, int rows)
         const struct mode *mode = &plan->modes[pair];
         double ignored, surface = mode->tie < 0 ? friction_surface_speed(mode, &at, &ignored) : 0;
         double v = work->v[rows + i], P = work->P[rows + i];
-        run->impact_work[mode->load] += P * ((work->slide_before[i] + v) / 2 + surface);
+        double done = P * ((work->slide_before[i] + v) / 2 + surface);
+        run->impact_work[mode->load] += done;
+        all += done;
         if (v == 0 && mode->tie < 0) run->state->y[plan->n + mode->coordinate] = surface;
         if (v == 0 && mode->tie >= 0 && run->state->slip[pair] != stick)
             tie_rezero(run->model, run->state->tree, mode->tie);
         run->state->slip[pair] = v > 0 ? slip_plus : v < 0 ? slip_minus : stick;
     }
+    return all;
 }
 
 void contacts_apply_impulses(struct run *run, int count)
@@ -343,10 +348,10 @@ void contacts_apply_impulses(struct run *run, int count)
         size_t line = 2 * (size_t)count + (size_t)i;
         for (size_t k = 0; k < n; k++) run->state->y[n + k] += work->P[line] * work->answers[line * n + k];
     }
-    end_slips(run, 2 * count);
+    double rubbed = end_slips(run, 2 * count);
     drop_rounding(run, count);
     stop_rounding(run, count);
-    if (drives) note_drives(run, count, jointed_kinetic_energy(run->state) - before);
+    if (drives) note_drives(run, count, jointed_kinetic_energy(run->state) - before, rubbed);
 }
 
 static void fail_impact(struct run *run, enum impacts_end end, enum impact_law law)
