@@ -130,9 +130,12 @@ struct room tie_room(const struct fbd_model *model, const struct tree_work *work
 static const double slot_rounding = 6e-12;
 bool slot_is_open(const struct tie *tie, const int *slip);
 
-/* The radius of a circle as long as the curve of a slot; of a straight one its reach, which is how far its point is from
- * the origin of its frame. After constraints_evaluate(). */
-double slot_radius(const struct fbd_model *model, const struct tree_work *work, int index, double *reach);
+/* How far the point of a slot is from the origin of its frame, and the radius of a circle as long as its curve, HUGE_VAL
+ * where it is straight; 0 and HUGE_VAL of what is no slot. After constraints_evaluate(). */
+struct slot_size {
+    double reach, radius;
+};
+struct slot_size slot_size(const struct fbd_model *model, const struct tree_work *work, int index);
 
 /* The straight piece of a rope after place k, beside the discs there (without one, what the rope is long). */
 struct room rope_piece(const struct fbd_model *model, const struct tree_work *work, int index, int k);

@@ -188,12 +188,14 @@ struct room slot_room(const struct view *view, const struct tie *tie, const stru
     return end == 0 ? (struct room){s.x - from, s.x1, size} : (struct room){to - s.x, -s.x1, size};
 }
 
-double slot_radius(const struct fbd_model *model, const struct tree_work *work, int index, double *reach)
+struct slot_size slot_size(const struct fbd_model *model, const struct tree_work *work, int index)
 {
     const double pi = 3.14159265358979323846;
     const struct view view = {model, model->tree, (struct tree_work *)work, false, NULL, NULL};
     const struct tie *tie = &model->tree->ties[index];
+    if (tie->kind != constraint_slot && tie->kind != constraint_groove)
+        return (struct slot_size){0, HUGE_VAL};
     const struct curve *curve = tie->source->curve;
-    *reach = vec_norm(jet_value(look(&view, tie).u));
-    return curve ? curve->length / (2 * pi) : *reach;
+    return (struct slot_size){vec_norm(jet_value(look(&view, tie).u)),
+                              curve ? curve->length / (2 * pi) : HUGE_VAL};
 }

@@ -3,9 +3,9 @@
  * What impulses do: the velocities that unit impulses along rows of one-sided ties give to all bodies,
  * through every joint and every coupling that holds both ways.
  *
- * Contacts, ropes and what rolls or follows a cam are no part of what holds: their impulses are what is asked about. So are those of dry
- * friction on slides and in slots, which go with the impulses across their guides. A bearing whose friction is a moment
- * has none.
+ * Contacts, ropes and what rolls or follows a cam are no part of what holds: their impulses are what is asked about. So
+ * are those of dry friction on slides and in slots, which go with the impulses across their guides. A bearing whose friction
+ * is a moment has none.
  */
 #ifndef FBD_DYNAMICS_IMPULSE_H
 #define FBD_DYNAMICS_IMPULSE_H

@@ -14,8 +14,9 @@
 enum { pieces_no_memory = 0, pieces_too_many = -1 };
 
 /* Cut [from, to], from < to, where `count` formulas that depend on slot `slot` alone switch; those that depend on more are
- * not cut. What is narrower than some roundings is no piece; what is longer than numbers go has too many. `ends` has room for most + 1 numbers and gets one more than
- * there are pieces. Returns their number, or one of the two above; ends[most] is then where the search stopped. */
+ * not cut. What is narrower than some roundings is no piece; what is longer than numbers go has too many. `ends` has room
+ * for most + 1 numbers and gets one more than there are pieces. Returns their number, or one of the two above; ends[most]
+ * is then where the search stopped. */
 int pieces_cut(const struct expr *const *formulas, size_t count, int slot, double from, double to, int most,
                double *ends);
 

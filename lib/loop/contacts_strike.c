@@ -367,8 +367,8 @@ static void fail_impact(struct run *run, enum impacts_end end, enum impact_law l
     else if (end == impacts_unsolvable && !impact_by_velocity(law))
         run_fail(run, FBD_FAILED,
                  "at t = %.9g the impulses of a blow have no solution: friction on a guide or in a slot "
-                 "feeds what "
-                 "presses there, as in Painleve's paradox. Less friction, or end the run before, by an event",
+                 "feeds what presses there, as in Painleve's paradox. Less friction, or end the run before, "
+                 "by an event",
                  run_time(run));
     else
         run_fail(run, FBD_FAILED, "at t = %.9g impacts at several points %s", run_time(run), what[end]);

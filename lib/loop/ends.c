@@ -298,11 +298,10 @@ void run_watch_slots(struct run *run, struct moment *t)
 
 /* ---- a point that is off its slot comes back to it, a slack rope gets taut */
 
-/* How far off it is, by how much that varies in a second at most, and how far it may go in a stretch over which it is a
- * function without surprises: a quarter of the radius of a slot, or what a slack rope goes while nothing at it turns by
- * more than a radian. */
+/* How far it is off, by how much that varies in a second at most, and for how long it is a function without surprises: while
+ * nothing at it turns by more than a radian, nor goes a quarter of the radius of a curve. */
 struct flight {
-    double apart, speed, way;
+    double apart, speed, longest;
 };
 
 static bool is_slack(const struct fbd_state *state, const struct tie *tie)
@@ -317,12 +316,13 @@ static bool flight_at(struct run *run, int index, double t, struct flight *fligh
     if (switcher_dense(run->stepper, moment_at(t), run->work.aside) != 0) return false;
     look(run, t, run->work.aside);
     const struct instant at = state_instant(run->during);
-    const bool slack = is_slack(run->during, tie);
-    struct one_sided now = one_sided_at(run->model, &at, slack ? tie->pair : tie->surface);
-    double reach = 0, radius = slack ? 0 : slot_radius(run->model, run->during->tree, index, &reach);
+    struct one_sided now =
+        one_sided_at(run->model, &at, is_slack(run->during, tie) ? tie->pair : tie->surface);
+    struct slot_size size = slot_size(run->model, run->during->tree, index);
     flight->apart = -now.excess;
-    flight->speed = 2 * (tie->end_count > 1 ? tie->end_count - 1 : 1) * (now.speed + now.turning * reach);
-    flight->way = slack ? flight->speed / now.turning : radius / 4;
+    flight->speed =
+        2 * (tie->end_count > 1 ? tie->end_count - 1 : 1) * (now.speed + now.turning * size.reach);
+    flight->longest = fmin(1 / now.turning, size.radius / (4 * flight->speed));
     return true;
 }
 
@@ -330,17 +330,16 @@ static bool flight_at(struct run *run, int index, double t, struct flight *fligh
  * through a cam, or as a crank turns that pulls a rope. So a stretch is as long as it stays apart, or else short. */
 static double until_near(struct run *run, int index, double from, double to)
 {
-    enum { most_halvings = 12 };
     const double speeds = 1.5;
     struct flight a, b;
     if (!flight_at(run, index, from, &a)) return to;
-    for (int k = 0; k < most_halvings; k++) {
+    for (;;) {
+        double span = to - from, middle = from + span / 2;
         if (!flight_at(run, index, to, &b)) return to;
-        double way = speeds * fmax(a.speed, b.speed) * (to - from);
-        if (a.apart + b.apart > way || way <= speeds * fmax(a.way, b.way)) return to;
-        to = from + (to - from) / 2;
+        bool stays = a.apart + b.apart > speeds * fmax(a.speed, b.speed) * span;
+        if (stays || !(span > fmin(a.longest, b.longest)) || !(middle > from && middle < to)) return to;
+        to = middle;
     }
-    return to;
 }
 
 double run_flights(struct run *run, double from, double to)

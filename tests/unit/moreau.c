@@ -2,7 +2,15 @@
 #include "moreau.h"
 
 #include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdio.h>
 #include <string.h>
+
+#include <cmocka.h>
+
+#include "random_numbers.h"
 
 enum { most_sweeps = 5000 };
 static const double settled = 1e-13; /* change of a velocity in a sweep, in units of the scene */
@@ -97,4 +105,19 @@ void moreau_run(const struct moreau_system *system, double until, int steps, dou
         }
         if (system->lift) system->lift(system->scene, q);
     }
+}
+
+void moreau_compare(const char *name, int usual, int most, bool (*agrees)(uint64_t seed, bool *sensitive))
+{
+    char seeds[40];
+    snprintf(seeds, sizeof seeds, "%s_SEED", name);
+    int count = number_of(name, usual), first = number_of(seeds, 1), differ = 0, left_out = 0;
+    for (int i = 0; i < count; i++) {
+        bool sensitive;
+        differ += !agrees((uint64_t)first + (uint64_t)i, &sensitive);
+        left_out += sensitive;
+    }
+    printf("# %d scenes, %d too sensitive\n", count, left_out);
+    assert_int_equal(differ, 0);
+    assert_true(most * left_out <= count);
 }

@@ -8,6 +8,9 @@
 #ifndef FBD_TESTS_MOREAU_H
 #define FBD_TESTS_MOREAU_H
 
+#include <stdbool.h>
+#include <stdint.h>
+
 enum { moreau_most = 9, moreau_most_rows = 48 };
 
 /* What one impulse acts along: w . v is the velocity that it works against. */
@@ -44,5 +47,9 @@ struct moreau_system {
 
 /* From q, v at t = 0 to `until` in `steps` steps. */
 void moreau_run(const struct moreau_system *system, double until, int steps, double *q, double *v);
+
+/* Scenes of `usual` seeds from 1 on, or as many and from where variables NAME and NAME_SEED of the environment say: each is
+ * to agree, and no more than one in `most` may be too sensitive to say so. */
+void moreau_compare(const char *name, int usual, int most, bool (*agrees)(uint64_t seed, bool *sensitive));
 
 #endif

@@ -28,12 +28,6 @@
 
 static const double g = 9.81, pi = 3.141592653589793;
 
-static int number_of(const char *name, int otherwise)
-{
-    const char *text = getenv(name);
-    return text ? (int)strtol(text, NULL, 10) : otherwise;
-}
-
 struct cam {
     double r0, a[2], b[2], W;
     int k[2];
@@ -148,6 +142,15 @@ static void write_crank(const struct cam *cam, double until, double tolerance, s
              cam->r0, cam->W, height(cam, 0, 0), height(cam, 0, 1), cam->L, until, tolerance);
 }
 
+/* In the place of that which stands before its forces. */
+static void set_initial(char *text, const char *initial)
+{
+    char *from = strstr(text, "initial:"), *to = strstr(text, "forces:");
+    assert_true(from && to && (size_t)(to - from) >= strlen(initial));
+    memset(from, ' ', (size_t)(to - from));
+    memcpy(from, initial, strlen(initial));
+}
+
 static void all_go_as_they_are_thrown(bool cranks)
 {
     int count = number_of("FBD_CAMS", thorough() ? 60 : 12), thrown = 0, told = 0;
@@ -210,18 +213,13 @@ static double distance(const struct cam *cam, double t, double y)
 static void a_jerk_within_a_long_step_is_seen(void **unused)
 {
     const struct cam cam = {.r0 = 0.110049, .W = 33.9774, .L = 0.29854};
-    char text[1000];
+    char text[1000], start[60];
     double off = 0, y = -0.238832, v = 0;
     struct checks checks = {0};
     (void)unused;
     write_crank(&cam, 1, 1e-11, sizeof text, text);
-    char *initial = strstr(text, "initial:");
-    assert_non_null(initial);
-    char start[60];
     snprintf(start, sizeof start, "initial: {x: %.17g}, ", y);
-    char *forces = strstr(initial, "forces:");
-    memset(initial, ' ', (size_t)(forces - initial));
-    memcpy(initial, start, strlen(start));
+    set_initial(text, start);
     struct trial trial = trial_parse(text);
     trial_start(&trial, NULL);
     trial_finish(&trial);
@@ -242,12 +240,62 @@ static void a_jerk_within_a_long_step_is_seen(void **unused)
     checks_end(&checks);
 }
 
+/* What presses a weight against its guide holds it by friction, where a slow cam or crank has lifted it to: it goes on up
+ * to the highest place and stays there, while the cam recedes and the rope goes slack. The work of its blows is shared by
+ * what drives and the friction on the guide. */
+static void what_has_been_lifted_is_held(void **unused)
+{
+    struct random_numbers numbers = {20261126};
+    struct checks checks = {0};
+    (void)unused;
+    for (int i = 0; i < (thorough() ? 60 : 12); i++) {
+        struct cam cam;
+        char text[1600], held[120], name[40];
+        const double until = 3;
+        double highest = -HUGE_VAL, by = random_between(&numbers, 1e-4, 5e-3);
+        (i % 2 ? draw_crank : draw)(&numbers, &cam);
+        cam.W = random_between(&numbers, 2.2, 4) / cam.k[i % 2 ? 1 : 0];
+        if (i % 2) cam.W = random_between(&numbers, 2.2, 4);
+        double tolerance = pow(10, -random_between(&numbers, 7, 11));
+        (i % 2 ? write_crank : write_cam)(&cam, until, tolerance, sizeof text, text);
+        snprintf(held, sizeof held, "initial: {x: %.17g}, ", height(&cam, 0, 0) + by);
+        set_initial(text, held);
+        char *forces = strstr(text, "forces: [gravity]");
+        static const char more[] =
+            "forces: [gravity, normal: {two_sided: true}, friction: 0.2, applied: {value: [60 N, 0 N]}]";
+        size_t rest = strlen(forces + 17) + 1;
+        assert_true(strlen(text) + sizeof more < sizeof text);
+        memmove(forces + sizeof more - 1, forces + 17, rest);
+        memcpy(forces, more, sizeof more - 1);
+        double when = 0, start = height(&cam, 0, 0) + by;
+        for (int k = 0; k <= 300000; k++) {
+            double t = k * until / 300000, H = height(&cam, t, 0);
+            if (H > highest) highest = H, when = t;
+        }
+        struct trial trial = trial_parse(text);
+        const fbd_recording recording = {.size = sizeof recording, .ledger = true};
+        trial_record(&trial, NULL, &recording);
+        size_t failed = checks.failed;
+        snprintf(name, sizeof name, "%d", i);
+        check_that(&checks, name, trial.outcome == FBD_DONE);
+        check_close(&checks, name, trial_get(&trial, "follower.x"), fmax(highest, start), 1e-8);
+        if (when < until - 1e-3) check_close(&checks, name, trial_get(&trial, "follower.v"), 0, 1e-12);
+        check_close(&checks, name, fbd_result_energy(trial.result).residual, 0, 1e-8);
+        bool stays = highest < start || when > until - 1e-3;
+        check_that(&checks, name, stays || isfinite(trial_event(&trial, FBD_EVENT_STICK, NULL, 0)));
+        if (checks.failed > failed) print_message("%s%s\n", text, fbd_simulation_reason(trial.simulation));
+        trial_close(&trial);
+    }
+    checks_end(&checks);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(followers_go_as_their_cams_throw_them),
         cmocka_unit_test(weights_go_as_their_cranks_throw_them),
         cmocka_unit_test(a_jerk_within_a_long_step_is_seen),
+        cmocka_unit_test(what_has_been_lifted_is_held),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

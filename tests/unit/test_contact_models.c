@@ -197,8 +197,8 @@ static void flat_boxes_rest_when_their_series_ends(void **unused)
 
 /* A uniform rod slides with its end on a floor that becomes rough at t = 0.01 s. Where 1 + 3 c^2 - 3 mu s c < 0, with c
  * and s of its angle to the floor, no normal force goes with the slip (Painleve): it jams, and turns on about its end
- * with the moment of momentum that it has about it. What slides fast beside it, and hangs on it by
- * a thread (else it would be run apart), is nothing to it. */
+ * with the moment of momentum that it has about it. What slides fast beside it, and hangs on it by a thread
+ * (else it would be run apart), is nothing to it. */
 static bool jam_agrees(struct random_numbers *numbers, bool beside)
 {
     char text[1400];

@@ -94,12 +94,6 @@ static void compare_forces(struct checks *checks, const struct trial *trial, con
     }
 }
 
-static int number_of(const char *name, int otherwise)
-{
-    const char *given = getenv(name);
-    return given ? (int)strtol(given, NULL, 10) : otherwise;
-}
-
 static void what_stands_in_statics_stands_in_a_run(void **unused)
 {
     struct random_numbers numbers = {(uint64_t)number_of("FBD_STACK_SEED", 20261126)};

@@ -57,17 +57,6 @@ static void add(struct hoist *hoist, const char *format, ...)
     assert_true(hoist->length < text_room);
 }
 
-static bool chance(struct random_numbers *numbers, double share)
-{
-    return random_between(numbers, 0, 1) < share;
-}
-
-static double perhaps(struct random_numbers *numbers, double share, double low, double high_end)
-{
-    double value = random_between(numbers, low, high_end);
-    return chance(numbers, share) ? value : 0;
-}
-
 /* ---- parts */
 
 static struct coordinate *new_coordinate(struct random_numbers *numbers, struct hoist *hoist,
@@ -77,10 +66,10 @@ static struct coordinate *new_coordinate(struct random_numbers *numbers, struct 
     snprintf(at->name, sizeof at->name, "%s.%s", body, turns ? "theta" : "x");
     snprintf(at->rate, sizeof at->rate, "%s.%s", body, turns ? "omega" : "v");
     at->inertia = inertia;
-    at->A = perhaps(numbers, 0.6, 0, size);
+    at->A = random_perhaps(numbers, 0.6, 0, size);
     at->w = random_between(numbers, 0.5, 12);
     at->phase = random_between(numbers, 0, 6);
-    at->B = perhaps(numbers, 0.5, -size / 2, size / 2);
+    at->B = random_perhaps(numbers, 0.5, -size / 2, size / 2);
     return at;
 }
 
@@ -110,10 +99,10 @@ static void add_weight(struct random_numbers *numbers, struct hoist *hoist, cons
     at->weight = size;
     at->q = random_between(numbers, -0.5, 0.5);
     at->v = v;
-    at->k = perhaps(numbers, 0.25, 1, 40) * mass;
+    at->k = random_perhaps(numbers, 0.25, 1, 40) * mass;
     at->neutral = random_between(numbers, -0.5, 0.5);
-    at->c = perhaps(numbers, 0.2, 0, 2) * mass;
-    bool stops[2] = {chance(numbers, 0.4), chance(numbers, 0.3)};
+    at->c = random_perhaps(numbers, 0.2, 0, 2) * mass;
+    bool stops[2] = {random_chance(numbers, 0.4), random_chance(numbers, 0.3)};
     add(hoist, "  %s:\n    mass: %.17g\n    motion: {slide: {along: 90 deg, through: [%.17g, 0]", body, mass,
         across);
     for (int k = 0; k < 2; k++) {
@@ -135,8 +124,8 @@ static double add_pulley(struct random_numbers *numbers, struct hoist *hoist, co
     double mass = exp(random_between(numbers, -1.5, 0.5));
     struct coordinate *at = new_coordinate(numbers, hoist, body, true, mass * r * r / 2, load * r * 0.3);
     at->v = omega;
-    at->rub = perhaps(numbers, 0.7, 0.01, 0.3) * load * r;
-    at->rub_speed = perhaps(numbers, 0.2, -3, 3);
+    at->rub = random_perhaps(numbers, 0.7, 0.01, 0.3) * load * r;
+    at->rub_speed = random_perhaps(numbers, 0.2, -3, 3);
     add(hoist,
         "  %s:\n    shape: disc\n    radius: %.17g\n    mass: %.17g\n    motion: {pivot: {%s}}\n    initial: "
         "{omega: "
@@ -153,10 +142,10 @@ static double add_pulley(struct random_numbers *numbers, struct hoist *hoist, co
 /* Weights 0 to n - 1, pulleys n to 2 n - 2; each rope goes from a weight to the next. */
 static void draw_row(struct random_numbers *numbers, struct hoist *hoist)
 {
-    int weights = 2 + chance(numbers, 0.4);
+    int weights = 2 + random_chance(numbers, 0.4);
     double r[2] = {random_between(numbers, 0.1, 0.3), random_between(numbers, 0.1, 0.3)}, across = 0,
            load = 0;
-    double v = perhaps(numbers, 0.7, -2, 2);
+    double v = random_perhaps(numbers, 0.7, -2, 2);
     for (int i = 0; i < weights; i++) {
         char name[4] = {'w', (char)('0' + i)};
         add_weight(numbers, hoist, name, across, i % 2 ? -v : v, 0);
@@ -178,17 +167,17 @@ static void draw_row(struct random_numbers *numbers, struct hoist *hoist)
 
 static void draw_drum(struct random_numbers *numbers, struct hoist *hoist)
 {
-    int weights = 1 + chance(numbers, 0.6);
-    double r[2], omega = perhaps(numbers, 0.7, -5, 5);
+    int weights = 1 + random_chance(numbers, 0.6);
+    double r[2], omega = random_perhaps(numbers, 0.7, -5, 5);
     bool right[2];
     char where[40];
     snprintf(where, sizeof where, "at: [0, %g]", high);
     add_pulley(numbers, hoist, "drum", 0.4, where, omega, 20);
     for (int i = 0; i < weights; i++) {
         char name[4] = {'w', (char)('0' + i)};
-        right[i] = chance(numbers, 0.5);
+        right[i] = random_chance(numbers, 0.5);
         r[i] = random_between(numbers, 0.1, 0.4);
-        double arm = right[i] ? r[i] : -r[i], faster = perhaps(numbers, 0.5, 0, 1);
+        double arm = right[i] ? r[i] : -r[i], faster = random_perhaps(numbers, 0.5, 0, 1);
         add_weight(numbers, hoist, name, arm, arm * omega + faster, 0);
         new_gap(hoist, 1 + i, 1)->w[0] = -arm;
     }
@@ -203,7 +192,7 @@ static void draw_drum(struct random_numbers *numbers, struct hoist *hoist)
 static void draw_tackle(struct random_numbers *numbers, struct hoist *hoist)
 {
     double r = random_between(numbers, 0.1, 0.3), s = random_between(numbers, 0.1, 0.3), load = 20,
-           v = perhaps(numbers, 0.7, -1, 1);
+           v = random_perhaps(numbers, 0.7, -1, 1);
     char where[60];
     add_weight(numbers, hoist, "carriage", 0, v, 0);
     double mass = add_pulley(numbers, hoist, "sheave", r, "on: carriage", v / r, load);
@@ -333,17 +322,7 @@ static bool agrees(uint64_t seed, bool *sensitive)
 static void time_stepping_says_the_same(void **unused)
 {
     (void)unused;
-    const char *given = getenv("FBD_HOISTS"), *first = getenv("FBD_HOISTS_SEED");
-    int count = given ? atoi(given) : 90, differ = 0, left_out = 0;
-    uint64_t seed = first ? strtoull(first, NULL, 10) : 1;
-    for (int i = 0; i < count; i++) {
-        bool sensitive;
-        differ += !agrees(seed + (uint64_t)i, &sensitive);
-        left_out += sensitive;
-    }
-    printf("# %d hoists, %d too sensitive\n", count, left_out);
-    assert_int_equal(differ, 0);
-    assert_true(10 * left_out <= count);
+    moreau_compare("FBD_HOISTS", 90, 10, agrees);
 }
 
 /* A pulley comes to rest while its rope is slack by 1e-9 of its length: that is taut, and what gives way to it is the pulley.

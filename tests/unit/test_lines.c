@@ -51,21 +51,10 @@ struct line {
 
 /* ---- draws */
 
-static bool chance(struct random_numbers *numbers, double share)
-{
-    return random_between(numbers, 0, 1) < share;
-}
-
-static double perhaps(struct random_numbers *numbers, double share, double low, double high)
-{
-    double value = random_between(numbers, low, high);
-    return chance(numbers, share) ? value : 0;
-}
-
 static void draw_stops(struct random_numbers *numbers, struct disc *disc, double e)
 {
-    bool below = chance(numbers, 0.4), above = chance(numbers, 0.4);
-    disc->min = below ? disc->x - perhaps(numbers, 0.8, 0.01, 0.4) : -HUGE_VAL;
+    bool below = random_chance(numbers, 0.4), above = random_chance(numbers, 0.4);
+    disc->min = below ? disc->x - random_perhaps(numbers, 0.8, 0.01, 0.4) : -HUGE_VAL;
     disc->max = above ? disc->x + random_between(numbers, 0.01, 0.4) : HUGE_VAL;
     disc->e = e;
     if (disc->min == disc->x) disc->v = fabs(disc->v);
@@ -75,18 +64,18 @@ static struct disc draw_disc(struct random_numbers *numbers)
 {
     double mass = exp(random_between(numbers, -1.5, 1.5));
     struct disc disc = {.mass = mass,
-                        .x = 2 * radius + perhaps(numbers, 0.7, 0.01, 0.5),
-                        .v = perhaps(numbers, 0.8, -2, 2),
-                        .mu = perhaps(numbers, 0.6, 0.02, 0.6),
-                        .surface = perhaps(numbers, 0.3, -1, 1),
-                        .shaken = perhaps(numbers, 0.2, -1, 1),
-                        .k = perhaps(numbers, 0.3, 1, 100) * mass,
-                        .c = perhaps(numbers, 0.2, 0, 2) * mass,
-                        .spring = perhaps(numbers, 0.3, 1, 100),
+                        .x = 2 * radius + random_perhaps(numbers, 0.7, 0.01, 0.5),
+                        .v = random_perhaps(numbers, 0.8, -2, 2),
+                        .mu = random_perhaps(numbers, 0.6, 0.02, 0.6),
+                        .surface = random_perhaps(numbers, 0.3, -1, 1),
+                        .shaken = random_perhaps(numbers, 0.2, -1, 1),
+                        .k = random_perhaps(numbers, 0.3, 1, 100) * mass,
+                        .c = random_perhaps(numbers, 0.2, 0, 2) * mass,
+                        .spring = random_perhaps(numbers, 0.3, 1, 100),
                         .leash = HUGE_VAL,
                         .rope = HUGE_VAL};
-    disc.push = (struct push){perhaps(numbers, 0.7, 0, 15) * mass, random_between(numbers, 0.5, 15),
-                              random_between(numbers, 0, 6), perhaps(numbers, 0.4, -5, 5) * mass};
+    disc.push = (struct push){random_perhaps(numbers, 0.7, 0, 15) * mass, random_between(numbers, 0.5, 15),
+                              random_between(numbers, 0, 6), random_perhaps(numbers, 0.4, -5, 5) * mass};
     return disc;
 }
 
@@ -94,10 +83,11 @@ static struct disc draw_disc(struct random_numbers *numbers)
 static void draw_rub(struct random_numbers *numbers, struct line *line)
 {
     struct disc *disc = &line->discs[0];
-    double rub = perhaps(numbers, 0.4, 0.1, 6) * disc->mass, other = perhaps(numbers, 0.5, -1, 1);
+    double rub = random_perhaps(numbers, 0.4, 0.1, 6) * disc->mass,
+           other = random_perhaps(numbers, 0.5, -1, 1);
     if (line->count > 1) return;
     disc->rub = rub;
-    disc->rub_speed = disc->shaken == 0 && chance(numbers, 0.5) ? disc->surface : other;
+    disc->rub_speed = disc->shaken == 0 && random_chance(numbers, 0.5) ? disc->surface : other;
 }
 
 /* Laws of several impacts at one instant differ, so that only single discs bounce. */
@@ -105,7 +95,7 @@ static struct line draw_line(uint64_t seed)
 {
     struct random_numbers numbers = {seed};
     struct line line = {.count = 1 + (int)(seed % most_discs), .until = random_between(&numbers, 0.5, 2)};
-    double e = line.count == 1 ? perhaps(&numbers, 0.5, 0, 0.9) : 0, end = 0;
+    double e = line.count == 1 ? random_perhaps(&numbers, 0.5, 0, 0.9) : 0, end = 0;
     for (int i = 0; i < line.count; i++) {
         struct disc *disc = &line.discs[i];
         *disc = draw_disc(&numbers);
@@ -117,8 +107,8 @@ static struct line draw_line(uint64_t seed)
         if (touches && disc->v < line.discs[i - 1].v) disc->v = line.discs[i - 1].v;
     }
     for (int i = 0; i < line.count; i++) {
-        line.discs[i].lists_zero = chance(&numbers, 0.5);
-        line.discs[i].pulse = perhaps(&numbers, 0.2, 2, 10);
+        line.discs[i].lists_zero = random_chance(&numbers, 0.5);
+        line.discs[i].pulse = random_perhaps(&numbers, 0.2, 2, 10);
     }
     draw_rub(&numbers, &line);
     return line;
@@ -140,16 +130,16 @@ static struct line draw_roped_line(uint64_t seed)
 {
     struct line line = draw_line(seed);
     struct random_numbers numbers = {seed + 1000000007};
-    line.e = perhaps(&numbers, 0.5, 0, 0.9);
+    line.e = random_perhaps(&numbers, 0.5, 0, 0.9);
     line.moreau = true;
     for (int i = 0; i < line.count; i++) {
         struct disc *disc = &line.discs[i];
-        disc->press = (struct push){perhaps(&numbers, 0.5, 0, 0.9) * disc->mass * g,
+        disc->press = (struct push){random_perhaps(&numbers, 0.5, 0, 0.9) * disc->mass * g,
                                     random_between(&numbers, 0.5, 15), random_between(&numbers, 0, 6), 0};
-        if (chance(&numbers, 0.3)) disc->leash = disc->x + perhaps(&numbers, 0.8, 0.01, 0.3);
+        if (random_chance(&numbers, 0.3)) disc->leash = disc->x + random_perhaps(&numbers, 0.8, 0.01, 0.3);
         if (disc->leash == disc->min) disc->leash += 0.01; /* no way to move at all */
-        double slack = perhaps(&numbers, 0.8, 0.01, 0.3);
-        if (i + 1 == line.count || !chance(&numbers, 0.5)) continue;
+        double slack = random_perhaps(&numbers, 0.8, 0.01, 0.3);
+        if (i + 1 == line.count || !random_chance(&numbers, 0.5)) continue;
         bool touches =
             disc[1].x - disc->x < 2.001 * radius; /* no rope that is as long as the contact allows */
         disc->rope = disc[1].x - disc->x + (touches ? fmax(slack, 0.01) : slack);

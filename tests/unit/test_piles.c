@@ -205,12 +205,6 @@ static void check_modes(struct checks *checks, struct trial *trial, const struct
     }
 }
 
-static int number_of(const char *name, int otherwise)
-{
-    const char *given = getenv(name);
-    return given ? (int)strtol(given, NULL, 10) : otherwise;
-}
-
 static void check_end(struct checks *checks, struct trial *trial, const struct pile *pile,
                       struct census *census)
 {

@@ -143,19 +143,13 @@ static void compare(struct checks *checks, const struct scene *scene, const stru
     trial_close(&trial);
 }
 
-static long number_of(const char *name, long otherwise)
-{
-    const char *given = getenv(name);
-    return given ? strtol(given, NULL, 10) : otherwise;
-}
-
 static void time_stepping_says_the_same(void **unused)
 {
     struct checks checks = {0};
     const char *only = getenv("FBD_PLANE_KIND");
     long count = number_of("FBD_PLANE", 40), first = number_of("FBD_PLANE_FIRST", 0),
          seed = number_of("FBD_PLANE_SEED", -1);
-    int steps = (int)number_of("FBD_PLANE_STEPS", 10000);
+    int steps = number_of("FBD_PLANE_STEPS", 10000);
     (void)unused;
     for (int k = 0; k < kind_count; k++) {
         struct census census = {0};

@@ -57,22 +57,11 @@ static void add(struct vehicle *vehicle, const char *format, ...)
     assert_true(vehicle->length < text_room);
 }
 
-static bool chance(struct random_numbers *numbers, double share)
-{
-    return random_between(numbers, 0, 1) < share;
-}
-
-static double perhaps(struct random_numbers *numbers, double share, double low, double high)
-{
-    double value = random_between(numbers, low, high);
-    return chance(numbers, share) ? value : 0;
-}
-
 static struct push draw_push(struct random_numbers *numbers, double size)
 {
-    struct push push = {perhaps(numbers, 0.6, 0, size), random_between(numbers, 0.5, 12),
+    struct push push = {random_perhaps(numbers, 0.6, 0, size), random_between(numbers, 0.5, 12),
                         random_between(numbers, 0, 6), 0};
-    push.B = perhaps(numbers, 0.5, -size / 2, size / 2);
+    push.B = random_perhaps(numbers, 0.5, -size / 2, size / 2);
     return push;
 }
 
@@ -104,12 +93,12 @@ static void draw_wheel(struct random_numbers *numbers, struct vehicle *vehicle)
 {
     struct body *wheel = &vehicle->body[0];
     const double s = vehicle->slope, r = random_between(numbers, 0.1, 0.4),
-                 m = exp(random_between(numbers, -1, 1)), v = perhaps(numbers, 0.8, -2, 2),
-                 far = perhaps(numbers, 0.3, 0, 0.5) * r, angle = random_between(numbers, -3, 3),
+                 m = exp(random_between(numbers, -1, 1)), v = random_perhaps(numbers, 0.8, -2, 2),
+                 far = random_perhaps(numbers, 0.3, 0, 0.5) * r, angle = random_between(numbers, -3, 3),
                  lift = random_between(numbers, 0.3, 1.6) * m * g;
     double omega = random_between(numbers, -8, 8), C[2] = {-r * sin(s), r * cos(s)},
            G[2] = {far * cos(angle), far * sin(angle)};
-    if (chance(numbers, 0.5)) omega = -v / r;
+    if (random_chance(numbers, 0.5)) omega = -v / r;
     *wheel = (struct body){.m = m,
                            .I = m * r * r * random_between(numbers, 0.2, 0.9),
                            .q = {C[0] + G[0], C[1] + G[1], 0},
@@ -124,9 +113,10 @@ static void draw_wheel(struct random_numbers *numbers, struct vehicle *vehicle)
     vehicle->bodies = 1;
     vehicle->anchor[0] = -1;
     vehicle->anchor[1] = 1.2;
-    vehicle->rope = chance(numbers, 0.25) ? hypot(C[0] - vehicle->anchor[0], C[1] - vehicle->anchor[1]) +
-                                                random_between(numbers, 0.01, 0.4)
-                                          : HUGE_VAL;
+    vehicle->rope =
+        random_chance(numbers, 0.25)
+            ? hypot(C[0] - vehicle->anchor[0], C[1] - vehicle->anchor[1]) + random_between(numbers, 0.01, 0.4)
+            : HUGE_VAL;
     add(vehicle,
         "ground: {points: {A: [-1, 1.2]}, lines: {floor: {along: %.17g}}}\nbodies:\n  b0:\n    mass: %.17g\n"
         "    inertia: %.17g\n    center: [%.17g, %.17g]\n    points: {C: [0, 0]}\n    motion: planar\n"
@@ -146,7 +136,7 @@ static void draw_cart_wheel(struct random_numbers *numbers, struct vehicle *vehi
     const struct body *chassis = &vehicle->body[0];
     const double c = cos(vehicle->slope), s = sin(vehicle->slope), size = 3 * g * wheel->r, *at = wheel->at;
     double omega = random_between(numbers, -8, 8);
-    if (chance(numbers, 0.6)) omega = -v / wheel->r;
+    if (random_chance(numbers, 0.6)) omega = -v / wheel->r;
     wheel->m = exp(random_between(numbers, -1, 0));
     wheel->I = wheel->m * wheel->r * wheel->r / 2;
     for (int k = 0; k < 3; k++) wheel->q[k] = chassis->q[k], wheel->v[k] = chassis->v[k];
@@ -154,7 +144,7 @@ static void draw_cart_wheel(struct random_numbers *numbers, struct vehicle *vehi
     wheel->q[1] += s * at[0] + c * at[1];
     wheel->v[2] = omega;
     wheel->push[2] = draw_push(numbers, size / 2);
-    wheel->rub = perhaps(numbers, 0.5, 0.01, 0.7) * size;
+    wheel->rub = random_perhaps(numbers, 0.5, 0.01, 0.7) * size;
     add(vehicle,
         "  b%d:\n    shape: disc\n    radius: %.17g\n    mass: %.17g\n    motion: {pivot: {on: b0, at: "
         "P%d}}\n"
@@ -167,21 +157,21 @@ static void draw_cart(struct random_numbers *numbers, struct vehicle *vehicle)
 {
     struct body *chassis = &vehicle->body[0], *wheels = chassis + 1;
     const double c = cos(vehicle->slope), s = sin(vehicle->slope), high = random_between(numbers, 0.3, 0.8),
-                 v = perhaps(numbers, 0.8, -2, 2), m = exp(random_between(numbers, -1, 1));
+                 v = random_perhaps(numbers, 0.8, -2, 2), m = exp(random_between(numbers, -1, 1));
     *chassis = (struct body){.m = m,
                              .I = m * random_between(numbers, 0.05, 0.2),
                              .q = {-s * high, c * high, vehicle->slope},
                              .v = {v * c, v * s, 0}};
     chassis->push[0] = draw_push(numbers, (m + 1) * g * 0.5);
-    chassis->push[1] = (struct push){perhaps(numbers, 0.6, 0, 1) * (m + 1) * g,
+    chassis->push[1] = (struct push){random_perhaps(numbers, 0.6, 0, 1) * (m + 1) * g,
                                      random_between(numbers, 0.5, 12), random_between(numbers, 0, 6), 0};
     chassis->push[2] = draw_push(numbers, (m + 1) * g * 0.15);
     vehicle->bodies = 3;
     vehicle->first_wheel = 1;
     vehicle->rope = HUGE_VAL;
     for (int k = 0; k < 2; k++)
-        wheels[k] =
-            (struct body){.r = random_between(numbers, 0.1, 0.25), .mu = perhaps(numbers, 0.8, 0.03, 0.8)};
+        wheels[k] = (struct body){.r = random_between(numbers, 0.1, 0.25),
+                                  .mu = random_perhaps(numbers, 0.8, 0.03, 0.8)};
     for (int k = 0; k < 2; k++) {
         wheels[k].at[0] = (k ? 1 : -1) * random_between(numbers, 0.3, 0.8);
         wheels[k].at[1] = wheels[k].r - high;
@@ -196,7 +186,7 @@ static void draw_cart(struct random_numbers *numbers, struct vehicle *vehicle)
         chassis->q[0], chassis->q[1], vehicle->slope, v * c, v * s);
     add_loads(vehicle, chassis, false);
     for (int b = 1; b < 3; b++) draw_cart_wheel(numbers, vehicle, b, v);
-    bool contacts = chance(numbers, 0.3);
+    bool contacts = random_chance(numbers, 0.3);
     add(vehicle, contacts ? "contacts:\n" : "couplings:\n");
     for (int b = 1; b < 3; b++)
         add(vehicle,
@@ -209,7 +199,7 @@ static void draw_vehicle(uint64_t seed, struct vehicle *vehicle)
 {
     struct random_numbers numbers = {seed};
     *vehicle = (struct vehicle){.until = random_between(&numbers, 0.4, 1.5)};
-    vehicle->slope = perhaps(&numbers, 0.5, -0.3, 0.3);
+    vehicle->slope = random_perhaps(&numbers, 0.5, -0.3, 0.3);
     add(vehicle, "fbd: 1\ngravity: %g\n", g);
     (seed % 2 ? draw_wheel : draw_cart)(&numbers, vehicle);
     add(vehicle, "simulate: {until: %.17g}\n", vehicle->until);
@@ -383,17 +373,7 @@ static bool agrees(uint64_t seed, bool *sensitive)
 static void time_stepping_says_the_same(void **unused)
 {
     (void)unused;
-    const char *given = getenv("FBD_ROLLS"), *first = getenv("FBD_ROLLS_SEED");
-    int count = given ? atoi(given) : 60, differ = 0, left_out = 0;
-    uint64_t seed = first ? strtoull(first, NULL, 10) : 1;
-    for (int i = 0; i < count; i++) {
-        bool sensitive;
-        differ += !agrees(seed + (uint64_t)i, &sensitive);
-        left_out += sensitive;
-    }
-    printf("# %d vehicles, %d too sensitive\n", count, left_out);
-    assert_int_equal(differ, 0);
-    assert_true(4 * left_out <= count);
+    moreau_compare("FBD_ROLLS", 60, 4, agrees);
 }
 
 int main(void)

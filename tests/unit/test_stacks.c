@@ -102,12 +102,6 @@ static fbd_stats run_stack(struct checks *checks, const struct stack *stack, con
     return stats;
 }
 
-static int number_of(const char *name, int otherwise)
-{
-    const char *given = getenv(name);
-    return given ? atoi(given) : otherwise;
-}
-
 static void a_stack_settles_and_then_rests_at_no_cost(void **unused)
 {
     (void)unused;

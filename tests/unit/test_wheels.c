@@ -58,35 +58,24 @@ static int size_of(const struct train *train)
 
 /* ---- draws */
 
-static bool chance(struct random_numbers *numbers, double share)
-{
-    return random_between(numbers, 0, 1) < share;
-}
-
-static double perhaps(struct random_numbers *numbers, double share, double low, double high)
-{
-    double value = random_between(numbers, low, high);
-    return chance(numbers, share) ? value : 0;
-}
-
 /* Of moments of a size for which all of it matters. */
 static struct part draw_part(struct random_numbers *numbers, double inertia, double r)
 {
     double size = 5 * inertia;
     struct part part = {.inertia = inertia,
                         .r = r,
-                        .q = perhaps(numbers, 0.7, -1, 1),
-                        .v = perhaps(numbers, 0.8, -3, 3),
-                        .rub = perhaps(numbers, 0.6, 0.02, 1) * size,
-                        .surface = perhaps(numbers, 0.2, -1, 1),
-                        .k = perhaps(numbers, 0.4, 0.1, 10) * size,
+                        .q = random_perhaps(numbers, 0.7, -1, 1),
+                        .v = random_perhaps(numbers, 0.8, -3, 3),
+                        .rub = random_perhaps(numbers, 0.6, 0.02, 1) * size,
+                        .surface = random_perhaps(numbers, 0.2, -1, 1),
+                        .k = random_perhaps(numbers, 0.4, 0.1, 10) * size,
                         .neutral = random_between(numbers, -1, 1),
-                        .c = perhaps(numbers, 0.3, 0, 0.5) * size};
-    bool below = chance(numbers, 0.3), above = chance(numbers, 0.3);
+                        .c = random_perhaps(numbers, 0.3, 0, 0.5) * size};
+    bool below = random_chance(numbers, 0.3), above = random_chance(numbers, 0.3);
     part.min = below ? part.q - random_between(numbers, 0.01, 0.5) : -HUGE_VAL;
     part.max = above ? part.q + random_between(numbers, 0.01, 0.5) : HUGE_VAL;
-    part.push = (struct push){perhaps(numbers, 0.7, 0, 3) * size, random_between(numbers, 0.5, 15),
-                              random_between(numbers, 0, 6), perhaps(numbers, 0.4, -2, 2) * size};
+    part.push = (struct push){random_perhaps(numbers, 0.7, 0, 3) * size, random_between(numbers, 0.5, 15),
+                              random_between(numbers, 0, 6), random_perhaps(numbers, 0.4, -2, 2) * size};
     return part;
 }
 
@@ -111,10 +100,11 @@ static struct train draw_train(uint64_t seed)
     for (int i = 0; i < train.wheels; i++) {
         double mass = exp(random_between(&numbers, -1, 1)), r = random_between(&numbers, 0.1, 0.5);
         train.parts[i] = draw_part(&numbers, mass * r * r / 2, r);
-        train.joint[i] =
-            chance(&numbers, 0.7) ? (enum joint)(joint_gear + (int)(random_bits(&numbers) % 3)) : joint_none;
+        train.joint[i] = random_chance(&numbers, 0.7)
+                             ? (enum joint)(joint_gear + (int)(random_bits(&numbers) % 3))
+                             : joint_none;
     }
-    train.rack = chance(&numbers, 0.4);
+    train.rack = random_chance(&numbers, 0.4);
     if (train.rack) {
         train.parts[train.wheels] = draw_part(&numbers, exp(random_between(&numbers, -1, 1)), 1);
         train.parts[train.wheels].surface = 0;
@@ -309,17 +299,7 @@ static bool agrees(uint64_t seed, bool *sensitive)
 static void time_stepping_says_the_same(void **unused)
 {
     (void)unused;
-    const char *given = getenv("FBD_WHEELS"), *first = getenv("FBD_WHEELS_SEED");
-    int count = given ? atoi(given) : 80, differ = 0, left_out = 0;
-    uint64_t seed = first ? strtoull(first, NULL, 10) : 1;
-    for (int i = 0; i < count; i++) {
-        bool sensitive;
-        differ += !agrees(seed + (uint64_t)i, &sensitive);
-        left_out += sensitive;
-    }
-    printf("# %d trains, %d too sensitive\n", count, left_out);
-    assert_int_equal(differ, 0);
-    assert_true(10 * left_out <= count);
+    moreau_compare("FBD_WHEELS", 80, 10, agrees);
 }
 
 int main(void)
