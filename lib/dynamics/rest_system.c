@@ -143,16 +143,24 @@ static bool move(struct rest_system *system, const double *w, double size)
     return true;
 }
 
-/* Least w of one part with which its limits hold, left by `slack`; nothing where there is none. */
+/* What the least reactions leave limits by is far more than the loads where a belt's tension is. */
+static double size_of_way(const struct rest_system *system, const double *values)
+{
+    double size = system->force;
+    for (size_t i = 0; i < rest_limit_values(system); i++) size = fmax(size, fabs(values[i]));
+    return size;
+}
+
+/* Least w of one part, times `size`, with which its limits hold, left by `slack`; nothing where there is none. */
 static bool keep_part_limits(struct rest_system *system, const double *G, const double *values, int which,
-                             double slack, double *w)
+                             double size, double slack, double *w)
 {
     struct rest_part part;
     if (!rest_part(system, G, which, &part)) return false;
     double *h = ARENA_ARRAY(system->arena, part.limits + 1, double),
            *own = ARENA_ARRAY(system->arena, part.size + 1, double);
     if (!h || !own) return false;
-    for (size_t i = 0; i < part.limits; i++) h[i] = -(values[part.limit[i]] + slack) / system->force;
+    for (size_t i = 0; i < part.limits; i++) h[i] = -(values[part.limit[i]] + slack) / size;
     enum least_distance found = least_distance(part.limits, part.size, part.G, h, own);
     if (found == least_distance_no_memory) return false;
     for (size_t k = 0; found == least_distance_found && k < part.size; k++) w[part.column[k]] = own[k];
@@ -171,16 +179,17 @@ static bool keep_limits(struct rest_system *system)
     system->within_limits = limits_hold(system, values);
     if (system->within_limits || d == 0) return true;
     if (!rest_limit_slopes(system, G)) return false;
+    double size = size_of_way(system, values);
     for (int pass = 0; pass < 2 && !system->within_limits; pass++) {
         double slack = pass == 0 ? 0 : rest_limit_slack(system) / 2;
         memset(w, 0, d * sizeof *w);
         for (int which = 0; which < system->parts; which++)
-            if (!keep_part_limits(system, G, values, which, slack, w)) return false;
-        if (!move(system, w, system->force)) return false;
+            if (!keep_part_limits(system, G, values, which, size, slack, w)) return false;
+        if (!move(system, w, size)) return false;
         double *after = ARENA_ARRAY(arena, count + 1, double);
         if (!after) return false;
         system->within_limits = limits_hold(system, after);
-        if (!system->within_limits && !move(system, w, -system->force)) return false;
+        if (!system->within_limits && !move(system, w, -size)) return false;
     }
     return true;
 }

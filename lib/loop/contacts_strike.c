@@ -288,10 +288,10 @@ static void drop_rounding(struct run *run, int count)
 }
 
 /* So has what slides or turns and is brought to rest, or to the speed of the surface that it rubs on: to the rounding of the
- * answers to the impulses. */
+ * answers to the impulses, which slopes of 1e-13 (impulse_answers) make larger from coupling to coupling. */
 static void stop_rounding(struct run *run, int count)
 {
-    const double rounding = 1e-12;
+    const double rounding = 1e-10;
     const struct fbd_model *model = run->model;
     const struct tree *tree = tree_of(run);
     const struct instant at = state_instant(run->state);

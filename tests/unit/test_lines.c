@@ -246,8 +246,10 @@ static void add_gap(struct moreau_rows *rows, int i, double side, double e)
     rows->row[rows->count++] = row;
 }
 
+/* What touches to rounding takes part in an impact beside it. */
 static void find_rows(const void *scene, double t, const double *q, struct moreau_rows *rows)
 {
+    const double closed = 1e-12;
     const struct line *line = scene;
     for (int i = 0; i < line->count; i++) {
         const struct disc *disc = &line->discs[i];
@@ -261,15 +263,15 @@ static void find_rows(const void *scene, double t, const double *q, struct morea
         rub.aim = disc->rub_speed;
         rub.most = disc->rub;
         if (disc->rub > 0) rows->row[rows->count++] = rub;
-        if (q[i] <= disc->min) add_gap(rows, i, 1, disc->e);
-        if (q[i] >= disc->max) add_gap(rows, i, -1, disc->e);
-        if (q[i] >= disc->leash) add_gap(rows, i, -1, 0);
-        if (q[i] <= -disc->leash) add_gap(rows, i, 1, 0);
-        if (i + 1 < line->count && q[i + 1] - q[i] >= disc->rope) {
+        if (q[i] <= disc->min + closed) add_gap(rows, i, 1, disc->e);
+        if (q[i] >= disc->max - closed) add_gap(rows, i, -1, disc->e);
+        if (q[i] >= disc->leash - closed) add_gap(rows, i, -1, 0);
+        if (q[i] <= closed - disc->leash) add_gap(rows, i, 1, 0);
+        if (i + 1 < line->count && q[i + 1] - q[i] >= disc->rope - closed) {
             add_gap(rows, i, 1, 0);
             rows->row[rows->count - 1].w[i + 1] = -1;
         }
-        if (i + 1 == line->count || q[i + 1] - q[i] > 2 * radius) continue;
+        if (i + 1 == line->count || q[i + 1] - q[i] > 2 * radius + closed) continue;
         add_gap(rows, i, -1, line->e);
         rows->row[rows->count - 1].w[i + 1] = 1;
     }
