@@ -12,6 +12,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "limits_kept.h"
+
 /* ---- checks */
 
 bool check_close(struct checks *checks, const char *what, double got, double want, double tolerance)
@@ -363,6 +365,8 @@ void trial_record(struct trial *trial, const fbd_options *options, const fbd_rec
     double from, to;
     fbd_simulation_interval(trial->simulation, &from, &to);
     fbd_simulation_state(trial->simulation, to, trial->state);
+    const char *beyond = trial->outcome == FBD_DONE ? beyond_limits(trial->state) : NULL;
+    if (beyond) fail_msg("the run ends beyond a limit: %s", beyond);
 }
 
 double trial_event(const struct trial *trial, fbd_event_kind kind, const char *name, int index)

@@ -109,7 +109,7 @@ void trial_to(struct trial *trial, double t);
 /* Advance to the end of the run and take the last state. */
 void trial_finish(struct trial *trial);
 
-/* Start and carry through with the ledger: trial->result. */
+/* Start and carry through with the ledger: trial->result. A run that is done must not end beyond a limit (limits_kept.h). */
 void trial_run(struct trial *trial, const fbd_options *options);
 void trial_record(struct trial *trial, const fbd_options *options, const fbd_recording *recording);
 
