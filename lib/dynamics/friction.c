@@ -122,17 +122,26 @@ double friction_rounding(const struct friction_values *now)
     return 8 * DBL_EPSILON * (fabs(now->hold) + now->limit);
 }
 
-enum slip friction_decide(const struct friction_values *now, const struct friction_values *rate)
+static double rate_of_limit(const struct friction_values *now, const struct friction_values *rate)
+{
+    return now->limit_static >= now->limit_kinetic ? rate->limit_static : rate->limit_kinetic;
+}
+
+double friction_rounding_of_time(const struct friction_values *now, const struct friction_values *rate,
+                                 double t)
+{
+    return 64 * DBL_EPSILON * fabs(t) * (fabs(rate->hold) + fabs(rate_of_limit(now, rate)));
+}
+
+enum slip friction_decide(const struct friction_values *now, const struct friction_values *rate, double t)
 {
     /* With mu_k > mu_s (nobody's friction, but anybody's file) slipping would start against itself: then the
      * larger one holds. */
     double limit = now->limit,
            hold = now->hold != 0 ? now->hold : rate->hold; /* of none its rate tells the side */
     double excess = fabs(now->hold) - limit;
-    if (fabs(excess) <= friction_rounding(now)) {
-        double d_limit = now->limit_static >= now->limit_kinetic ? rate->limit_static : rate->limit_kinetic;
-        excess = (hold > 0 ? rate->hold : -rate->hold) - d_limit;
-    }
+    if (fabs(excess) <= friction_rounding(now) + friction_rounding_of_time(now, rate, t))
+        excess = (hold > 0 ? rate->hold : -rate->hold) - rate_of_limit(now, rate);
     if (excess <= 0) return stick;
     return hold < 0 ? slip_plus : slip_minus; /* the other forces push by -hold */
 }

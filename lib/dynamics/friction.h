@@ -75,9 +75,13 @@ double friction_below_zero(const struct fbd_model *model, int pair, const struct
 /* The rounding of the force needed and of its limit: less than this beyond the limit is not beyond it. */
 double friction_rounding(const struct friction_values *now);
 
-/* The mode that follows for a pair whose relative velocity is zero: it sticks while the force needed is
- * within the static limit, else it slips the way the other forces push. `slots_along` is the variation along
- * the motion: it decides when the force needed is at the limit to rounding. */
-enum slip friction_decide(const struct friction_values *now, const struct friction_values *rate);
+/* By how much both change within the rounding of the time t of an event: coefficients that begin at zero begin there. */
+double friction_rounding_of_time(const struct friction_values *now, const struct friction_values *rate,
+                                 double t);
+
+/* The mode that follows at time t for a pair whose relative velocity is zero: it sticks while the force needed is
+ * within the static limit, else it slips the way the other forces push. `rate` is the variation along the motion: it
+ * decides when the force needed is at the limit to rounding. */
+enum slip friction_decide(const struct friction_values *now, const struct friction_values *rate, double t);
 
 #endif

@@ -226,8 +226,9 @@ static int next_mode(const struct fbd_state *state, const double *slots, const d
     struct friction_values rate = friction_along(model, pair, &at, slots, &flow, slots_along);
     double excess = fabs(now.hold) - now.limit;
     if (is_on_contact(state, hold) && excess <= contact_slack(model, hold->tie)) return stick;
-    *by_rate = excess <= beyond * rounding * (fabs(now.hold) + now.limit);
-    return friction_decide(&now, &rate);
+    *by_rate = excess <= beyond * rounding * (fabs(now.hold) + now.limit) +
+                             friction_rounding_of_time(&now, &rate, at.t);
+    return friction_decide(&now, &rate, at.t);
 }
 
 /* Does a slide that rubs, or a slot, press the wrong way? Where it sticks a guide takes the side on which it presses. A
