@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Switches that a stick holds at zero.
+ * Switches that a stick, or a stop, holds at zero.
  *
  * A law may say abs(v - s) with s the velocity of the surface. While the body sticks there this is zero
- * throughout and no function that passes zero: its sign is rounding. Whether it is so is asked of the
+ * throughout and no function that passes zero: its sign is rounding. So is that of v at a stop. Whether it is so is asked of the
  * function itself: at states taken at random among those that stick as this one does, what is not zero
  * throughout is zero with probability nought (the test of identities by J. T. Schwartz, J. ACM 27 (1980)
  * 701).
@@ -22,11 +22,18 @@ static double next_number(unsigned *count)
     return 2 * modf(++*count * golden, &whole) - 1;
 }
 
-/* Does friction hold a coordinate? What rolls has none of its own. */
-static bool is_held_by(const struct fbd_state *state, size_t pair)
+/* The coordinate that friction holds, or with `stops` a stop; -1 for none. What rolls has none of its own. */
+static int held_by(const struct fbd_state *state, size_t pair, bool *stops)
 {
     const struct mode *mode = &state->model->plan.modes[pair];
-    return mode_is_joint_friction(mode) && state->slip[pair] == stick;
+    *stops = false;
+    if (state->slip[pair] != stick) return -1;
+    if (mode_is_joint_friction(mode)) return mode->coordinate;
+    const struct tree *tree = state->model->tree;
+    if (mode->kind != mode_contact || tree->ties[mode->tie].meeting < 0) return -1;
+    const struct meeting *meeting = &tree->meetings[tree->ties[mode->tie].meeting];
+    *stops = meeting->stop != 0;
+    return *stops ? tree->links[meeting->shape[0].link].coordinate : -1;
 }
 
 /* Another number, however large this one is. */
@@ -35,7 +42,7 @@ static double other_than(double x, unsigned *count)
     return x + (1 + fabs(x)) * next_number(count);
 }
 
-/* Another time and another state, with what sticks on its surface. */
+/* Another time and another state, with what sticks on its surface, and what rests at a stop there. */
 static double move_away(const struct fbd_state *state, unsigned *count, double *y)
 {
     const struct plan *plan = &state->model->plan;
@@ -44,9 +51,11 @@ static double move_away(const struct fbd_state *state, unsigned *count, double *
     for (size_t i = 0; i < plan_size(plan); i++) y[i] = other_than(state->y[i], count);
     struct instant at = state_instant_at(state, t, y);
     for (size_t pair = 0; pair < plan->mode_count; pair++) {
-        const struct mode *mode = &plan->modes[pair];
-        if (is_held_by(state, pair))
-            y[n + (size_t)mode->coordinate] = friction_surface_speed(mode, &at, &acceleration);
+        bool stops;
+        int k = held_by(state, pair, &stops);
+        if (k < 0) continue;
+        if (stops) y[k] = state->y[k];
+        y[n + (size_t)k] = stops ? 0 : friction_surface_speed(&plan->modes[pair], &at, &acceleration);
     }
     return t;
 }
@@ -78,11 +87,11 @@ static bool can_be_asked(const struct fbd_model *model, const struct kink *kink)
     return count > 0 && (!model->tree || slots[count - 1] <= (int)plan_size(&model->plan));
 }
 
-static bool any_sticks(const struct fbd_state *state)
+static bool any_holds(const struct fbd_state *state)
 {
-    const struct plan *plan = &state->model->plan;
-    for (size_t pair = 0; pair < plan->mode_count; pair++)
-        if (is_held_by(state, pair)) return true;
+    bool stops;
+    for (size_t pair = 0; pair < state->model->plan.mode_count; pair++)
+        if (held_by(state, pair, &stops) >= 0) return true;
     return false;
 }
 
@@ -92,7 +101,7 @@ void watchers_hold(struct watchers *watchers, const struct fbd_state *state)
     enum { places = 3 };
     const struct fbd_model *model = state->model;
     const struct plan *plan = &model->plan;
-    bool asked = plan->kink_count > 0 && any_sticks(state);
+    bool asked = plan->kink_count > 0 && any_holds(state);
     memset(watchers->zeros, 0, (size_t)plan->branches * sizeof *watchers->zeros);
     unsigned count = 0;
     for (int place = 0; asked && place < places; place++) {
