@@ -133,14 +133,20 @@ double friction_rounding_of_time(const struct friction_values *now, const struct
     return 64 * DBL_EPSILON * fabs(t) * (fabs(rate->hold) + fabs(rate_of_limit(now, rate)));
 }
 
-enum slip friction_decide(const struct friction_values *now, const struct friction_values *rate, double t)
+double friction_return(const struct friction_values *now)
+{
+    const double errors = 1e-6;
+    return now->limit_kinetic == 0 ? errors * now->limit_static : 0;
+}
+
+enum slip friction_decide(const struct friction_values *now, const struct friction_values *rate, double slack)
 {
     /* With mu_k > mu_s (nobody's friction, but anybody's file) slipping would start against itself: then the
      * larger one holds. */
     double limit = now->limit,
            hold = now->hold != 0 ? now->hold : rate->hold; /* of none its rate tells the side */
     double excess = fabs(now->hold) - limit;
-    if (fabs(excess) <= friction_rounding(now) + friction_rounding_of_time(now, rate, t))
+    if (fabs(excess) <= friction_rounding(now) + slack)
         excess = (hold > 0 ? rate->hold : -rate->hold) - rate_of_limit(now, rate);
     if (excess <= 0) return stick;
     return hold < 0 ? slip_plus : slip_minus; /* the other forces push by -hold */

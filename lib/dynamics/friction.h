@@ -79,9 +79,13 @@ double friction_rounding(const struct friction_values *now);
 double friction_rounding_of_time(const struct friction_values *now, const struct friction_values *rate,
                                  double t);
 
-/* The mode that follows at time t for a pair whose relative velocity is zero: it sticks while the force needed is
- * within the static limit, else it slips the way the other forces push. `rate` is the variation along the motion: it
- * decides when the force needed is at the limit to rounding. */
-enum slip friction_decide(const struct friction_values *now, const struct friction_values *rate, double t);
+/* What slips without any loss, on ice, comes back to the very limit that it left. How far beyond that errors of a run may
+ * have it: there rates decide as at the limit, or it would stick by chance. */
+double friction_return(const struct friction_values *now);
+
+/* The mode that follows for a pair whose relative velocity is zero: it sticks while the force needed is within the
+ * static limit, else it slips the way the other forces push. `rate` is the variation along the motion: it decides when
+ * the force needed is at the limit to rounding, or to `slack`. */
+enum slip friction_decide(const struct friction_values *now, const struct friction_values *rate, double slack);
 
 #endif

@@ -188,7 +188,8 @@ static int decide_single(const struct settling *settling, int pair)
     struct friction_values now = friction_at(model, pair, &at, settling->slots);
     struct friction_values rate =
         friction_along(model, pair, &at, settling->slots, settling->flow, settling->slots_along);
-    return friction_decide(&now, &rate, at.t);
+    double slack = friction_rounding_of_time(&now, &rate, at.t);
+    return friction_decide(&now, &rate, settling->decided ? fmax(slack, friction_return(&now)) : slack);
 }
 
 /* NULL: the time does (a drive), or impacts and what rests (a contact). */

@@ -202,8 +202,8 @@ static bool moves_on(const struct fbd_state *state, const struct mode *hold)
 /* What a hold that is in question has to become: itself where it agrees. At its limit to rounding the rate
  * decides, and `by_rate` is set: there what is solved is as likely to have it hold as to have it give. What holds by
  * what is solved may be beyond its limit by what accelerations are solved to. */
-static int next_mode(const struct fbd_state *state, const double *slots, const double *slots_along, int pair,
-                     bool solved, bool *by_rate)
+static int next_mode(const struct fbd_state *state, const struct decided *decided, const double *slots,
+                     const double *slots_along, int pair, bool solved, bool *by_rate)
 {
     const double rounding = 1e-12, slacks = 4, beyond = solved ? 100 : 1;
     const struct fbd_model *model = state->model;
@@ -226,9 +226,10 @@ static int next_mode(const struct fbd_state *state, const double *slots, const d
     struct friction_values rate = friction_along(model, pair, &at, slots, &flow, slots_along);
     double excess = fabs(now.hold) - now.limit;
     if (is_on_contact(state, hold) && excess <= contact_slack(model, hold->tie)) return stick;
-    *by_rate = excess <= beyond * rounding * (fabs(now.hold) + now.limit) +
-                             friction_rounding_of_time(&now, &rate, at.t);
-    return friction_decide(&now, &rate, at.t);
+    double slack = friction_rounding_of_time(&now, &rate, at.t);
+    if (decided) slack = fmax(slack, friction_return(&now));
+    *by_rate = excess <= beyond * rounding * (fabs(now.hold) + now.limit) + slack;
+    return friction_decide(&now, &rate, slack);
 }
 
 /* Does a slide that rubs, or a slot, press the wrong way? Where it sticks a guide takes the side on which it presses. A
@@ -309,7 +310,7 @@ static enum agreement look(struct fbd_state *state, const struct decided *decide
         }
         if (mode_is_friction(hold) && hold_slips_already(state, decided, forced, pair) != 0) continue;
         if (is_on_open_contact(state, hold)) continue;
-        int mode = next_mode(state, slots, slots_along, pair, solved, &by_rate);
+        int mode = next_mode(state, decided, slots, slots_along, pair, solved, &by_rate);
         if (mode == state->slip[pair]) continue;
         found = by_rate ? at_limit : differs;
         which = pair;
