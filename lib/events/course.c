@@ -11,7 +11,10 @@
 
 #include <string.h>
 
-enum { room = course_most_degree + 1, coarse_room = course_coarse_degree + 1, at_rest = -1 };
+enum { room = course_most_degree + 1, coarse_room = course_coarse_degree + 1 };
+
+/* In place of the highest power of a component. */
+enum { at_rest = -1, not_followed = -2 };
 
 static const double pi = 3.14159265358979323846;
 
@@ -21,7 +24,7 @@ bool course_init(struct course *course, size_t size, const bool *used, struct ar
     for (size_t i = 0; i < size; i++) course->count += used[i];
     size_t count = course->count;
     size_t grids =
-        count > 0 ? (size_t)coarse_room * (2 * coarse_room + 1) + (size_t)room * (2 * room + 1) : 0;
+        count > 0 ? 2 * (size_t)coarse_room * (2 * coarse_room + 1) + (size_t)room * (2 * room + 1) : 0;
     course->component = ARENA_ARRAY(memory, 3 * count, int);
     course->coefficients = ARENA_ARRAY(memory, (size_t)2 * room * count + 5 * count + size, double);
     double *behind = arena_take(memory, grids, sizeof *behind, false);
@@ -36,8 +39,8 @@ bool course_init(struct course *course, size_t size, const bool *used, struct ar
     course->tail = course->floor + count;
     course->noise = course->tail + count;
     course->y = course->noise + count;
-    for (size_t i = 0; i < 2; i++) {
-        size_t own = i == 0 ? coarse_room : room;
+    for (size_t i = 0; i < course_grids; i++) {
+        size_t own = i == course_grid_full ? room : coarse_room;
         course->grids[i] = (struct course_grid){0, behind, behind + own, behind + own * (own + 1)};
         behind += own * (2 * own + 1);
     }
@@ -73,11 +76,17 @@ static void set_powers(int degree, double *power)
             power[2 * width + k] = (k > 0 ? 2 * power[width + k - 1] : 0) - power[k];
 }
 
+static enum course_grid_kind grid_of(int degree)
+{
+    if (degree == course_coarse_degree) return course_grid_coarse;
+    return degree < course_coarse_degree ? course_grid_simple : course_grid_full;
+}
+
 /* The coefficients of the Chebyshev series are c_j = (2/d) sum_k f_k cos(pi j k/d), where the first and last
  * of both sums count half. */
 static void prepare(struct course *course, int degree)
 {
-    struct course_grid *grid = &course->grids[degree != course_coarse_degree];
+    struct course_grid *grid = &course->grids[grid_of(degree)];
     course->degree = degree;
     course->grid = grid;
     if (grid->degree == degree) return;
@@ -90,6 +99,11 @@ static void prepare(struct course *course, int degree)
             grid->series[j * (degree + 1) + k] = 2 * half * cosine(j * k, degree) / degree;
         }
     }
+}
+
+static void choose(struct course *course, const bool *wanted)
+{
+    for (size_t i = 0; i < course->count; i++) course->top[i] = wanted && !wanted[i] ? not_followed : 0;
 }
 
 static int take_samples(struct course *course, course_sampler *sample, void *context)
@@ -161,7 +175,7 @@ static bool rests(struct course *course, size_t i)
 static bool follow(struct course *course, size_t i, double negligible, bool halved)
 {
     const double rounding = 32 * DBL_EPSILON, least_fall = 1.0 / 8;
-    if (rests(course, i)) return false;
+    if (course->top[i] == not_followed || rests(course, i)) return false;
     double series[room] = {0}, size = set_powers_of(course, i, series);
     double tail = negligible == 0 ? 0 : last_terms(course, series);
     course->doubt[i] += rounding * size + tail;
@@ -173,14 +187,15 @@ static bool follow(struct course *course, size_t i, double negligible, bool halv
     return share > negligible && share > course->floor[i];
 }
 
-int course_set(struct course *course, double from, double to, int degree, double negligible,
-               course_sampler *sample, void *context)
+int course_set(struct course *course, double from, double to, const bool *wanted, int degree,
+               double negligible, course_sampler *sample, void *context)
 {
     enum { most_halvings = 20 };
     course->from = from;
     course->to = to - from > 2 * course->length ? from + 2 * course->length : to;
     if (course->count == 0) return 0;
     prepare(course, degree);
+    choose(course, wanted);
     for (int halving = 0;; halving++) {
         bool rough = false;
         int status = take_samples(course, sample, context);
@@ -197,17 +212,19 @@ int course_set(struct course *course, double from, double to, int degree, double
 
 /* What follows a step of any method closely enough is smooth on the scale of the step, so that terms fall
  * from the third on; should two of them vanish by chance, T_2 tells. */
-int course_set_coarse(struct course *course, double from, double to, course_sampler *sample, void *context)
+int course_set_coarse(struct course *course, double from, double to, const bool *wanted,
+                      course_sampler *sample, void *context)
 {
     const double rounding = 32 * DBL_EPSILON, safe = 2;
     course->from = from;
     course->to = to;
     if (course->count == 0) return 0;
     prepare(course, course_coarse_degree);
+    choose(course, wanted);
     int status = take_samples(course, sample, context);
     if (status) return status;
     for (size_t i = 0; i < course->count; i++) {
-        if (rests(course, i)) continue;
+        if (course->top[i] == not_followed || rests(course, i)) continue;
         double series[room] = {0}, size = set_powers_of(course, i, series);
         double tail = fmax(last_terms(course, series), fabs(series[2]) / 16);
         course->doubt[i] += rounding * size + safe * tail;
@@ -244,6 +261,10 @@ void course_enclose(struct course *course, const struct stretch *stretch, const 
         double doubt = course->doubt[i], bend = 0, slope = 0, power = 1;
         struct enclosure *now = &course->now[course->component[i]];
         int top = course->top[i];
+        if (top == not_followed) {
+            *now = enclosure_everything();
+            continue;
+        }
         if (top == at_rest) {
             *now = enclosure_point(c[0]);
             if (doubt > 0) now->value = now->middle = around(c[0], doubt);

@@ -29,12 +29,15 @@ struct course_grid {
     double *node, *series, *power; /* d + 1 numbers; (d + 1) (d + 1): from samples to c, from c to powers */
 };
 
+/* One for each kind of degree that a scene goes to and fro between: it sticks along a line and slips along a wave. */
+enum course_grid_kind { course_grid_coarse, course_grid_simple, course_grid_full, course_grids };
+
 struct course {
     size_t size, count; /* of y; components that are followed */
     int *component;     /* count */
-    int *top;           /* count: the highest power that a component has, below zero where it rests */
+    int *top;           /* count: the highest power of each, below zero where it rests or is not followed */
     int degree;         /* of this piece */
-    struct course_grid grids[2]; /* the coarse one, another one */
+    struct course_grid grids[course_grids];
     const struct course_grid *grid;
     double from, to;       /* of the present piece */
     double length;         /* of the last piece that could be followed; the next may be twice as long */
@@ -58,17 +61,18 @@ bool course_init(struct course *course, size_t size, const bool *used, struct ar
 /* Another step: what is small is measured against sizes within one step. */
 void course_start(struct course *course);
 
-/* Follow the motion from `from` on: as far as `to`, or to course->to before it. The motion is a polynomial of
- * this degree if `negligible` is 0, else it is followed by one to about that share of its size. Non-zero is
- * from the sampler. */
-int course_set(struct course *course, double from, double to, int degree, double negligible,
-               course_sampler *sample, void *context);
+/* Follow the motion from `from` on: as far as `to`, or to course->to before it. Of the components those that are wanted,
+ * a flag for each; all of them for NULL. The motion is a polynomial of this degree if `negligible` is 0, else it is
+ * followed by one to about that share of its size. Non-zero is from the sampler. */
+int course_set(struct course *course, double from, double to, const bool *wanted, int degree,
+               double negligible, course_sampler *sample, void *context);
 
 /* Follow it as far as `to` by a series of degree 4. */
-int course_set_coarse(struct course *course, double from, double to, course_sampler *sample, void *context);
+int course_set_coarse(struct course *course, double from, double to, const bool *wanted,
+                      course_sampler *sample, void *context);
 
-/* The components over a stretch of the present piece, in course->now: those that are wanted, a flag for each that is
- * followed; all of them for NULL. */
+/* The components over a stretch of the present piece, in course->now: those that are wanted, everything for one that has
+ * not been followed there. */
 void course_enclose(struct course *course, const struct stretch *stretch, const bool *wanted);
 
 #endif

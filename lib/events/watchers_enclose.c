@@ -140,20 +140,27 @@ static struct enclosure larger_of(struct enclosure f, struct enclosure g)
                               {fmax(f.middle.low, g.middle.low), fmax(f.middle.high, g.middle.high)}};
 }
 
-static struct enclosure stick_limit(const struct outlook *o, int pair, int end)
+/* What is left to both ends, which share the limit and the force that is held. */
+static void enclose_stick_limits(const struct outlook *o, const struct watcher *watchers, size_t count,
+                                 struct enclosure *out)
 {
+    int pair = watchers->index;
     const struct mode *mode = &o->state->model->plan.modes[pair];
+    for (size_t i = 0; i < count; i++) out[i] = enclosure_point(HUGE_VAL);
+    if (o->state->slip[pair] != stick) return;
     struct enclosure press = larger_of(outlook_press(o, pair), enclosure_point(0));
     struct enclosure at_rest = enclosure_multiply(outlook_formula(o, &mode->mu_s), press);
     struct enclosure moving = enclosure_multiply(outlook_formula(o, &mode->mu_k), press);
     struct enclosure limit = larger_of(outlook_centred(o, at_rest), outlook_centred(o, moving));
     struct enclosure push = outlook_slot(o, mode->body, mode->hold_slot);
-    struct enclosure f = enclosure_add(limit, enclosure_scale(end == 0 ? 1 : -1, push));
     /* The room for rounding that friction_rounding gives. */
     double rounding = 8 * DBL_EPSILON * (interval_size(push.value) + interval_size(limit.value));
-    f.value.high += rounding;
-    f.middle.high += rounding;
-    return outlook_centred(o, f);
+    for (size_t i = 0; i < count; i++) {
+        struct enclosure f = enclosure_add(limit, enclosure_scale(watchers[i].end == 0 ? 1 : -1, push));
+        f.value.high += rounding;
+        f.middle.high += rounding;
+        out[i] = outlook_centred(o, f);
+    }
 }
 
 /* ---- by kind */
@@ -228,14 +235,12 @@ static struct enclosure enclose_one(const struct watchers *watchers, const struc
     case watch_normal_turns: return outlook_press(o, index);
     case watch_slip_stop:
         return o->state->slip[index] == stick ? enclosure_point(HUGE_VAL) : slip_stop(o, index);
-    case watch_stick_limit:
-        return o->state->slip[index] != stick ? enclosure_point(HUGE_VAL)
-                                              : stick_limit(o, index, watcher->end);
     case watch_share: return enclose_share(o, watcher);
     case watch_lift:
     case watch_gap:
     case watch_edge:
     case watch_kink:
+    case watch_stick_limit:
     case watch_one_sided: break;
     }
     return enclosure_everything();
@@ -254,13 +259,14 @@ void watchers_enclose(const struct watchers *watchers, const struct watcher_set 
 {
     const struct proof_group *those = &set->groups[group];
     struct outlook outlook = {.state = state, .stretch = stretch, .y = y};
-    if (asks_shares(set->watchers[those->first].kind) && state_sliding(state)) outlook_find_shares(&outlook);
-    if (set->watchers[those->first].kind == watch_kink) {
+    const struct watcher *first = &set->watchers[those->first];
+    if (asks_shares(first->kind) && state_sliding(state)) outlook_find_shares(&outlook);
+    if (first->kind == watch_kink)
         enclose_kink(watchers, set, those, &outlook, out);
-        return;
-    }
-    for (size_t i = 0; i < those->count; i++)
-        out[i] = enclose_one(watchers, &set->watchers[those->first + i], &outlook);
+    else if (first->kind == watch_stick_limit)
+        enclose_stick_limits(&outlook, first, those->count, out);
+    else
+        for (size_t i = 0; i < those->count; i++) out[i] = enclose_one(watchers, &first[i], &outlook);
 }
 
 /* ---- what they read */

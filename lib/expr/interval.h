@@ -104,7 +104,8 @@ static inline struct interval interval_multiply(struct interval a, struct interv
 
 static inline struct interval interval_scale(double k, struct interval a)
 {
-    return interval_multiply(interval_point(k), a);
+    double p = interval_product(k, a.low), q = interval_product(k, a.high);
+    return k < 0 ? interval_widen(q, p, 1) : interval_widen(p, q, 1);
 }
 
 static inline struct interval interval_hull(struct interval a, struct interval b)

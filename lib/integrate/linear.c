@@ -71,7 +71,7 @@ static int linear_set_driver(void *state, const gsl_odeiv2_driver *driver)
 
 /* ---- small matrices, row by row */
 
-static void apply_matrix(size_t dim, const double *matrix, const double *x, double *result)
+static inline void apply_matrix(size_t dim, const double *matrix, const double *x, double *result)
 {
     if (dim == 2) { /* one body on a line or a pivot, the most frequent scene */
         double first = matrix[0] * x[0] + matrix[1] * x[1];
@@ -168,23 +168,31 @@ static void need_rung(struct linear *s, int rung)
 
 /* The terms of the series for the present step, as many as count: the norm of the weights says nothing of
  * what is no longer there after dim - 1 products. */
-static void set_terms(struct linear *s)
+static inline __attribute__((always_inline)) void make_terms(struct linear *s, size_t dim)
 {
     const double least = 4e-18;
     double *term = s->term, bound = 1;
-    for (size_t i = 0; i < s->dim; i++) term[i] = s->h * s->f0[i];
-    for (s->used = 1; s->used < terms; s->used++, term += s->dim) {
+    for (size_t i = 0; i < dim; i++) term[i] = s->h * s->f0[i];
+    for (s->used = 1; s->used < terms; s->used++, term += dim) {
         double factor = s->h / (s->used + 1), size = 0;
         bound *= factor * s->rho;
-        if (bound < least && (size_t)s->used >= s->dim) break;
-        apply_matrix(s->dim, s->A, term, term + s->dim);
-        for (size_t i = 0; i < s->dim; i++) {
-            term[s->dim + i] *= factor;
-            size += fabs(term[s->dim + i]);
+        if (bound < least && (size_t)s->used >= dim) break;
+        apply_matrix(dim, s->A, term, term + dim);
+        for (size_t i = 0; i < dim; i++) {
+            term[dim + i] *= factor;
+            size += fabs(term[dim + i]);
         }
         if (size == 0) break;
     }
     s->has_terms = true;
+}
+
+static void set_terms(struct linear *s)
+{
+    if (s->dim == 2)
+        make_terms(s, 2); /* see apply_matrix */
+    else
+        make_terms(s, s->dim);
 }
 
 static void sum_terms(const struct linear *s, double theta, double *y)

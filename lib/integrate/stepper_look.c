@@ -63,10 +63,15 @@ static double excess(void *context, const double *error)
     return weights_ratio(s->control, moment_since(s->t1, s->t0), s->y1, error, s->f1);
 }
 
+static bool is_end(const struct stepper *s, struct moment t)
+{
+    return moment_equal(t, s->t0) || moment_equal(t, s->t1);
+}
+
 /* What the method itself says of the inside. */
 static int own_dense(struct stepper *s, struct moment t, double *y)
 {
-    if (!s->method->implicit) return dense_eval(s->dense, t, y);
+    if (!s->method->implicit || is_end(s, t)) return dense_eval(s->dense, t, y);
     double share = moment_since(t, s->t0) / moment_since(s->t1, s->t0);
     if (s->step->type == step_rodas5p) {
         int code = rodas5p_dense_prepare(s->step);
@@ -86,6 +91,7 @@ static int own_dense(struct stepper *s, struct moment t, double *y)
 static bool find_within(const struct stepper *s, struct moment *t)
 {
     if (!s->stepped || !(t->t >= s->t0.t && t->t <= s->t1.t)) return false;
+    if (t->rest == 0 && t->t > s->t0.t && t->t < s->t1.t) return true;
     *t = moment_since(*t, s->t0) <= 0 ? s->t0 : moment_since(s->t1, *t) <= 0 ? s->t1 : *t;
     return true;
 }
@@ -95,7 +101,6 @@ static bool find_within(const struct stepper *s, struct moment *t)
 int stepper_dense(struct stepper *s, struct moment t, double *y)
 {
     if (!find_within(s, &t)) return GSL_EINVAL;
-    if (moment_equal(t, s->t0) || moment_equal(t, s->t1)) return dense_eval(s->dense, t, y);
     int last_code = s->system->last_code;
     if (own_dense(s, t, y) != GSL_SUCCESS) dense_eval_plain(s->dense, t, y);
     s->system->last_code = last_code; /* no reason for what may fail later */
@@ -112,7 +117,7 @@ int stepper_degree(const struct stepper *s, double *negligible)
     if (type == step_linear) {
         const int most = 14;
         int degree = linear_dense_degree(s->step);
-        if (degree >= 2 && degree <= most) return degree;
+        if (degree >= 1 && degree <= most) return degree;
         *negligible = 1e-13;
         return most;
     }
@@ -136,8 +141,7 @@ int stepper_partial(struct stepper *s, struct moment t, double *y, double *f)
 
 int stepper_walk(struct stepper *s, struct moment t, double *y, double *f)
 {
-    if (!s->walk || !find_within(s, &t) || moment_equal(t, s->t0) || moment_equal(t, s->t1))
-        return GSL_EINVAL;
+    if (!s->walk || !find_within(s, &t) || is_end(s, t)) return GSL_EINVAL;
     return walk_inside(s, t, y, f);
 }
 

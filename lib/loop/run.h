@@ -101,7 +101,8 @@ struct snap {
 /* What events are looked for with, beside the watchers. */
 struct event_search {
     struct scan timed, moving;
-    bool *reads; /* for each group of moving functions which components of the course it reads */
+    bool *reads;  /* for each group of moving functions which components of the course it reads */
+    bool *wanted; /* those of the groups that are searched at present */
     bool paced, paced_by_motion; /* sampled functions may change as fast as formulas do, of the motion too */
     bool follows_places;         /* the course has places in the world */
     bool leads;                  /* there are drives or surfaces that may lead (run_lead) */

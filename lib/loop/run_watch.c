@@ -140,10 +140,10 @@ static void set_noise(struct run *run)
     }
 }
 
-static double follow_course(void *context, double from, double to, bool coarse)
+/* Follow the wanted components; returns the end of the piece, NAN where the motion cannot be had. */
+static double follow(struct run *run, double from, double to, bool coarse, const bool *wanted)
 {
     enum { simple = 6 };
-    struct run *run = context;
     double negligible;
     int degree = switcher_degree(run->stepper, &negligible);
     if (run->search.follows_places || any_leads(run)) { /* functions of the motion, and no polynomials */
@@ -152,9 +152,29 @@ static double follow_course(void *context, double from, double to, bool coarse)
     }
     set_noise(run);
     coarse = coarse && degree > simple && run->options.step == 0;
-    int status = coarse ? course_set_coarse(&run->course, from, to, sample_course, run)
-                        : course_set(&run->course, from, to, degree, negligible, sample_course, run);
+    int status = coarse ? course_set_coarse(&run->course, from, to, wanted, sample_course, run)
+                        : course_set(&run->course, from, to, wanted, degree, negligible, sample_course, run);
     return status ? NAN : run->course.to;
+}
+
+/* What the groups read that are still searched; all where something slides: see enclose_moving. */
+static const bool *find_wanted(struct run *run)
+{
+    const struct watcher_set *set = &run->watchers.moving;
+    const bool *reads = run->search.reads;
+    bool *wanted = run->search.wanted;
+    size_t count = run->course.count;
+    if (state_sliding(run->during)) return NULL;
+    memset(wanted, 0, count * sizeof *wanted);
+    for (size_t g = 0; g < set->group_count; g++, reads += count)
+        for (size_t k = 0; set->groups[g].open && k < count; k++) wanted[k] |= reads[k];
+    return wanted;
+}
+
+static double follow_course(void *context, double from, double to, bool coarse)
+{
+    struct run *run = context;
+    return follow(run, from, to, coarse, find_wanted(run));
 }
 
 /* ---- panels for functions that are sampled */
@@ -271,7 +291,7 @@ static double end_of_panel(void *context, double from, double to)
     if (turned > most) to = from + (to - from) * (most / turned);
     to = run_flights(run, from, run_contact_bend(run, from, to));
     if (!run->search.paced) return to;
-    double followed = run->search.paced_by_motion ? follow_course(run, from, to, false) : to;
+    double followed = run->search.paced_by_motion ? follow(run, from, to, false, NULL) : to;
     if (followed < to) to = followed; /* NAN: there is no motion to ask */
     const struct formula *formula;
     for (size_t k = 0; (formula = paced_formula(run->model, k)); k++)
@@ -302,7 +322,8 @@ static bool mark_reads(struct run *run, bool *used, size_t size)
 {
     const struct watcher_set *set = &run->watchers.moving;
     const struct course *course = &run->course;
-    bool *reads = run->search.reads = ARENA_ARRAY(&run->memory, set->group_count * course->count, bool);
+    bool *reads = run->search.reads = ARENA_ARRAY(&run->memory, (set->group_count + 1) * course->count, bool);
+    run->search.wanted = reads ? reads + set->group_count * course->count : NULL;
     for (size_t g = 0; reads && g < set->group_count; g++) {
         const struct proof_group *group = &set->groups[g];
         const struct watcher_set own = {.watchers = set->watchers + group->first, .count = group->count};

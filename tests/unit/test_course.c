@@ -49,7 +49,7 @@ static size_t follow(struct course *course, struct layer *layer, double from, do
     enum { far_too_many = 2000 };
     size_t pieces = 0;
     for (; from < to && pieces < far_too_many; pieces++, from = course->to) {
-        assert_int_equal(course_set(course, from, to, course_most_degree, 1e-9, sample, layer), 0);
+        assert_int_equal(course_set(course, from, to, NULL, course_most_degree, 1e-9, sample, layer), 0);
         assert_true(course->to > from);
         check_piece(course, layer);
     }
@@ -84,9 +84,43 @@ static void pieces_get_long_again_behind_a_layer(void **unused)
     }
 }
 
+static double end_of(struct interval interval, int side)
+{
+    return side == 0 ? interval.low : interval.high;
+}
+
+/* Nothing is said of what has not been followed, not what was true of an earlier piece either; and what is wanted is the
+ * same whether others are or not. */
+static void what_is_not_wanted_may_be_anything(void **unused)
+{
+    (void)unused;
+    struct arena memory = {0};
+    struct course course;
+    struct layer layer = {.width = 1, .size = 1};
+    const struct stretch half = {0, 0.5, 0.25};
+    assert_true(course_init(&course, 2, (bool[]){true, true}, &memory));
+    for (int coarse = 0; coarse < 2; coarse++) {
+        struct enclosure all = {0};
+        for (int wanted = 1; wanted >= 0; wanted--) {
+            const bool flags[] = {true, wanted};
+            course_start(&course);
+            int status = coarse ? course_set_coarse(&course, 0, 1, flags, sample, &layer)
+                                : course_set(&course, 0, 1, flags, 16, 0, sample, &layer);
+            assert_int_equal(status, 0);
+            course_enclose(&course, &half, NULL);
+            if (wanted) all = course.now[0];
+            assert_memory_equal(&course.now[0], &all, sizeof all);
+            for (int side = 0; side < 2; side++)
+                assert_int_equal(isfinite(end_of(course.now[1].value, side)) != 0, wanted);
+        }
+    }
+    arena_free(&memory);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(what_is_not_wanted_may_be_anything),
         cmocka_unit_test(pieces_get_long_again_behind_a_layer),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
