@@ -53,6 +53,14 @@ static bool is_kind(const struct kinds *kinds, const char *name)
     return false;
 }
 
+/* The first of several kinds that has a key, or NULL. */
+static const char *kind_with(const struct kinds *kinds, const char *key)
+{
+    for (size_t i = 0; i < kinds->count; i++)
+        if (kinds->kinds[i].group && has_field(kinds->kinds[i].group, key)) return kinds->kinds[i].name;
+    return NULL;
+}
+
 /* A key that stands one level too high, as slips of indentation leave it; NULL when it is none of those. */
 static const char *misplaced(fbd_errors *errors, const struct group *group, const char *key)
 {
@@ -60,6 +68,9 @@ static const char *misplaced(fbd_errors *errors, const struct group *group, cons
         return diag_hint(errors, "put it into the list of the body: `forces: [%s]`", key);
     if (group == &body_group && is_kind(&motion_kinds, key))
         return diag_hint(errors, "write it under `motion`: `motion: {%s: ...}`", key);
+    const char *motion = group == &body_group ? kind_with(&motion_kinds, key) : NULL;
+    if (motion)
+        return diag_hint(errors, "it belongs to the motion, as in `motion: {%s: {%s: ...}}`", motion, key);
     if ((has_field(group, "along") || has_field(group, "at")) && has_field(group, "on") &&
         (strcmp(key, "v") == 0 || strcmp(key, "omega") == 0))
         return diag_hint(

@@ -160,7 +160,7 @@ bool distributed_finish(struct entry *entry)
 {
     struct load *load = &entry->keys.load;
     const struct node *value = entry->keys.value;
-    struct vec from, to;
+    struct vec from = {0, 0}, to;
     load->body_frame = entry->keys.frame == frame_body;
     if (!entry->keys.from || !entry->keys.to || !value) return false; /* noted as missing */
     bool ends = read_end(entry, entry->keys.from, "from", &from);
