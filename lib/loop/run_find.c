@@ -184,11 +184,13 @@ static int find_change(struct run *run, struct moment *t)
 
 /* Log the user events in (from, t]. They are looked for when it is known how far the step goes, and change
  * nothing in it, so that a run with them has the bits of one without. One that ends the run cuts the step: 1,
- * else 0; -1 failed. */
+ * else 0; -1 failed. Where there is no end of them, as in the steps of a method that is at a loss, the step is cut to
+ * what has been seen, and whoever watches the run is asked again: 2. */
 static int find_told(struct run *run, struct moment *t)
 {
-    enum { most_dips = 8 };
+    enum { most_dips = 8, most_told = 10000 };
     double start = run->step.from, end = t->t;
+    int told = 0;
     run->search.moving.aside = true;
     scan_start(&run->search.moving);
     for (int dip = 0; dip < most_dips && start < end;) {
@@ -204,6 +206,11 @@ static int find_told(struct run *run, struct moment *t)
         if (!passed) scan_pass_over(&run->search.moving);
         dip += !(passed && when > start);
         start = passed ? when : fmax(when, run->search.moving.t);
+        told += passed;
+        if (told < most_told || !(start < end)) continue;
+        *t = moment_at(start);
+        run->step.restart = true;
+        return cut_step(run, *t) < 0 ? -1 : 2;
     }
     return 0;
 }
@@ -221,7 +228,7 @@ int run_find_event(struct run *run, struct moment *t)
     memcpy(run->work.crossed, run->search.moving.crossed,
            run->search.moving.count * sizeof *run->work.crossed);
     int told = find_told(run, t);
-    if (told != 0) return told;
+    if (told != 0) return told == 2 ? 0 : told;
     memcpy(run->work.y, run->work.kept, bytes);
     memcpy(run->work.f, run->work.kept + size, bytes);
     memcpy(run->search.moving.crossed, run->work.crossed,

@@ -144,10 +144,55 @@ static void nothing_changes_but_the_log(void **unused)
     assert_int_equal(wrong, 0);
 }
 
+/* One step of a body that nothing pushes has 31,830 zeros of sin(10^5 x). */
+static void thousands_in_a_step_are_told(void **unused)
+{
+    (void)unused;
+    fbd_model *model =
+        model_from("fbd: 1\ngravity: 0\nbodies: {p: {mass: 1, motion: slide, initial: {v: 1}}}\n"
+                   "simulate: {until: 1, events: [{name: tick, when: \"sin(1e5*x) = 0\"}]}\n");
+    fbd_simulation *simulation = fbd_simulation_new(model, NULL, NULL);
+    fbd_result *result = fbd_simulation_run(simulation, NULL);
+    const size_t count = fbd_simulation_event_count(simulation);
+    assert_int_equal(fbd_result_outcome(result), FBD_DONE);
+    assert_int_equal(count, (size_t)(1e5 / acos(-1)));
+    for (size_t i = 0; i < count; i++)
+        assert_true(fabs(fbd_simulation_event(simulation, i).t - acos(-1) * (double)(i + 1) / 1e5) < 1e-15);
+    fbd_result_free(result);
+    fbd_simulation_free(simulation);
+    fbd_model_free(model);
+}
+
+/* Forces of 1e118 N, which an implicit method cannot follow: where it is in the middle of a step changes with how far the step
+ * goes, and events among each other had no end in one. */
+static void a_method_at_a_loss_comes_to_its_end(void **unused)
+{
+    (void)unused;
+    fbd_options options = FBD_OPTIONS_DEFAULT;
+    options.method = "rk4imp";
+    options.tolerance = 1e-12;
+    fbd_model *model =
+        model_from("fbd: 1\nparameters: {k: 360 deg N/m, k3: 1e100 N/m^3}\nbodies:\n  p:\n    mass: 4.296\n  "
+                   "  motion: {slide: {along: 0.5 deg}}\n    "
+                   "initial: {x: 1e6}\n"
+                   "    forces: [potential: {name: spring, V: \"k*x^3/2 + k3*x^4/4\"}]\n"
+                   "simulate: {until: 10, events: [{name: middle, when: \"x = 0\", direction: falling}, "
+                   "{name: period, when: "
+                   "\"v = 0\", direction: falling}]}\n");
+    fbd_simulation *simulation = fbd_simulation_new(model, &options, NULL);
+    fbd_result *result = fbd_simulation_run(simulation, NULL);
+    assert_int_equal(fbd_result_outcome(result), FBD_FAILED);
+    fbd_result_free(result);
+    fbd_simulation_free(simulation);
+    fbd_model_free(model);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(nothing_changes_but_the_log),
+        cmocka_unit_test(thousands_in_a_step_are_told),
+        cmocka_unit_test(a_method_at_a_loss_comes_to_its_end),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
