@@ -262,15 +262,17 @@ static int dop853_apply(void *state, size_t n, double t, double h, double y[], d
 
 /* The arguments of the stages that dense output alone needs, written out as those of the step: every step with something
  * to watch makes them. */
-static int dense_stages(struct dop853 *s, const gsl_odeiv2_system *sys)
+INLINE int dense_stages(struct dop853 *s, size_t n, const gsl_odeiv2_system *sys)
 {
     const double(*a)[dop853_stages + 1] = dop853_a;
-    const double *k1 = vector(s, 1), *k6 = vector(s, 6), *k7 = vector(s, 7), *k8 = vector(s, 8);
-    const double *k9 = vector(s, 9), *k10 = vector(s, 10), *k11 = vector(s, 11), *k12 = vector(s, 12);
-    const double *k13 = vector(s, 13), *k14 = vector(s, 14), *k15 = vector(s, 15), *y0 = vector(s, v_start);
-    volatile double *u = vector(s, v_argument);
+    const double *k1 = vector_of(s, n, 1), *k6 = vector_of(s, n, 6), *k7 = vector_of(s, n, 7),
+                 *k8 = vector_of(s, n, 8);
+    const double *k9 = vector_of(s, n, 9), *k10 = vector_of(s, n, 10), *k11 = vector_of(s, n, 11),
+                 *k12 = vector_of(s, n, 12);
+    const double *k13 = vector_of(s, n, 13), *k14 = vector_of(s, n, 14), *k15 = vector_of(s, n, 15),
+                 *y0 = vector_of(s, n, v_start);
+    volatile double *u = vector_of(s, n, v_argument);
     double h = s->h;
-    size_t n = s->n;
     int status;
     for (size_t i = 0; i < n; i++)
         u[i] =
@@ -289,7 +291,7 @@ static int dense_stages(struct dop853 *s, const gsl_odeiv2_system *sys)
 }
 
 /* h times the sum with a row d, for the component whose first stage is k; stages are n apart. */
-static inline double high_term(double h, const double *d, const double *k, size_t n)
+INLINE double high_term(double h, const double *d, const double *k, size_t n)
 {
     const double *k6 = k + 5 * n;
     return h * (d[1] * k[0] + d[6] * k6[0] + d[7] * k6[n] + d[8] * k6[2 * n] + d[9] * k6[3 * n] +
@@ -300,12 +302,11 @@ static inline double high_term(double h, const double *d, const double *k, size_
 /* The polynomial of dop853_dense_eval from its end values and end slopes, and from the rows d (HNW I,
  * II.6).
  */
-static void set_polynomial(struct dop853 *s)
+INLINE void set_polynomial(struct dop853 *s, size_t n)
 {
-    size_t n = s->n;
-    double *c = vector(s, v_dense);
-    const double *y0 = vector(s, v_start), *y1 = vector(s, v_end);
-    const double *k1 = vector(s, 1), *k13 = vector(s, 13);
+    double *c = vector_of(s, n, v_dense);
+    const double *y0 = vector_of(s, n, v_start), *y1 = vector_of(s, n, v_end);
+    const double *k1 = vector_of(s, n, 1), *k13 = vector_of(s, n, 13);
     for (size_t i = 0; i < n; i++) {
         double rise = y1[i] - y0[i], bend = s->h * k1[i] - rise;
         c[i] = y0[i];
@@ -313,6 +314,24 @@ static void set_polynomial(struct dop853 *s)
         c[2 * n + i] = bend;
         c[3 * n + i] = rise - s->h * k13[i] - bend;
         for (size_t m = 0; m < 4; m++) c[(4 + m) * n + i] = high_term(s->h, dop853_d[m], k1 + i, n);
+    }
+}
+
+INLINE int make_dense(struct dop853 *s, size_t n, const gsl_odeiv2_system *sys)
+{
+    int status = dense_stages(s, n, sys);
+    if (status == GSL_SUCCESS) set_polynomial(s, n);
+    return status;
+}
+
+/* As make_stages. */
+static int prepare_dense(struct dop853 *s, const gsl_odeiv2_system *sys)
+{
+    switch (s->n) {
+    case 2: return make_dense(s, 2, sys);
+    case 4: return make_dense(s, 4, sys);
+    case 6: return make_dense(s, 6, sys);
+    default: return make_dense(s, s->n, sys);
     }
 }
 
@@ -324,11 +343,9 @@ int dop853_dense_prepare(gsl_odeiv2_step *step, const gsl_odeiv2_system *sys)
     if (s->prepared) return GSL_SUCCESS;
     int status = GSL_SUCCESS;
     if (!s->has_end_slope) status = GSL_ODEIV_FN_EVAL(sys, s->t + s->h, vector(s, v_end), vector(s, 13));
-    if (status == GSL_SUCCESS) status = dense_stages(s, sys);
-    if (status != GSL_SUCCESS) return status;
-    set_polynomial(s);
-    s->prepared = true;
-    return GSL_SUCCESS;
+    if (status == GSL_SUCCESS) status = prepare_dense(s, sys);
+    s->prepared = status == GSL_SUCCESS;
+    return status;
 }
 
 void dop853_dense_eval(const gsl_odeiv2_step *step, double theta, double *y)

@@ -32,9 +32,9 @@ static void *linear_alloc(size_t dim)
     const size_t most = 2 * (size_t)linear_most_pairs;
     if (dim == 0 || dim > most) return NULL;
     size_t numbers = (2 + works + terms + dim) * dim, matrices = 2 * (size_t)rungs * dim * dim;
-    struct linear *s = calloc(1, sizeof *s + (numbers + matrices) * sizeof(double));
+    struct linear *s = malloc(sizeof *s + (numbers + matrices) * sizeof(double));
     if (!s) return NULL;
-    s->dim = dim;
+    *s = (struct linear){.dim = dim, .rho = NAN}; /* of no matrix; most scenes never climb the ladder */
     s->y0 = s->memory;
     s->f0 = s->y0 + dim;
     s->work = s->f0 + dim;

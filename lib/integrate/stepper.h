@@ -95,11 +95,11 @@ int stepper_partial(struct stepper *stepper, struct moment t, double *y, double 
  * GSL_ENOMEM, GSL_EINVAL for a multistep method. The last step stays what it was. */
 int stepper_walk(struct stepper *stepper, struct moment t, double *y, double *f);
 
-/* Try a step of size h from (t, y) with slopes f and throw it away: its largest error in units of what is
- * allowed (at most 1 would be accepted), infinite where it cannot be made, or by a multistep method. The last
- * step stays what it was. */
-double stepper_attempt(struct stepper *stepper, struct counted_system *system, double t, const double *y,
-                       const double *f, double h);
+/* Try a step of size h from where the last step of another stepper began and throw it away: its largest error in
+ * units of what is allowed (at most 1 would be accepted), infinite where it cannot be made, or by a multistep method.
+ * The last steps of both stay what they were. */
+double stepper_attempt(struct stepper *stepper, struct counted_system *system, const struct stepper *other,
+                       double h);
 
 /* linear_set_matrix for a stepper of that method; nothing for others. */
 void stepper_set_linear(struct stepper *stepper, const double *A, double rho);

@@ -145,13 +145,13 @@ int stepper_walk(struct stepper *s, struct moment t, double *y, double *f)
     return walk_inside(s, t, y, f);
 }
 
-double stepper_attempt(struct stepper *s, struct counted_system *system, double t, const double *y,
-                       const double *f, double h)
+double stepper_attempt(struct stepper *s, struct counted_system *system, const struct stepper *other,
+                       double h)
 {
-    if (!s->redo) return INFINITY;
+    if (!s->redo || !other->stepped) return INFINITY;
     double *y1 = s->work, *f1 = s->work + s->n;
-    memcpy(y1, y, s->n * sizeof *y);
+    memcpy(y1, other->y0, s->n * sizeof *y1);
     gsl_odeiv2_step_reset(s->redo);
-    int code = gsl_odeiv2_step_apply(s->redo, t, h, y1, s->yerr, f, f1, &system->gsl);
+    int code = gsl_odeiv2_step_apply(s->redo, other->t0.t, h, y1, s->yerr, other->f0, f1, &system->gsl);
     return code == GSL_SUCCESS ? weights_ratio(s->control, h, y1, s->yerr, f1) : INFINITY;
 }

@@ -5,7 +5,6 @@
 #include <gsl/gsl_errno.h>
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 #include "base/zeroed.h"
 #include "integrate/stiffness.h"
@@ -18,7 +17,6 @@ struct switcher {
     struct stiffness stiffness;
     size_t n;
     double *rate_work; /* 2 n */
-    double *y0, *f0;   /* n each: the start of the last step */
 };
 
 static bool prepare_pair(struct switcher *s, const struct stepper_options *options,
@@ -28,11 +26,8 @@ static bool prepare_pair(struct switcher *s, const struct stepper_options *optio
     other.method = stiff;
     s->methods[1] = stiff;
     s->steppers[1] = stepper_alloc(&other);
-    s->rate_work = malloc(4 * s->n * sizeof(double));
-    if (!s->rate_work) return false;
-    s->y0 = s->rate_work + 2 * s->n;
-    s->f0 = s->y0 + s->n;
-    return s->steppers[1] != NULL;
+    s->rate_work = malloc(2 * s->n * sizeof(double));
+    return s->steppers[1] && s->rate_work;
 }
 
 struct switcher *switcher_alloc(const struct stepper_options *options, const struct method *stiff)
@@ -94,7 +89,7 @@ static enum stepper_status consider(struct switcher *s, struct counted_system *s
     double size = stiffness_stride(&s->stiffness) * moment_since(t, t0);
     /* What lies beyond the limit may be another motion, and there is no room for a step that long. */
     bool fits = moment_since(t_limit, t0) >= size;
-    double ratio = fits ? stepper_attempt(s->steppers[other], system, t0.t, s->y0, s->f0, size) : INFINITY;
+    double ratio = fits ? stepper_attempt(s->steppers[other], system, s->steppers[s->now], size) : INFINITY;
     if (ratio == 0 && is_confined(s)) ratio = DBL_MIN;
     double h_rate = s->now == 1 ? size * last_rate(s) : 0;
     if (!stiffness_decide(&s->stiffness, ratio, s->methods[other]->estimate_order, h_rate)) return stepper_ok;
@@ -114,10 +109,6 @@ enum stepper_status switcher_step(struct switcher *s, struct counted_system *sys
                                   double *y, double *f, double *h, struct moment t_limit)
 {
     struct moment t0 = *t;
-    if (s->steppers[1]) {
-        memcpy(s->y0, y, s->n * sizeof *y);
-        memcpy(s->f0, f, s->n * sizeof *f);
-    }
     enum stepper_status status = stepper_step(s->steppers[s->now], system, t, y, f, h, t_limit);
     s->made = s->now;
     if (status != stepper_ok || !s->steppers[1]) return status;
