@@ -31,7 +31,7 @@ static struct impact_point alone(const struct impacts *impacts, int i)
     return (struct impact_point){{W[0], W[1], W[n + 1]},
                                  impacts->points[i].mu,
                                  impacts->points[i].e,
-                                 impacts->law};
+                                 impacts->points[i].law};
 }
 
 /* The impact of point i; others feel it. */
@@ -71,7 +71,9 @@ static double weighted_speed(const struct impacts *impacts)
 static bool grows(const struct impacts *impacts, double before)
 {
     const double far = 1e3;
-    return impact_by_velocity(impacts->law) && !(weighted_speed(impacts) <= far * before);
+    bool may_grow = false;
+    for (int i = 0; i < impacts->count; i++) may_grow |= impact_by_velocity(impacts->points[i].law);
+    return may_grow && !(weighted_speed(impacts) <= far * before);
 }
 
 static enum impacts_end propagate(struct impacts *impacts)
@@ -117,9 +119,9 @@ static enum impacts_end propagate_to_the_end(struct impacts *impacts)
     struct impacts rest = *impacts;
     struct impacts_point *points = calloc((size_t)impacts->count + 1, sizeof *points);
     if (!points) return impacts_no_memory;
-    for (int i = 0; i < impacts->count; i++) points[i] = (struct impacts_point){impacts->points[i].mu, 0};
+    for (int i = 0; i < impacts->count; i++)
+        points[i] = (struct impacts_point){impacts->points[i].mu, 0, impact_stronge};
     rest.points = points;
-    rest.law = impact_stronge;
     end = impacts_together(&rest, before);
     impacts->work = rest.work;
     free(points);
@@ -163,9 +165,23 @@ static enum impacts_end solve_by(struct impacts *impacts, const double *before, 
     return end == impacts_done && !do_what_they_say(impacts, before) ? impacts_lost : end;
 }
 
+/* Of those with restitution, if there are some. */
+static enum impact_law law_of_fastest(const struct impacts *impacts)
+{
+    const struct impacts_point *points = impacts->points;
+    const double *v = impacts->v;
+    int best = 0;
+    for (int i = 1; i < impacts->count; i++) {
+        bool bounces = points[i].e > 0, as_well = bounces == (points[best].e > 0);
+        if (as_well ? v[(ptrdiff_t)2 * i] < v[(ptrdiff_t)2 * best] : bounces) best = i;
+    }
+    return points[best].law;
+}
+
 /* `before` has the velocities, too. */
 static enum impacts_end solve_whole(struct impacts *impacts, const double *before)
 {
+    impacts->law = law_of_fastest(impacts);
     if (impacts->slides > 0) return solve_by(impacts, before, false);
     if (impacts->count == 1) {
         strike(impacts, 0);
@@ -212,6 +228,7 @@ static enum impacts_end solve_part(struct impacts *all, const int *member, int c
         all->P[2 * member[i / 2] + i % 2] = P[i];
     }
     all->work += part.work;
+    if (closes) all->law = part.law;
     all->in_turn |= part.in_turn;
     free(points);
     return end;

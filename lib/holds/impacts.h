@@ -13,6 +13,9 @@
  *
  *   propagate     the point that closes fastest has its impact alone, by holds/impact.h, until none closes.
  *
+ * Points that do not feel each other have impacts of their own. Each has its law; together it is the law of the one with
+ * restitution that closes fastest.
+ *
  * One point alone is an impact by holds/impact.h in both. Where impulses press slides on their guides, the friction of
  * these is decided with all points, together.
  */
@@ -25,6 +28,7 @@
 
 struct impacts_point {
     double mu, e;
+    enum impact_law law;
 };
 
 /* Friction of a slide that the impulses press on its guide. */
@@ -37,15 +41,15 @@ struct impacts_slide {
 struct impacts {
     int count, slides;
     bool propagate;
-    enum impact_law law;
     const struct impacts_point *points;
     const struct impacts_slide *slide;
-    const double *W; /* size x size, symmetric */
-    const double *B; /* slides x size: the normal impulse of a guide by each */
-    double *v;       /* size: velocities before, then after; v_n of a point that lasts is 0 exactly */
-    double *P;       /* size: impulses, set */
-    double work;     /* set: the change of kinetic energy */
-    bool in_turn;    /* set: some are one after the other, as no impulses of all together were found */
+    const double *W;     /* size x size, symmetric */
+    const double *B;     /* slides x size: the normal impulse of a guide by each */
+    double *v;           /* size: velocities before, then after; v_n of a point that lasts is 0 exactly */
+    double *P;           /* size: impulses, set */
+    double work;         /* set: the change of kinetic energy */
+    enum impact_law law; /* set: of points that are solved together */
+    bool in_turn;        /* set: some are one after the other, as no impulses of all together were found */
 };
 
 static inline int impacts_size(const struct impacts *impacts)

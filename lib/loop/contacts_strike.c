@@ -42,26 +42,14 @@ static bool set_point(struct run *run, int i)
     const struct striker *striker = &work->strikers[i];
     const struct tie *tie = &tree_of(run)->ties[striker->tie];
     struct instant at = state_instant(run->state);
-    work->points[i] = (struct impacts_point){0, 0};
+    work->points[i] = (struct impacts_point){0, 0, impact_stronge};
     if (striker->rope) return true;
     if (tie->pair >= 0) work->points[i].mu = formula_value(&run->model->plan.modes[tie->pair].mu_k, &at);
     if (tie->pair < 0 && !striker->contact && striker->rubs) work->points[i].mu = no_limit;
     if (work->plastic || !striker->contact) return true;
+    work->points[i].law = (enum impact_law)run->model->scene->constraints[tie->constraint].contact.law;
     work->points[i].e = contacts_restitution(run, tie->meeting, fmax(0, -striker->v_n));
     return work->points[i].e >= 0;
-}
-
-/* The law of the contact that closes fastest; what is plastic in any case has none. */
-static enum impact_law law_of(const struct run *run, int count)
-{
-    const struct contacts_work *work = &run->contacts;
-    int best = -1;
-    for (int i = 0; i < count; i++)
-        if (work->strikers[i].contact && (best < 0 || work->strikers[i].v_n < work->strikers[best].v_n))
-            best = i;
-    if (best < 0) return impact_stronge;
-    const struct tie *tie = &tree_of(run)->ties[work->strikers[best].tie];
-    return (enum impact_law)run->model->scene->constraints[tie->constraint].contact.law;
 }
 
 /* ---- friction of slides, and in slots, that the impulses press on their guides */
@@ -129,6 +117,15 @@ static void find_answers(struct run *run, int rows)
     impulse_answers(run->state, &lines, work->modes, work->W, work->B, work->answers);
 }
 
+/* Can point i move along its surface? A body on a slide that meets another on it, or a wall across it, cannot: what the
+ * direction of its surface leaves there are the squares of roundings, and impulses of friction over these would be any. */
+static bool moves_along(const struct contacts_work *work, int all, int i)
+{
+    const double rounding = 1e-20; /* of W: a slope of 1e-10 */
+    const double *own = &work->W[(ptrdiff_t)2 * i * (all + 1)];
+    return work->strikers[i].rubs && own[all + 1] > rounding * own[0];
+}
+
 /* Rows 2 i and 2 i + 1, of which what does not rub has one; the normal of a rope points the other way. Slides come behind. */
 static void set_answers(struct run *run, int count)
 {
@@ -147,7 +144,8 @@ static void set_answers(struct run *run, int count)
     int all = rows + work->slide_count;
     for (int i = 0; i < count; i++) {
         const double sign = work->strikers[i].rope ? -1 : 1;
-        if (work->strikers[i].rubs) continue;
+        if (moves_along(work, all, i)) continue;
+        work->points[i].mu = 0;
         for (int k = 0; k < all; k++) {
             work->W[(2 * i) * all + k] *= sign;
             work->W[k * all + 2 * i] *= sign;
@@ -386,7 +384,6 @@ bool contacts_solve_impact(struct run *run, int count)
     set_answers(run, count);
     struct impacts impacts = {.count = count,
                               .propagate = run->model->scene->simulate.propagate && !work->plastic,
-                              .law = work->plastic ? impact_stronge : law_of(run, count),
                               .points = work->points,
                               .slides = work->slide_count,
                               .slide = work->slide,

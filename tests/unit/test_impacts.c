@@ -70,9 +70,9 @@ static enum impacts_end strike(struct scene *scene, enum impact_law law, bool on
 {
     set_answers(scene);
     for (int i = 0; i < 2 * scene->points; i++) v[i] = speed_along(scene, i);
+    for (int i = 0; i < scene->points; i++) scene->laws[i].law = law;
     struct impacts impacts = {.count = scene->points,
                               .propagate = one_after_the_other,
-                              .law = law,
                               .points = scene->laws,
                               .W = scene->W,
                               .v = v,
