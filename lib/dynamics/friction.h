@@ -86,6 +86,7 @@ double friction_return(const struct friction_values *now);
 /* The mode that follows for a pair whose relative velocity is zero: it sticks while the force needed is within the
  * static limit, else it slips the way the other forces push. `rate` is the variation along the motion: it decides when
  * the force needed is at the limit to rounding, or to `slack`. */
-enum slip friction_decide(const struct friction_values *now, const struct friction_values *rate, double slack);
+enum slip friction_decide(const struct friction_values *now, const struct friction_values *rate,
+                          double slack);
 
 #endif
