@@ -3,10 +3,9 @@
  * Switches that a stick, or a stop, holds at zero.
  *
  * A law may say abs(v - s) with s the velocity of the surface. While the body sticks there this is zero
- * throughout and no function that passes zero: its sign is rounding. So is that of v at a stop. Whether it is so is asked of the
- * function itself: at states taken at random among those that stick as this one does, what is not zero
- * throughout is zero with probability nought (the test of identities by J. T. Schwartz, J. ACM 27 (1980)
- * 701).
+ * throughout and no function that passes zero: its sign is rounding. So is that of v at a stop. Whether it is so
+ * is asked of the function itself: at states taken at random among those that stick as this one does, what is not
+ * zero throughout is zero with probability nought (the test of identities by J. T. Schwartz, J. ACM 27 (1980) 701).
  */
 #include <math.h>
 #include <string.h>

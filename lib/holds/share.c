@@ -228,8 +228,8 @@ static enum holds_found share_within(struct sharing *sharing, const int *modes)
 }
 
 /* The places of points are known to 1e-12 of the scene, and two of one face slip along directions that differ by as
- * much: what is redundant contradicts itself by that, and no forces do better where many of them lie on each other. Next to a dead
- * centre answers are what is left of far larger ones. */
+ * much: what is redundant contradicts itself by that, and no forces do better where many of them lie on each other.
+ * Next to a dead centre answers are what is left of far larger ones. */
 enum holds_found holds_share(struct hold_problem *problem)
 {
     static const double roundings[] = {1e-13, 1e-11, 1e-10};
