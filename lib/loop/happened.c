@@ -14,7 +14,7 @@ void run_note_friction(struct run *run, fbd_event_kind kind, int pair)
     if (!event) return;
     struct instant at = state_instant(run->state);
     double *slots = run->during->scratch;
-    force_balance(run->model, &at, slots);
+    state_balance_of(run->state, mode->body, slots); /* with its share of what several hold */
     struct friction_values values = friction_at(run->model, pair, &at, slots);
     event->force = values.force;
     event->limit = values.limit;

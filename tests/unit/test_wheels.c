@@ -248,6 +248,18 @@ static double apart(int count, const double *a, const double *b)
 
 /* ---- both */
 
+/* Of several that hold together each is told with its share, within its limit. */
+static bool tells_shares(const struct trial *trial)
+{
+    for (size_t i = 0; i < fbd_simulation_event_count(trial->simulation); i++) {
+        fbd_event event = fbd_simulation_event(trial->simulation, i);
+        if (event.kind != FBD_EVENT_STICK || !strstr(event.detail, "would take")) continue;
+        printf("# at %.9g %s\n", event.t, event.detail);
+        return false;
+    }
+    return true;
+}
+
 static bool run_train(const struct train *train, const char *text, double *end)
 {
     struct trial trial = trial_parse(text);
@@ -262,6 +274,7 @@ static bool run_train(const struct train *train, const char *text, double *end)
         snprintf(name, sizeof name, "p%d.%s", i, rack ? "v" : "omega");
         end[2 * i + 1] = trial_get(&trial, name) / 10;
     }
+    done = done && tells_shares(&trial);
     trial_close(&trial);
     return done;
 }
