@@ -43,6 +43,14 @@ double settling_velocity(const struct fbd_state *state, const struct decided *de
     return slip_velocity(state->model, pair, &at);
 }
 
+double settling_slack(const struct fbd_state *state, const struct decided *decided, int pair,
+                      const struct friction_values *now, const struct friction_values *rate)
+{
+    double slack = friction_rounding_of_time(now, rate, state->t);
+    bool comes_back = decided && (mode_of(state, pair)->tie >= 0 || !state->slip_rests[pair]);
+    return comes_back ? fmax(slack, friction_return(now)) : slack;
+}
+
 /* On the branch of the instant: of the time alone, the rates of the state do not matter. */
 static void resolve_drive(struct fbd_state *state, const struct formula *law)
 {
@@ -188,8 +196,8 @@ static int decide_single(const struct settling *settling, int pair)
     struct friction_values now = friction_at(model, pair, &at, settling->slots);
     struct friction_values rate =
         friction_along(model, pair, &at, settling->slots, settling->flow, settling->slots_along);
-    double slack = friction_rounding_of_time(&now, &rate, at.t);
-    return friction_decide(&now, &rate, settling->decided ? fmax(slack, friction_return(&now)) : slack);
+    return friction_decide(&now, &rate,
+                           settling_slack(settling->state, settling->decided, pair, &now, &rate));
 }
 
 /* NULL: the time does (a drive), or impacts and what rests (a contact). */

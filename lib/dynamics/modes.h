@@ -49,6 +49,11 @@ double slip_velocity(const struct fbd_model *model, int pair, const struct insta
  * rounding the constraints leave; where all comes to rest there is nothing else to measure that against. */
 double settling_velocity(const struct fbd_state *state, const struct decided *decided, int pair);
 
+/* How far beyond its limit friction at rest is at it, where rates decide: what they change within the rounding of the
+ * time, and in a run, of what has just come to rest, friction_return. */
+double settling_slack(const struct fbd_state *state, const struct decided *decided, int pair,
+                      const struct friction_values *now, const struct friction_values *rate);
+
 /* Give the rates of sticking coordinates the exact velocity of their surface. */
 void modes_hold(struct fbd_state *state);
 

@@ -226,8 +226,7 @@ static int next_mode(const struct fbd_state *state, const struct decided *decide
     struct friction_values rate = friction_along(model, pair, &at, slots, &flow, slots_along);
     double excess = fabs(now.hold) - now.limit;
     if (is_on_contact(state, hold) && excess <= contact_slack(model, hold->tie)) return stick;
-    double slack = friction_rounding_of_time(&now, &rate, at.t);
-    if (decided) slack = fmax(slack, friction_return(&now));
+    double slack = settling_slack(state, decided, pair, &now, &rate);
     *by_rate = excess <= beyond * rounding * (fabs(now.hold) + now.limit) + slack;
     return friction_decide(&now, &rate, slack);
 }

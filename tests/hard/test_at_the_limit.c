@@ -179,6 +179,29 @@ static void what_slips_without_loss_sticks_where_it_comes_back(void **unused)
     checks_end(&checks);
 }
 
+/* Of what has not slipped: a push that sets in beyond the limit by 5e-7 of it moves the block, on ice as well. */
+static void what_rests_on_ice_gives_way_beyond_its_limit(void **unused)
+{
+    (void)unused;
+    struct checks checks = {0};
+    for (int side = -1; side <= 1; side += 2) {
+        char text[400];
+        snprintf(
+            text, sizeof text,
+            "fbd: 1\ngravity: 10\nbodies:\n  b:\n    mass: 1\n    motion: slide\n    forces:\n"
+            "      - gravity\n      - normal\n      - friction: {static: 0.5, kinetic: 0}\n"
+            "      - applied: {name: push, value: \"if(t < 1, 1, 5*(1 + %d*5e-7))\"}\nsimulate: {until: 2}\n",
+            side);
+        struct trial trial = trial_parse(text);
+        hard_start(&trial, NULL, NAN);
+        hard_done(&checks, &trial);
+        double v = side > 0 ? 5 * (1 + 5e-7) : 0;
+        hard_case(&checks, &trial, "on ice: velocity", fabs(trial_get(&trial, "v") - v), 1e-12);
+        trial_close(&trial);
+    }
+    checks_end(&checks);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -187,6 +210,7 @@ int main(void)
         cmocka_unit_test(thrown_along_the_force_it_goes_on),
         cmocka_unit_test(a_trillionth_more_moves_it),
         cmocka_unit_test(what_slips_without_loss_sticks_where_it_comes_back),
+        cmocka_unit_test(what_rests_on_ice_gives_way_beyond_its_limit),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
