@@ -79,7 +79,7 @@ static bool grows(const struct impacts *impacts, double before)
 static enum impacts_end propagate(struct impacts *impacts)
 {
     enum { most_rounds = 10000 };
-    const double rounding = 1e-13; /* of the speeds before: what closes no faster rests */
+    const double rounding = 1e-15; /* of the speeds before: what closes no faster rests */
     double least = rounding * fastest_speed(impacts), before = weighted_speed(impacts);
     for (int round = 0; round < most_rounds; round++) {
         int i = fastest(impacts, least);

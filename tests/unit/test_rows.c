@@ -530,11 +530,38 @@ static void each_contact_has_its_law(void **unused)
     checks_end(&checks);
 }
 
+/* Two discs that touch fly into a wall that takes all of their motion: what each is left with is rounding, and nothing happens
+ * from there on. */
+static void what_comes_to_rest_in_turn_stays_so(void **unused)
+{
+    struct checks checks = {0};
+    (void)unused;
+    struct trial trial = trial_parse(
+        "fbd: 1\nground: {lines: {wall: {through: [0.10847565605447586, 0.55717274762081082], along: "
+        "2.9493085670288655}}}\nbodies:\n"
+        "  b0: {shape: disc, radius: 0.063110237060116051, mass: 3.6328090582482728, motion: planar,\n"
+        "    initial: {vx: 0.31373412789280963, vy: 1.6114593118724256}}\n"
+        "  b1: {shape: disc, radius: 0.22420481512144141, mass: 0.69217838286333522, motion: planar,\n"
+        "    initial: {x: 0.05490630384566355, y: 0.28201992306945045, vx: 0.31373412789280963, vy: "
+        "1.6114593118724256}}\ncontacts:\n"
+        "  - {between: [b0, b1], restitution: 0.49625956108241814, law: moreau}\n"
+        "  - {between: [b1, ground.wall], restitution: 0.23819820106685857, static: 0.68907668224065166, "
+        "law: "
+        "moreau}\nsimulate: {until: 2, tolerance: 1e-11, impacts: propagate}\n");
+    trial_run(&trial, NULL);
+    check_that(&checks, "it is done", trial.outcome == FBD_DONE);
+    check_close(&checks, "b0", trial_get(&trial, "b0.vy"), 0, 1e-12);
+    check_close(&checks, "b1", trial_get(&trial, "b1.vy"), 0, 1e-12);
+    trial_close(&trial);
+    checks_end(&checks);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(there_is_no_friction_across_a_slide),
         cmocka_unit_test(each_contact_has_its_law),
+        cmocka_unit_test(what_comes_to_rest_in_turn_stays_so),
         cmocka_unit_test(flights_and_impacts_say_the_same),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
