@@ -54,6 +54,7 @@ enum curve_fault curve_cut(struct curve *curve, struct arena *arena, double **en
 struct panel_list {
     struct curve_panel *panels;
     int count, room;
+    long looks; /* stretches in which something might be hidden: a curve of too many is intricate */
 };
 enum curve_fault curve_fit(const struct curve *curve, const struct curve_piece *piece, double from, double to,
                            struct panel_list *list, double *place);

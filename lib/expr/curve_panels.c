@@ -85,6 +85,7 @@ struct draft {
         length[order + 1];     /* series in p: |r'|, and the length from where the panel begins */
     double x[order], y[order]; /* r' */
     double fastest;
+    long *looks; /* of all drafts of the curve: how often hides_something has looked at a stretch */
 };
 
 static bool fit_speed(struct draft *draft, double *bad)
@@ -179,7 +180,7 @@ static bool hides_something(const struct draft *draft)
     } stack[deepest + 2] = {{draft->from + draft->wide / 2, draft->wide / 2}};
     const double least = ldexp(draft->wide, -deepest);
     int waiting = 1;
-    for (int count = 0; waiting > 0 && count < most; count++) {
+    for (int count = 0; waiting > 0 && count < most; count++, ++*draft->looks) {
         double p = stack[--waiting].p, radius = stack[waiting].radius;
         struct interval slope[2];
         enclose_slope(draft, p, radius, slope);
@@ -240,15 +241,21 @@ enum curve_fault curve_fit(const struct curve *curve, const struct curve_piece *
                            struct panel_list *list, double *place)
 {
     const double first_share = 8, digits = 1e-14, narrowest = 1e-9, still = 1e-3;
+    const long most_looks = 2000000; /* twice what spirals of so many panels take */
     double range = curve->to - curve->from, wide = range / first_share, fastest = 0;
     double size = fmax(fabs(from), fabs(to));
     struct cosines cosines;
     fill(&cosines);
     while (from < to) {
-        struct draft draft = {
-            .curve = curve, .piece = piece, .cosines = &cosines, .from = from, .wide = fmin(wide, to - from)};
+        struct draft draft = {.curve = curve,
+                              .piece = piece,
+                              .cosines = &cosines,
+                              .from = from,
+                              .wide = fmin(wide, to - from),
+                              .looks = &list->looks};
         struct curve_panel panel;
         *place = from;
+        if (list->looks > most_looks) return curve_intricate;
         if (!fit_speed(&draft, place)) return curve_not_finite;
         if (draft.fastest == 0) return curve_stands_still;
         fastest = fmax(fastest, draft.fastest);

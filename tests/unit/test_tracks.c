@@ -16,6 +16,7 @@
 
 #include "gallery.h"
 #include "random_numbers.h"
+#include "thorough.h"
 
 static const double g = 9.81, pi = 3.14159265358979323846;
 
@@ -404,6 +405,26 @@ static void short_bends_are_seen(void **unused)
     checks_end(&checks);
 }
 
+/* Where a curve switches everywhere, enclosures of its slope stay wide in each of 20,000 pieces: it is refused after seconds,
+ * not looked at for hours. */
+static void a_curve_that_switches_everywhere_is_refused(void **unused)
+{
+    static const char text[] =
+        "fbd: 1\nbodies:\n  cam: {mass: 1, motion: pivot}\n  follower: {mass: 1, motion: particle}\n"
+        "couplings:\n  - slot: {between: [follower, cam], x: \"(0.1 + (1e15 - round(p))/(-4))*sawtooth(p)\", "
+        "y: \"(0.1 + (0 - cos(p))/2)*sin(p)\", from: -3, to: 1e100 deg, closed: true}\nsimulate: {until: "
+        "1}\n";
+    (void)unused;
+    if (!thorough()) return;
+    fbd_errors *errors = fbd_errors_new();
+    assert_null(fbd_model_parse(text, sizeof text - 1, "a curve", NULL, 0, errors));
+    bool refused = false;
+    for (size_t i = 0; i < fbd_errors_count(errors); i++)
+        refused |= strcmp(fbd_errors_get(errors, i).id, "bad-track") == 0;
+    assert_true(refused);
+    fbd_errors_free(errors);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -415,6 +436,7 @@ int main(void)
         cmocka_unit_test(random_curves_agree),
         cmocka_unit_test(a_bead_rubs_over_inflections),
         cmocka_unit_test(short_bends_are_seen),
+        cmocka_unit_test(a_curve_that_switches_everywhere_is_refused),
     };
     return cmocka_run_group_tests_name("tracks", tests, NULL, NULL);
 }
