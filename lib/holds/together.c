@@ -253,6 +253,9 @@ static enum impacts_end restore_by_law(struct together *together)
         between.at_low = between.at_high;
         between.high *= 2;
         end = try_share(together, between.high, &between.at_high);
+        /* What is jammed between others gives nothing back, however much is given to it. */
+        bool jammed = between.at_high <= between.at_low + rounding * size;
+        if (end == impacts_done && jammed) return restore(together, between.low);
     }
     if (end != impacts_done || between.at_high <= 0) return end;
     end = close_in(together, &between, rounding * size);

@@ -7,6 +7,7 @@
 
 #include "dynamics/contact.h"
 #include "dynamics/impulse.h"
+#include "dynamics/project.h"
 #include "dynamics/tree_system.h"
 #include "loop/run.h"
 #include "rest/start.h"
@@ -405,10 +406,34 @@ static bool is_closed(const struct run *run, const struct fbd_state *state, int 
     return state->slip[tree_of(run)->ties[tie].surface] == stick;
 }
 
-void run_release_contacts(struct run *run)
+/* What does not press is let go, and what an impact has brought to rest on it may close by what rounding leaves of that: no
+ * impact would stop it, and it would meet again at once, and for ever. It is at rest. */
+static void stop_what_opens(struct run *run)
 {
     const struct tree *tree = tree_of(run);
-    for (int i = 0; tree && i < tree->tie_count; i++) {
+    struct fbd_state *state = run->state;
+    bool *stops = run->contacts.moves, any = false;
+    for (int i = 0; i < tree->tie_count; i++) {
+        const struct tie *tie = &tree->ties[i];
+        const struct row *row = &state->tree->rows[tie->first_row];
+        stops[i] = tie->kind == constraint_contact && state->tree->ties[i].feature != no_feature &&
+                   !is_closed(run, state, i) && row->g.x1 < 0 && row->g.x1 >= -no_speed(run, row);
+        if (stops[i]) state->slip[tie->surface] = stick;
+        any |= stops[i];
+    }
+    if (!any) return;
+    state_project_velocity(state, false);
+    for (int i = 0; i < tree->tie_count; i++)
+        if (stops[i]) state->slip[tree->ties[i].surface] = slip_plus;
+    state_evaluate(state);
+}
+
+void run_release_contacts(struct run *run)
+{
+    if (!has_meetings(run->model)) return;
+    const struct tree *tree = tree_of(run);
+    stop_what_opens(run);
+    for (int i = 0; i < tree->tie_count; i++) {
         const struct tie *tie = &tree->ties[i];
         if (tie->kind != constraint_contact) continue;
         bool before = run->contacts.was_closed[i], now = is_closed(run, run->state, i);
@@ -417,5 +442,5 @@ void run_release_contacts(struct run *run)
         if (before == now) continue;
         run_note(run, now ? FBD_EVENT_CONTACT : FBD_EVENT_LIFT_OFF, tie->end[0].body, tie->load, -1);
     }
-    if (tree) contacts_note_depths(run);
+    contacts_note_depths(run);
 }

@@ -118,6 +118,27 @@ static void a_cue_ball_comes_back(void **state)
     check(scene.v[3] / scene.v[2], tan(pi / 6), 1e-14);
 }
 
+/* Bodies side by side that fill the room between two walls, and all move to one of them: nothing can give way, whatever is
+ * given back, and impulses stay those that it takes to stop them and e times as much. */
+static void a_jammed_row_comes_to_rest(void **state)
+{
+    (void)state;
+    for (int law = impact_stronge; law <= impact_poisson; law++) {
+        double v[most_unknowns], P[most_unknowns], work;
+        struct scene scene = {.coordinates = 3, .points = 4, .w = {0.5, 1, 3}, .v = {-1, -1, -1}};
+        for (int i = 0; i < 4; i++) {
+            if (i < 3) scene.J[2 * i][i] = 1;
+            if (i > 0) scene.J[2 * i][i - 1] = -1;
+            scene.laws[i].e = 0.3 + 0.2 * i;
+        }
+        assert_int_equal(strike(&scene, (enum impact_law)law, false, v, P, &work), impacts_done);
+        check((double)in_turn, 0, 0);
+        check(work, -(2 + 1 + 1.0 / 3) / 2, 1e-12);
+        for (int k = 0; k < 3; k++) check(scene.v[k], 0, 1e-12);
+        for (int i = 0; i < 4; i++) assert_true(P[2 * i] >= 0 && P[2 * i] < 20);
+    }
+}
+
 /* A block b x h that rocks from one corner to the other, plastic and without slip: with the angular momentum
  * about the new corner kept, the rate falls to (2 h^2 - b^2) / (2 (b^2 + h^2)) (Housner 1963). */
 static void a_rocking_block_changes_corners(void **state)
@@ -318,6 +339,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(three_balls_in_a_row),
         cmocka_unit_test(a_cue_ball_comes_back),
+        cmocka_unit_test(a_jammed_row_comes_to_rest),
         cmocka_unit_test(a_rocking_block_changes_corners),
         cmocka_unit_test(a_stack_of_boxes_rocks),
         cmocka_unit_test(random_impacts_keep_momentum_and_make_no_energy),
