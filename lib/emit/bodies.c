@@ -9,38 +9,6 @@
 #include "emit/bodies.h"
 #include "emit/placed.h"
 
-/* ---- numbers of loads */
-
-/* Of some loads one text makes several numbers: those are not told by parameters. */
-static struct emit_origin origin_of(const struct model_load *load, const char *key, struct dim dim)
-{
-    const struct load *source = load->source;
-    bool mixed = load_is_placed(source) || load_has_wind(source) || source->toward || source->reaction;
-    return (struct emit_origin){mixed ? (struct pos){0, 0} : source->at, key, dim, load->body};
-}
-
-const char *load_number(struct emitter *emitter, const struct model_load *load, const char *key, double value,
-                        struct dim dim)
-{
-    const char *owner = emitter->load[load - emitter->model->loads];
-    return emit_parameter(emitter, emit_join(emitter, owner, key), value, origin_of(load, key, dim));
-}
-
-const char *load_formula(struct emitter *emitter, const struct model_load *load, const char *key,
-                         const struct formula *formula, struct dim dim)
-{
-    const char *owner = emitter->load[load - emitter->model->loads];
-    return emit_formula(emitter, formula, emit_join(emitter, owner, key), origin_of(load, key, dim));
-}
-
-const char *load_point(struct emitter *emitter, const struct model_load *load, const char *body)
-{
-    const char *owner = emitter->load[load - emitter->model->loads];
-    if (load->source->point.kind != point_fixed) return emit_printf(emitter, "c->%s.G", body);
-    return emit_vector(emitter, emit_join(emitter, owner, "at"), load->point,
-                       origin_of(load, "at", DIM_LENGTH));
-}
-
 /* From the origin of the frame, or the axis, to a point. */
 static const char *arm_of(struct body_writer *writer, const char *point)
 {
@@ -289,9 +257,7 @@ static void add_spring(struct body_writer *writer, const struct model_load *load
 static void add_linked(struct body_writer *writer, const struct model_load *load)
 {
     struct emitter *emitter = writer->emitter;
-    const char *owner = emitter->load[load - emitter->model->loads];
-    const char *anchor = emit_vector(emitter, emit_join(emitter, owner, "to"), load->anchor,
-                                     (struct emit_origin){load->source->at, "to", DIM_LENGTH, -1});
+    const char *anchor = load_anchor(emitter, load);
     text_printf(&writer->points, "    at = point_of(&pose, %s);\n    add_at(&sum, &pose, at, %s); /* %s */\n",
                 arm_of(writer, load_point(emitter, load, writer->name)),
                 emit_link_force(emitter, load, emit_printf(emitter, "vec_sub(at.p, %s)", anchor), "at.v"),
@@ -345,7 +311,7 @@ static void add_potential(struct body_writer *writer, const struct model_load *l
         if (coordinate < body->first || coordinate >= body->first + body->count) continue;
         const char *owner = emitter->load[load - emitter->model->loads];
         const char *V = emit_slope(emitter, &load->potential, emit_join(emitter, owner, "V"), slots[k],
-                                   origin_of(load, "V", DIM_MOMENT));
+                                   load_origin(load, "V", DIM_MOMENT));
         text_printf(&writer->lines, "    f[%s] -= %s.d; /* %s: -dV/d%s */\n", emitter->slot[coordinate], V,
                     load->source->name, emitter->model->scene->coordinates[coordinate].name);
     }

@@ -32,6 +32,12 @@ void add_term(struct body_writer *writer, int slot, const char *coefficient, con
 /* The point of a load in the frame of its body. */
 const char *load_point(struct emitter *emitter, const struct model_load *load, const char *body);
 
+/* The other end of a spring or damper: in the frame of `load->partner`, or of the world. */
+const char *load_anchor(struct emitter *emitter, const struct model_load *load);
+
+/* Where one of its texts stands. */
+struct emit_origin load_origin(const struct model_load *load, const char *key, struct dim dim);
+
 /* A number of a load, and one of its formulas. */
 const char *load_number(struct emitter *emitter, const struct model_load *load, const char *key, double value,
                         struct dim dim);

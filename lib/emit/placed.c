@@ -105,6 +105,8 @@ const char *emit_link_force(struct emitter *emitter, const struct model_load *lo
 
 /* ---- places in the world that expressions name */
 
+const char emit_new_links[] = "    struct links l = {0};\n    l.ground.turn = (struct vec){1, 0};\n";
+
 static const char *placed(struct emitter *emitter, const struct model_absolute *absolute, const char *pose,
                           const char *point)
 {
@@ -177,7 +179,7 @@ void emit_places(struct emitter *emitter)
         if (emitter->used[k] && model->absolutes[k].kind != absolute_slip &&
             model->bodies[model->absolutes[k].body].place.link > 0)
             jointed = true;
-    if (jointed) text_add(&lines, "    struct links l = {0};\n    move_links(s, y, &l);\n");
+    if (jointed) text_printf(&lines, "%s    move_links(s, y, &l);\n", emit_new_links);
     for (size_t k = 0; k < model->absolute_count; k++)
         if (emitter->used[k])
             text_printf(&values, "    y[%s] = %s;\n", emitter->place[k], one_place(emitter, k, &lines));

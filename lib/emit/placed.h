@@ -14,6 +14,9 @@ const char *emit_pose(struct emitter *emitter, int b);
 const char *emit_link_force(struct emitter *emitter, const struct model_load *load, const char *reach,
                             const char *velocity);
 
+/* C: the links of the tree `l`, of which only the ground has its place, on which the others move. */
+extern const char emit_new_links[];
+
 /* The function that writes places in the world behind the coordinates and rates, if any are named. */
 void emit_places(struct emitter *emitter);
 

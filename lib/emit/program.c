@@ -66,7 +66,8 @@ static void write_enum(struct emitter *emitter, struct text *out)
     text_printf(out, "branches\n};\nenum {\n    surfaces = %zu, events = %zu,\n", plan->contact_count,
                 plan->watch_count);
     text_add(out, "    watches = 2*pairs + surfaces + branches + events,\n"
-                  "    looks = 5 /* within a step, for what happens and is undone */\n};\n\n");
+                  "    looks = 3,     /* within a step, for what happens and is undone, */\n"
+                  "    look_depth = 6 /* and so often halved where that bends */\n};\n\n");
 }
 
 static void write_structures(struct emitter *emitter, struct text *out)

@@ -223,7 +223,7 @@ static void write_tree(struct emitter *emitter)
 {
     const struct tree *tree = emitter->model->tree;
     struct text lines = {0};
-    text_add(&lines, "    struct links l = {0};\n    l.ground.turn = (struct vec){1, 0};\n");
+    text_add(&lines, emit_new_links);
     if (tree->pivots_only) {
         text_add(&lines, "    set_out_links(s, y, f, &l);\n");
         if (emitter->walks) text_add(&lines, "    load_links(s, t, y, &l);\n");

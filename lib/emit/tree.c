@@ -217,8 +217,7 @@ static void linked(struct tree_writer *writer, const struct model_load *load)
     const char *ends[2] = {emit_constant(emitter, "struct vec", emit_join(emitter, owner, "place")),
                            emit_constant(emitter, "struct vec", emit_join(emitter, owner, "end"))};
     const char *a = link_name(emitter, model->bodies[load->body].place.link), *b = "ground";
-    const char *anchor = emit_vector(emitter, emit_join(emitter, owner, "to"), load->anchor,
-                                     (struct emit_origin){load->source->at, "to", DIM_LENGTH, load->partner});
+    const char *anchor = load_anchor(emitter, load);
     text_printf(&emitter->derive, "    c->%s = %s;\n", ends[0],
                 place_of(emitter, load->body, load_point(emitter, load, emitter->body[load->body])));
     if (load->partner >= 0) {

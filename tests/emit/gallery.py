@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Usage: gallery.py FBD_RUN STATES [--all | MODEL...]: models of the gallery as C. Each is compiled without a warning,
-has the library's accelerations at the start and at random states to 2 ulp, and ends where fbd-run ends; what is
-refused is what has loops, contacts, tables or motion along switches. Without --all some are compiled, and all
+"""Usage: gallery.py FBD_RUN STATES [--all | MODEL... | --drawn CROSS_CHECK FIRST COUNT]: models of the gallery as C. Each
+is compiled without a warning, has the library's accelerations at the start and at random states to 2 ulp, and ends
+where fbd-run ends; what is refused is what has loops, contacts, tables or motion along switches. Without --all some are
+compiled, and all written. With --drawn the random scenes of `cross_check` with these seeds, as far as they can be
 written. Prints TAP."""
 import json
 import math
@@ -24,6 +25,24 @@ plane/two_springs_off_axis rotation/bearing_friction rotation/compound_pendulum 
 trees/chain_of_ten_rods trees/elastic_pendulum trees/shaken_pendulum trees/cart_and_pendulum hard/quiet_end""".split()
 # Switches along which a motion may slide.
 SLIDES = {"hard/chatter", "hard/switched_attraction", "hard/zeno_stop"}
+# What happens and is undone within a step; friction whose limit falls to zero where nothing pushes.
+BLOCK = """fbd: 1
+title: A block that rubs
+bodies:
+  block:
+    mass: 2 kg
+    motion: slide
+    initial: {v: %s}
+    forces:
+      - gravity
+      - normal
+      - friction: {%s}
+simulate: {until: 10 s}
+"""
+BLOCKS = {
+    "shaken": ("0.6 m/s", "static: 3.15, kinetic: 0.2, surface_speed: \"0.6[m/s]*cos(1500[rad/s]*t)\""),
+    "fading": ("0 m/s", "coefficient: \"0.44*max(0, cos(4.9[rad/s]*t))\""),
+}
 flags = ["-std=c17", "-O1", "-ffp-contract=off", "-Wall", "-Wextra", "-Wpedantic",
          "-Werror"]
 compiler = os.environ.get("CC", "cc").split()
@@ -85,7 +104,8 @@ def ends(model, program):
 
 def write(model, folder):
     """The program of a model, or the reasons why there is none."""
-    name = str(model.relative_to(root / "models").with_suffix(""))
+    gallery = root / "models"
+    name = str(model.relative_to(gallery).with_suffix("")) if gallery in model.parents else model.stem
     source = folder / (name.replace("/", "_") + ".c")
     done = run([fbd_run, "--tolerance", tolerance, "--emit-c", str(source), str(model)])
     reasons = [line for line in done.stderr.splitlines() if "[cannot-emit]" in line]
@@ -179,29 +199,64 @@ def claim(fact, words, details=()):
         print(f"#   {line}")
 
 
-def main():
+def draw(cross_check, first, number, folder):
+    """Random scenes, each a file that its seed names."""
+    models = []
+    for seed in range(first, first + number):
+        text = run([cross_check, "--show", str(seed)]).stdout
+        if not missing("", text):
+            models.append(folder / f"scene_{seed}.yaml")
+            models[-1].write_text(text, encoding="utf-8")
+    return models
+
+
+def blocks(folder):
+    for name, numbers in BLOCKS.items():
+        (folder / f"{name}.yaml").write_text(BLOCK % numbers, encoding="utf-8")
+    return [folder / f"{name}.yaml" for name in BLOCKS]
+
+
+def compare_all(pool, compared, varied):
+    for (name, _, _), faults in zip(compared, pool.map(lambda each: compare(*each), compared)):
+        claim(not faults, f"{name} as C: accelerations and end", faults)
+    for (name, _, _), faults in zip(varied, pool.map(lambda each: vary(*each), varied)):
+        claim(not faults, f"{name} as C with other values of its parameters", faults)
+
+
+def check_drawn(folder, pool, cross_check, first, number):
+    models = draw(cross_check, int(first), int(number), folder) + blocks(folder)
+    compared = [(*entry[:2], model) for model in models for entry in [write(model, folder)] if entry[1]]
+    drawn = len(compared) - len(BLOCKS)
+    claim(drawn * 20 >= int(number), f"{drawn} of {number} random scenes are written")
+    compare_all(pool, compared, compared[::4])
+
+
+def check_models(folder, pool):
     models = sorted((root / "models").rglob("*.yaml"))
     if chosen and chosen != ["--all"]:
         models = [Path(name).resolve() for name in chosen]
     taken = 0
-    with tempfile.TemporaryDirectory() as folder, ThreadPoolExecutor(2) as pool:
-        written = list(pool.map(lambda model: write(model, Path(folder)), models))
-        compared = []
-        for (name, source, reasons), model in zip(written, models):
-            lacks = missing(name, model.read_text(encoding="utf-8"))
-            taken += source is not None
-            if lacks:
-                claim(source is None and any(lacks in reason for reason in reasons), f"{name} is refused: {lacks}", reasons)
-            elif source is None:
-                claim(False, f"{name} is written", reasons)
-            elif chosen or name in QUICK:
-                compared.append((name, source, model))
-        varied = compared if chosen else compared[::4]
-        for (name, _, _), faults in zip(compared, pool.map(lambda each: compare(*each), compared)):
-            claim(not faults, f"{name} as C: accelerations and end", faults)
-        for (name, _, _), faults in zip(varied, pool.map(lambda each: vary(*each), varied)):
-            claim(not faults, f"{name} as C with other values of its parameters", faults)
+    written = list(pool.map(lambda model: write(model, folder), models))
+    compared = []
+    for (name, source, reasons), model in zip(written, models):
+        lacks = missing(name, model.read_text(encoding="utf-8"))
+        taken += source is not None
+        if lacks:
+            claim(source is None and any(lacks in reason for reason in reasons), f"{name} is refused: {lacks}", reasons)
+        elif source is None:
+            claim(False, f"{name} is written", reasons)
+        elif chosen or name in QUICK:
+            compared.append((name, source, model))
+    compare_all(pool, compared, compared if chosen else compared[::4])
     print(f"# {taken} of {len(models)} models are written")
+
+
+def main():
+    with tempfile.TemporaryDirectory() as folder, ThreadPoolExecutor(2) as pool:
+        if chosen[:1] == ["--drawn"]:
+            check_drawn(Path(folder), pool, *chosen[1:])
+        else:
+            check_models(Path(folder), pool)
     print(f"1..{count}")
     sys.exit(bad > 0)
 

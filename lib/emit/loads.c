@@ -1,0 +1,55 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * What a force or moment names: its numbers, its formulas, and the points between which it acts.
+ */
+#include "emit/bodies.h"
+
+/* Of some loads one text makes several numbers: those are not told by parameters. */
+struct emit_origin load_origin(const struct model_load *load, const char *key, struct dim dim)
+{
+    const struct load *source = load->source;
+    bool mixed = load_is_placed(source) || load_has_wind(source) || source->toward || source->reaction;
+    return (struct emit_origin){mixed ? (struct pos){0, 0} : source->at, key, dim, load->body};
+}
+
+const char *load_number(struct emitter *emitter, const struct model_load *load, const char *key, double value,
+                        struct dim dim)
+{
+    const char *owner = emitter->load[load - emitter->model->loads];
+    return emit_parameter(emitter, emit_join(emitter, owner, key), value, load_origin(load, key, dim));
+}
+
+const char *load_formula(struct emitter *emitter, const struct model_load *load, const char *key,
+                         const struct formula *formula, struct dim dim)
+{
+    const char *owner = emitter->load[load - emitter->model->loads];
+    return emit_formula(emitter, formula, emit_join(emitter, owner, key), load_origin(load, key, dim));
+}
+
+/* The ends of a coupling, that of `load->body` first; of a load of one body its point and nothing. */
+static const struct point *end_of(const struct fbd_model *model, const struct model_load *load, int end)
+{
+    size_t i = (size_t)(load - model->loads);
+    if (i < model->listed_count) return end == 0 ? &load->source->point : NULL;
+    const struct coupling *coupling = &model->scene->couplings[i - model->listed_count];
+    int first = coupling->body[0] == ground_body;
+    return &coupling->point[end == 0 ? first : 1 - first];
+}
+
+const char *load_anchor(struct emitter *emitter, const struct model_load *load)
+{
+    const char *owner = emitter->load[load - emitter->model->loads];
+    const struct point *end = end_of(emitter->model, load, 1);
+    if (load->partner >= 0 && end && end->kind != point_fixed)
+        return emit_printf(emitter, "c->%s.G", emitter->body[load->partner]);
+    return emit_vector(emitter, emit_join(emitter, owner, "to"), load->anchor,
+                       (struct emit_origin){load->source->at, "to", DIM_LENGTH, load->partner});
+}
+
+const char *load_point(struct emitter *emitter, const struct model_load *load, const char *body)
+{
+    const char *owner = emitter->load[load - emitter->model->loads];
+    if (end_of(emitter->model, load, 0)->kind != point_fixed) return emit_printf(emitter, "c->%s.G", body);
+    return emit_vector(emitter, emit_join(emitter, owner, "at"), load->point,
+                       load_origin(load, "at", DIM_LENGTH));
+}
