@@ -116,15 +116,24 @@ static bool is_right(const struct problem *problem, const struct state *set, con
     return true;
 }
 
-static bool answers_agree(int n, const struct answer *a, const struct answer *b, double small)
+static bool all_agree(int n, const double *a, const double *b, double small)
 {
     for (int i = 0; i < n; i++)
-        if (fabs(a->v[i] - b->v[i]) > 100 * small) return false;
+        if (fabs(a[i] - b[i]) > small) return false;
     return true;
 }
 
-/* All sets: 0, 1 or more answers. What has no friction has one way to rub. */
-static int solve(const struct problem *problem, struct answer *answer)
+/* By the velocities that they give to each row by itself. */
+static bool impulses_agree(const struct problem *problem, const struct answer *a, const struct answer *b)
+{
+    for (int i = 0; i < 2 * problem->points->count; i++)
+        if (fabs(a->P[i] - b->P[i]) * problem->points->W[i][i] > 1e3 * problem->small) return false;
+    return true;
+}
+
+/* All sets: 0, 1 or more answers. What has no friction has one way to rub. Velocities that several impulses give are one
+ * answer, unless it is the impulses that are asked for. */
+static int solve(const struct problem *problem, bool impulses, struct answer *answer)
 {
     const int count = problem->points->count;
     int found = 0;
@@ -140,7 +149,9 @@ static int solve(const struct problem *problem, struct answer *answer)
             rest /= 2L * ways;
         }
         if (!solve_set(problem, set, &here) || !is_right(problem, set, &here)) continue;
-        if (found > 0 && answers_agree(2 * count, answer, &here, problem->small)) continue;
+        if (found > 0 && all_agree(2 * count, answer->v, here.v, 100 * problem->small) &&
+            (!impulses || impulses_agree(problem, answer, &here)))
+            continue;
         *answer = here;
         found++;
     }
@@ -168,7 +179,7 @@ static double surplus(struct together *together, double share, bool stronge)
     double back = 0, due = 0, work = 0;
     memcpy(problem.free, pressed->v, sizeof problem.free);
     for (ptrdiff_t k = 0; k < points->count; k++) problem.given[k] = share * points->e[k] * pressed->P[2 * k];
-    if (solve(&problem, &together->back) != 1) return NAN;
+    if (solve(&problem, false, &together->back) != 1) return NAN;
     for (int k = 0; k < points->count; k++) {
         back += normal_work(together->back.P, pressed->v, together->back.v, k);
         due -= points->e[k] * points->e[k] * normal_work(pressed->P, together->before, pressed->v, k);
@@ -233,11 +244,9 @@ static bool strike_together(const struct points_by_sets *points, double *v, doub
         problem.free[i] = v[i] + (i % 2 == 0 ? bounce[i / 2] : 0);
     }
     problem.small = together.small;
-    if (solve(&problem, &together.pressed) != 1) return false;
-    for (ptrdiff_t k = 0; k < points->count; k++) {
-        together.pressed.v[2 * k] -= bounce[k];
-        restores |= points->e[k] > 0 && !by_velocity;
-    }
+    for (ptrdiff_t k = 0; k < points->count; k++) restores |= points->e[k] > 0 && !by_velocity;
+    if (solve(&problem, restores, &together.pressed) != 1) return false;
+    for (ptrdiff_t k = 0; k < points->count; k++) together.pressed.v[2 * k] -= bounce[k];
     if (restores && !restore(&together, law == steps_stronge)) return false;
     for (int i = 0; i < 2 * points->count; i++) P[i] = together.pressed.P[i] + together.back.P[i];
     memcpy(v, restores ? together.back.v : together.pressed.v, 2 * (size_t)points->count * sizeof *v);

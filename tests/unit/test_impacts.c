@@ -15,6 +15,7 @@
 #include <string.h>
 
 #include "holds/impacts.h"
+#include "impacts_by_sets.h"
 #include "random_numbers.h"
 
 static const double pi = 3.14159265358979323846;
@@ -334,6 +335,78 @@ static void nearly_redundant_points_do_so_or_are_told(void **state)
     assert_true(census.done >= count / 10 * 7);
 }
 
+/* ---- by sets */
+
+/* The same points for impacts_by_sets, with laws of their own or all the same. */
+static struct points_by_sets draw_points(struct random_numbers *numbers, struct scene *scene)
+{
+    struct points_by_sets points = {.count = scene->points, .in_turn = random_chance(numbers, 0.5)};
+    int law = (int)(random_bits(numbers) % 4), n = 2 * scene->points;
+    bool same = random_chance(numbers, 0.5);
+    for (int i = 0; i < scene->points; i++) {
+        int own = same ? law : (int)(random_bits(numbers) % 4); /* both enumerations have one order */
+        scene->laws[i].law = (enum impact_law)own;
+        points.law[i] = (enum law_by_steps)own;
+        points.mu[i] = scene->laws[i].mu;
+        points.e[i] = scene->laws[i].e;
+    }
+    set_answers(scene);
+    for (int i = 0; i < n; i++)
+        for (int j = 0; j < n; j++) points.W[i][j] = scene->W[i * n + j];
+    return points;
+}
+
+enum by_sets { unknown_by_sets, same_by_sets, refused_by_sets, other_by_sets };
+
+/* Velocities after by both, where there is one answer. */
+static enum by_sets compare_with_sets(struct scene *scene, const struct points_by_sets *points)
+{
+    const double near = 1e-7; /* what counts as no velocity is 1e-9 of the largest in both */
+    double before[most_unknowns], v[most_unknowns], P[most_unknowns], after[sets_rows] = {0},
+                                                                      impulses[sets_rows] = {0}, size = 0;
+    bool same = true;
+    const int n = 2 * points->count;
+    for (int i = 0; i < n; i++) {
+        after[i] = before[i] = v[i] = speed_along(scene, i);
+        size = fmax(size, fabs(v[i]));
+    }
+    struct impacts impacts = {.count = points->count,
+                              .propagate = points->in_turn,
+                              .points = scene->laws,
+                              .W = scene->W,
+                              .v = v,
+                              .P = P};
+    if (!impacts_by_sets(points, after, impulses)) return unknown_by_sets;
+    if (impacts_solve(&impacts) != impacts_done || impacts.in_turn) return refused_by_sets;
+    for (int i = 0; i < n; i++) size = fmax(size, fabs(after[i]));
+    for (int i = 0; i < n; i++) same &= fabs(v[i] - after[i]) <= near * size;
+    for (int i = 0; i < n && !same; i++)
+        print_message("# row %d: from %.9g to %.9g, by sets %.9g; mu %.9g, e %.9g, law %d\n", i, before[i],
+                      v[i], after[i], points->mu[i / 2], points->e[i / 2], (int)points->law[i / 2]);
+    return same ? same_by_sets : other_by_sets;
+}
+
+static void impacts_by_sets_say_the_same(void **state)
+{
+    struct random_numbers numbers = {seed_of(20261126)};
+    long count = count_of(6000) / 3, ways[4] = {0};
+    (void)state;
+    for (long i = 0; i < count; i++) {
+        struct scene scene;
+        random_scene(&numbers, 0, &scene);
+        struct points_by_sets points = draw_points(&numbers, &scene);
+        enum by_sets way = compare_with_sets(&scene, &points);
+        if (way == other_by_sets) print_message("# impact %ld, in turn: %d\n", i, points.in_turn);
+        ways[way]++;
+    }
+    print_message("# %ld impacts, %ld without one answer by sets, %ld refused\n", count,
+                  ways[unknown_by_sets], ways[refused_by_sets]);
+    assert_int_equal(ways[other_by_sets], 0);
+    /* Impulses hundreds of times as large as what stops each point are refused. */
+    assert_true(500 * ways[refused_by_sets] <= count);
+    assert_true(10 * ways[unknown_by_sets] <= count);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -344,6 +417,7 @@ int main(void)
         cmocka_unit_test(a_stack_of_boxes_rocks),
         cmocka_unit_test(random_impacts_keep_momentum_and_make_no_energy),
         cmocka_unit_test(nearly_redundant_points_do_so_or_are_told),
+        cmocka_unit_test(impacts_by_sets_say_the_same),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
