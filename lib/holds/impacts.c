@@ -34,19 +34,24 @@ static struct impact_point alone(const struct impacts *impacts, int i)
                                  impacts->points[i].law};
 }
 
-/* The impact of point i; others feel it. */
-static void strike(struct impacts *impacts, int i)
+/* The impact of point i; others feel it. Returns the largest change of a speed. */
+static double strike(struct impacts *impacts, int i)
 {
     int n = 2 * impacts->count, row = 2 * i;
+    double most = 0;
     struct impact_point point = alone(impacts, i);
     struct impact impact = impact_at_point(&point, impacts->v[row], impacts->v[row + 1]);
-    for (int k = 0; k < n; k++)
-        impacts->v[k] += impacts->W[k * n + row] * impact.p + impacts->W[k * n + row + 1] * impact.tau;
+    for (int k = 0; k < n; k++) {
+        double gain = impacts->W[k * n + row] * impact.p + impacts->W[k * n + row + 1] * impact.tau;
+        impacts->v[k] += gain;
+        most = fmax(most, fabs(gain));
+    }
     impacts->v[row] = impact.v_n; /* to the digit */
     impacts->v[row + 1] = impact.v_t;
     impacts->P[row] += impact.p;
     impacts->P[row + 1] += impact.tau;
     impacts->work += impact.work;
+    return most;
 }
 
 static double fastest_speed(const struct impacts *impacts)
@@ -76,10 +81,12 @@ static bool grows(const struct impacts *impacts, double before)
     return may_grow && !(weighted_speed(impacts) <= far * before);
 }
 
+/* Each change of a speed leaves its rounding behind, by which points that are jammed between others would close for ever:
+ * what closes no faster than that rests. */
 static enum impacts_end propagate(struct impacts *impacts)
 {
     enum { most_rounds = 10000 };
-    const double rounding = 1e-15; /* of the speeds before: what closes no faster rests */
+    const double rounding = 1e-15; /* of the speeds before */
     double least = rounding * fastest_speed(impacts), before = weighted_speed(impacts);
     for (int round = 0; round < most_rounds; round++) {
         int i = fastest(impacts, least);
@@ -88,7 +95,7 @@ static enum impacts_end propagate(struct impacts *impacts)
                 if (fabs(impacts->v[row]) <= least) impacts->v[row] = 0;
             return impacts_done;
         }
-        strike(impacts, i);
+        least += DBL_EPSILON * strike(impacts, i);
         if (grows(impacts, before)) return impacts_unsolvable;
     }
     return impacts_endless;

@@ -22,28 +22,22 @@ static const struct tree *tree_of(const struct run *run)
     return run->model->tree;
 }
 
-/* Has the impact just now given the feature of a tie a speed away from its surface? */
-static bool leaves_with(const struct run *run, int tie)
-{
-    const struct contacts_work *work = &run->contacts;
-    const double *v = work->v;
-    for (int i = 0; i < work->struck; i++, v += 2)
-        if (work->strikers[i].tie == tie) return *v > 0;
-    return false;
-}
-
-/* The gap's acceleration where only the surfaces that stay closed act, and none of the same meeting: a box that falls
- * flat bounces on all its corners; by a trial of the modes as they are. */
+/* The gap's acceleration where only the surfaces that stay closed act: neither those that the impact just now has given a
+ * speed away - a box that falls flat bounces on all its corners, and one of a row may leave the next as well - nor its own;
+ * by a trial of the modes as they are. */
 static double acceleration_of(struct run *run, int tie, int feature)
 {
-    struct fbd_state *state = run->contacts.trial;
+    const struct contacts_work *work = &run->contacts;
+    struct fbd_state *state = work->trial;
     const struct tree *tree = tree_of(run);
-    const struct meeting *meeting = &tree->meetings[tree->ties[tie].meeting];
     state_copy(state, run->state);
     tie_set_feature(run->model, state->tree, tie, feature);
-    for (int k = 0; k < meeting->tie_count; k++)
-        if (leaves_with(run, meeting->first_tie + k) || meeting->first_tie + k == tie)
-            state->slip[tree->ties[meeting->first_tie + k].surface] = slip_plus;
+    state->slip[tree->ties[tie].surface] = slip_plus;
+    for (int i = 0; i < work->struck; i++) {
+        const struct striker *striker = &work->strikers[i];
+        bool leaves = striker->contact && contacts_part(run, i);
+        if (leaves) state->slip[tree->ties[striker->tie].surface] = slip_plus;
+    }
     state_evaluate(state);
     return state->tree->rows[tree_of(run)->ties[tie].first_row].g.x2;
 }
@@ -211,6 +205,23 @@ static bool any_leaves(const struct run *run, int i, int count)
     return false;
 }
 
+/* Does any contact open by the impact for no more than a bounce that nobody sees? What parts as slowly, and does not come
+ * back, does not. */
+static bool any_hops(struct run *run, int count)
+{
+    const struct contacts_work *work = &run->contacts;
+    for (int i = 0; i < count; i++) {
+        const struct striker *striker = &work->strikers[i];
+        if (!striker->contact || !contacts_part(run, i)) continue;
+        double v = work->v[(ptrdiff_t)2 * i],
+               a = -acceleration_of(run, striker->tie, run->state->tree->ties[striker->tie].feature),
+               unseen = contacts_low *
+                        meeting_near(run->model, run->state->tree, tree_of(run)->ties[striker->tie].meeting);
+        if (a > 0 && v * v <= 2 * a * unseen) return true;
+    }
+    return false;
+}
+
 /* The impacts of striker i's meeting: do they end soon, in bounces that nobody sees? Then when. */
 static double end_of_series(struct run *run, int i, int count)
 {
@@ -233,6 +244,7 @@ static double end_of_series(struct run *run, int i, int count)
     bounces->slow = a > 0 ? sqrt(2 * a * unseen) : leaving;
     if (bounces->is_closed) return run->state->t; /* in a crowd */
     if (!low && bounces->unseen < 3) return HUGE_VAL;
+    if (leaving == 0 && !any_hops(run, count)) return HUGE_VAL; /* it rests, and others part */
     if (same && v > 0) {
         left = low ? sum_of_bounces(run, index, v, a) : sum_of_intervals(bounces);
     } else if (low && !(v > 0)) {

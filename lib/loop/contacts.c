@@ -202,8 +202,7 @@ static bool any_closes(const struct run *run, int count)
 
 /* ---- what follows */
 
-/* Does it leave its surface? */
-static bool parts(const struct run *run, int i)
+bool contacts_part(const struct run *run, int i)
 {
     const struct striker *striker = &run->contacts.strikers[i];
     const struct row *row = &run->state->tree->rows[tree_of(run)->ties[striker->tie].first_row];
@@ -219,7 +218,7 @@ static void note_impact(struct run *run, int i)
     double p = P[0], tau = P[1];
     double taken = striker_taken(striker, v, P);
     run->impact_work[tie->load] += taken;
-    bool struck = striker->v_n < 0 || (p > 0 && parts(run, i));
+    bool struck = striker->v_n < 0 || (p > 0 && contacts_part(run, i));
     if (!striker->contact || !struck) return; /* ropes and landings have events of their own */
     int body = tie->end[0].body;
     struct run_event *event = run_note(run, FBD_EVENT_IMPACT, body, tie->load, -1);
@@ -241,7 +240,7 @@ void contacts_open_or_close(struct run *run, int count, bool struck)
     for (int i = 0; i < count; i++) {
         const struct striker *striker = &work->strikers[i];
         const struct tie *tie = &tree_of(run)->ties[striker->tie];
-        bool leaves = struck ? parts(run, i) : striker->v_n > 0;
+        bool leaves = struck ? contacts_part(run, i) : striker->v_n > 0;
         if (striker->rope) {
             if (leaves && !striker->stays) let_slack(run, tie->pair);
             continue;
@@ -353,6 +352,7 @@ static bool look_at_contacts(struct run *run)
     }
     bool rests = struck && contacts_end_bounces(run, count);
     contacts_open_or_close(run, count, struck);
+    if (struck) contacts_hold_speeds(run, count);
     if (rests) {
         count = contacts_settle_down(run, count);
         contacts_open_or_close(run, count, true);
@@ -406,8 +406,9 @@ static bool is_closed(const struct run *run, const struct fbd_state *state, int 
     return state->slip[tree_of(run)->ties[tie].surface] == stick;
 }
 
-/* What does not press is let go, and what an impact has brought to rest on it may close by what rounding leaves of that: no
- * impact would stop it, and it would meet again at once, and for ever. It is at rest. */
+/* What does not press is let go, and what an impact has brought to rest on it closes or parts by what rounding leaves of
+ * that. No impact would stop what closes, which would meet again at once, and for ever; what parts would be elsewhere when
+ * the next one comes, and feel nothing of it. It is at rest. */
 static void stop_what_opens(struct run *run)
 {
     const struct tree *tree = tree_of(run);
@@ -417,7 +418,7 @@ static void stop_what_opens(struct run *run)
         const struct tie *tie = &tree->ties[i];
         const struct row *row = &state->tree->rows[tie->first_row];
         stops[i] = tie->kind == constraint_contact && state->tree->ties[i].feature != no_feature &&
-                   !is_closed(run, state, i) && row->g.x1 < 0 && row->g.x1 >= -no_speed(run, row);
+                   !is_closed(run, state, i) && row->g.x1 != 0 && fabs(row->g.x1) <= no_speed(run, row);
         if (stops[i]) state->slip[tie->surface] = stick;
         any |= stops[i];
     }

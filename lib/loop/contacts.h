@@ -144,6 +144,12 @@ bool contacts_strike(struct run *run, int count);
 bool contacts_solve_impact(struct run *run, int count);
 void contacts_apply_impulses(struct run *run, int count);
 
+/* What an impact has brought to rest on others, and has been closed, is so to the digit: impulses are known to 1e-13. */
+void contacts_hold_speeds(struct run *run, int count);
+
+/* Does striker i leave its surface by the impact, by more than rounding? */
+bool contacts_part(const struct run *run, int i);
+
 /* What leaves by the velocities in work->v after an impact, or as it is without one, is open; what stays slips or
  * sticks. */
 void contacts_open_or_close(struct run *run, int count, bool struck);

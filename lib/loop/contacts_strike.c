@@ -8,6 +8,7 @@
 #include "dynamics/energy.h"
 #include "dynamics/friction.h"
 #include "dynamics/impulse.h"
+#include "dynamics/project.h"
 #include "dynamics/tree_driven.h"
 #include "dynamics/tree_system.h"
 #include "loop/contacts.h"
@@ -402,6 +403,14 @@ bool contacts_solve_impact(struct run *run, int count)
     work->makes = impacts.work > 1e-12 * size;
     work->in_turn = impacts.in_turn;
     return true;
+}
+
+void contacts_hold_speeds(struct run *run, int count)
+{
+    state_project_velocity(run->state, false);
+    drop_rounding(run, count);
+    stop_rounding(run, count);
+    impulse_look(run->state);
 }
 
 bool contacts_strike(struct run *run, int count)

@@ -198,6 +198,7 @@ static bool restore(struct together *together, bool stronge)
     double low = 0, high = 1, at = surplus(together, 1, stronge);
     if (!(fabs(at) <= HUGE_VAL)) return false;
     if (fabs(at) <= small || (at < 0 && !stronge)) return true;
+    if (at > 0 && surplus(together, 0, stronge) >= -small) return true; /* nothing may be given back */
     for (int k = 0; at < 0 && k < 10; k++) {
         low = high;
         at = surplus(together, high *= 2, stronge);

@@ -221,10 +221,13 @@ static double gap_of(const struct row *row, const struct contact *contact, const
 static bool change(const struct row *row, int count, const int *member, bool plastic, double *v)
 {
     struct points_by_sets points = {.count = count, .in_turn = row->in_turn && !plastic};
-    double u[sets_rows] = {0}, P[sets_rows];
+    const double none = 1e-12;
+    double u[sets_rows] = {0}, P[sets_rows], size = 0;
+    for (int i = 0; i < row->bodies; i++) size = fmax(size, fabs(v[i]));
     for (ptrdiff_t i = 0; i < count; i++) {
         const struct contact *a = &row->contact[member[i]];
         u[2 * i] = across(a, v);
+        if (fabs(u[2 * i]) <= none * size) u[2 * i] = 0; /* the law is that of what closes fastest */
         points.e[i] = plastic ? 0 : a->e;
         points.law[i] = plastic ? steps_stronge : a->law;
         points.W[2 * i + 1][2 * i + 1] = 1;
@@ -341,23 +344,26 @@ static bool begin(const struct row *row, struct flight *flight, double *lowest)
 static bool fly_through(const struct row *row, struct flight *flight)
 {
     const double soon = 1e-6, low = 1e-2, none = 1e-3;
-    double lowest;
+    struct flight before = {0}; /* the impact before the last one, and the time between them */
+    double lowest, last = 0;
     if (!begin(row, flight, &lowest)) return false;
     for (;;) {
-        const struct flight before = *flight;
         double time = time_to_impact(row, flight);
+        if (time < soon && flight->impacts > 0 && last > 0) break;
         bool ends = lowest < low || time < soon || flight->impacts >= most_impacts;
         if (ends || flight->t + time >= row->until) {
             fly(row, flight, fmin(ends ? time / 2 : HUGE_VAL, row->until - flight->t));
             return lowest >= none;
         }
+        before = *flight;
+        last = time;
         fly(row, flight, time);
         if (!strike(row, flight, &lowest)) return false;
-        if (lowest >= none) continue;
-        *flight = before;
-        fly(row, flight, time / 2);
-        return true;
+        if (lowest < none) break;
     }
+    *flight = before;
+    fly(row, flight, last / 2);
+    return true;
 }
 
 static double apart(int count, const double *a, const double *b)
@@ -457,11 +463,13 @@ static void flights_and_impacts_say_the_same(void **unused)
     moreau_compare("FBD_ROWS", 37, 10, agrees);
 }
 
-/* Rows in which something that an impact has brought to rest on another does not press there, and closes by what rounding
- * leaves of its speed: it met again at once, and "events chatter". */
-static void rest_without_a_press_lasts(void **unused)
+/* Rows that once went wrong. What an impact brings to rest on others does not press there in 1084, 1468 and 5139: it closed
+ * or parted by what rounding had left of its speed. In 21148 all comes to rest with that. In 8958 and 7080 a slow bounce that
+ * does not come back soon was taken for the end of a series; in 13194 a row is jammed between two walls, by impacts one after
+ * the other. */
+static void rows_that_rest_or_hardly_part(void **unused)
 {
-    static const uint64_t seeds[] = {1084, 1468};
+    static const uint64_t seeds[] = {1084, 1468, 5139, 7080, 8958, 13194, 21148};
     (void)unused;
     for (size_t i = 0; i < sizeof seeds / sizeof *seeds; i++) {
         bool sensitive;
@@ -474,7 +482,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(flights_and_impacts_say_the_same),
-        cmocka_unit_test(rest_without_a_press_lasts),
+        cmocka_unit_test(rows_that_rest_or_hardly_part),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
