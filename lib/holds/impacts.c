@@ -11,13 +11,15 @@
 
 /* ---- one after the other */
 
+/* The point that closes fastest; of those that do so by the same speed the first, and not the one that rounding chooses. */
 static int fastest(const struct impacts *impacts, double least)
 {
+    const double same = 1e-12;
     double most = -least;
     int best = -1;
     for (int i = 0; i < impacts->count; i++) {
         double v = impacts->v[(ptrdiff_t)2 * i];
-        if (!(v < most)) continue;
+        if (!(v < most * (best < 0 ? 1 : 1 + same))) continue;
         most = v;
         best = i;
     }

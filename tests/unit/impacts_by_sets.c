@@ -211,14 +211,16 @@ static bool restore(struct together *together, bool stronge)
         else
             low = (low + high) / 2;
     }
+    if (at != at) return false; /* on the way to it there is more than one answer, or none */
     return surplus(together, low, stronge) <= HUGE_VAL;
 }
 
+/* The first of those that are the same to rounding. */
 static ptrdiff_t fastest(const struct points_by_sets *points, const double *v)
 {
     ptrdiff_t best = 0;
     for (ptrdiff_t k = 1; k < points->count; k++)
-        if (v[2 * k] < v[2 * best]) best = k;
+        if (v[2 * k] < v[2 * best] - 1e-12 * fabs(v[2 * best])) best = k;
     return best;
 }
 
