@@ -117,13 +117,15 @@ static bool feel_each_other(const void *context, int i, int j)
 }
 
 /* Impacts of several points on each other that lose energy may go on without end, ever slower: what is left is taken
- * by one that is plastic. */
+ * by one that is plastic. So is what hardly closes any more where some points lose none: rounding of the others keeps that. */
 static enum impacts_end propagate_to_the_end(struct impacts *impacts)
 {
-    double before = weighted_speed(impacts);
+    const double nothing = 1e-9;
+    double before = weighted_speed(impacts), slow = nothing * fastest_speed(impacts);
     enum impacts_end end = propagate(impacts);
     bool loses = true;
     for (int i = 0; i < impacts->count; i++) loses &= impacts->points[i].e < 1;
+    loses |= fastest(impacts, slow) < 0;
     if (end != impacts_endless || !loses) return end;
     struct impacts rest = *impacts;
     struct impacts_point *points = calloc((size_t)impacts->count + 1, sizeof *points);
