@@ -35,6 +35,8 @@ struct companion {
     double *scale, *worst; /* 2 n each: largest size so far, largest estimate so far */
     double *y;             /* 2 n each: both runs at the time of a sample */
     struct fbd_state *probe;
+    bool
+        follows; /* its steps are shorter than those of the first run: the same method at a fifth of the tolerance */
     long samples;        /* multiples of 1/200 of the run that have been passed */
     double next;         /* time of the next sample; HUGE_VAL when there is none */
     double unknown_from; /* HUGE_VAL; or a time from which on there is no estimate */
@@ -44,8 +46,9 @@ struct companion {
 struct companion *companion_new(const struct fbd_model *model, const struct run_options *options);
 void companion_free(struct companion *companion);
 
-/* Take it to time t, if it has not been there and can come there. False when memory is out. */
-bool companion_go(struct companion *companion, double t);
+/* Take it to time t, if it has not been there and can come there, where `main` is, or in its last step. False when
+ * memory is out. */
+bool companion_go(struct companion *companion, const struct ensemble *main, double t);
 
 /* The companion's state at time t, which is where `main` is, or in its last step; evaluated. `after_event`: t
  * is where `main` is, and events have happened there; what is asked for is the state after them. If the

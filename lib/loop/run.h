@@ -79,6 +79,7 @@ struct stride {
     double h;                 /* step size proposed */
     double first;             /* the first one that was */
     double longest;           /* to an event so far */
+    double most;              /* that the next ones may be; 0: as long as they like. Of one that is apart */
     bool restart;             /* the stepper has to start anew */
     int crawl;                /* steps in a row of a few roundings of the time */
     unsigned long not_finite; /* rejections for that reason before the last step */

@@ -76,7 +76,8 @@ struct moment run_pin_moving(struct run *run, double t, double move, struct mome
  *
  * Where events come so often that every step ends at the next one, two runs of different tolerances make the
  * same steps, and with the same errors: of the method, and of rounding, which is all that an exact one has.
- * One that is to be apart makes two steps from each event to the next: halves have a 2^-p of the error. The
+ * One that is to be apart makes two steps from each event to the next: halves have a 2^-p of the error. Likewise where
+ * there are few steps in all: its steps are shorter than those that it is to be told from (step.most). The
  * next event of time alone is known; for others the last intervals tell, of which the longer one counts:
  * after a short one (a pulse, a stop) steps would have to grow again. */
 
@@ -88,6 +89,7 @@ void run_part_before(struct run *run)
     double since = moment_since(run_start(run), run->recent.moment),
            interval = fmax(run->recent.interval[0], run->recent.interval[1]);
     if (interval > 0) run->step.h = fmin(run->step.h, share * interval + since);
+    if (run->step.most > 0) run->step.h = fmin(run->step.h, run->step.most);
 }
 
 void run_part_from(struct run *run, struct moment limit)

@@ -58,7 +58,7 @@ static bool sample_until(struct bars *bars, struct ensemble *main, double t)
     struct companion *companion = bars->companion;
     while (companion->next <= t) {
         double sample = companion->next;
-        if (!companion_go(companion, sample)) return false;
+        if (!companion_go(companion, main, sample)) return false;
         companion_sample(companion, main, sample);
     }
     return true;
@@ -67,7 +67,7 @@ static bool sample_until(struct bars *bars, struct ensemble *main, double t)
 bool bars_look(struct bars *bars, struct ensemble *main, double t, bool after_event, bool works)
 {
     struct companion *companion = bars->companion;
-    if (!sample_until(bars, main, t) || !companion_go(companion, t)) return false;
+    if (!sample_until(bars, main, t) || !companion_go(companion, main, t)) return false;
     bars->known = companion_look(companion, main, t, after_event, bars->state);
     bool there = works && bars->known && bars->ledger.any;
     return !there || ledger_at(&bars->ledger, companion->ensemble, bars->work);

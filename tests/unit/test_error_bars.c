@@ -12,6 +12,7 @@
 
 #include "error_ratio.h"
 #include "gallery.h"
+#include "random_numbers.h"
 #include "rows.h"
 #include "scenes.h"
 
@@ -66,6 +67,63 @@ static void fixed_steps_have_error_bars_too(void **unused)
     assert_int_equal(table.counts[ratio_global].good, 6);
     truth_free(truth);
     trial_close(&trial);
+}
+
+/* ---- runs of few steps */
+
+static const char pendulum[] =
+    "bodies: {a: {mass: %.3f, inertia: %.3f, motion: {pivot: {point: [%.3f, %.3f]}},\n"
+    "  initial: {theta: %.3f, omega: %.3f}, forces: [gravity]}}\n";
+static const char on_a_spring[] =
+    "bodies: {a: {mass: %.3f, motion: particle, initial: {x: 1, y: %.3f, vx: %.3f, vy: %.3f}, forces:\n"
+    "  [gravity, drag: {quadratic: %.3f}, spring: {stiffness: %.3f, to: [0, 1], free_length: 0.5}]}}\n";
+static const char two_pendulums[] =
+    "bodies:\n  a: {mass: 1, inertia: %.3f, motion: {pivot: {point: [0, 0.5]}}, initial: {theta: %.3f}, "
+    "forces: "
+    "[gravity]}\n  b: {mass: %.3f, inertia: %.3f, motion: {pivot: {on: a, at: [0, -0.5], point: [0, 0.5]}},\n"
+    "    initial: {theta: %.3f, omega: %.3f}, forces: [gravity]}\n";
+
+/* Which of them, and the limits of its numbers. */
+static const struct {
+    const char *text;
+    double low[6], high[6];
+} short_scenes[] = {
+    {pendulum, {0.5, 0.1, -1, -1, -3, -2}, {3, 1, 1, 1, 3, 2}},
+    {on_a_spring, {0.5, -1, -2, -2, 0, 1}, {3, 1, 2, 2, 0.3, 20}},
+    {two_pendulums, {0.1, -2, 0.5, 0.1, -2, -2}, {1, 2, 3, 1, 2, 2}},
+};
+
+/* The first step of a run is a guess and the last one is what is left: with two or three of them a companion that chose
+ * its steps alike had the same errors, and told a tenth of them. */
+static void short_runs_have_error_bars_too(void **unused)
+{
+    static const double tolerances[] = {1e-3, 1e-5, 1e-7, 1e-9, 1e-11, 1e-13};
+    enum { scenes = 60, kinds = sizeof short_scenes / sizeof *short_scenes };
+    (void)unused;
+    struct random_numbers numbers = {5};
+    struct ratio_table table = {0};
+    for (int scene = 0; scene < scenes; scene++) {
+        char text[1024], body[800];
+        double x[6], until = random_between(&numbers, 0.2, 2.5);
+        for (int i = 0; i < 6; i++)
+            x[i] = random_between(&numbers, short_scenes[scene % kinds].low[i],
+                                  short_scenes[scene % kinds].high[i]);
+        snprintf(body, sizeof body, short_scenes[scene % kinds].text, x[0], x[1], x[2], x[3], x[4], x[5]);
+        snprintf(text, sizeof text, "fbd: 1\n%ssimulate: {until: %.3f}\n", body, until);
+        struct trial trial = trial_parse(text);
+        struct truth *truth = truth_new(trial.model, NULL);
+        assert_non_null(truth);
+        for (size_t k = 0; k < sizeof tolerances / sizeof *tolerances; k++)
+            assert_true(ratio_add(&table, truth, "auto", tolerances[k], 0));
+        truth_free(truth);
+        trial_close(&trial);
+    }
+    for (int k = 0; k < ratio_kinds; k++)
+        printf("# short runs, %s: %.1f %% of %lu determined cases\n", ratio_names[k],
+               100 * ratio_determined_share(&table.counts[k]), ratio_determined(&table.counts[k]));
+    assert_true(ratio_determined(&table.counts[ratio_global]) >= 250);
+    assert_true(ratio_determined_share(&table.counts[ratio_global]) >= 0.985);
+    assert_true(ratio_determined_share(&table.counts[ratio_end]) >= 0.96);
 }
 
 /* ---- the first run is left alone */
@@ -287,6 +345,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(estimates_are_within_0_3_to_10_times_the_true_error_in_95_of_100_cases),
         cmocka_unit_test(fixed_steps_have_error_bars_too),
+        cmocka_unit_test(short_runs_have_error_bars_too),
         cmocka_unit_test(every_bit_of_the_motion_is_the_same_with_error_bars_and_without),
         cmocka_unit_test(the_estimate_is_the_same_whatever_is_written),
         cmocka_unit_test(an_event_that_only_one_run_has_is_not_known),
