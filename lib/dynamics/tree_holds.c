@@ -212,6 +212,8 @@ static int next_mode(const struct fbd_state *state, const struct decided *decide
     *by_rate = false;
     if (mode_is_one_sided(hold)) {
         struct one_sided now = one_sided_at(model, &at, pair);
+        /* Where nothing pulls or pushes but the rounding of what slides on, that of forces is no measure of it. */
+        if (is_on_contact(state, hold)) now.slack = fmax(now.slack, contact_slack(model, hold->tie));
         double small = rounding * largest_force(state);
         if (state->slip[pair] != stick) return now.acceleration > 0 ? stick : state->slip[pair];
         double rate = hold_sign(hold) * state->tree->z[model->tree->ties[hold->tie].first_row];

@@ -140,10 +140,40 @@ static void moving_out_assembles_nothing(void **unused)
     checks_end(&checks);
 }
 
+/* A rod slides along a wall that nothing presses it on: its ends touch, by rounding, and so does its turning. */
+static void a_rod_slides_on_along_a_wall(void **unused)
+{
+    struct random_numbers numbers = {20261126};
+    struct checks checks = {0};
+    (void)unused;
+    for (int draw = 0; draw < 400; draw++) {
+        double angle = random_between(&numbers, -3, 3), v = random_between(&numbers, 0.1, 3),
+               x = random_between(&numbers, -1, 1), y = random_between(&numbers, -1, 1),
+               length = random_between(&numbers, 0.2, 1), c = cos(angle), s = sin(angle);
+        char scene[900], what[60];
+        snprintf(
+            scene, sizeof scene,
+            "fbd: 1\nground: {lines: {wall: {along: %.17g, through: [%.17g, %.17g]}}}\nbodies:\n"
+            "  rod: {shape: rod, mass: 1 kg, length: %.17g, motion: planar, initial: {x: %.17g, y: %.17g, "
+            "theta: %.17g, vx: %.17g, vy: %.17g}, forces: [applied: {value: 0, angle: 0}]}\n"
+            "contacts:\n  - {between: [rod, ground.wall], side: left}\nsimulate: {until: 1 s}\n",
+            angle, x - length / 2 * c, y - length / 2 * s, length, x, y, angle, v * c, v * s);
+        struct trial trial = trial_parse(scene);
+        trial_run(&trial, NULL);
+        snprintf(what, sizeof what, "rod %d", draw);
+        check_that(&checks, what, trial.outcome == FBD_DONE);
+        check_close(&checks, what, trial_get(&trial, "rod.x"), x + v * c, 1e-9);
+        check_close(&checks, what, trial_get(&trial, "rod.theta"), angle, 1e-9);
+        trial_close(&trial);
+    }
+    checks_end(&checks);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_point_on_a_line_is_on_the_side_of_its_body),
+        cmocka_unit_test(a_rod_slides_on_along_a_wall),
         cmocka_unit_test(a_start_that_is_off_by_the_digits_of_a_file_is_moved_out),
         cmocka_unit_test(moving_out_assembles_nothing),
     };
