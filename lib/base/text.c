@@ -100,6 +100,7 @@ void text_pad(struct text *text, size_t column)
     size_t start = text->length;
     while (start > 0 && text->data[start - 1] != '\n') start--;
     size_t width = text->length > start ? text_width(text->data + start) : 0;
+    if (width >= column && width > 0 && text->data[text->length - 1] != ' ') column = width + 1;
     if (width >= column || !text_reserve(text, column - width)) return;
     memset(text->data + text->length, ' ', column - width);
     text->length += column - width;

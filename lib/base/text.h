@@ -34,7 +34,8 @@ void text_number(struct text *text, double value, int digits);
 /* The shortest decimal that reads back as `value`. */
 void text_exact(struct text *text, double value);
 
-/* Pad with blanks up to display column `column` of the current line (UTF-8 counted by characters). */
+/* Pad with blanks up to display column `column` of the current line (UTF-8 counted by characters); where the line is that
+ * long already, with one, if it does not end with one. */
 void text_pad(struct text *text, size_t column);
 
 /* `string` between double quotes with JSON's escapes. */

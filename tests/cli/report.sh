@@ -93,6 +93,13 @@ check '(that they are shown so)' sh -c 'grep -q "\"angles\":\"deg\"" page.html'
 check 'where no angle is written it is a mistake' exits 2 run --degrees --check "$pendulum"
 check '(as with --explain)' exits 2 run --degrees --explain "$pendulum"
 
+# ---- a name that is longer than its column stands apart from its number, and that from its unit
+printf 'fbd: 1\nbodies:\n  a_block_of_long_name:\n    mass: 0.123456789 kg\n    motion: slide\n    forces:\n' >long.yaml
+printf '      - applied: {name: the_force_that_pushes_it, value: -0.0123456789 N}\nsimulate: {until: 1 s}\n' >>long.yaml
+check 'long names are equations, too' exits 0 run long.yaml
+check '(force)' says '^    the_force_that_pushes_it +-0\.0123456789 N$' out
+check '(state)' says '^  a_block_of_long_name +x = [-0-9.]+ m +v = [-0-9.]+ m/s$' out
+
 # ---- a mass that flows is kg/s, a damper N*s/m, as the file has them
 flow() { # flow UNIT: a tank that loses mass, and a damper
     printf 'fbd: 1\nparameters: {b: 0.1 %s, c: 3 N*s/m}\nbodies:\n' "$1"
