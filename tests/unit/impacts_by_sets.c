@@ -131,23 +131,51 @@ static bool impulses_agree(const struct problem *problem, const struct answer *a
     return true;
 }
 
-/* All sets: 0, 1 or more answers. What has no friction has one way to rub. Velocities that several impulses give are one
- * answer, unless it is the impulses that are asked for. */
+/* Does an answer do what a set wants? */
+static bool does_as(const struct problem *problem, const struct state *set, const struct answer *answer)
+{
+    const double small = 100 * problem->small;
+    for (ptrdiff_t k = 0; k < problem->points->count; k++) {
+        const double *v = &answer->v[2 * k], *P = &answer->P[2 * k],
+                     inverse = problem->points->W[2 * k][2 * k];
+        double slides = P[1] - share(problem->points, set, (int)k) * P[0];
+        if (set[k].closed ? fabs(v[0]) > small : fabs(P[0] - problem->given[k]) * inverse > small)
+            return false;
+        if (set[k].rub == rub_holds ? fabs(v[1]) > small : fabs(slides) * inverse > small) return false;
+    }
+    return is_right(problem, set, answer);
+}
+
+/* Set `number`; what has no friction has one way to rub. False beyond the last one. */
+static bool find_set(const struct points_by_sets *points, long number, struct state *set)
+{
+    for (int k = 0; k < points->count; k++) {
+        int ways = points->mu[k] > 0 ? rubs : 1;
+        set[k] = (struct state){number % 2, (enum rub)(number / 2 % ways)};
+        number /= 2L * ways;
+    }
+    return number == 0;
+}
+
+/* A set whose own impulses are not determined, and that the answer belongs to, has others beside it. */
+static bool is_one_of_many(const struct problem *problem, const struct answer *answer)
+{
+    struct state set[sets_most] = {{0}};
+    struct answer ignored;
+    for (long number = 0; find_set(problem->points, number, set); number++)
+        if (!solve_set(problem, set, &ignored) && does_as(problem, set, answer)) return true;
+    return false;
+}
+
+/* All sets: 0, 1 or more answers. Velocities that several impulses give are one answer, unless it is the impulses that are
+ * asked for. */
 static int solve(const struct problem *problem, bool impulses, struct answer *answer)
 {
     const int count = problem->points->count;
+    struct state set[sets_most] = {{0}};
     int found = 0;
-    long all = 1;
-    for (int k = 0; k < count; k++) all *= problem->points->mu[k] > 0 ? 2 * rubs : 2;
-    for (long number = 0; number < all; number++) {
-        struct state set[sets_most] = {{0}};
+    for (long number = 0; find_set(problem->points, number, set); number++) {
         struct answer here;
-        long rest = number;
-        for (int k = 0; k < count; k++) {
-            int ways = problem->points->mu[k] > 0 ? rubs : 1;
-            set[k] = (struct state){rest % 2, (enum rub)(rest / 2 % ways)};
-            rest /= 2L * ways;
-        }
         if (!solve_set(problem, set, &here) || !is_right(problem, set, &here)) continue;
         if (found > 0 && all_agree(2 * count, answer->v, here.v, 100 * problem->small) &&
             (!impulses || impulses_agree(problem, answer, &here)))
@@ -155,7 +183,7 @@ static int solve(const struct problem *problem, bool impulses, struct answer *an
         *answer = here;
         found++;
     }
-    return found;
+    return found == 1 && impulses && is_one_of_many(problem, answer) ? 2 : found;
 }
 
 static double normal_work(const double *P, const double *before, const double *after, ptrdiff_t k)

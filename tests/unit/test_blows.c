@@ -196,7 +196,19 @@ static void fly(const struct scene *scene, double time, struct body *bodies)
     }
 }
 
-/* The least gap of a corner, or of the rim, over what it touches at the blow, as things are. */
+/* From a point to the side from corner k to the next one, as they are with the first body. */
+static double apart_from_side(const struct scene *scene, const struct body *first, int k, const double *o)
+{
+    const double c = cos(first->q[2]), s = sin(first->q[2]), dx = o[0] - first->q[0], dy = o[1] - first->q[1],
+                 x = c * dx + s * dy, y = c * dy - s * dx;
+    const double *a = scene->corner[k], *b = scene->corner[(k + 1) % scene->corners],
+                 side[2] = {b[0] - a[0], b[1] - a[1]};
+    double share = ((x - a[0]) * side[0] + (y - a[1]) * side[1]) / (side[0] * side[0] + side[1] * side[1]);
+    share = fmax(0, fmin(1, share));
+    return hypot(x - a[0] - share * side[0], y - a[1] - share * side[1]);
+}
+
+/* The least gap of a corner, a side or the rim over what it touches at the blow, as things are. */
 static double gap_of(const struct scene *scene, const struct touch *touch, const struct body *bodies)
 {
     const struct body *first = &bodies[0], *blow = &scene->body[0];
@@ -211,7 +223,8 @@ static double gap_of(const struct scene *scene, const struct touch *touch, const
         }
         if (touch->other > 0) {
             const double *o = bodies[touch->other].q;
-            gap = hypot(p[0] - o[0], p[1] - o[1]) - touch->radius - scene->radius;
+            gap = scene->corners > 0 ? apart_from_side(scene, first, k, o) : hypot(p[0] - o[0], p[1] - o[1]);
+            gap -= touch->radius + scene->radius;
         } else {
             gap = n[0] * (p[0] - blow->q[0] - touch->arm[0][0]) +
                   n[1] * (p[1] - blow->q[1] - touch->arm[0][1]) - scene->radius;
@@ -481,7 +494,7 @@ static bool compare(const struct scene *expected, const struct scene *found, dou
             double off = fabs(expected->body[b].v[k] - found->body[b].v[k]);
             if (!(off <= worst)) worst = off;
         }
-    double fallen = expected->falls ? 2 * g * instant : 0;
+    double fallen = expected->falls ? 100 * g * instant : 0;
     bool same = complain(worst <= near * size + fallen, "off impacts by sets by", worst);
     for (int b = 0; b < expected->bodies && !same; b++)
         for (int k = 0; k < 3; k++)
@@ -532,8 +545,21 @@ static void write_by_stronge(const struct scene *scene, struct scene *other)
     }
 }
 
-/* The velocities right after the blow, and whether the run goes on to its end. */
-static bool run_scene(const struct scene *scene, struct scene *found, bool *struck)
+enum end { done, unsolvable, lost, endless, failed };
+
+static enum end end_of(const struct trial *trial)
+{
+    const char *reason = fbd_simulation_reason(trial->simulation);
+    if (trial->outcome == FBD_DONE) return done;
+    if (strstr(reason, "have no solution by their law")) return unsolvable;
+    if (strstr(reason, "rounding takes what")) return lost;
+    if (strstr(reason, "without end: try `simulate: {impacts: simultaneous}`")) return endless;
+    printf("# %s\n", reason);
+    return failed;
+}
+
+/* The velocities right after the blow, and how the run ends. */
+static enum end run_scene(const struct scene *scene, struct scene *found, bool *struck)
 {
     struct trial trial = trial_parse(scene->text);
     trial_start(&trial, NULL);
@@ -541,10 +567,20 @@ static bool run_scene(const struct scene *scene, struct scene *found, bool *stru
     if (*struck) read_rates(scene, &trial, found->body);
     while (trial.outcome == FBD_GOING) trial.outcome = fbd_simulation_advance(trial.simulation);
     show(scene, &trial);
-    bool done = trial.outcome == FBD_DONE;
-    if (!done) printf("# %s\n", fbd_simulation_reason(trial.simulation));
+    enum end end = end_of(&trial);
     trial_close(&trial);
-    return done;
+    return end;
+}
+
+/* Laws of velocities may contradict each other, and impacts one after the other go on for ever, where there is no one answer
+ * by sets; impulses that are hundreds of times as large as what would stop a point are refused where there is one. */
+static bool may_end(const struct scene *scene, enum end end, bool struck, bool known)
+{
+    bool by_velocity = false;
+    for (int i = 0; i < scene->touches; i++) by_velocity |= scene->touch[i].law > steps_poisson;
+    if (end == unsolvable) return by_velocity && (struck || !known);
+    if (end == endless) return scene->in_turn && (struck || !known);
+    return end == done || end == lost;
 }
 
 static bool agrees(uint64_t seed, bool *unknown)
@@ -561,13 +597,15 @@ static bool agrees(uint64_t seed, bool *unknown)
     bool known = impacts_by_sets(&points, u, P) && !is_tie(&scene), struck;
     if (known) push(&after, P);
     size = fmax(size, size_of(&after));
-    bool done = run_scene(&scene, &found, &struck), right = done || (!struck && !known);
+    enum end end = run_scene(&scene, &found, &struck);
+    bool right = complain(may_end(&scene, end, struck, known), "ends by", end);
     if (struck) right &= keeps_laws(&scene, &found, size);
     if (struck && known && !(scene.falls && has_low_bounce(&after))) right &= compare(&after, &found, size);
     *unknown = !known || !struck;
-    if (!struck) {
+    if (end == unsolvable && !struck) { /* as it says */
         write_by_stronge(&scene, &after);
-        right &= run_scene(&after, &found, &struck) && keeps_laws(&scene, &found, size_of(&scene));
+        end = run_scene(&after, &found, &struck);
+        right &= complain(struck, "by stronge ends by", end) && keeps_laws(&scene, &found, size_of(&scene));
     }
     if (!right)
         printf("# seed %llu%s\n%s\n", (unsigned long long)seed, known ? "" : ", no one answer", scene.text);
@@ -577,7 +615,7 @@ static bool agrees(uint64_t seed, bool *unknown)
 static void impacts_by_sets_say_the_same(void **unused)
 {
     (void)unused;
-    moreau_compare("FBD_BLOWS", 200, 5, agrees);
+    moreau_compare("FBD_BLOWS", 600, 5, agrees);
 }
 
 int main(void)
