@@ -77,9 +77,8 @@ void companion_free(struct companion *companion)
 
 /* A method of order 8 makes steps of 0.82 of the length at a fifth of the tolerance. Where a run has but few steps, that
  * is not so: the first one is a guess, they grow by so much at most, and the last one is what is left. Steps of equal
- * length have equal errors, and the difference says nothing; so those of the companion are kept shorter, by little
- * enough that its own choice comes first elsewhere. What is behind by more than a step of the first run goes there in a
- * few. */
+ * length have equal errors, and the difference says nothing; so those of the companion are kept shorter by as much as
+ * they would be elsewhere. What is behind by more than a step of the first run goes there in a few. */
 static void keep_apart(struct companion *companion, const struct ensemble *main, double t)
 {
     const double share = 0.8, least = 0.25;

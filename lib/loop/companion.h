@@ -35,8 +35,7 @@ struct companion {
     double *scale, *worst; /* 2 n each: largest size so far, largest estimate so far */
     double *y;             /* 2 n each: both runs at the time of a sample */
     struct fbd_state *probe;
-    bool
-        follows; /* its steps are shorter than those of the first run: the same method at a fifth of the tolerance */
+    bool follows;        /* the first run chooses its steps alike; those of the companion are shorter */
     long samples;        /* multiples of 1/200 of the run that have been passed */
     double next;         /* time of the next sample; HUGE_VAL when there is none */
     double unknown_from; /* HUGE_VAL; or a time from which on there is no estimate */
