@@ -1,6 +1,4 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "blow_scenes.h"
-
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -12,17 +10,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "blow_scenes.h"
 #include "random_numbers.h"
-
-void blow_add(struct blow_scene *scene, const char *format, ...)
-{
-    va_list list;
-    va_start(list, format);
-    scene->length +=
-        vsnprintf(scene->text + scene->length, (size_t)(text_room - scene->length), format, list);
-    va_end(list);
-    assert_true(scene->length < text_room);
-}
 
 /* ---- draws */
 
@@ -39,31 +28,31 @@ static void draw_first(struct random_numbers *numbers, struct blow_scene *scene)
     double a = random_between(numbers, 0.2, 1), b = random_between(numbers, 0.1, 1), m = body->m;
     int kind = (int)(random_bits(numbers) % 4);
     scene->kind = kinds[kind];
-    blow_add(scene, "  b:\n    mass: %.17g\n", m);
+    add(&scene->text, "  b:\n    mass: %.17g\n", m);
     if (kind == 0) {
         scene->radius = a / 2;
         body->I = m * a * a / 8;
-        blow_add(scene, "    shape: disc\n    radius: %.17g\n", a / 2);
+        add(&scene->text, "    shape: disc\n    radius: %.17g\n", a / 2);
     } else if (kind == 1) {
         body->I = m * a * a / 12;
         add_corner(scene, a / 2, 0);
         add_corner(scene, -a / 2, 0);
-        blow_add(scene, "    shape: rod\n    length: %.17g\n", a);
+        add(&scene->text, "    shape: rod\n    length: %.17g\n", a);
     } else if (kind == 2) {
         body->I = m * (a * a + b * b) / 12;
         for (int k = 0; k < 4; k++) add_corner(scene, (k % 3 ? a : -a) / 2, (k / 2 ? b : -b) / 2);
-        blow_add(scene, "    shape: prism\n    a: %.17g\n    b: %.17g\n", a, b);
+        add(&scene->text, "    shape: prism\n    a: %.17g\n    b: %.17g\n", a, b);
     } else {
         int corners = 3 + (int)random_between(numbers, 0, 3.999);
         body->I = m * a * a / 4 * random_between(numbers, 0.2, 0.8);
-        blow_add(scene, "    inertia: %.17g\n    points: {", body->I);
+        add(&scene->text, "    inertia: %.17g\n    points: {", body->I);
         for (int k = 0; k < corners; k++) {
             double angle = (k + random_between(numbers, -0.3, 0.3)) * 2 * acos(-1) / corners;
             add_corner(scene, a / 2 * cos(angle), a / 2 * sin(angle));
-            blow_add(scene, "%sP%d: [%.17g, %.17g]", k > 0 ? ", " : "", k, scene->corner[k][0],
-                     scene->corner[k][1]);
+            add(&scene->text, "%sP%d: [%.17g, %.17g]", k > 0 ? ", " : "", k, scene->corner[k][0],
+                scene->corner[k][1]);
         }
-        blow_add(scene, "}\n");
+        add(&scene->text, "}\n");
     }
 }
 
@@ -264,8 +253,7 @@ static bool draw_touches(struct random_numbers *numbers, struct blow_scene *scen
 
 static void write_start(struct blow_scene *scene, const struct blow_body *body)
 {
-    blow_add(
-        scene,
+    add(&scene->text,
         "    motion: planar\n    initial: {x: %.17g, y: %.17g, theta: %.17g, vx: %.17g, vy: %.17g, omega: "
         "%.17g}\n    forces: [%s]\n",
         body->q[0], body->q[1], body->q[2], body->v[0], body->v[1], body->v[2],
@@ -279,9 +267,9 @@ static void write_ground(struct blow_scene *scene)
         const struct blow_touch *touch = &scene->touch[i];
         if (touch->other > 0 || (scene->flat && i == 1)) continue;
         const double *q = scene->body[0].q;
-        blow_add(scene, "%s    wall_%d: {through: [%.17g, %.17g], along: %.17g}\n",
-                 any ? "" : "ground:\n  lines:\n", i, q[0] + touch->arm[0][0], q[1] + touch->arm[0][1],
-                 atan2(-touch->normal[0], touch->normal[1]));
+        add(&scene->text, "%s    wall_%d: {through: [%.17g, %.17g], along: %.17g}\n",
+            any ? "" : "ground:\n  lines:\n", i, q[0] + touch->arm[0][0], q[1] + touch->arm[0][1],
+            atan2(-touch->normal[0], touch->normal[1]));
         any = true;
     }
 }
@@ -289,7 +277,7 @@ static void write_ground(struct blow_scene *scene)
 static void write_contacts(struct blow_scene *scene)
 {
     static const char *const laws[] = {"stronge", "poisson", "newton", "moreau"};
-    blow_add(scene, "contacts:\n");
+    add(&scene->text, "contacts:\n");
     for (int i = 0; i < scene->touches; i++) {
         const struct blow_touch *touch = &scene->touch[i];
         bool named = strcmp(scene->kind, "polygon") == 0;
@@ -301,8 +289,8 @@ static void write_contacts(struct blow_scene *scene)
         else
             snprintf(other, sizeof other, "ground.wall_%d", scene->flat && i == 1 ? 0 : i);
         /* A rod that lies on a wall is on neither side of it by itself. */
-        blow_add(scene, "  - {between: [b%s, %s], restitution: %.17g, static: %.17g, law: %s%s}\n", point,
-                 other, touch->e, touch->mu, laws[touch->law], touch->other > 0 ? "" : ", side: left");
+        add(&scene->text, "  - {between: [b%s, %s], restitution: %.17g, static: %.17g, law: %s%s}\n", point,
+            other, touch->e, touch->mu, laws[touch->law], touch->other > 0 ? "" : ", side: left");
     }
 }
 
@@ -322,15 +310,15 @@ void blow_draw(uint64_t seed, struct blow_scene *scene)
         struct blow_body start[most_bodies];
         memcpy(start, scene->body, sizeof start);
         fly(scene, -scene->when, start);
-        scene->length = scene->corners = 0;
-        blow_add(scene, "fbd: 1\ngravity: %g\n", blow_gravity);
+        scene->text.length = scene->corners = 0;
+        add(&scene->text, "fbd: 1\ngravity: %g\n", blow_gravity);
         write_ground(scene);
-        blow_add(scene, "bodies:\n");
+        add(&scene->text, "bodies:\n");
         draw_first(&first, scene);
         for (int b = 0; b < scene->bodies; b++) {
             if (b > 0)
-                blow_add(scene, "  d%d:\n    shape: disc\n    radius: %.17g\n    mass: %.17g\n", b,
-                         scene->body[b].radius, scene->body[b].m);
+                add(&scene->text, "  d%d:\n    shape: disc\n    radius: %.17g\n    mass: %.17g\n", b,
+                    scene->body[b].radius, scene->body[b].m);
             write_start(scene, &start[b]);
         }
         write_contacts(scene);

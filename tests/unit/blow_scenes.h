@@ -10,11 +10,12 @@
 #include <stdint.h>
 
 #include "impacts_by_sets.h"
+#include "written.h"
 
 /* Gravity where a scene falls [m/s^2]. */
 static const double blow_gravity = 10;
 
-enum { most_corners = 6, most_touches = 3, most_bodies = 1 + most_touches, text_room = 6000 };
+enum { most_corners = 6, most_touches = 3, most_bodies = 1 + most_touches };
 
 /* q and v are those of centres of mass and angles, at the blow. */
 struct blow_body {
@@ -38,15 +39,11 @@ struct blow_scene {
     struct blow_body body[most_bodies];
     struct blow_touch touch[most_touches];
     const char *kind;
-    int length;
-    char text[text_room];
+    struct written text;
 };
 
 /* Draw one from a seed, with its model in `text`. */
 void blow_draw(uint64_t seed, struct blow_scene *scene);
-
-/* Write on in its text. */
-void blow_add(struct blow_scene *scene, const char *format, ...);
 
 /* Of row 0, the normal, or 1, the tangent of a touch: what it is of the velocities of a body. */
 void blow_row(const struct blow_touch *touch, int row, int body, double J[3]);

@@ -17,14 +17,10 @@
 
 #include "moreau.h"
 #include "random_numbers.h"
+#include "written.h"
 
-enum { plane_room = 20000, most_bodies = 3 };
+enum { most_bodies = 3 };
 static const double plane_g = 10; /* m/s^2 */
-
-struct text {
-    int length;
-    char all[plane_room];
-};
 
 struct push { /* A sin(w t + phase) + B */
     double A, w, phase, B;
@@ -69,16 +65,15 @@ struct named {
 
 void name_value(struct named *named, int body, const char *what, double value, bool rate);
 
-__attribute__((format(printf, 2, 3))) void add(struct text *text, const char *format, ...);
 bool chance(struct random_numbers *numbers, double share);
 struct push draw_push(struct random_numbers *numbers, double size);
 double push_at(const struct push *push, double t);
-void add_push(struct text *text, const struct push *push);
+void add_push(struct written *text, const struct push *push);
 
 /* Stops of its first coordinate, at its start or within `size` of it. Laws of restitution differ where an impact is not of
  * one point alone, and without friction: `plastic` then. */
 void draw_stops(struct random_numbers *numbers, struct body *body, double size, bool plastic);
-void add_stops(struct text *text, const struct body *body);
+void add_stops(struct written *text, const struct body *body);
 
 /* A row more, without a normal. */
 struct moreau_row *row_of(struct moreau_rows *rows, enum moreau_kind kind);
@@ -89,7 +84,7 @@ void rope_rows(const struct scene *scene, const double *q, struct moreau_rows *r
 struct kind {
     const char *name;
     void (*draw)(struct random_numbers *numbers, struct scene *scene);
-    void (*write)(const struct scene *scene, struct text *text);
+    void (*write)(const struct scene *scene, struct written *text);
     void (*forces)(const void *scene, double t, const double *q, const double *v, double *f);
     void (*solve)(const void *scene, const double *q, double *b);
     void (*rows)(const void *scene, double t, const double *q, struct moreau_rows *rows);

@@ -60,7 +60,7 @@ static void draw_discs(struct random_numbers *numbers, struct scene *scene)
     scene->wall[1] = last->q[0] + last->r + random_between(numbers, 0.02, 0.5);
 }
 
-static void write_contacts(const struct scene *scene, struct text *text)
+static void write_contacts(const struct scene *scene, struct written *text)
 {
     static const char *const lines[] = {"floor", "left", "right"};
     add(text, "contacts:\n");
@@ -80,7 +80,7 @@ static void write_contacts(const struct scene *scene, struct text *text)
         }
 }
 
-static void write_discs(const struct scene *scene, struct text *text)
+static void write_discs(const struct scene *scene, struct written *text)
 {
     add(text, "ground:\n  lines:\n    floor: {along: %.17g}\n", scene->slope);
     for (int j = 0; j < 2; j++)

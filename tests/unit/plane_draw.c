@@ -3,15 +3,6 @@
 
 #include "plane.h"
 
-void add(struct text *text, const char *format, ...)
-{
-    va_list values;
-    va_start(values, format);
-    text->length += vsnprintf(text->all + text->length, (size_t)(plane_room - text->length), format, values);
-    va_end(values);
-    assert_true(text->length < plane_room);
-}
-
 bool chance(struct random_numbers *numbers, double share)
 {
     return random_between(numbers, 0, 1) < share;
@@ -29,7 +20,7 @@ double push_at(const struct push *push, double t)
     return push->A * sin(push->w * t + push->phase) + push->B;
 }
 
-void add_push(struct text *text, const struct push *push)
+void add_push(struct written *text, const struct push *push)
 {
     add(text, "\"%.17g*sin(%.17g*t + %.17g) + %.17g\"", push->A, push->w, push->phase, push->B);
 }
@@ -52,7 +43,7 @@ void draw_stops(struct random_numbers *numbers, struct body *body, double size, 
     if ((body->has_min && body->min == x && *v < 0) || (body->has_max && body->max == x && *v > 0)) *v = -*v;
 }
 
-void add_stops(struct text *text, const struct body *body)
+void add_stops(struct written *text, const struct body *body)
 {
     if (body->has_min) add(text, ", min: %.17g", body->min);
     if (body->has_max) add(text, ", max: %.17g", body->max);

@@ -39,7 +39,7 @@ static void draw_links(struct random_numbers *numbers, struct scene *scene)
     }
 }
 
-static void write_links(const struct scene *scene, struct text *text)
+static void write_links(const struct scene *scene, struct written *text)
 {
     if (scene->ropes)
         add(text, "ground: {points: {A: [%.17g, %.17g]}}\n", scene->rope[0].at[0], scene->rope[0].at[1]);

@@ -62,7 +62,7 @@ static double angle_of(const struct scene *scene, int i)
     return slide->along + (slide->on < 0 ? 0 : angle_of(scene, slide->on));
 }
 
-static void write_slides(const struct scene *scene, struct text *text)
+static void write_slides(const struct scene *scene, struct written *text)
 {
     if (scene->ropes) add(text, "ground:\n  points:\n");
     for (int j = 0; j < scene->ropes; j++)

@@ -156,7 +156,7 @@ static bool compare(const struct blow_scene *expected, const struct blow_scene *
 static void show(const struct blow_scene *scene, struct trial *trial)
 {
     if (!getenv("FBD_BLOWS_SHOW")) return;
-    puts(scene->text);
+    puts(scene->text.all);
     printf("# at the blow, %.12g:\n", scene->when);
     for (int i = 0; i < scene->touches; i++)
         printf("# touch %d closes at %.9g, slips at %.9g\n", i, blow_speed(scene, i, 0),
@@ -189,10 +189,10 @@ static void write_by_stronge(const struct blow_scene *scene, struct blow_scene *
 {
     static const char *const laws[] = {"newton", "moreau"};
     *other = *scene;
-    other->length = 0;
-    for (const char *at = scene->text; *at;) {
+    other->text.length = 0;
+    for (const char *at = scene->text.all; *at;) {
         bool law = strncmp(at, laws[0], 6) == 0 || strncmp(at, laws[1], 6) == 0;
-        blow_add(other, law ? "%.0sstronge" : "%.1s", at);
+        add(&other->text, law ? "%.0sstronge" : "%.1s", at);
         at += law ? 6 : 1;
     }
 }
@@ -213,7 +213,7 @@ static enum end end_of(const struct trial *trial)
 /* The velocities right after the blow, and how the run ends. */
 static enum end run_scene(const struct blow_scene *scene, struct blow_scene *found, bool *struck)
 {
-    struct trial trial = trial_parse(scene->text);
+    struct trial trial = trial_parse(scene->text.all);
     trial_start(&trial, NULL);
     *struck = go_to(&trial, scene->when + instant);
     if (*struck) read_rates(scene, &trial, found->body);
@@ -241,8 +241,8 @@ static bool agrees(uint64_t seed, bool *unknown)
     static struct blow_scene scene, after, found;
     double u[sets_rows] = {0}, P[sets_rows] = {0};
     blow_draw(seed, &scene);
-    blow_add(&scene, "simulate: {until: %.17g, tolerance: 1e-11, impacts: %s}\n", scene.when + on,
-             scene.in_turn ? "propagate" : "simultaneous");
+    add(&scene.text, "simulate: {until: %.17g, tolerance: 1e-11, impacts: %s}\n", scene.when + on,
+        scene.in_turn ? "propagate" : "simultaneous");
     after = found = scene;
     struct points_by_sets points = points_of(&scene, u);
     double size = size_of(&scene);
@@ -260,7 +260,8 @@ static bool agrees(uint64_t seed, bool *unknown)
         right &= complain(struck, "by stronge ends by", end) && keeps_laws(&scene, &found, size_of(&scene));
     }
     if (!right)
-        printf("# seed %llu%s\n%s\n", (unsigned long long)seed, known ? "" : ", no one answer", scene.text);
+        printf("# seed %llu%s\n%s\n", (unsigned long long)seed, known ? "" : ", no one answer",
+               scene.text.all);
     return right;
 }
 

@@ -21,8 +21,9 @@
 #include "impact_by_steps.h"
 #include "moreau.h"
 #include "random_numbers.h"
+#include "written.h"
 
-enum { most_feet = 6, most_walls = 2, coordinates = 3, text_room = 4000, most_impacts = 12 };
+enum { most_feet = 6, most_walls = 2, coordinates = 3, most_impacts = 12 };
 
 static const double g = 10;
 
@@ -44,19 +45,8 @@ struct scene {
     int feet, walls;
     struct foot foot[most_feet];
     struct wall wall[most_walls];
-    int length;
-    char text[text_room];
+    struct written text;
 };
-
-static void add(struct scene *scene, const char *format, ...)
-{
-    va_list list;
-    va_start(list, format);
-    scene->length +=
-        vsnprintf(scene->text + scene->length, (size_t)(text_room - scene->length), format, list);
-    va_end(list);
-    assert_true(scene->length < text_room);
-}
 
 /* ---- draws, with their models */
 
@@ -71,7 +61,7 @@ static void draw_rod(struct random_numbers *numbers, struct scene *scene)
     scene->I = scene->m * a * a / 12;
     add_foot(scene, a / 2, 0, 0);
     add_foot(scene, -a / 2, 0, 0);
-    add(scene, "    shape: rod\n    length: %.17g\n    mass: %.17g\n", a, scene->m);
+    add(&scene->text, "    shape: rod\n    length: %.17g\n    mass: %.17g\n", a, scene->m);
 }
 
 static void draw_box(struct random_numbers *numbers, struct scene *scene)
@@ -79,7 +69,7 @@ static void draw_box(struct random_numbers *numbers, struct scene *scene)
     double a = random_between(numbers, 0.2, 1), b = random_between(numbers, 0.1, 1);
     scene->I = scene->m * (a * a + b * b) / 12;
     for (int k = 0; k < 4; k++) add_foot(scene, (k % 2 ? a : -a) / 2, (k / 2 ? b : -b) / 2, 0);
-    add(scene, "    shape: prism\n    a: %.17g\n    b: %.17g\n    mass: %.17g\n", a, b, scene->m);
+    add(&scene->text, "    shape: prism\n    a: %.17g\n    b: %.17g\n    mass: %.17g\n", a, b, scene->m);
 }
 
 /* Corners that have names; its centre of mass is beside the frame's origin. */
@@ -89,15 +79,15 @@ static void draw_polygon(struct random_numbers *numbers, struct scene *scene)
     double r = random_between(numbers, 0.1, 0.5), x = random_between(numbers, -0.2, 0.2) * r;
     scene->I = scene->m * r * r * random_between(numbers, 0.2, 0.8);
     scene->center[0] = x;
-    add(scene, "    mass: %.17g\n    inertia: %.17g\n    center: [%.17g, 0]\n    points: {", scene->m,
+    add(&scene->text, "    mass: %.17g\n    inertia: %.17g\n    center: [%.17g, 0]\n    points: {", scene->m,
         scene->I, x);
     for (int k = 0; k < corners; k++) {
         double angle = (k + random_between(numbers, -0.3, 0.3)) * 2 * acos(-1) / corners,
                far = r * random_between(numbers, 0.8, 1.2), c = far * cos(angle), s = far * sin(angle);
         add_foot(scene, c - x, s, 0);
-        add(scene, "%sP%d: [%.17g, %.17g]", k > 0 ? ", " : "", k, c, s);
+        add(&scene->text, "%sP%d: [%.17g, %.17g]", k > 0 ? ", " : "", k, c, s);
     }
-    add(scene, "}\n");
+    add(&scene->text, "}\n");
 }
 
 /* A disc at one end of a rod. */
@@ -111,7 +101,7 @@ static void draw_lollipop(struct random_numbers *numbers, struct scene *scene)
     add_foot(scene, -x, 0, 0);
     add_foot(scene, a - x, 0, 0);
     add_foot(scene, a - x, 0, r);
-    add(scene,
+    add(&scene->text,
         "    parts:\n      stick: {shape: rod, from: [0, 0], to: [%.17g, 0], mass: %.17g}\n"
         "      head: {shape: disc, radius: %.17g, center: [%.17g, 0], mass: %.17g}\n",
         a, m1, r, a, m2);
@@ -120,7 +110,7 @@ static void draw_lollipop(struct random_numbers *numbers, struct scene *scene)
 static void draw_walls(struct random_numbers *numbers, struct scene *scene)
 {
     scene->walls = random_chance(numbers, 0.5) ? 2 : 1;
-    add(scene, "ground:\n  lines:\n");
+    add(&scene->text, "ground:\n  lines:\n");
     for (int k = 0; k < scene->walls; k++) {
         struct wall *wall = &scene->wall[k];
         double x = k == 0 ? 0 : random_chance(numbers, 0.5) ? 1.5 : -1.5;
@@ -130,7 +120,7 @@ static void draw_walls(struct random_numbers *numbers, struct scene *scene)
         double side = k > 0 && cos(wall->along) * 1.3 + sin(wall->along) * x < 0 ? -1 : 1;
         wall->normal[0] = -side * sin(wall->along);
         wall->normal[1] = side * cos(wall->along);
-        add(scene, "    wall_%d: {through: [%.17g, 0], along: %.17g}\n", k, x, wall->along);
+        add(&scene->text, "    wall_%d: {through: [%.17g, 0], along: %.17g}\n", k, x, wall->along);
     }
 }
 
@@ -146,13 +136,13 @@ static void add_laws(struct random_numbers *numbers, struct scene *scene, int fo
             feet[k].mu = k > foot ? feet[foot].mu : random_perhaps(numbers, 0.85, 0, 1);
             feet[k].fade = k > foot ? feet[foot].fade : random_perhaps(numbers, 0.2, 0, 0.2);
         }
-    add(scene,
+    add(&scene->text,
         "  - {between: [b%s, ground.wall_%d], static: %.17g, kinetic: %.17g, law: %s, restitution: ", point,
         wall, feet[foot].mu * (foot % 2 ? 1 : 1.25), feet[foot].mu, laws[scene->law]);
     if (feet[foot].fade > 0)
-        add(scene, "\"%.17g/(1 + %.17g*approach/1[m/s])\"}\n", feet[foot].e, feet[foot].fade);
+        add(&scene->text, "\"%.17g/(1 + %.17g*approach/1[m/s])\"}\n", feet[foot].e, feet[foot].fade);
     else
-        add(scene, "%.17g}\n", feet[foot].e);
+        add(&scene->text, "%.17g}\n", feet[foot].e);
 }
 
 static void draw_scene(uint64_t seed, struct scene *scene)
@@ -162,9 +152,9 @@ static void draw_scene(uint64_t seed, struct scene *scene)
     struct random_numbers numbers = {seed};
     *scene = (struct scene){.m = exp(random_between(&numbers, -1, 1)), .until = 2.5};
     scene->law = (enum law_by_steps)(random_bits(&numbers) % 4);
-    add(scene, "fbd: 1\ngravity: %g\n", g);
+    add(&scene->text, "fbd: 1\ngravity: %g\n", g);
     draw_walls(&numbers, scene);
-    add(scene, "bodies:\n  b:\n");
+    add(&scene->text, "bodies:\n  b:\n");
     draws[seed % 4](&numbers, scene);
     double place[3] = {0, random_between(&numbers, 1.15, 1.6), random_between(&numbers, -3, 3)},
            rate[3] = {random_between(&numbers, -3, 3), random_between(&numbers, -2, 2),
@@ -174,7 +164,7 @@ static void draw_scene(uint64_t seed, struct scene *scene)
     for (int k = 0; k < 3; k++) scene->q[k] = place[k] + (k < 2 ? G[k] : 0), scene->v[k] = rate[k];
     scene->v[0] -= rate[2] * G[1];
     scene->v[1] += rate[2] * G[0];
-    add(scene,
+    add(&scene->text,
         "    motion: planar\n    initial: {x: %.17g, y: %.17g, theta: %.17g, vx: %.17g, vy: %.17g, omega: "
         "%.17g}\n    forces: [gravity]\ncontacts:\n",
         place[0], place[1], place[2], rate[0], rate[1], rate[2]);
@@ -332,7 +322,7 @@ static void state_of(const struct scene *scene, const struct flight *flight, dou
 static bool run_scene(const struct scene *scene, double *to)
 {
     static const char *const names[] = {"b.x", "b.y", "b.theta", "b.vx", "b.vy", "b.omega"};
-    struct trial trial = trial_parse(scene->text);
+    struct trial trial = trial_parse(scene->text.all);
     trial_run(&trial, NULL);
     bool done = trial.outcome == FBD_DONE;
     if (!done) printf("# %s\n", fbd_simulation_reason(trial.simulation));
@@ -354,8 +344,8 @@ static bool agrees(uint64_t seed, bool *sensitive)
     double end[2 * coordinates], own[2 * coordinates], off[2 * coordinates];
     draw_scene(seed, &scene);
     struct flight flight = fly_through(&scene, scene.until);
-    add(&scene, "simulate: {until: %.17g, tolerance: 1e-11}\n", flight.t);
-    if (getenv("FBD_BOUNCES_SHOW")) puts(scene.text);
+    add(&scene.text, "simulate: {until: %.17g, tolerance: 1e-11}\n", flight.t);
+    if (getenv("FBD_BOUNCES_SHOW")) puts(scene.text.all);
     state_of(&scene, &flight, own);
     double error = 0;
     for (int k = 0; k < 4; k++) {
@@ -373,7 +363,7 @@ static bool agrees(uint64_t seed, bool *sensitive)
     double difference = apart(own, end);
     if (done && difference <= fmax(least, error)) return true;
     printf("# seed %llu: %g apart after %d impacts, where a start beside is off by %g\n%s\n",
-           (unsigned long long)seed, difference, flight.impacts, error, scene.text);
+           (unsigned long long)seed, difference, flight.impacts, error, scene.text.all);
     for (int i = 0; i < 2 * coordinates; i++) printf("# %.12g, by flights %.12g\n", end[i], own[i]);
     return false;
 }

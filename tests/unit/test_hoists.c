@@ -20,8 +20,9 @@
 #include "gallery.h"
 #include "moreau.h"
 #include "random_numbers.h"
+#include "written.h"
 
-enum { most_coordinates = 5, most_gaps = 16, text_room = 8000 };
+enum { most_coordinates = 5, most_gaps = 16 };
 
 static const double g = 10, high = 20; /* where the pulleys are */
 
@@ -43,19 +44,8 @@ struct hoist {
     double until;
     struct coordinate at[most_coordinates];
     struct gap gap[most_gaps];
-    int length;
-    char text[text_room];
+    struct written text;
 };
-
-static void add(struct hoist *hoist, const char *format, ...)
-{
-    va_list list;
-    va_start(list, format);
-    hoist->length +=
-        vsnprintf(hoist->text + hoist->length, (size_t)(text_room - hoist->length), format, list);
-    va_end(list);
-    assert_true(hoist->length < text_room);
-}
 
 /* ---- parts */
 
@@ -85,8 +75,8 @@ static struct gap *new_gap(struct hoist *hoist, int i, double w)
 
 static void add_push(struct hoist *hoist, const struct coordinate *at)
 {
-    add(hoist, "      - applied: {name: push, value: \"%.17g*sin(%.17g*t + %.17g) + %.17g\"}\n", at->A, at->w,
-        at->phase, at->B);
+    add(&hoist->text, "      - applied: {name: push, value: \"%.17g*sin(%.17g*t + %.17g) + %.17g\"}\n", at->A,
+        at->w, at->phase, at->B);
 }
 
 /* A mass on a vertical slide, that carries `more` beside its own mass. */
@@ -103,18 +93,19 @@ static void add_weight(struct random_numbers *numbers, struct hoist *hoist, cons
     at->neutral = random_between(numbers, -0.5, 0.5);
     at->c = random_perhaps(numbers, 0.2, 0, 2) * mass;
     bool stops[2] = {random_chance(numbers, 0.4), random_chance(numbers, 0.3)};
-    add(hoist, "  %s:\n    mass: %.17g\n    motion: {slide: {along: 90 deg, through: [%.17g, 0]", body, mass,
-        across);
+    add(&hoist->text, "  %s:\n    mass: %.17g\n    motion: {slide: {along: 90 deg, through: [%.17g, 0]", body,
+        mass, across);
     for (int k = 0; k < 2; k++) {
         double far = random_between(numbers, 0.01, 0.5);
         if (!stops[k]) continue;
         new_gap(hoist, i, k ? -1 : 1)->off -= far;
-        add(hoist, ", %s: %.17g", k ? "max" : "min", k ? at->q + far : at->q - far);
+        add(&hoist->text, ", %s: %.17g", k ? "max" : "min", k ? at->q + far : at->q - far);
     }
-    add(hoist, "}}\n    initial: {x: %.17g, v: %.17g}\n    forces:\n      - gravity\n", at->q, v);
+    add(&hoist->text, "}}\n    initial: {x: %.17g, v: %.17g}\n    forces:\n      - gravity\n", at->q, v);
     add_push(hoist, at);
-    add(hoist, "      - spring: {stiffness: %.17g, neutral: %.17g}\n      - damper: {coefficient: %.17g}\n",
-        at->k, at->neutral, at->c);
+    add(&hoist->text,
+        "      - spring: {stiffness: %.17g, neutral: %.17g}\n      - damper: {coefficient: %.17g}\n", at->k,
+        at->neutral, at->c);
 }
 
 /* `where` has the keys of its pivot. */
@@ -126,14 +117,15 @@ static double add_pulley(struct random_numbers *numbers, struct hoist *hoist, co
     at->v = omega;
     at->rub = random_perhaps(numbers, 0.7, 0.01, 0.3) * load * r;
     at->rub_speed = random_perhaps(numbers, 0.2, -3, 3);
-    add(hoist,
+    add(&hoist->text,
         "  %s:\n    shape: disc\n    radius: %.17g\n    mass: %.17g\n    motion: {pivot: {%s}}\n    initial: "
         "{omega: "
         "%.17g}\n    forces: [gravity]\n    moments:\n",
         body, r, mass, where, omega);
     add_push(hoist, at);
     if (at->rub > 0)
-        add(hoist, "      - friction: {coefficient: %.17g, surface_speed: %.17g}\n", at->rub, at->rub_speed);
+        add(&hoist->text, "      - friction: {coefficient: %.17g, surface_speed: %.17g}\n", at->rub,
+            at->rub_speed);
     return mass;
 }
 
@@ -161,8 +153,9 @@ static void draw_row(struct random_numbers *numbers, struct hoist *hoist)
             new_gap(hoist, i + side, 1)->w[weights + i] = side ? -r[i] : r[i];
         across += 2 * r[i];
     }
-    add(hoist, "couplings:\n");
-    for (int i = 0; i + 1 < weights; i++) add(hoist, "  - rope: {through: [w%d, p%d, w%d]}\n", i, i, i + 1);
+    add(&hoist->text, "couplings:\n");
+    for (int i = 0; i + 1 < weights; i++)
+        add(&hoist->text, "  - rope: {through: [w%d, p%d, w%d]}\n", i, i, i + 1);
 }
 
 static void draw_drum(struct random_numbers *numbers, struct hoist *hoist)
@@ -181,9 +174,9 @@ static void draw_drum(struct random_numbers *numbers, struct hoist *hoist)
         add_weight(numbers, hoist, name, arm, arm * omega + faster, 0);
         new_gap(hoist, 1 + i, 1)->w[0] = -arm;
     }
-    add(hoist, "couplings:\n");
+    add(&hoist->text, "couplings:\n");
     for (int i = 0; i < weights; i++)
-        add(hoist,
+        add(&hoist->text,
             "  - rope: {through: [drum, w%d], wound: {on: drum, side: %s, radius: %.17g, length: 20}}\n", i,
             right[i] ? "right" : "left", r[i]);
 }
@@ -206,8 +199,8 @@ static void draw_tackle(struct random_numbers *numbers, struct hoist *hoist)
     between->w[1] = r;
     between->w[2] = s;
     new_gap(hoist, 3, 1)->w[2] = -s;
-    add(hoist, "couplings:\n  - rope: {through: [ground.nail, sheave, top, weight]}\n");
-    add(hoist, "ground: {points: {nail: [%.17g, %g]}}\n", -r, high);
+    add(&hoist->text, "couplings:\n  - rope: {through: [ground.nail, sheave, top, weight]}\n");
+    add(&hoist->text, "ground: {points: {nail: [%.17g, %g]}}\n", -r, high);
 }
 
 static void draw_hoist(uint64_t seed, struct hoist *hoist)
@@ -216,9 +209,9 @@ static void draw_hoist(uint64_t seed, struct hoist *hoist)
                                                                              draw_tackle};
     struct random_numbers numbers = {seed};
     *hoist = (struct hoist){.until = random_between(&numbers, 0.4, 1.5)};
-    add(hoist, "fbd: 1\ngravity: %g\nbodies:\n", g);
+    add(&hoist->text, "fbd: 1\ngravity: %g\nbodies:\n", g);
     draws[seed % (sizeof draws / sizeof *draws)](&numbers, hoist);
-    add(hoist, "simulate: {until: %.17g}\n", hoist->until);
+    add(&hoist->text, "simulate: {until: %.17g}\n", hoist->until);
 }
 
 /* ---- the same for the time stepping */
@@ -280,7 +273,7 @@ static double apart(int count, const double *a, const double *b)
 
 static bool run_hoist(const struct hoist *hoist, double *end)
 {
-    struct trial trial = trial_parse(hoist->text);
+    struct trial trial = trial_parse(hoist->text.all);
     trial_run(&trial, NULL);
     bool done = trial.outcome == FBD_DONE;
     if (!done) printf("# %s\n", fbd_simulation_reason(trial.simulation));
@@ -300,7 +293,7 @@ static bool agrees(uint64_t seed, bool *sensitive)
     static struct hoist hoist;
     double end[values], fine[values], coarse[values], off = 0, difference = 0;
     draw_hoist(seed, &hoist);
-    if (getenv("FBD_HOISTS_SHOW")) puts(hoist.text);
+    if (getenv("FBD_HOISTS_SHOW")) puts(hoist.text.all);
     step_through(&hoist, first_steps / 2, coarse);
     bool done = run_hoist(&hoist, end);
     for (int steps = first_steps; steps <= most_steps; steps *= 2) {
@@ -312,7 +305,7 @@ static bool agrees(uint64_t seed, bool *sensitive)
         memcpy(coarse, fine, sizeof fine);
     }
     printf("# seed %llu: %g apart, where the steps are off by %g\n%s\n", (unsigned long long)seed, difference,
-           off, hoist.text);
+           off, hoist.text.all);
     for (int i = 0; i < hoist.count; i++)
         printf("# %s: %.10g, by steps %.10g; %.10g, %.10g\n", hoist.at[i].name, end[2 * i], fine[2 * i],
                10 * end[2 * i + 1], 10 * fine[2 * i + 1]);

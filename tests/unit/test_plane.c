@@ -47,7 +47,7 @@ struct census {
     int tried, skipped, agree, ended, differ;
 };
 
-static void draw_scene(int kind, uint64_t seed, struct scene *scene, struct text *text)
+static void draw_scene(int kind, uint64_t seed, struct scene *scene, struct written *text)
 {
     struct random_numbers numbers = {1000003u * seed + (uint64_t)kind};
     *scene = (struct scene){.kind = kind, .until = random_between(&numbers, 0.4, 1.5)};
@@ -91,7 +91,8 @@ static bool is_open(struct trial *trial, double step)
     return false;
 }
 
-static void tell(const char *name, unsigned long seed, const struct answers *answers, const struct text *text)
+static void tell(const char *name, unsigned long seed, const struct answers *answers,
+                 const struct written *text)
 {
     print_message("# %s %lu: %.3g apart (half the steps: %.2g):", name, seed,
                   apart(&answers->ours, &answers->fine), doubt(answers));
@@ -103,7 +104,7 @@ static void tell(const char *name, unsigned long seed, const struct answers *ans
         print_message("# %.*s\n", (int)strcspn(line, "\n"), line);
 }
 
-static void compare(struct checks *checks, const struct scene *scene, const struct text *text,
+static void compare(struct checks *checks, const struct scene *scene, const struct written *text,
                     const char *name, unsigned long seed, int steps, struct census *census)
 {
     const double sensitive = 2e-3;
@@ -156,7 +157,7 @@ static void time_stepping_says_the_same(void **unused)
         if (only && strcmp(only, kinds[k]->name) != 0) continue;
         for (long i = seed < 0 ? first : seed; i < (seed < 0 ? first + count : seed + 1); i++) {
             struct scene scene;
-            struct text text;
+            struct written text;
             draw_scene(k, (uint64_t)i, &scene, &text);
             if (seed >= 0) puts(text.all), fflush(stdout);
             compare(&checks, &scene, &text, kinds[k]->name, (unsigned long)i, steps, &census);
@@ -187,7 +188,7 @@ static void what_went_wrong_does_not(void **unused)
     for (size_t i = 0; i < sizeof scenes / sizeof *scenes; i++) {
         struct census census = {0};
         struct scene scene;
-        struct text text;
+        struct written text;
         draw_scene(scenes[i].kind, scenes[i].seed, &scene, &text);
         compare(&checks, &scene, &text, kinds[scenes[i].kind]->name, scenes[i].seed, 10000, &census);
         check_that(&checks, "it is compared", census.agree == 1);

@@ -20,8 +20,9 @@
 #include "gallery.h"
 #include "moreau.h"
 #include "random_numbers.h"
+#include "written.h"
 
-enum { most_bodies = 3, most_values = 12, text_room = 8000 };
+enum { most_bodies = 3, most_values = 12 };
 
 static const double g = 10;
 
@@ -43,19 +44,8 @@ struct vehicle {
     double slope, until;
     double anchor[2], rope; /* from the ground to an axle of a single wheel; infinite without */
     struct body body[most_bodies];
-    int length;
-    char text[text_room];
+    struct written text;
 };
-
-static void add(struct vehicle *vehicle, const char *format, ...)
-{
-    va_list list;
-    va_start(list, format);
-    vehicle->length +=
-        vsnprintf(vehicle->text + vehicle->length, (size_t)(text_room - vehicle->length), format, list);
-    va_end(list);
-    assert_true(vehicle->length < text_room);
-}
 
 static struct push draw_push(struct random_numbers *numbers, double size)
 {
@@ -67,23 +57,23 @@ static struct push draw_push(struct random_numbers *numbers, double size)
 
 static void add_push(struct vehicle *vehicle, const struct push *push)
 {
-    add(vehicle, "\"%.17g*sin(%.17g*t + %.17g) + %.17g\"", push->A, push->w, push->phase, push->B);
+    add(&vehicle->text, "\"%.17g*sin(%.17g*t + %.17g) + %.17g\"", push->A, push->w, push->phase, push->B);
 }
 
 static void add_loads(struct vehicle *vehicle, const struct body *body, bool moments_alone)
 {
-    add(vehicle, "    forces:\n      - gravity\n");
+    add(&vehicle->text, "    forces:\n      - gravity\n");
     if (!moments_alone) {
-        add(vehicle, "      - applied: {name: push, fx: ");
+        add(&vehicle->text, "      - applied: {name: push, fx: ");
         add_push(vehicle, &body->push[0]);
-        add(vehicle, ", fy: ");
+        add(&vehicle->text, ", fy: ");
         add_push(vehicle, &body->push[1]);
-        add(vehicle, "}\n");
+        add(&vehicle->text, "}\n");
     }
-    add(vehicle, "    moments:\n      - applied: {name: turn, value: ");
+    add(&vehicle->text, "    moments:\n      - applied: {name: turn, value: ");
     add_push(vehicle, &body->push[2]);
-    add(vehicle, "}\n");
-    if (body->rub > 0) add(vehicle, "      - friction: {coefficient: %.17g}\n", body->rub);
+    add(&vehicle->text, "}\n");
+    if (body->rub > 0) add(&vehicle->text, "      - friction: {coefficient: %.17g}\n", body->rub);
 }
 
 /* ---- draws, with their models */
@@ -117,17 +107,17 @@ static void draw_wheel(struct random_numbers *numbers, struct vehicle *vehicle)
         random_chance(numbers, 0.25)
             ? hypot(C[0] - vehicle->anchor[0], C[1] - vehicle->anchor[1]) + random_between(numbers, 0.01, 0.4)
             : HUGE_VAL;
-    add(vehicle,
+    add(&vehicle->text,
         "ground: {points: {A: [-1, 1.2]}, lines: {floor: {along: %.17g}}}\nbodies:\n  b0:\n    mass: %.17g\n"
         "    inertia: %.17g\n    center: [%.17g, %.17g]\n    points: {C: [0, 0]}\n    motion: planar\n"
         "    initial: {x: %.17g, y: %.17g, vx: %.17g, vy: %.17g, omega: %.17g}\n",
         s, m, wheel->I, G[0], G[1], C[0], C[1], v * cos(s), v * sin(s), omega);
     add_loads(vehicle, wheel, false);
-    add(vehicle,
+    add(&vehicle->text,
         "couplings:\n  - roll: {body: b0, on: floor, radius: %.17g, center: [0, 0], static: %.17g}\n", r,
         wheel->mu);
     if (vehicle->rope < HUGE_VAL)
-        add(vehicle, "  - rope: {through: [ground.A, b0.C], length: %.17g}\n", vehicle->rope);
+        add(&vehicle->text, "  - rope: {through: [ground.A, b0.C], length: %.17g}\n", vehicle->rope);
 }
 
 static void draw_cart_wheel(struct random_numbers *numbers, struct vehicle *vehicle, int b, double v)
@@ -145,7 +135,7 @@ static void draw_cart_wheel(struct random_numbers *numbers, struct vehicle *vehi
     wheel->v[2] = omega;
     wheel->push[2] = draw_push(numbers, size / 2);
     wheel->rub = random_perhaps(numbers, 0.5, 0.01, 0.7) * size;
-    add(vehicle,
+    add(&vehicle->text,
         "  b%d:\n    shape: disc\n    radius: %.17g\n    mass: %.17g\n    motion: {pivot: {on: b0, at: "
         "P%d}}\n"
         "    initial: {omega: %.17g}\n",
@@ -176,7 +166,7 @@ static void draw_cart(struct random_numbers *numbers, struct vehicle *vehicle)
         wheels[k].at[0] = (k ? 1 : -1) * random_between(numbers, 0.3, 0.8);
         wheels[k].at[1] = wheels[k].r - high;
     }
-    add(vehicle,
+    add(&vehicle->text,
         "ground: {lines: {floor: {along: %.17g}}}\nbodies:\n  b0:\n    mass: %.17g\n    inertia: %.17g\n    "
         "motion: "
         "planar\n    points: {P1: [%.17g, %.17g], P2: [%.17g, %.17g]}\n    initial: {x: %.17g, y: %.17g, "
@@ -187,9 +177,9 @@ static void draw_cart(struct random_numbers *numbers, struct vehicle *vehicle)
     add_loads(vehicle, chassis, false);
     for (int b = 1; b < 3; b++) draw_cart_wheel(numbers, vehicle, b, v);
     bool contacts = random_chance(numbers, 0.3);
-    add(vehicle, contacts ? "contacts:\n" : "couplings:\n");
+    add(&vehicle->text, contacts ? "contacts:\n" : "couplings:\n");
     for (int b = 1; b < 3; b++)
-        add(vehicle,
+        add(&vehicle->text,
             contacts ? "  - {between: [b%d, ground.floor], static: %.17g}\n"
                      : "  - roll: {body: b%d, on: floor, static: %.17g}\n",
             b, vehicle->body[b].mu);
@@ -200,9 +190,9 @@ static void draw_vehicle(uint64_t seed, struct vehicle *vehicle)
     struct random_numbers numbers = {seed};
     *vehicle = (struct vehicle){.until = random_between(&numbers, 0.4, 1.5)};
     vehicle->slope = random_perhaps(&numbers, 0.5, -0.3, 0.3);
-    add(vehicle, "fbd: 1\ngravity: %g\n", g);
+    add(&vehicle->text, "fbd: 1\ngravity: %g\n", g);
     (seed % 2 ? draw_wheel : draw_cart)(&numbers, vehicle);
-    add(vehicle, "simulate: {until: %.17g}\n", vehicle->until);
+    add(&vehicle->text, "simulate: {until: %.17g}\n", vehicle->until);
 }
 
 /* ---- the same for the time stepping */
@@ -334,7 +324,7 @@ static double apart(int count, const double *a, const double *b)
 
 static bool run_vehicle(const struct vehicle *vehicle, int count, char (*names)[20], double *end)
 {
-    struct trial trial = trial_parse(vehicle->text);
+    struct trial trial = trial_parse(vehicle->text.all);
     trial_run(&trial, NULL);
     bool done = trial.outcome == FBD_DONE;
     if (!done) printf("# %s\n", fbd_simulation_reason(trial.simulation));
@@ -352,7 +342,7 @@ static bool agrees(uint64_t seed, bool *sensitive)
     char names[most_values][20];
     double end[most_values], fine[most_values], coarse[most_values], off = 0, difference = 0;
     draw_vehicle(seed, &vehicle);
-    if (getenv("FBD_ROLLS_SHOW")) puts(vehicle.text);
+    if (getenv("FBD_ROLLS_SHOW")) puts(vehicle.text.all);
     int count = step_through(&vehicle, first_steps / 2, names, coarse);
     bool done = run_vehicle(&vehicle, count, names, end);
     for (int steps = first_steps; steps <= most_steps; steps *= 2) {
@@ -365,7 +355,7 @@ static bool agrees(uint64_t seed, bool *sensitive)
         memcpy(coarse, fine, sizeof fine);
     }
     printf("# seed %llu: %g apart, where the steps are off by %g\n%s\n", (unsigned long long)seed, difference,
-           off, vehicle.text);
+           off, vehicle.text.all);
     for (int i = 0; i < count; i++) printf("# %s: %.10g, by steps %.10g\n", names[i], end[i], fine[i]);
     return false;
 }

@@ -21,8 +21,9 @@
 #include "impacts_by_sets.h"
 #include "moreau.h"
 #include "random_numbers.h"
+#include "written.h"
 
-enum { most_bodies = 6, most_contacts = most_bodies + 1, text_room = 6000, most_impacts = 20 };
+enum { most_bodies = 6, most_contacts = most_bodies + 1, most_impacts = 20 };
 
 static const double g = 10;
 
@@ -44,18 +45,8 @@ struct row {
     struct body body[most_bodies];
     struct contact contact[most_contacts];
     double gap[most_contacts]; /* at the start */
-    int length;
-    char text[text_room];
+    struct written text;
 };
-
-static void add(struct row *row, const char *format, ...)
-{
-    va_list list;
-    va_start(list, format);
-    row->length += vsnprintf(row->text + row->length, (size_t)(text_room - row->length), format, list);
-    va_end(list);
-    assert_true(row->length < text_room);
-}
 
 /* ---- draws, with their models */
 
@@ -114,8 +105,8 @@ static void write_ground(struct row *row)
     for (int k = 0; k < row->contacts && !row->stops; k++) {
         const struct contact *wall = &row->contact[k];
         if (wall->left >= 0 && wall->right >= 0) continue;
-        add(row, "%s    wall_%d: {through: [%.17g, %.17g], along: %.17g}\n", any ? "" : "ground:\n  lines:\n",
-            k, wall->wall * c, wall->wall * s, row->along + acos(-1) / 2);
+        add(&row->text, "%s    wall_%d: {through: [%.17g, %.17g], along: %.17g}\n",
+            any ? "" : "ground:\n  lines:\n", k, wall->wall * c, wall->wall * s, row->along + acos(-1) / 2);
         any = true;
     }
 }
@@ -124,46 +115,47 @@ static void write_body(struct random_numbers *numbers, struct row *row, int i, d
 {
     const double c = cos(row->along), s = sin(row->along);
     const struct body *body = &row->body[i];
-    add(row, "  b%d:\n    mass: %.17g\n", i, body->m);
+    add(&row->text, "  b%d:\n    mass: %.17g\n", i, body->m);
     if (!row->planar && random_chance(numbers, 0.5))
-        add(row, "    shape: prism\n    a: %.17g\n    b: %.17g\n", 2 * body->half,
+        add(&row->text, "    shape: prism\n    a: %.17g\n    b: %.17g\n", 2 * body->half,
             high > 0 ? high : random_between(numbers, 0.1, 0.5));
     else
-        add(row, "    shape: disc\n    radius: %.17g\n", body->half);
+        add(&row->text, "    shape: disc\n    radius: %.17g\n", body->half);
     if (row->planar) {
-        add(row,
+        add(&row->text,
             "    motion: planar\n    initial: {x: %.17g, y: %.17g, vx: %.17g, vy: %.17g}\n    forces: "
             "[applied: "
             "{value: %.17g, angle: %.17g}]\n",
             body->x * c, body->x * s, body->v * c, body->v * s, body->force, row->along);
         return;
     }
-    add(row, "    motion: {slide: {along: %.17g", row->along);
+    add(&row->text, "    motion: {slide: {along: %.17g", row->along);
     for (int k = 0; k < row->contacts && row->stops; k++) {
         const struct contact *wall = &row->contact[k];
         bool low = wall->left < 0 && wall->right == i, up = wall->right < 0 && wall->left == i;
         if (low || up)
-            add(row, ", %s: %.17g", low ? "min" : "max", wall->wall + (low ? body->half : -body->half));
+            add(&row->text, ", %s: %.17g", low ? "min" : "max",
+                wall->wall + (low ? body->half : -body->half));
         if (low || up)
-            add(row, k + 1 < row->contacts && row->bodies == 1 ? "" : ", restitution: %.17g", wall->e);
+            add(&row->text, k + 1 < row->contacts && row->bodies == 1 ? "" : ", restitution: %.17g", wall->e);
     }
-    add(row, "}}\n    initial: {x: %.17g, v: %.17g}\n    forces: [gravity, applied: {value: %.17g}]\n",
+    add(&row->text, "}}\n    initial: {x: %.17g, v: %.17g}\n    forces: [gravity, applied: {value: %.17g}]\n",
         body->x, body->v, body->force);
 }
 
 static void write_contacts(struct row *row)
 {
     static const char *const laws[] = {"stronge", "poisson", "newton", "moreau"};
-    add(row, "contacts:\n");
+    add(&row->text, "contacts:\n");
     for (int k = 0; k < row->contacts; k++) {
         const struct contact *contact = &row->contact[k];
         bool wall = contact->left < 0 || contact->right < 0;
         if (wall && row->stops) continue;
         if (wall)
-            add(row, "  - {between: [b%d, ground.wall_%d]", contact->left < 0 ? 0 : contact->left, k);
+            add(&row->text, "  - {between: [b%d, ground.wall_%d]", contact->left < 0 ? 0 : contact->left, k);
         else
-            add(row, "  - {between: [b%d, b%d]", contact->left, contact->right);
-        add(row, ", restitution: %.17g, static: %.17g, law: %s}\n", contact->e, contact->mu,
+            add(&row->text, "  - {between: [b%d, b%d]", contact->left, contact->right);
+        add(&row->text, ", restitution: %.17g, static: %.17g, law: %s}\n", contact->e, contact->mu,
             laws[contact->law]);
     }
 }
@@ -184,9 +176,9 @@ static void draw_row(uint64_t seed, struct row *row)
         row->contact[row->contacts++] = draw_contact(&numbers, i, i + 1, own);
     }
     draw_walls(&numbers, row, same, law);
-    add(row, "fbd: 1\ngravity: %g\n", g);
+    add(&row->text, "fbd: 1\ngravity: %g\n", g);
     write_ground(row);
-    add(row, "bodies:\n");
+    add(&row->text, "bodies:\n");
     double high = random_perhaps(&numbers, 0.5, 0.1, 0.5);
     for (int i = 0; i < row->bodies; i++) {
         write_body(&numbers, row, i, high);
@@ -392,7 +384,7 @@ static void read_body(const struct row *row, const struct trial *trial, int i, d
 
 static bool run_row(const struct row *row, double *x, double *v)
 {
-    struct trial trial = trial_parse(row->text);
+    struct trial trial = trial_parse(row->text.all);
     trial_run(&trial, NULL);
     bool done = trial.outcome == FBD_DONE;
     if (!done) printf("# %s\n", fbd_simulation_reason(trial.simulation));
@@ -441,9 +433,9 @@ static bool agrees(uint64_t seed, bool *sensitive)
     double x[most_bodies] = {0}, v[most_bodies] = {0};
     draw_row(seed, &row);
     bool known = fly_through(&row, &flight) && flight.t > 0;
-    add(&row, "simulate: {until: %.17g, tolerance: 1e-11, impacts: %s}\n", flight.t,
+    add(&row.text, "simulate: {until: %.17g, tolerance: 1e-11, impacts: %s}\n", flight.t,
         row.in_turn ? "propagate" : "simultaneous");
-    if (getenv("FBD_ROWS_SHOW")) puts(row.text);
+    if (getenv("FBD_ROWS_SHOW")) puts(row.text.all);
     double error = known ? sensitivity(&row, &flight) : HUGE_VAL;
     *sensitive = !(error <= most);
     if (*sensitive) return true;
@@ -451,7 +443,7 @@ static bool agrees(uint64_t seed, bool *sensitive)
     double difference = fmax(apart(row.bodies, x, flight.x), apart(row.bodies, v, flight.v));
     if (done && difference <= fmax(least, 3 * error)) return true;
     printf("# seed %llu: %g apart after %d impacts, where a start beside is off by %g\n%s\n",
-           (unsigned long long)seed, difference, flight.impacts, error, row.text);
+           (unsigned long long)seed, difference, flight.impacts, error, row.text.all);
     for (int i = 0; i < row.bodies; i++)
         printf("# b%d: %.10g at %.10g, by flights %.10g at %.10g\n", i, x[i], v[i], flight.x[i], flight.v[i]);
     return false;

@@ -20,8 +20,9 @@
 #include "gallery.h"
 #include "moreau.h"
 #include "random_numbers.h"
+#include "written.h"
 
-enum { most_wheels = 4, most_parts = most_wheels + 1, text_room = 8000 };
+enum { most_wheels = 4, most_parts = most_wheels + 1 };
 
 static const double g = 10;
 
@@ -116,21 +117,7 @@ static struct train draw_train(uint64_t seed)
 
 /* ---- the model */
 
-struct text {
-    char *data;
-    int length;
-};
-
-static void add(struct text *text, const char *format, ...)
-{
-    va_list list;
-    va_start(list, format);
-    text->length += vsnprintf(text->data + text->length, (size_t)(text_room - text->length), format, list);
-    va_end(list);
-    assert_true(text->length < text_room);
-}
-
-static void add_part(struct text *text, const struct train *train, int i, double x)
+static void add_part(struct written *text, const struct train *train, int i, double x)
 {
     const struct part *part = &train->parts[i];
     bool rack = i == train->wheels;
@@ -160,30 +147,29 @@ static void add_part(struct text *text, const struct train *train, int i, double
     if (part->c > 0) add(text, "      - damper: {coefficient: %.17g}\n", part->c);
 }
 
-static void write_train(const struct train *train, char *data)
+static void write_train(const struct train *train, struct written *text)
 {
     static const char *const kinds[] = {"", "gear", "belt", "belt"};
-    struct text text = {data, 0};
     bool couplings = train->rack;
     double x = 0;
-    add(&text, "fbd: 1\ngravity: %.17g\nbodies:\n", g);
+    add(text, "fbd: 1\ngravity: %.17g\nbodies:\n", g);
     for (int i = 0; i < size_of(train); i++) {
-        add_part(&text, train, i, x);
+        add_part(text, train, i, x);
         if (i + 1 >= train->wheels) continue;
         x += (train->parts[i].r + train->parts[i + 1].r) * (train->joint[i] == joint_gear ? 1 : 1.5);
         couplings |= train->joint[i] != joint_none;
     }
-    if (couplings) add(&text, "couplings:\n");
+    if (couplings) add(text, "couplings:\n");
     for (int i = 0; i + 1 < train->wheels; i++)
         if (train->joint[i] != joint_none)
-            add(&text, "  - %s: {between: [p%d, p%d]%s}\n", kinds[train->joint[i]], i, i + 1,
+            add(text, "  - %s: {between: [p%d, p%d]%s}\n", kinds[train->joint[i]], i, i + 1,
                 train->joint[i] == joint_gear   ? ""
                 : train->joint[i] == joint_belt ? ", tension: 1e6 N"
                                                 : ", tension: 1e6 N, crossed: true");
     if (train->rack)
-        add(&text, "  - rack: {between: [p%d, p%d], radius: %.17g}\n", train->wheels - 1, train->wheels,
+        add(text, "  - rack: {between: [p%d, p%d], radius: %.17g}\n", train->wheels - 1, train->wheels,
             train->parts[train->wheels - 1].r);
-    add(&text, "simulate: {until: %.17g}\n", train->until);
+    add(text, "simulate: {until: %.17g}\n", train->until);
 }
 
 /* ---- the same for the time stepping */
@@ -287,12 +273,12 @@ static bool agrees(uint64_t seed, bool *sensitive)
     double end[2 * most_parts], fine[2 * most_parts], coarse[2 * most_parts], off = 0, difference = 0;
     const char *until = getenv("FBD_WHEELS_UNTIL");
     struct train train = draw_train(seed);
-    char text[text_room];
+    struct written text = {0};
     if (until) train.until = strtod(until, NULL);
-    write_train(&train, text);
-    if (getenv("FBD_WHEELS_SHOW")) puts(text);
+    write_train(&train, &text);
+    if (getenv("FBD_WHEELS_SHOW")) puts(text.all);
     step_through(&train, first_steps / 2, coarse);
-    bool done = run_train(&train, text, end);
+    bool done = run_train(&train, text.all, end);
     for (int steps = first_steps; steps <= most_steps; steps *= 2) {
         step_through(&train, steps, fine);
         off = apart(size_of(&train), fine, coarse);
@@ -302,7 +288,7 @@ static bool agrees(uint64_t seed, bool *sensitive)
         memcpy(coarse, fine, sizeof fine);
     }
     printf("# seed %llu: %g apart, where the steps are off by %g\n%s\n", (unsigned long long)seed, difference,
-           off, text);
+           off, text.all);
     for (int i = 0; i < size_of(&train); i++)
         printf("# p%d: %.10g, by steps %.10g; v = %.10g, %.10g\n", i, end[2 * i], fine[2 * i],
                10 * end[2 * i + 1], 10 * fine[2 * i + 1]);
