@@ -43,6 +43,17 @@ BLOCKS = {
     "shaken": ("0.6 m/s", "static: 3.15, kinetic: 0.2, surface_speed: \"0.6[m/s]*cos(1500[rad/s]*t)\""),
     "fading": ("0 m/s", "coefficient: \"0.44*max(0, cos(4.9[rad/s]*t))\""),
 }
+# A spring from a centre of mass to a point of another body, and a damper the other way round.
+LEASHED = """fbd: 1
+title: Two that are leashed
+bodies:
+  arm: {mass: 1.4 kg, inertia: 0.6 kg*m^2, center: [0.1 m, -0.4 m], motion: pivot, initial: {theta: 50 deg}, forces: [gravity]}
+  dog: {mass: 0.8 kg, inertia: 0.1 kg*m^2, center: [0.2 m, 0.1 m], points: {P: [-0.3 m, 0.2 m]}, motion: {planar: {on: arm}}}
+couplings:
+  - spring: {between: [arm, dog.P], stiffness: 30 N/m, free_length: 0.2 m}
+  - damper: {between: [dog.P, arm], coefficient: 2 N*s/m}
+simulate: {until: 1 s}
+"""
 flags = ["-std=c17", "-O1", "-ffp-contract=off", "-Wall", "-Wextra", "-Wpedantic",
          "-Werror"]
 compiler = os.environ.get("CC", "cc").split()
@@ -210,10 +221,12 @@ def draw(cross_check, first, number, folder):
     return models
 
 
-def blocks(folder):
-    for name, numbers in BLOCKS.items():
-        (folder / f"{name}.yaml").write_text(BLOCK % numbers, encoding="utf-8")
-    return [folder / f"{name}.yaml" for name in BLOCKS]
+def own_scenes(folder):
+    """What random scenes have not, each a file."""
+    texts = {name: BLOCK % numbers for name, numbers in BLOCKS.items()} | {"leashed": LEASHED}
+    for name, text in texts.items():
+        (folder / f"{name}.yaml").write_text(text, encoding="utf-8")
+    return [folder / f"{name}.yaml" for name in texts]
 
 
 def compare_all(pool, compared, varied):
@@ -224,9 +237,10 @@ def compare_all(pool, compared, varied):
 
 
 def check_drawn(folder, pool, cross_check, first, number):
-    models = draw(cross_check, int(first), int(number), folder) + blocks(folder)
+    own = own_scenes(folder)
+    models = draw(cross_check, int(first), int(number), folder) + own
     compared = [(*entry[:2], model) for model in models for entry in [write(model, folder)] if entry[1]]
-    drawn = len(compared) - len(BLOCKS)
+    drawn = len(compared) - len(own)
     claim(drawn * 20 >= int(number), f"{drawn} of {number} random scenes are written")
     compare_all(pool, compared, compared[::4])
 
