@@ -254,7 +254,7 @@ static enum impacts_end restore_by_law(struct together *together)
         between.high *= 2;
         end = try_share(together, between.high, &between.at_high);
         /* What is jammed between others gives nothing back, however much is given to it. */
-        bool jammed = between.at_high <= between.at_low + rounding * size;
+        bool jammed = fabs(between.at_high - between.at_low) <= rounding * size;
         if (end == impacts_done && jammed) return restore(together, between.low);
     }
     if (end != impacts_done || between.at_high <= 0) return end;
