@@ -207,7 +207,7 @@ static double surplus(struct together *together, double share, bool stronge)
     double back = 0, due = 0, work = 0;
     memcpy(problem.free, pressed->v, sizeof problem.free);
     for (ptrdiff_t k = 0; k < points->count; k++) problem.given[k] = share * points->e[k] * pressed->P[2 * k];
-    if (solve(&problem, stronge, &together->back) != 1) return NAN; /* works of points are by their impulses */
+    if (solve(&problem, stronge, &together->back) != 1) return NAN; /* works are by the impulses of points */
     for (int k = 0; k < points->count; k++) {
         back += normal_work(together->back.P, pressed->v, together->back.v, k);
         due -= points->e[k] * points->e[k] * normal_work(pressed->P, together->before, pressed->v, k);
