@@ -136,8 +136,8 @@ static void write_body(struct random_numbers *numbers, struct row *row, int i, d
         if (low || up)
             add(&row->text, ", %s: %.17g", low ? "min" : "max",
                 wall->wall + (low ? body->half : -body->half));
-        if (low || up)
-            add(&row->text, k + 1 < row->contacts && row->bodies == 1 ? "" : ", restitution: %.17g", wall->e);
+        if ((low || up) && (row->bodies > 1 || k + 1 == row->contacts))
+            add(&row->text, ", restitution: %.17g", wall->e);
     }
     add(&row->text, "}}\n    initial: {x: %.17g, v: %.17g}\n    forces: [gravity, applied: {value: %.17g}]\n",
         body->x, body->v, body->force);
