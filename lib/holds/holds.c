@@ -424,6 +424,11 @@ static enum holds_found solve_and_keep(struct hold_problem *problem, int cover)
     return found;
 }
 
+static enum holds_found check(struct hold_problem *problem)
+{
+    return holds_agree(problem) ? holds_meet(problem) : holds_lost;
+}
+
 /* All that is not known to slip keeps. */
 static void keep_all(struct hold_problem *problem)
 {
@@ -439,7 +444,9 @@ static enum holds_found try_further(struct hold_problem *problem)
     enum holds_found found = holds_mend(problem);
     for (int cover = 0; cover < most_covers && found == holds_lost; cover++) {
         found = solve_and_keep(problem, cover);
-        if (found == holds_decided && !holds_agree(problem)) found = holds_mend(problem);
+        if (found != holds_decided) continue;
+        found = check(problem);
+        if (found == holds_lost) found = holds_mend(problem);
     }
     return found;
 }
@@ -448,8 +455,9 @@ static enum holds_found decide(struct hold_problem *problem)
 {
     enum { most_modes = 70000 }; /* of eight points with friction */
     enum holds_found found = solve_and_keep(problem, 0);
+    if (found == holds_decided) found = check(problem);
     if (found == holds_no_memory) return found;
-    if (found == holds_decided && holds_agree(problem)) return look_for_others(problem);
+    if (found == holds_decided) return look_for_others(problem);
     int solutions = holds_try_all(problem, most_modes);
     if (solutions == -2) return holds_no_memory;
     return solutions < 0    ? try_further(problem)

@@ -109,6 +109,10 @@ enum hold_breach holds_breach(const struct hold_problem *problem, size_t i);
  * were, but that what slips by rounding keeps still. holds_lost where no forces do what the modes say. */
 enum holds_found holds_share(struct hold_problem *problem);
 
+/* Do forces that agree (holds_agree) do what the modes say when they are large, too? Then they are shared; else
+ * holds_lost. */
+enum holds_found holds_meet(struct hold_problem *problem);
+
 /* The number of solutions with different accelerations, by trying all modes; the first is left in the
  * problem. -1 when there are too many modes (over `most`), -2 when memory is out. */
 int holds_try_all(struct hold_problem *problem, size_t most);

@@ -36,7 +36,7 @@ enum holds_found holds_mend(struct hold_problem *problem)
         for (size_t g = 0; g < problem->guide_count; g++) trial.side[g] = problem->guides[g].N < 0 ? -1 : 1;
         if (!trial_find_forces(&trial)) break;
         if (change_first(problem)) continue;
-        if (holds_agree(problem)) found = holds_decided;
+        if (holds_agree(problem)) found = holds_meet(problem);
         break;
     }
     trial_free(&trial);

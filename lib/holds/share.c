@@ -248,3 +248,23 @@ enum holds_found holds_share(struct hold_problem *problem)
     free(modes);
     return found;
 }
+
+/* What holds_agree takes for no acceleration grows with the forces: with far larger ones than what there is without holds
+ * asks for, as those of modes that have none, which some give makes finite, it would take that itself for none. */
+static bool has_far_larger_forces(const struct hold_problem *problem)
+{
+    const double far = 1e3;
+    double most = 0, size = problem->beside_c;
+    for (size_t i = 0; i < problem->count; i++) {
+        double weight = holds_weight(problem, i);
+        size = fmax(size, weight * fabs(problem->holds[i].free));
+        for (size_t j = 0; j < problem->count; j++)
+            most = fmax(most, weight * fabs(problem->A[i * problem->count + j] * problem->holds[j].force));
+    }
+    return most > far * size;
+}
+
+enum holds_found holds_meet(struct hold_problem *problem)
+{
+    return has_far_larger_forces(problem) ? holds_share(problem) : holds_decided;
+}

@@ -200,11 +200,15 @@ int holds_try_all(struct hold_problem *problem, size_t most)
         if (is_repeated(problem) || !trial_find_forces(&trial) || !sides_agree(&trial) ||
             !holds_agree(problem))
             continue;
-        if (trial.solutions == 0 || !same_as_first(&trial)) keep_first(&trial, &best, number);
+        enum holds_found met = holds_meet(problem);
+        made = met != holds_no_memory;
+        if (met == holds_decided && (trial.solutions == 0 || !same_as_first(&trial)))
+            keep_first(&trial, &best, number);
     }
     if (made && trial.solutions > 0) {
         set_modes(&trial, best);
         trial_find_forces(&trial);
+        made = holds_meet(problem) != holds_no_memory;
         holds_set_open(problem);
     }
     trial_free(&trial);
