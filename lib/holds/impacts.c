@@ -31,9 +31,18 @@ static struct impact_point alone(const struct impacts *impacts, int i)
     int n = 2 * impacts->count, row = 2 * i;
     const double *W = &impacts->W[row * n + row];
     return (struct impact_point){{W[0], W[1], W[n + 1]},
-                                 impacts->points[i].mu,
+                                 impacts->points[i].slips ? 0 : impacts->points[i].mu,
                                  impacts->points[i].e,
                                  impacts->points[i].law};
+}
+
+/* The friction of what slips on, whatever strikes. */
+static void rub_on(const struct impacts *impacts, int i, struct impact *impact)
+{
+    const struct impacts_point *point = &impacts->points[i];
+    if (!point->slips) return;
+    impact->tau = -point->slips * point->mu * impact->p;
+    impact->work += impact->tau * impact->v_t;
 }
 
 /* The impact of point i; others feel it. Returns the largest change of a speed. */
@@ -43,6 +52,7 @@ static double strike(struct impacts *impacts, int i)
     double most = 0;
     struct impact_point point = alone(impacts, i);
     struct impact impact = impact_at_point(&point, impacts->v[row], impacts->v[row + 1]);
+    rub_on(impacts, i, &impact);
     for (int k = 0; k < n; k++) {
         double gain = impacts->W[k * n + row] * impact.p + impacts->W[k * n + row + 1] * impact.tau;
         impacts->v[k] += gain;
@@ -131,7 +141,8 @@ static enum impacts_end propagate_to_the_end(struct impacts *impacts)
     struct impacts_point *points = calloc((size_t)impacts->count + 1, sizeof *points);
     if (!points) return impacts_no_memory;
     for (int i = 0; i < impacts->count; i++)
-        points[i] = (struct impacts_point){impacts->points[i].mu, 0, impact_stronge};
+        points[i] =
+            (struct impacts_point){impacts->points[i].mu, 0, impact_stronge, impacts->points[i].slips};
     rest.points = points;
     end = impacts_together(&rest, before);
     impacts->work = rest.work;

@@ -29,6 +29,7 @@
 struct impacts_point {
     double mu, e;
     enum impact_law law;
+    int slips; /* 1 or -1: no impulse moves it along its surface, on which it slips this way; W has zeros there */
 };
 
 /* Friction of a slide that the impulses press on its guide. */

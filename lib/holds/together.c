@@ -72,6 +72,7 @@ static bool together_new(struct together *together, const struct impacts *impact
         struct hold *along = &together->problem.holds[2 * i + 1];
         along->kind = hold_friction;
         along->mu_s = along->mu_k = impacts->points[i].mu;
+        along->slip = impacts->points[i].slips;
         along->press = guides ? press_guide : press_hold;
         along->presses = (int)(guides ? i : 2 * i);
         if (guides) together->problem.B[i * n + 2 * i] = 1;

@@ -43,7 +43,7 @@ static bool set_point(struct run *run, int i)
     const struct striker *striker = &work->strikers[i];
     const struct tie *tie = &tree_of(run)->ties[striker->tie];
     struct instant at = state_instant(run->state);
-    work->points[i] = (struct impacts_point){0, 0, impact_stronge};
+    work->points[i] = (struct impacts_point){.law = impact_stronge};
     if (striker->rope) return true;
     if (tie->pair >= 0) work->points[i].mu = formula_value(&run->model->plan.modes[tie->pair].mu_k, &at);
     if (tie->pair < 0 && !striker->contact && striker->rubs) work->points[i].mu = no_limit;
@@ -127,6 +127,16 @@ static bool moves_along(const struct contacts_work *work, int all, int i)
     return work->strikers[i].rubs && own[all + 1] > rounding * own[0];
 }
 
+/* The way in which point i slips on, where it cannot be moved along its surface: on what a drive moves, say. What rests there by
+ * all but rounding shares no friction that is known. */
+static int slips_on(const struct contacts_work *work, int count, int i)
+{
+    const double rounding = 1e-9; /* of the speeds */
+    double most = 0, v_t = work->v[2 * i + 1];
+    for (int row = 0; row < 2 * count; row++) most = fmax(most, fabs(work->v[row]));
+    return !work->strikers[i].rubs || fabs(v_t) <= rounding * most ? 0 : v_t > 0 ? 1 : -1;
+}
+
 /* Rows 2 i and 2 i + 1, of which what does not rub has one; the normal of a rope points the other way. Slides come behind. */
 static void set_answers(struct run *run, int count)
 {
@@ -146,7 +156,8 @@ static void set_answers(struct run *run, int count)
     for (int i = 0; i < count; i++) {
         const double sign = work->strikers[i].rope ? -1 : 1;
         if (moves_along(work, all, i)) continue;
-        work->points[i].mu = 0;
+        work->points[i].slips = slips_on(work, count, i);
+        if (!work->points[i].slips) work->points[i].mu = 0;
         for (int k = 0; k < all; k++) {
             work->W[(2 * i) * all + k] *= sign;
             work->W[k * all + 2 * i] *= sign;
@@ -154,7 +165,7 @@ static void set_answers(struct run *run, int count)
         }
         for (int k = 0; k < work->slide_count; k++) {
             work->B[k * all + 2 * i] *= sign;
-            work->B[k * all + 2 * i + 1] = 0;
+            if (!work->points[i].slips) work->B[k * all + 2 * i + 1] = 0;
         }
     }
 }
@@ -357,7 +368,7 @@ static void fail_impact(struct run *run, enum impacts_end end, enum impact_law l
 {
     static const char *const what[] = {
         [impacts_endless] = "go on among each other without end: try `simulate: {impacts: simultaneous}`",
-        [impacts_unsolvable] = "have no solution by their law: with `law: stronge` they have one",
+        [impacts_unsolvable] = "have no solution by their law: with `law: stronge` they may have one",
         [impacts_lost] = "press against each other so nearly along one line that rounding takes what their "
                          "impulses do: turn one of the surfaces, or move one of the points",
     };

@@ -37,9 +37,7 @@ static void prepare(const struct moreau_system *system, const double *q, const d
         system->solve(system->scene, q, prepared->mw[a]);
         prepared->d[a] = dot(system->size, row->w, prepared->mw[a]);
         double before = dot(system->size, row->w, v);
-        prepared->want[a] = row->kind == moreau_gap   ? -row->e * fmin(before, 0)
-                            : row->kind == moreau_rub ? row->aim
-                                                      : 0;
+        prepared->want[a] = row->kind == moreau_gap ? -row->e * fmin(before, 0) : row->aim;
     }
 }
 

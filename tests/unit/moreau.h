@@ -11,7 +11,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-enum { moreau_most = 9, moreau_most_rows = 48 };
+enum { moreau_most = 15, moreau_most_rows = 64 };
 
 /* What one impulse acts along: w . v is the velocity that it works against. */
 enum moreau_kind { moreau_equal, moreau_gap, moreau_rub };
@@ -19,8 +19,9 @@ enum moreau_kind { moreau_equal, moreau_gap, moreau_rub };
 struct moreau_row {
     enum moreau_kind kind;
     double w[moreau_most];
-    double e;    /* of a gap: its velocity after is no less than -e times that before */
-    double aim;  /* of what rubs: the velocity at which nothing slips */
+    double e; /* of a gap: its velocity after is no less than -e times that before */
+    double
+        aim; /* of what rubs: the velocity at which nothing slips; of an equal row: the velocity that it has */
     double most; /* of what rubs: the force or moment it is up to, if there is no `normal` */
     double mu;   /* times the impulse of the row `normal` */
     int normal;  /* -1: none */

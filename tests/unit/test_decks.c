@@ -1,0 +1,168 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * Decks that are driven, swing or are carried, with boxes, discs and particles that lie, lean, slide, roll and fall on them
+ * and off them (decks.h), against a time stepping that knows no events (moreau.h). FBD_DECKS=1000 tries so many,
+ * FBD_DECKS_FIRST=100 begins there, FBD_DECKS_SEED=17 tries one and prints its model, FBD_DECKS_STEPS is how many steps.
+ */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "decks.h"
+#include "gallery.h"
+#include "thorough.h"
+
+struct answers {
+    struct deck_named rough, fine, ours;
+};
+
+struct census {
+    int tried, unfit, skipped, agree, ended, differ;
+};
+
+static double apart(const struct deck_named *a, const struct deck_named *b)
+{
+    double most = 0;
+    for (int i = 0; i < a->count; i++) {
+        double off = (a->rate[i] ? 0.1 : 1) * fabs(a->value[i] - b->value[i]);
+        if (!(off <= most)) most = off;
+    }
+    return most;
+}
+
+static double doubt(const struct answers *answers)
+{
+    return apart(&answers->rough, &answers->fine);
+}
+
+static bool agree(const struct answers *answers)
+{
+    return apart(&answers->ours, &answers->fine) <= fmax(10 * doubt(answers), 3e-4);
+}
+
+/* More than one motion agrees with the forces, or two impacts are within a few steps, which take them for one. */
+static bool is_open(struct trial *trial, double step)
+{
+    double last = -1;
+    for (size_t i = 0; i < fbd_simulation_event_count(trial->simulation); i++) {
+        fbd_event event = fbd_simulation_event(trial->simulation, i);
+        if (event.kind == FBD_EVENT_SEVERAL) return true;
+        if (event.kind != FBD_EVENT_IMPACT) continue;
+        if (event.t != last && event.t - last < 4 * step) return true;
+        last = event.t;
+    }
+    return false;
+}
+
+static void tell(uint64_t seed, const struct answers *answers)
+{
+    print_message("# %llu: %.3g apart (half the steps: %.2g):", (unsigned long long)seed,
+                  apart(&answers->ours, &answers->fine), doubt(answers));
+    for (int i = 0; i < answers->ours.count; i++)
+        print_message(" %s %.6g for %.6g", answers->ours.name[i], answers->ours.value[i],
+                      answers->fine.value[i]);
+    print_message("\n");
+}
+
+static void compare(struct checks *checks, uint64_t seed, bool show, int steps, struct census *census)
+{
+    const double sensitive = 2e-3;
+    static struct deck_scene scene;
+    static struct written text;
+    deck_draw(seed, &scene);
+    if (getenv("FBD_DECKS_UNTIL")) scene.until = strtod(getenv("FBD_DECKS_UNTIL"), NULL);
+    deck_write(&scene, &text);
+    if (show) puts(text.all), fflush(stdout);
+    struct answers answers = {deck_step(&scene, steps / 2), deck_step(&scene, steps), {0}};
+    census->tried++;
+    struct trial trial = trial_parse(text.all);
+    trial_run(&trial, NULL);
+    answers.ours = answers.fine;
+    if (trial.outcome == FBD_DONE)
+        for (int i = 0; i < answers.ours.count; i++)
+            answers.ours.value[i] = trial_get(&trial, answers.ours.name[i]);
+    for (int finer = 8;
+         trial.outcome == FBD_DONE && finer && !agree(&answers) && doubt(&answers) <= sensitive; finer = 0) {
+        answers.rough = deck_step(&scene, steps * finer / 2);
+        answers.fine = deck_step(&scene, steps * finer);
+    }
+    if (trial.outcome != FBD_DONE && strstr(fbd_simulation_reason(trial.simulation), "does not fit")) {
+        census->unfit++;
+    } else if (trial.outcome != FBD_DONE) {
+        bool open = doubt(&answers) > sensitive;
+        census->ended += !open;
+        census->skipped += open;
+        if (!open) check_that(checks, "the run comes to its end", false);
+        print_message("# %llu%s: %s\n", (unsigned long long)seed, open ? " (sensitive)" : "",
+                      fbd_simulation_reason(trial.simulation));
+    } else if (doubt(&answers) > sensitive ||
+               (!agree(&answers) && is_open(&trial, scene.until / (8 * steps)))) {
+        census->skipped++;
+    } else if (check_that(checks, "time stepping says the same", agree(&answers))) {
+        census->agree++;
+        if (show) tell(seed, &answers);
+    } else {
+        census->differ++;
+        tell(seed, &answers);
+    }
+    trial_close(&trial);
+}
+
+static void time_stepping_says_the_same(void **unused)
+{
+    struct checks checks = {0};
+    struct census census = {0};
+    long count = number_of("FBD_DECKS", thorough() ? 24 : 6), seed = number_of("FBD_DECKS_SEED", -1);
+    long first = seed < 0 ? number_of("FBD_DECKS_FIRST", 0) : seed;
+    int steps = number_of("FBD_DECKS_STEPS", 8000);
+    (void)unused;
+    for (long i = first; i < first + (seed < 0 ? count : 1); i++)
+        compare(&checks, (uint64_t)i, seed >= 0, steps, &census);
+    print_message("# %d tried, %d agree, %d differ, %d end, %d too sensitive, %d do not fit\n", census.tried,
+                  census.agree, census.differ, census.ended, census.skipped, census.unfit);
+    checks_end(&checks);
+}
+
+/* A body on an upright slide with friction falls on a deck that rises and sinks on a base, which is driven below it: nothing
+ * moves it along the deck, on which it slips. The friction of that, mu P, presses it on its guide, where mu_g mu P helps
+ * to stop it: M u = P, m (1 - u) = P (1 + mu_g mu) downwards from 1 m/s. */
+static void what_slips_on_is_pressed_on_its_guide(void **unused)
+{
+    const double m = 3, M = 2, mu = 0.6, mu_g = 0.4, P = 1 / (1 / M + (1 + mu_g * mu) / m);
+    struct checks checks = {0};
+    char text[700];
+    (void)unused;
+    snprintf(text, sizeof text,
+             "fbd: 1\nbodies:\n  base: {mass: 1, motion: {slide: {x: 0.1*sin(10*t)}}, forces: []}\n"
+             "  deck: {parts: {p: {shape: prism, mass: %g, a: 0.1, b: 1}}, motion: {slide: {on: base, along: "
+             "90 deg}}, forces: []}\n"
+             "  body: {parts: {p: {shape: disc, mass: %g, radius: 0.1}}, motion: {slide: {along: 90 deg, "
+             "through: [0, 0.15]}},\n"
+             "    initial: {x: 0.02, v: -1}, forces: [normal: {two_sided: true}, friction: %g]}\n"
+             "contacts: [{between: [body, deck], static: %g}]\nsimulate: {until: 0.04}\n",
+             M, m, mu_g, mu);
+    struct trial trial = trial_parse(text);
+    trial_run(&trial, NULL);
+    check_that(&checks, "it comes to its end", trial.outcome == FBD_DONE);
+    check_close(&checks, "the deck", trial_get(&trial, "deck.v"), -P / M, 1e-12);
+    check_close(&checks, "the body", trial_get(&trial, "body.v"), -P / M, 1e-12);
+    trial_close(&trial);
+    checks_end(&checks);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(what_slips_on_is_pressed_on_its_guide),
+        cmocka_unit_test(time_stepping_says_the_same),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
