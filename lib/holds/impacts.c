@@ -76,8 +76,9 @@ static double fastest_speed(const struct impacts *impacts)
 /* Of distances and angles alike, as holds have it. */
 static double weighted_speed(const struct impacts *impacts)
 {
+    const int n = impacts_size(impacts);
     double most = 0;
-    for (int i = 0, n = 2 * impacts->count; i < n; i++) {
+    for (int i = 0; i < 2 * impacts->count; i++) {
         double own = impacts->W[i * n + i];
         if (own > 0) most = fmax(most, fabs(impacts->v[i]) / sqrt(own));
     }
