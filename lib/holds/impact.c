@@ -45,17 +45,35 @@ static void go(struct place *at, const struct slope *slope, double dp, double re
     at->v_t = dp >= rest ? 0 : at->v_t + slope->v_t * dp;
 }
 
+/* Is W of rank one? To the rounding of its parts. */
+static bool is_on_a_line(const struct impact_point *point)
+{
+    const double rounding = 1e-12, *W = point->W;
+    return W[2] > 0 && W[0] * W[2] - W[1] * W[1] <= rounding * W[0] * W[2];
+}
+
+/* Does the tangent rest where friction holds it, on a line on which nothing else moves then? */
+static bool is_locked(const struct impact_point *point, const struct place *at)
+{
+    return at->v_t == 0 && is_on_a_line(point) && fabs(point->W[1]) <= point->mu * point->W[2];
+}
+
 /* Slipping may first press the point on: friction that throws it against the other body. It comes to rest by
- * that, W being positive definite, and then compression ends. */
-static void compress(const struct impact_point *point, struct place *at)
+ * that, W being positive definite, and then compression ends. False where it is locked before. */
+static bool compress(const struct impact_point *point, struct place *at)
 {
     enum { most_pieces = 3 };
+    const double at_once = 1e-9 * -at->v_n;
     for (int piece = 0; piece < most_pieces && at->v_n < 0; piece++) {
+        if (is_locked(point, at)) return false;
         struct slope slope = slope_at(point, at);
         double rest = until_rest(at, &slope), end = slope.v_n > 0 ? -at->v_n / slope.v_n : HUGE_VAL;
         go(at, &slope, fmin(rest, end), rest);
         if (end <= rest) at->v_n = 0;
+        if (is_on_a_line(point) && fabs(at->v_n) <= at_once && fabs(at->v_t) <= at_once)
+            at->v_n = at->v_t = 0;
     }
+    return at->v_n >= 0;
 }
 
 /* The impulse that is still to come on a piece that lasts. */
@@ -73,11 +91,13 @@ static double until_end(const struct impact_point *point, const struct place *at
     return due > 0 ? 2 * due / (at->v_n + sqrt(at->v_n * at->v_n + 2 * slope->v_n * due)) : 0;
 }
 
+/* What is locked gives nothing back, whatever the law. */
 static void restore(const struct impact_point *point, struct place *at, double approach)
 {
     enum { most_pieces = 3 };
     const struct place compressed = *at;
     for (int piece = 0; piece < most_pieces; piece++) {
+        if (is_locked(point, at)) return;
         struct slope slope = slope_at(point, at);
         double rest = until_rest(at, &slope), end = until_end(point, at, &slope, &compressed, approach);
         if (end > 0) go(at, &slope, fmin(rest, end), rest);
@@ -88,12 +108,13 @@ static void restore(const struct impact_point *point, struct place *at, double a
 /* ---- the laws */
 
 /* Along the way, piece by piece. */
-static void follow(const struct impact_point *point, struct place *at, struct impact *impact)
+static bool follow(const struct impact_point *point, struct place *at, struct impact *impact)
 {
     double approach = -at->v_n;
-    compress(point, at);
+    if (!compress(point, at)) return false;
     impact->compression = at->p;
     if (point->e > 0) restore(point, at, approach);
+    return true;
 }
 
 /* With v_n = -e v_n before and friction -mu p on a point that slips to `side` after: does it? */
@@ -111,23 +132,39 @@ static bool slips_after(const struct impact_point *point, const struct place *be
 static bool sticks_after(const struct impact_point *point, const struct place *before, struct place *after)
 {
     const double *W = point->W, det = W[0] * W[2] - W[1] * W[1], lift = -(1 + point->e) * before->v_n;
-    if (!(det > 0)) return false;
+    if (is_on_a_line(point) || !(det > 0)) return false;
     *after = (struct place){.p = (W[2] * lift + W[1] * before->v_t) / det,
                             .tau = -(W[0] * before->v_t + W[1] * lift) / det};
     return fabs(after->tau) <= point->mu * after->p;
 }
 
+/* On a line that leads to rest: is the other side at rest? */
+static bool leads_to_rest(const struct impact_point *point, const struct place *before)
+{
+    const double rounding = 1e-9, *W = point->W;
+    return is_on_a_line(point) &&
+           fabs(before->v_t - W[1] / W[0] * before->v_n) <= rounding * hypot(before->v_n, before->v_t);
+}
+
 /* Where several ends agree it is the one that the way would have come to: it slips on, or sticks, or slips
  * back. Without friction, and at a limit, the last is any of them. */
-static void jump(const struct impact_point *point, struct place *at, struct impact *impact)
+static bool jump(const struct impact_point *point, struct place *at, struct impact *impact)
 {
     const struct place before = *at;
     int side = before.v_t < 0 ? -1 : 1;
+    bool to_rest = leads_to_rest(point, &before);
+    if (to_rest && point->e == 0) return follow(point, at, impact);
     bool on = before.v_t != 0 && slips_after(point, &before, side, at);
-    if (!on && !sticks_after(point, &before, at) && !slips_after(point, &before, -side, at))
-        slips_after(point, &before, side, at);
+    bool found = on || sticks_after(point, &before, at) || slips_after(point, &before, -side, at);
+    if (!found && to_rest) {
+        *at = before;
+        return follow(point, at, impact);
+    }
+    if (!found && is_on_a_line(point)) return false;
+    if (!found) slips_after(point, &before, side, at);
     at->v_n = -point->e * before.v_n;
     impact->compression = at->p / (1 + point->e);
+    return true;
 }
 
 struct impact impact_at_point(const struct impact_point *point, double v_n, double v_t)
@@ -135,10 +172,11 @@ struct impact impact_at_point(const struct impact_point *point, double v_n, doub
     struct place at = {.v_n = v_n, .v_t = v_t};
     struct impact impact = {.v_n = v_n, .v_t = v_t};
     if (!(v_n < 0)) return impact;
-    if (point->law == impact_moreau)
-        jump(point, &at, &impact);
-    else
-        follow(point, &at, &impact);
+    bool ends = point->law == impact_moreau ? jump(point, &at, &impact) : follow(point, &at, &impact);
+    if (!ends) {
+        impact.slip = impact_jams;
+        return impact;
+    }
     impact.p = at.p;
     impact.tau = at.tau;
     impact.v_n = at.v_n;

@@ -23,6 +23,10 @@
  *               or within mu p where v_t = 0 then (Moreau, Unilateral Contact and Dry Friction in Finite
  *               Freedom Dynamics, 1988), as in simulators that step over impacts. It differs from newton where
  *               the point slips back.
+ *
+ * What one coordinate moves, against what gives no way - a rod on a pivot and the ground, or what a drive moves - has W of rank
+ * one: (v_n, v_t) stays on a line, which friction that holds cannot leave. At rest on the ground both come to nothing
+ * at once, and nothing is given back where friction locks it; on what moves on no impulse may end the approach (jams).
  */
 #ifndef FBD_HOLDS_IMPACT_H
 #define FBD_HOLDS_IMPACT_H
@@ -45,7 +49,12 @@ struct impact_point {
 };
 
 /* What the tangent does in the impact, last. */
-enum impact_slip { impact_slips, impact_sticks, impact_reverses };
+enum impact_slip {
+    impact_slips,
+    impact_sticks,
+    impact_reverses,
+    impact_jams /* no impulse does what the law says: there is none */
+};
 
 struct impact {
     double p, tau;      /* impulses along the normal and the tangent */

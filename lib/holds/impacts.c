@@ -45,13 +45,14 @@ static void rub_on(const struct impacts *impacts, int i, struct impact *impact)
     impact->work += impact->tau * impact->v_t;
 }
 
-/* The impact of point i; others feel it. Returns the largest change of a speed. */
+/* The impact of point i; others feel it. Returns the largest change of a speed, below zero where there is no impact. */
 static double strike(struct impacts *impacts, int i)
 {
     int n = 2 * impacts->count, row = 2 * i;
     double most = 0;
     struct impact_point point = alone(impacts, i);
     struct impact impact = impact_at_point(&point, impacts->v[row], impacts->v[row + 1]);
+    if (impact.slip == impact_jams) return -1;
     rub_on(impacts, i, &impact);
     for (int k = 0; k < n; k++) {
         double gain = impacts->W[k * n + row] * impact.p + impacts->W[k * n + row + 1] * impact.tau;
@@ -108,7 +109,9 @@ static enum impacts_end propagate(struct impacts *impacts)
                 if (fabs(impacts->v[row]) <= least) impacts->v[row] = 0;
             return impacts_done;
         }
-        least += DBL_EPSILON * strike(impacts, i);
+        double change = strike(impacts, i);
+        if (change < 0) return impacts_jammed;
+        least += DBL_EPSILON * change;
         if (grows(impacts, before)) return impacts_unsolvable;
     }
     return impacts_endless;
@@ -206,10 +209,7 @@ static enum impacts_end solve_whole(struct impacts *impacts, const double *befor
 {
     impacts->law = law_of_fastest(impacts);
     if (impacts->slides > 0) return solve_by(impacts, before, false);
-    if (impacts->count == 1) {
-        strike(impacts, 0);
-        return impacts_done;
-    }
+    if (impacts->count == 1) return strike(impacts, 0) < 0 ? impacts_jammed : impacts_done;
     enum impacts_end end = solve_by(impacts, before, impacts->propagate);
     /* Of points that press on each other nearly along one line impacts one after the other are those of the same
      * laws, and may be found where all together are not. */

@@ -62,6 +62,7 @@ enum impacts_end {
     impacts_done,
     impacts_endless,    /* propagation does not come to an end */
     impacts_unsolvable, /* no impulses satisfy the laws */
+    impacts_jammed,     /* friction locks a point that closes, and what it strikes gives no way */
     impacts_lost,       /* impulses so large that rounding takes what they do */
     impacts_no_memory
 };

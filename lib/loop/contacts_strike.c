@@ -380,6 +380,12 @@ static void fail_impact(struct run *run, enum impacts_end end, enum impact_law l
                  "feeds what presses there, as in Painleve's paradox. Less friction, or end the run before, "
                  "by an event",
                  run_time(run));
+    else if (end == impacts_jammed)
+        run_fail(
+            run, FBD_FAILED,
+            "at t = %.9g a blow jams: friction locks what strikes, and what it strikes, moved by a drive "
+            "say, gives no way. Less friction, or end the run before, by an event",
+            run_time(run));
     else
         run_fail(run, FBD_FAILED, "at t = %.9g impacts at several points %s", run_time(run), what[end]);
 }

@@ -209,9 +209,80 @@ static void the_work_of_restitution_is_e_squared(void **state)
     }
 }
 
+/* ---- one coordinate, whose unit impulse moves the point by (a, b): W = [a^2, a b, b^2], but for rounding */
+
+struct line {
+    double a, b;
+    struct impact_point point;
+    bool locks; /* friction holds against any normal impulse */
+};
+
+static struct line random_line(struct random_numbers *numbers)
+{
+    static const enum impact_law laws[] = {impact_stronge, impact_poisson, impact_newton, impact_moreau};
+    double a = random_between(numbers, 0.1, 2), b = random_between(numbers, -2, 2);
+    struct line line = {.a = a, .b = b};
+    line.point = (struct impact_point){{a * a, a * b, b * b * (1 + random_between(numbers, -4e-16, 4e-16))},
+                                       random_between(numbers, 0.01, 2),
+                                       random_chance(numbers, 0.5) ? 0 : random_between(numbers, 0.05, 1),
+                                       laws[(int)random_between(numbers, 0, 3.999)]};
+    line.locks = a <= line.point.mu * fabs(b);
+    return line;
+}
+
+/* On what rests it comes to rest with friction against its way, and is thrown back with friction against that:
+ * dv_n = a (a + mu |b|) dp, then a (a - mu |b|) dp, or nothing where friction locks it. */
+static void what_one_coordinate_moves_comes_to_rest(void **state)
+{
+    struct random_numbers numbers = {8};
+    (void)state;
+    for (int i = 0; i < 20000; i++) {
+        struct line line = random_line(&numbers);
+        double a = line.a, b = line.b, mu = line.point.mu, e = line.point.e;
+        double s = random_between(&numbers, 0.1, 3), noise = 1 + random_between(&numbers, -1e-14, 1e-14);
+        double down = a * (a + mu * fabs(b)), up = a * (a - mu * fabs(b)), back = e * s;
+        if (fabs(up) < 1e-3) continue;
+        if (line.point.law == impact_stronge) back *= sqrt(fmax(0, up / down));
+        if (line.point.law == impact_poisson) back *= up / down;
+        if (line.locks) back = 0;
+        struct impact impact = impact_at_point(&line.point, -s, -s * b / a * noise);
+        check(impact.v_n, back, 1e-9);
+        check(impact.v_t, back * b / a, 1e-8 * (1 + fabs(b / a)));
+        check(a * (a * impact.p + b * impact.tau), s + back, 1e-9);
+        assert_true(fabs(impact.tau) <= mu * impact.p * (1 + 1e-9));
+    }
+}
+
+/* On what a drive moves along by -r: where it comes to rest on that while it still closes, and friction locks it, no
+ * impulse ends the approach; nor where it presses itself on as it slips. */
+static void on_what_is_driven_a_blow_may_jam(void **state)
+{
+    struct random_numbers numbers = {9};
+    int jams = 0;
+    (void)state;
+    for (int i = 0; i < 20000; i++) {
+        struct line line = random_line(&numbers);
+        double a = line.a, b = line.b, s = random_between(&numbers, 0.1, 3),
+               r = random_between(&numbers, -3, 3);
+        double v_t = r - s * b / a, slope = a * (a - line.point.mu * b * copysign(1, v_t));
+        double at_rest = -r * a / b; /* v_n, when v_t = 0 */
+        if (fabs(slope) < 1e-3 || fabs(r) < 1e-3 || fabs(at_rest) < 1e-3 || fabs(at_rest + s) < 1e-3)
+            continue;
+        line.point.law = impact_stronge;
+        bool jammed = slope < 0 || (line.locks && at_rest > -s && at_rest < 0);
+        struct impact impact = impact_at_point(&line.point, -s, v_t);
+        assert_int_equal(impact.slip == impact_jams, jammed);
+        jams += jammed;
+        if (!jammed) check(a * (a * impact.p + b * impact.tau), s + impact.v_n, 1e-9 * (1 + impact.p));
+    }
+    assert_true(jams > 1000);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(what_one_coordinate_moves_comes_to_rest),
+        cmocka_unit_test(on_what_is_driven_a_blow_may_jam),
         cmocka_unit_test(a_falling_rod_slides_on_or_sticks),
         cmocka_unit_test(friction_that_does_not_hold_lets_it_slip_back),
         cmocka_unit_test(without_friction_the_laws_agree),
