@@ -154,15 +154,15 @@ static enum impacts_end propagate_to_the_end(struct impacts *impacts)
     return end == impacts_unsolvable ? impacts_endless : end;
 }
 
-/* Do the impulses do what is said of them? Their work is P (v before + v after) / 2, and is the change of kinetic
- * energy only as far as v after is what they make of v before. Impulses far larger than what would stop each point by
- * itself leave nothing of that in double precision, and come from laws that contradict each other - three points of
- * one body cannot all bounce as `newton` wants it - or from points that press against each other along one line. */
-static bool do_what_they_say(const struct impacts *impacts, const double *before)
+/* Do the impulses do what is said of them? Their work is P (v before + v after) / 2, and is the change of kinetic energy
+ * only as far as v after is what they make of v before. Of large impulses rounding takes a part of that. */
+enum doing { does_not, does_to_rounding, does_to_digits };
+
+static enum doing do_what_they_say(const struct impacts *impacts, const double *before)
 {
-    const double rounding = 1e-9, of_products = 4 * DBL_EPSILON; /* in W, too */
+    const double share = 1e-9, of_products = 4 * DBL_EPSILON; /* in W, too */
     int n = impacts_size(impacts);
-    double wrong = 0, energy = 0;
+    double wrong = 0, beyond = 0, energy = 0;
     for (int i = 0; i < n; i++) {
         double made = before[i], products = 0, own = impacts->W[i * n + i];
         for (int j = 0; j < n; j++) {
@@ -170,10 +170,12 @@ static bool do_what_they_say(const struct impacts *impacts, const double *before
             made += product;
             products += fabs(product);
         }
-        wrong += fabs(impacts->P[i]) * (fabs(impacts->v[i] - made) + of_products * products);
+        double off = fabs(impacts->v[i] - made), rounding = of_products * products;
+        wrong += fabs(impacts->P[i]) * (off + rounding);
+        beyond += fabs(impacts->P[i]) * fmax(0, off - rounding);
         if (own > 0) energy = fmax(energy, before[i] * before[i] / own);
     }
-    return wrong <= rounding * energy;
+    return wrong <= share * energy ? does_to_digits : beyond <= share * energy ? does_to_rounding : does_not;
 }
 
 static void take_back(struct impacts *impacts, const double *before)
@@ -184,11 +186,89 @@ static void take_back(struct impacts *impacts, const double *before)
     impacts->work = 0;
 }
 
+static enum impacts_end find_by(struct impacts *impacts, bool propagates)
+{
+    return propagates ? propagate_to_the_end(impacts) : impacts_together(impacts, weighted_speed(impacts));
+}
+
+/* ---- large impulses */
+
+/* A copy whose W, symmetric as it is, and velocities before are off by rounding: plus or minus by chance, which is the same in
+ * every run. */
+static void set_off(const struct impacts *impacts, const double *before, struct impacts *off, double *W,
+                    unsigned *chance)
+{
+    const double rounding = 2 * DBL_EPSILON;
+    const int n = impacts_size(impacts);
+    double fastest = 0;
+    for (int i = 0; i < n; i++) {
+        double own = impacts->W[i * n + i];
+        if (own > 0) fastest = fmax(fastest, fabs(before[i]) / sqrt(own));
+    }
+    for (int i = 0; i < n; i++) {
+        double own = sqrt(fmax(0, impacts->W[i * n + i]));
+        for (int j = 0; j <= i; j++) {
+            *chance = *chance * 1664525U + 1013904223U; /* Numerical Recipes, 7.1 */
+            double by = *chance >> 31 ? rounding : -rounding;
+            W[i * n + j] = impacts->W[i * n + j] + by * own * sqrt(fmax(0, impacts->W[j * n + j]));
+            W[j * n + i] = W[i * n + j];
+            if (j == i) off->v[i] = before[i] == 0 ? 0 : before[i] + by * own * fastest;
+        }
+    }
+    memset(off->P, 0, (size_t)n * sizeof *off->P);
+    off->W = W;
+    off->work = 0;
+}
+
+/* Are velocities and works the same to 1e-9 of what there is? */
+static bool is_same(const struct impacts *impacts, const struct impacts *off, const double *before)
+{
+    const double promise = 1e-9;
+    const int n = impacts_size(impacts);
+    double energy = 0;
+    bool same = true;
+    for (int i = 0; i < n; i++) {
+        double own = impacts->W[i * n + i];
+        double v = fmax(fabs(before[i]), fabs(impacts->v[i]));
+        if (own > 0) energy = fmax(energy, v * v / own);
+    }
+    for (int i = 0; i < n; i++) {
+        double own = fmax(0, impacts->W[i * n + i]);
+        same &= fabs(impacts->v[i] - off->v[i]) <= promise * sqrt(energy * own);
+    }
+    return same && fabs(impacts->work - off->work) <= promise * energy;
+}
+
+/* Impulses far larger than what would stop each point by itself, with sums of which rounding takes a part. They come from laws
+ * that contradict each other - three points of one body cannot all bounce as `newton` wants it - or from points that press
+ * against each other nearly along one line. What they do is known as well as it stays when W and the velocities before
+ * are off by rounding themselves; that is tried. */
+static enum impacts_end stays_when_off(const struct impacts *impacts, const double *before, bool propagates)
+{
+    enum { tries = 3 };
+    const size_t n = (size_t)impacts_size(impacts);
+    double *room = calloc(n * n + 2 * n + 1, sizeof *room);
+    unsigned chance = 1;
+    enum impacts_end end = room ? impacts_done : impacts_no_memory;
+    for (int k = 0; k < tries && end == impacts_done; k++) {
+        struct impacts off = *impacts;
+        off.v = room + n * n;
+        off.P = off.v + n;
+        set_off(impacts, before, &off, room, &chance);
+        end = find_by(&off, propagates);
+        if (end == impacts_done && !is_same(impacts, &off, before)) end = impacts_lost;
+    }
+    free(room);
+    return end == impacts_done || end == impacts_no_memory ? end : impacts_lost;
+}
+
 static enum impacts_end solve_by(struct impacts *impacts, const double *before, bool propagates)
 {
-    enum impacts_end end =
-        propagates ? propagate_to_the_end(impacts) : impacts_together(impacts, weighted_speed(impacts));
-    return end == impacts_done && !do_what_they_say(impacts, before) ? impacts_lost : end;
+    enum impacts_end end = find_by(impacts, propagates);
+    if (end != impacts_done) return end;
+    enum doing doing = do_what_they_say(impacts, before);
+    if (doing == does_not) return impacts_lost;
+    return doing == does_to_digits ? impacts_done : stays_when_off(impacts, before, propagates);
 }
 
 /* Of those with restitution, if there are some. */

@@ -249,15 +249,16 @@ static enum impacts_end restore_by_law(struct together *together)
     if (end != impacts_done || fabs(between.at_high) <= rounding * size) return end;
     if (between.at_high < 0 && !stronge) return end;
     if (between.at_high > 0) end = try_share(together, 0, &between.at_low);
+    double jammed = 0; /* the share from which on nothing more is given back, however much is given */
     for (int k = 0; k < doublings && between.at_high < 0 && end == impacts_done; k++) {
         between.low = between.high;
         between.at_low = between.at_high;
         between.high *= 2;
         end = try_share(together, between.high, &between.at_high);
-        /* What is jammed between others gives nothing back, however much is given to it. */
-        bool jammed = fabs(between.at_high - between.at_low) <= rounding * size;
-        if (end == impacts_done && jammed) return restore(together, between.low);
+        bool same = fabs(between.at_high - between.at_low) <= rounding * size;
+        jammed = !same ? 0 : jammed > 0 ? jammed : between.low;
     }
+    if (end == impacts_done && between.at_high < 0 && jammed > 0) return restore(together, jammed);
     if (end != impacts_done || between.at_high <= 0) return end;
     end = close_in(together, &between, rounding * size);
     return end == impacts_done ? restore(together, between.low) : end;

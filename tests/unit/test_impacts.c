@@ -10,6 +10,7 @@
 
 #include <cmocka.h>
 
+#include <float.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -140,6 +141,27 @@ static void a_jammed_row_comes_to_rest(void **state)
     }
 }
 
+/* A ball that falls into a wedge of half an angle a, and is thrown back by e: it takes impulses 1/(2 sin a), of which speeds sin a
+ * along the normals and their rounding are left. */
+static void a_narrow_wedge_throws_a_ball_back(void **state)
+{
+    const double angles[] = {0.3, 0.01, 0.0016, 0.0007};
+    (void)state;
+    for (int i = 0; i < 4; i++)
+        for (int law = impact_stronge; law <= impact_moreau; law++) {
+            double v[most_unknowns], P[most_unknowns], work, c = cos(angles[i]), s = sin(angles[i]), e = 0.7;
+            struct scene scene = {.coordinates = 2, .points = 2, .w = {1, 1}, .v = {0, -1}};
+            const double J[4][2] = {{c, s}, {-s, c}, {-c, s}, {-s, -c}};
+            for (int k = 0; k < 4; k++) memcpy(scene.J[k], J[k], sizeof J[k]);
+            scene.laws[0].e = scene.laws[1].e = e;
+            assert_int_equal(strike(&scene, (enum impact_law)law, false, v, P, &work), impacts_done);
+            check((double)in_turn, 0, 0);
+            check(scene.v[0], 0, 1e-9);
+            check(scene.v[1], e, 1e-9);
+            check(work, (e * e - 1) / 2, 1e-9);
+        }
+}
+
 /* A block b x h that rocks from one corner to the other, plastic and without slip: with the angular momentum
  * about the new corner kept, the rate falls to (2 h^2 - b^2) / (2 (b^2 + h^2)) (Housner 1963). */
 static void a_rocking_block_changes_corners(void **state)
@@ -253,6 +275,31 @@ struct census {
     long done, endless, unsolvable, lost, made;
 };
 
+/* Of the speeds before, the largest that a law is about, in the metric of kinetic energy: v/sqrt(W_ii). */
+static double speed_before(const struct scene *scene, const double *before)
+{
+    double most = 0;
+    for (int i = 0, n = 2 * scene->points; i < n; i++) {
+        double own = scene->W[i * n + i], e = i % 2 == 0 ? scene->laws[i / 2].e : 0;
+        if (own > 0) most = fmax(most, (1 + e) * fabs(before[i]) / sqrt(own));
+    }
+    return most;
+}
+
+/* By how much velocities may miss what laws and impulses ask of row i. By so much the velocity before would have to be another
+ * for both to be exact: it is the backward error, and what share.c promises of it is 1e-10 of the largest speed, in compression
+ * and in restitution, and the rounding of the sum W P. (Of the velocities there is no such promise: two surfaces 1e-10 rad
+ * apart that hold a body between them let it go when turned by as much.) */
+static double may_miss(const struct scene *scene, const double *before, const double *P, int i)
+{
+    const double rounding = 2e-10, of_products = 8 * DBL_EPSILON;
+    const int n = 2 * scene->points;
+    const double *W = &scene->W[i * n];
+    double missed = rounding * sqrt(W[i]) * speed_before(scene, before);
+    for (int j = 0; j < n; j++) missed += of_products * fabs(W[j] * P[j]);
+    return missed;
+}
+
 /* v_n + e v_n before >= 0, and zero where an impulse is: of each point that has closed. */
 static void check_law_of_newton(const struct scene *scene, const double *before, const double *v,
                                 const double *P, double size)
@@ -260,7 +307,7 @@ static void check_law_of_newton(const struct scene *scene, const double *before,
     const double rounding = 1e-10;
     for (int i = 0; i < scene->points; i++) {
         double approach = fmax(0, -before[2 * i]), beyond = v[2 * i] - scene->laws[i].e * approach;
-        assert_true(beyond >= -rounding * size);
+        assert_true(beyond >= -may_miss(scene, before, P, 2 * i));
         if (approach > 0) check(P[2 * i] * beyond, 0, rounding * size * (1 + P[2 * i]));
     }
 }
@@ -286,8 +333,8 @@ static void check_scene(struct scene *scene, enum impact_law law, bool sequence,
     for (int i = 0; i < scene->points; i++) {
         double v_n = speed_along(scene, 2 * i), v_t = speed_along(scene, 2 * i + 1);
         /* What holds is 0 to the digit; where points are redundant, impulses that do so leave a rounding. */
-        check(v_n, v[2 * i], (v[2 * i] == 0 ? held : rounding) * size);
-        check(v_t, v[2 * i + 1], (v[2 * i + 1] == 0 ? held : rounding) * size);
+        check(v_n, v[2 * i], v[2 * i] == 0 ? held * size : may_miss(scene, first, P, 2 * i));
+        check(v_t, v[2 * i + 1], v[2 * i + 1] == 0 ? held * size : may_miss(scene, first, P, 2 * i + 1));
         assert_true(v_n >= -held * size && P[2 * i] >= -rounding * size);
         assert_true(fabs(P[2 * i + 1]) <= scene->laws[i].mu * P[2 * i] + limit * size);
     }
@@ -402,9 +449,24 @@ static void impacts_by_sets_say_the_same(void **state)
     print_message("# %ld impacts, %ld without one answer by sets, %ld refused\n", count,
                   ways[unknown_by_sets], ways[refused_by_sets]);
     assert_int_equal(ways[other_by_sets], 0);
-    /* Impulses hundreds of times as large as what stops each point are refused. */
-    assert_true(500 * ways[refused_by_sets] <= count);
+    /* Impulses hundreds of times as large as what stops each point, where rounding takes what they do. */
+    assert_true(2000 * ways[refused_by_sets] <= count);
     assert_true(10 * ways[unknown_by_sets] <= count);
+}
+
+/* A point that others hold does not open by twice what its restitution gives, nor any other, so that no work is given back
+ * by either; by three times that it opens. What is held for ever is another thing: a_jammed_row_comes_to_rest. */
+static void a_point_that_is_held_at_first_opens(void **state)
+{
+    struct random_numbers numbers = {20261126};
+    struct scene scene;
+    struct points_by_sets points;
+    (void)state;
+    for (int i = 0; i <= 74735; i++) {
+        random_scene(&numbers, 0, &scene);
+        points = draw_points(&numbers, &scene);
+    }
+    assert_int_equal(compare_with_sets(&scene, &points), same_by_sets);
 }
 
 int main(void)
@@ -413,11 +475,13 @@ int main(void)
         cmocka_unit_test(three_balls_in_a_row),
         cmocka_unit_test(a_cue_ball_comes_back),
         cmocka_unit_test(a_jammed_row_comes_to_rest),
+        cmocka_unit_test(a_narrow_wedge_throws_a_ball_back),
         cmocka_unit_test(a_rocking_block_changes_corners),
         cmocka_unit_test(a_stack_of_boxes_rocks),
         cmocka_unit_test(random_impacts_keep_momentum_and_make_no_energy),
         cmocka_unit_test(nearly_redundant_points_do_so_or_are_told),
         cmocka_unit_test(impacts_by_sets_say_the_same),
+        cmocka_unit_test(a_point_that_is_held_at_first_opens),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
