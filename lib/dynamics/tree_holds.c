@@ -192,10 +192,14 @@ static bool is_on_open_contact(const struct fbd_state *state, const struct mode 
 }
 
 /* Does friction that sticks move all the same? Where a mechanism passes its dead centre nothing along the row moves it,
- * however large: so the row is redundant, and has no force. */
+ * however large: so the row is redundant, and has no force. Where drives take it along some row is - this one, or one that
+ * comes behind it - and the forces that there are mean nothing. */
 static bool moves_on(const struct fbd_state *state, const struct mode *hold)
 {
-    return hold->kind == mode_tangent && hold_row(state, hold)->redundant &&
+    const struct instant at = state_instant(state);
+    if (hold->kind != mode_tangent) return false;
+    bool driven = model_has_speeds_given(state->model) && rest_is_open(state->model, &at);
+    return (driven || hold_row(state, hold)->redundant) &&
            tree_seen_acceleration(state, hold_row(state, hold)->g.x2);
 }
 

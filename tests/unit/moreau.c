@@ -36,8 +36,8 @@ static void prepare(const struct moreau_system *system, const double *q, const d
         memcpy(prepared->mw[a], row->w, sizeof row->w);
         system->solve(system->scene, q, prepared->mw[a]);
         prepared->d[a] = dot(system->size, row->w, prepared->mw[a]);
-        double before = dot(system->size, row->w, v);
-        prepared->want[a] = row->kind == moreau_gap ? -row->e * fmin(before, 0) : row->aim;
+        double before = dot(system->size, row->w, v) - row->aim;
+        prepared->want[a] = row->aim - (row->kind == moreau_gap ? row->e * fmin(before, 0) : 0);
     }
 }
 

@@ -19,9 +19,8 @@ enum moreau_kind { moreau_equal, moreau_gap, moreau_rub };
 struct moreau_row {
     enum moreau_kind kind;
     double w[moreau_most];
-    double e; /* of a gap: its velocity after is no less than -e times that before */
-    double
-        aim; /* of what rubs: the velocity at which nothing slips; of an equal row: the velocity that it has */
+    double e;    /* of a gap: its velocity less the aim after is no less than -e times that before */
+    double aim;  /* of what rubs: the velocity at which nothing slips; of others: that of what they meet */
     double most; /* of what rubs: the force or moment it is up to, if there is no `normal` */
     double mu;   /* times the impulse of the row `normal` */
     int normal;  /* -1: none */

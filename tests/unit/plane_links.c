@@ -119,7 +119,7 @@ static void rows_links(const void *context, double t, const double *q, struct mo
             if (i) row->w[0] = -row->w[1];
             row->e = link->e;
             row->most = link->rub;
-            row->aim = link->rub_speed;
+            row->aim = side ? 0 : link->rub_speed;
         }
     }
     if (scene->ropes == 0) return;

@@ -156,7 +156,7 @@ static void rows_slides(const void *context, double t, const double *q, struct m
             along_row(scene, i, side == 2 ? -c : c, side == 2 ? -s : s, row);
             row->e = slide->e;
             row->mu = slide->rub;
-            row->aim = slide->rub_speed;
+            row->aim = side ? 0 : slide->rub_speed;
             if (side == 0) row->normal = rows->count - 2;
         }
     }
