@@ -190,6 +190,7 @@ int sliding_parted(const struct fbd_model *model, const struct instant *given, c
                 s->shifted[n + i] = friction_surface_speed(&model->plan.modes[holder], &at, &acceleration);
             speeds += fabs(slope * s->shifted[n + i]);
         }
+        for (size_t i = 0; i < n; i++) s->shifted[i] += later[k] * (given->y[n + i] + s->shifted[n + i]) / 2;
         at.y = s->shifted;
         double u = sliding_surface(s, model, &at, kink, part);
         if (fabs(u) > rounding * speeds) return u > 0 ? 1 : -1;

@@ -2,7 +2,7 @@
  *
  * Decks that are driven, swing or are carried, with boxes, discs and particles that lie, lean, slide, roll and fall on them
  * and off them (decks.h), against a time stepping that knows no events (moreau.h). FBD_DECKS=1000 tries so many,
- * FBD_DECKS_FIRST=100 begins there, FBD_DECKS_SEED=17 tries one and prints its model, FBD_DECKS_STEPS is how many steps.
+ * FBD_DECKS_FIRST=100 begins there, FBD_DECKS_SEED=17 tries one and prints its model, FBD_DECKS_STEPS is how many steps, _UNTIL when to look.
  */
 #include <setjmp.h>
 #include <stdarg.h>
@@ -77,8 +77,9 @@ static void compare(struct checks *checks, uint64_t seed, bool show, int steps, 
     const double sensitive = 2e-3;
     static struct deck_scene scene;
     static struct written text;
+    const char *until = getenv("FBD_DECKS_UNTIL");
     deck_draw(seed, &scene);
-    if (getenv("FBD_DECKS_UNTIL")) scene.until = strtod(getenv("FBD_DECKS_UNTIL"), NULL);
+    if (until) scene.until = strtod(until, NULL);
     deck_write(&scene, &text);
     if (show) puts(text.all), fflush(stdout);
     struct answers answers = {deck_step(&scene, steps / 2), deck_step(&scene, steps), {0}};
