@@ -117,6 +117,9 @@ void sliding_rates(const struct fbd_model *model, const struct instant *given, d
 
 struct fbd_state;
 
+/* The rounding of what a switch watches; 0 also when memory is out. */
+double sliding_rounding(const struct fbd_state *state, const struct kink *kink, int part);
+
 /* Bring the velocities back onto the surfaces, by impulses of the forces that slide, and likewise the places
  * onto those that are slid on in second order. */
 void sliding_project(struct fbd_state *state);

@@ -6,6 +6,7 @@
 
 #include <assert.h>
 #include <float.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "dynamics/absolute.h"
@@ -32,6 +33,20 @@ double sliding_watched(struct sliding *s, const struct fbd_model *model, const s
 {
     double unused;
     return switching(s, model, given, kink, part, 0, s->zero, &unused);
+}
+
+double sliding_rounding(const struct fbd_state *state, const struct kink *kink, int part)
+{
+    const struct instant given = state_instant(state), at = instant_extend(state->model, &given);
+    double *u =
+        calloc(3 * kink->count, sizeof *u); /* of switches that are never slid on a state has no room */
+    if (!u) return 0;
+    double *rates = u + kink->count, *roundings = rates + kink->count;
+    expr_switchings(kink->formula.expr, at.t, at.y, 0, NULL, at.branch + kink->formula.branch, u, rates,
+                    roundings);
+    double rounding = roundings[part];
+    free(u);
+    return rounding;
 }
 
 double sliding_surface(struct sliding *s, const struct fbd_model *model, const struct instant *given,

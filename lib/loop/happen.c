@@ -303,9 +303,10 @@ static void fail_chatter(struct run *run, int load, bool state, const char *name
 }
 
 /* A switch that has just been crossed and whose new branch already ends: the forces on both sides push back
- * to it. The motion would slide along the switch, which no branch describes. */
+ * to it, by more than rounding within a step. The motion would slide along the switch, which no branch describes. */
 static void refuse_sliding(struct run *run, const bool *moving)
 {
+    const double roundings = 1e3; /* of what turns just there, the rate has either sign */
     const struct watcher_set *set = &run->watchers.moving;
     size_t modes = run->model->plan.mode_count * sizeof *run->state->slip;
     if (!moving || run->end.outcome != FBD_GOING) return;
@@ -329,6 +330,8 @@ static void refuse_sliding(struct run *run, const bool *moving)
                 back->kind == watch_kink && back->index == watcher->index && back->part == watcher->part;
             if (!same || back->end == watcher->end || !(rate[k] < 0)) continue;
             const struct kink *kink = &run->model->plan.kinks[watcher->index];
+            double rounding = sliding_rounding(run->state, kink, watcher->part);
+            if (-rate[k] * run->step.longest <= roundings * rounding) continue;
             const char *name = run_kink_name(run, kink);
             fail_chatter(run, kink->load, kink->own >= 0, name ? name : "an event");
         }

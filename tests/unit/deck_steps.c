@@ -10,6 +10,12 @@
 
 static const double heavy = 1e15;
 
+/* The coordinates of body i. */
+static ptrdiff_t first_of(int i)
+{
+    return (ptrdiff_t)3 * i;
+}
+
 static void turn(double angle, const double *p, double *to)
 {
     double c = cos(angle), s = sin(angle), x = c * p[0] - s * p[1], y = s * p[0] + c * p[1];
@@ -26,7 +32,7 @@ static void frame_at(const struct deck_scene *scene, int i, const double *q, dou
 {
     const struct deck_body *body = &scene->body[i];
     double arm[2];
-    q += (ptrdiff_t)3 * i;
+    q += first_of(i);
     if (!is_reduced(body)) {
         turn(q[2], body->G, arm);
         frame[0] = q[0] - arm[0], frame[1] = q[1] - arm[1], frame[2] = q[2];
@@ -53,9 +59,9 @@ static void add_along(const struct deck_scene *scene, int i, const double *q, co
 {
     const struct deck_body *body = &scene->body[i];
     if (i < 0) return;
-    w += (ptrdiff_t)3 * i;
+    w += first_of(i);
     if (!is_reduced(body)) {
-        const double *G = q + (ptrdiff_t)3 * i;
+        const double *G = q + first_of(i);
         w[0] += sign * n[0], w[1] += sign * n[1];
         w[2] += sign * ((p[0] - G[0]) * n[1] - (p[1] - G[1]) * n[0]);
     } else if (body->motion == deck_slide) {
@@ -68,7 +74,7 @@ static void add_along(const struct deck_scene *scene, int i, const double *q, co
 static void add_turning(const struct deck_scene *scene, int i, double sign, double *w)
 {
     if (i < 0 || (is_reduced(&scene->body[i]) && scene->body[i].motion == deck_slide)) return;
-    w[3 * i + (is_reduced(&scene->body[i]) ? 0 : 2)] += sign;
+    w[first_of(i) + (is_reduced(&scene->body[i]) ? 0 : 2)] += sign;
 }
 
 static double joint_angle(const struct deck_scene *scene, const struct deck_body *body, const double *q)
@@ -85,8 +91,8 @@ static double coordinate_of(const struct deck_scene *scene, int i, const double 
     const struct deck_body *body = &scene->body[i];
     double frame[3], base[3] = {0}, origin[2] = {body->start[0], body->start[1]};
     if (is_reduced(body)) {
-        w[3 * i] = 1;
-        return q[3 * i];
+        w[first_of(i)] = 1;
+        return q[first_of(i)];
     }
     frame_at(scene, i, q, frame);
     if (body->on >= 0) frame_at(scene, body->on, q, base);
@@ -134,7 +140,7 @@ static void forces(const void *context, double t, const double *q, const double 
         double s = coordinate_of(scene, i, q, w);
         double pull = -body->spring * (s - body->neutral) - body->damper * dot(w, rate);
         for (int k = 0; k < 3 * scene->count; k++) f[k] += pull * w[k];
-        if (body->driven && is_reduced(body)) f[3 * i] = heavy * wave_bend(&body->drive, t);
+        if (body->driven && is_reduced(body)) f[first_of(i)] = heavy * wave_bend(&body->drive, t);
     }
 }
 
@@ -145,7 +151,7 @@ static void solve(const void *context, const double *q, double *b)
     for (int i = 0; i < scene->count; i++) {
         const struct deck_body *body = &scene->body[i];
         double arm = hypot(body->G[0] - body->point[0], body->G[1] - body->point[1]);
-        double *at = b + (ptrdiff_t)3 * i;
+        double *at = b + first_of(i);
         if (!is_reduced(body)) {
             at[0] /= body->m, at[1] /= body->m;
             at[2] = body->I > 0 ? at[2] / body->I : 0;
@@ -402,13 +408,13 @@ static void start(const struct deck_scene *scene, double *q, double *v)
         const struct deck_body *body = &scene->body[i];
         double p[2];
         point_at(body->start, body->G, p);
-        q[3 * i] = is_reduced(body) ? body->x0 : p[0];
+        q[first_of(i)] = is_reduced(body) ? body->x0 : p[0];
         if (is_reduced(body)) {
-            v[3 * i] = body->driven ? wave_rate(&body->drive, 0) : body->speed[0];
+            v[first_of(i)] = body->driven ? wave_rate(&body->drive, 0) : body->speed[0];
             continue;
         }
-        q[3 * i + 1] = p[1], q[3 * i + 2] = body->start[2];
-        deck_twist(scene, i, p, v + (ptrdiff_t)3 * i);
+        q[first_of(i) + 1] = p[1], q[first_of(i) + 2] = body->start[2];
+        deck_twist(scene, i, p, v + first_of(i));
     }
 }
 
@@ -434,8 +440,9 @@ struct deck_named deck_step(struct deck_scene *scene, int steps)
         double frame[3], w[moreau_most] = {0};
         frame_at(scene, i, q, frame);
         if (body->motion == deck_planar) {
-            double arm[2] = {frame[0] - q[3 * i], frame[1] - q[3 * i + 1]}, omega = v[3 * i + 2];
-            double rate[3] = {v[3 * i] - omega * arm[1], v[3 * i + 1] + omega * arm[0], omega};
+            double arm[2] = {frame[0] - q[first_of(i)], frame[1] - q[first_of(i) + 1]},
+                   omega = v[first_of(i) + 2];
+            double rate[3] = {v[first_of(i)] - omega * arm[1], v[first_of(i) + 1] + omega * arm[0], omega};
             for (int k = 0; k < (body->I > 0 ? 3 : 2); k++) {
                 name_value(&named, i, names[k], frame[k], false);
                 name_value(&named, i, names[3 + k], rate[k], true);

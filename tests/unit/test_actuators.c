@@ -147,9 +147,37 @@ static void what_went_wrong_does_not(void **unused)
     checks_end(&checks);
 }
 
+/* An integral that stands at its limit leaves it as what drives it turns, when its rate is rounding of either sign. */
+static void a_limit_on_an_integral_is_left_as_its_rate_turns(void **unused)
+{
+    struct random_numbers numbers = {5};
+    struct checks checks = {0};
+    (void)unused;
+    for (int i = 0; i < 300; i++) {
+        double A = random_between(&numbers, 0.1, 0.4), w = random_between(&numbers, 2, 12);
+        double c = random_between(&numbers, -0.1, 0.1), most = random_between(&numbers, 0.005, 0.05);
+        char text[1200], e[200];
+        snprintf(e, sizeof e, "(%.17g*sin(%.17g[1/s]*t + %.17g) + %.17g)/1[s]", A, w, 30 * c, c);
+        snprintf(text, sizeof text,
+                 "fbd: 1\nstates:\n  z: {unit: 1, rate: \"if(states.z >= %.17g, min(%s, 0[1/s]), "
+                 "if(states.z <= -%.17g, max(%s, 0[1/s]), %s))\"}\n"
+                 "bodies:\n  b: {mass: 1, motion: slide, forces: [applied: \"1[N]*states.z\"]}\n"
+                 "simulate: {until: 3}\n",
+                 most, e, most, e, e);
+        struct trial trial = trial_parse(text);
+        trial_run(&trial, NULL);
+        check_that(&checks, "it comes to its end", trial.outcome == FBD_DONE);
+        check_close(&checks, "within its limits", fmax(0, fabs(trial_get(&trial, "states.z")) - most), 0,
+                    1e-12);
+        trial_close(&trial);
+    }
+    checks_end(&checks);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_limit_on_an_integral_is_left_as_its_rate_turns),
         cmocka_unit_test(what_went_wrong_does_not),
         cmocka_unit_test(time_stepping_says_the_same),
     };
