@@ -349,8 +349,8 @@ typedef enum fbd_event_kind {
     FBD_EVENT_REST,     /* infinitely many impacts have ended: they touch from now on */
     FBD_EVENT_SLIDING,  /* both branches of a switch lead back to it: the motion slides along it (Filippov) */
     FBD_EVENT_SLIDING_ENDS, /* and goes on by one of them */
-    FBD_EVENT_JAM,     /* no finite forces go with its slip (Painleve's paradox): an impulse ends the slip */
-    FBD_EVENT_SEVERAL, /* several motions agree with the forces from here on, and one of them is taken */
+    FBD_EVENT_JAM, /* no finite forces go with its slip (Painleve's paradox): an impulse ends the slip */
+    FBD_EVENT_SEVERAL, /* several motions agree with the forces from here on, or with an impact, and one is taken */
     FBD_EVENT_TRACK_END, /* a body comes to an end of its track: the run ends */
 } fbd_event_kind;
 

@@ -150,6 +150,7 @@ static enum impacts_end propagate_to_the_end(struct impacts *impacts)
     rest.points = points;
     end = impacts_together(&rest, before);
     impacts->work = rest.work;
+    impacts->several = rest.several;
     free(points);
     return end == impacts_unsolvable ? impacts_endless : end;
 }
@@ -324,7 +325,7 @@ static enum impacts_end solve_part(struct impacts *all, const int *member, int c
     part.v = v;
     part.P = P;
     part.work = 0;
-    part.in_turn = false;
+    part.in_turn = part.several = false;
     enum impacts_end end = closes ? solve_whole(&part, before) : impacts_done;
     for (int i = 0; i < n; i++) {
         all->v[2 * member[i / 2] + i % 2] = v[i];
@@ -333,6 +334,7 @@ static enum impacts_end solve_part(struct impacts *all, const int *member, int c
     all->work += part.work;
     if (closes) all->law = part.law;
     all->in_turn |= part.in_turn;
+    all->several |= part.several;
     free(points);
     return end;
 }
@@ -353,7 +355,7 @@ static enum impacts_end solve_with_slides(struct impacts *impacts)
 enum impacts_end impacts_solve(struct impacts *impacts)
 {
     impacts->work = 0;
-    impacts->in_turn = false;
+    impacts->in_turn = impacts->several = false;
     if (impacts->slides > 0) return solve_with_slides(impacts);
     size_t count = (size_t)impacts->count, n = 2 * count;
     int *part = calloc(2 * count + 1, sizeof *part), *member = part ? part + count : NULL;

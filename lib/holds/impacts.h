@@ -50,6 +50,7 @@ struct impacts {
     double *P;           /* size: impulses, set */
     double work;         /* set: the change of kinetic energy */
     enum impact_law law; /* set: of points that are solved together */
+    bool several;        /* set: other impulses agree with the laws, too, and give other velocities */
     bool in_turn;        /* set: some are one after the other, as no impulses of all together were found */
 };
 

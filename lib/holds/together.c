@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "holds/holds.h"
+#include "holds/others.h"
 
 /* v += W P for impulses that are added, and the work that they do. */
 static double add_impulses(const struct impacts *impacts, const double *P, double *v)
@@ -37,6 +38,7 @@ struct together {
     double *compressed; /* of all unknowns: velocities */
     double *P;          /* impulses of compression */
     double *v, *more;   /* velocities after restitution, its impulses */
+    bool several;       /* there are other modes with other velocities */
 };
 
 /* Friction of slides, whose guides come behind `first` others. */
@@ -90,6 +92,7 @@ static void together_free(struct together *together)
 static enum impacts_end decide(struct together *together)
 {
     enum holds_found found = holds_decide(&together->problem);
+    together->several = found == holds_several;
     if (found == holds_decided || found == holds_several) found = holds_share(&together->problem);
     if (found == holds_no_memory) return impacts_no_memory;
     return found == holds_decided ? impacts_done : impacts_unsolvable;
@@ -280,6 +283,59 @@ static void finish(struct impacts *impacts, const double *P, const double *v)
     }
 }
 
+/* ---- other impulses that do as well */
+
+static bool are_others(const struct impacts *impacts, const double *v, const double *other, double before)
+{
+    const double near = 1e-6;
+    for (int i = 0, n = impacts_size(impacts); i < n; i++) {
+        double own = impacts->W[i * n + i];
+        if (own > 0 && fabs(v[i] - other[i]) > near * before * sqrt(own)) return true;
+    }
+    return false;
+}
+
+/* Do impulses of compression that are off by `step` lead to other velocities, at once or by what they give back? */
+static enum impacts_end try_step(const struct together *first, const struct together *second,
+                                 const double *step, double before, bool *several)
+{
+    const struct impacts *impacts = first->impacts;
+    const size_t n = (size_t)impacts_size(impacts);
+    struct together other;
+    enum impacts_end end = together_new(&other, impacts, true) ? impacts_done : impacts_no_memory;
+    if (end == impacts_done) {
+        memcpy(other.compressed, first->compressed, n * sizeof *other.compressed);
+        add_impulses(impacts, step, other.compressed);
+        *several |= are_others(impacts, first->compressed, other.compressed, before);
+        for (size_t i = 0; i < n; i++) other.P[i] = first->P[i] + step[i];
+    }
+    if (end == impacts_done && !*several && second) {
+        memcpy(other.compressed, first->compressed, n * sizeof *other.compressed);
+        other.problem.beside_c = before;
+        end = restore_by_law(&other);
+        *several |= end == impacts_done && are_others(impacts, second->v, other.v, before);
+    }
+    together_free(&other);
+    return end == impacts_no_memory ? end : impacts_done;
+}
+
+/* Of slides, and of many points (singular values cost their cube), that is not looked for. */
+static enum impacts_end look_for_others(struct together *first, struct together *second, double before,
+                                        bool *several)
+{
+    enum { most_points = 32 };
+    const struct impacts *impacts = first->impacts;
+    const size_t n = (size_t)impacts_size(impacts);
+    if (*several || impacts->slides > 0 || impacts->count > most_points) return impacts_done;
+    double *steps = calloc(2 * n * n + 1, sizeof *steps);
+    int count = steps ? holds_other_forces(&first->problem, steps) : -1;
+    enum impacts_end end = count >= 0 ? impacts_done : impacts_no_memory;
+    for (int k = 0; k < count && end == impacts_done && !*several; k++)
+        end = try_step(first, second, steps + (size_t)k * n, before, several);
+    free(steps);
+    return end;
+}
+
 enum impacts_end impacts_together(struct impacts *impacts, double before)
 {
     struct together first, second = {0};
@@ -295,6 +351,9 @@ enum impacts_end impacts_together(struct impacts *impacts, double before)
             end = restore_by_law(&second);
         }
     }
+    bool several = first.several || second.several;
+    if (end == impacts_done) end = look_for_others(&first, restores ? &second : NULL, before, &several);
+    impacts->several |= end == impacts_done && several;
     if (end == impacts_done) finish(impacts, first.P, first.compressed);
     if (end == impacts_done && restores) finish(impacts, second.more, second.v);
     together_free(&second);

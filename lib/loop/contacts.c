@@ -224,7 +224,27 @@ static void note_impact(struct run *run, int i)
     struct run_event *event = run_note(run, FBD_EVENT_IMPACT, body, tie->load, -1);
     if (!event) return;
     event->impact = (struct impact_record){
-        p, tau, taken, {striker->v_n, v[0]}, {striker->v_t, v[1]}, work->makes && taken > 0, work->in_turn};
+        p,     tau,          taken, {striker->v_n, v[0]}, {striker->v_t, v[1]}, work->makes && taken > 0,
+        false, work->in_turn};
+}
+
+/* By the name of what is pressed most. */
+static void note_several(struct run *run, int count)
+{
+    const struct contacts_work *work = &run->contacts;
+    int most = 0;
+    for (int i = 1; i < count; i++)
+        if (work->P[(ptrdiff_t)2 * i] > work->P[(ptrdiff_t)2 * most]) most = i;
+    if (!work->several || count == 0) return;
+    const struct tie *tie = &tree_of(run)->ties[work->strikers[most].tie];
+    struct run_event *event = run_note(run, FBD_EVENT_SEVERAL, tie->end[0].body, tie->load, -1);
+    if (event) event->impact.several = true;
+}
+
+static void note_impacts(struct run *run, int count)
+{
+    for (int i = 0; i < count; i++) note_impact(run, i);
+    note_several(run, count);
 }
 
 /* What an impact has made slack is no more taut by its length, and what it has lifted off is open. */
@@ -346,7 +366,7 @@ static bool look_at_contacts(struct run *run)
     if (struck && run_take_in_ropes(run)) count = contacts_find_strikers(run);
     if (struck) {
         if (!contacts_strike(run, count)) return false;
-        for (int i = 0; i < count; i++) note_impact(run, i);
+        note_impacts(run, count);
         impulse_look(run->state);
         unstick(run, 0);
     }
@@ -394,7 +414,7 @@ void run_strike_closed(struct run *run)
     run_take_in_ropes(run);
     int count = contacts_find_strikers(run);
     if (!any_closes(run, count) || !contacts_strike(run, count)) return;
-    for (int i = 0; i < count; i++) note_impact(run, i);
+    note_impacts(run, count);
     contacts_end_tugs(run, count);
     impulse_look(run->state);
     contacts_open_or_close(run, count, true);

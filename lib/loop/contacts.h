@@ -76,6 +76,7 @@ struct contacts_work {
     double speed; /* the largest of what has touched so far */
     bool due;     /* shapes have met, or what touches has come to the end of a side */
     bool makes;   /* the last impacts have made energy */
+    bool several; /* others agree with the laws, too, and give other velocities */
     bool in_turn; /* and are of one point after the other, where all together were asked for */
     bool turned;  /* see run_note_sign */
     bool plastic; /* the next ones are to be, whatever their e */

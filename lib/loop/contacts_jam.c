@@ -101,8 +101,8 @@ static void note_jam(struct run *run, int i, bool jams)
     if (striker->rope || !jams) return;
     struct run_event *event = run_note(run, FBD_EVENT_JAM, tie->end[0].body, tie->load, -1);
     if (!event) return;
-    event->impact =
-        (struct impact_record){P[0], P[1], taken, {striker->v_n, v[0]}, {striker->v_t, v[1]}, false, false};
+    event->impact = (struct impact_record){
+        .p = P[0], .tau = P[1], .work = taken, .v_n = {striker->v_n, v[0]}, .v_t = {striker->v_t, v[1]}};
 }
 
 /* The largest impulse that the moment itself could ask for. */

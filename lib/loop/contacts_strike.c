@@ -419,6 +419,7 @@ bool contacts_solve_impact(struct run *run, int count)
     for (int i = 0; i < impacts_size(&impacts); i++) size += fabs(work->P[i] * work->v[i]);
     work->makes = impacts.work > 1e-12 * size;
     work->in_turn = impacts.in_turn;
+    work->several = impacts.several;
     return true;
 }
 

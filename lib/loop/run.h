@@ -48,6 +48,7 @@ struct impact_record {
     double p, tau, work;
     double v_n[2], v_t[2];
     bool makes;   /* all impacts of the instant have made energy, and this one has */
+    bool several; /* other velocities agree with the laws, too */
     bool in_turn; /* they are of one point after the other, where all together were asked for */
 };
 

@@ -141,10 +141,18 @@ void event_detail(const struct fbd_model *model, const struct run_event *event, 
     case FBD_EVENT_IMPACT: impact_detail(model, event, name, detail, size); return;
     case FBD_EVENT_CONTACT: snprintf(detail, size, "%s closes", name); return;
     case FBD_EVENT_SEVERAL:
-        format_into(detail, size,
-                    "%s: several motions agree with the forces, as in Painleve's paradox, and one of them is "
-                    "taken; each %s of its normal force brings %.4g %s of it with it",
-                    name, unit, event->force, unit);
+        if (event->impact.several)
+            snprintf(detail, size,
+                     "%s: several velocities agree with the laws of the impact, whose impulses are not "
+                     "determined by "
+                     "rigid bodies, and one of them is taken",
+                     name);
+        else
+            format_into(
+                detail, size,
+                "%s: several motions agree with the forces, as in Painleve's paradox, and one of them is "
+                "taken; each %s of its normal force brings %.4g %s of it with it",
+                name, unit, event->force, unit);
         return;
     case FBD_EVENT_JAM: jam_detail(model, event, name, detail, size); return;
     case FBD_EVENT_REST:

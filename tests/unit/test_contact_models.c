@@ -273,6 +273,32 @@ static void several_motions_are_an_event(void **unused)
     checks_end(&checks);
 }
 
+/* A disc that slides between a floor and a ceiling, and strikes the floor: what presses it against both at once is open, and
+ * friction leaves as much of its speed as that says. Where it is smooth only the impulses are many. */
+static void an_impact_of_a_gripped_disc_says_that_it_is_one_of_several(void **unused)
+{
+    struct checks checks = {0};
+    (void)unused;
+    for (int rough = 0; rough < 2; rough++) {
+        char text[600];
+        snprintf(
+            text, sizeof text,
+            "fbd: 1\ngravity: 0\nground: {lines: {floor: {along: 0}, top: {through: [0, 0.2], along: 0}}}\n"
+            "bodies:\n  b: {mass: 1, shape: disc, radius: 0.1, motion: planar, initial: {y: 0.1, vx: 1, vy: "
+            "-0.5}, forces: [applied: {value: 0, angle: 0}]}\ncontacts:\n"
+            "  - {between: [b, ground.floor], static: %g, side: left}\n"
+            "  - {between: [b, ground.top], static: %g, side: right}\nsimulate: {until: 0.1}\n",
+            0.3 * rough, 0.3 * rough);
+        struct trial trial = trial_parse(text);
+        trial_run(&trial, NULL);
+        check_that(&checks, "done", trial.outcome == FBD_DONE);
+        double several = trial_event(&trial, FBD_EVENT_SEVERAL, NULL, 0);
+        check_that(&checks, "told where it is so", rough ? several == 0 : isnan(several));
+        trial_close(&trial);
+    }
+    checks_end(&checks);
+}
+
 /* Pushed beyond where it tips, statics names the corner that it tips over. */
 static void statics_says_where_a_block_tips(void **unused)
 {
@@ -347,6 +373,7 @@ int main(void)
         cmocka_unit_test(a_box_on_a_shaken_table_flies_once_a_period),
         cmocka_unit_test(flat_boxes_rest_when_their_series_ends),
         cmocka_unit_test(several_motions_are_an_event),
+        cmocka_unit_test(an_impact_of_a_gripped_disc_says_that_it_is_one_of_several),
         cmocka_unit_test(statics_says_where_a_block_tips),
         cmocka_unit_test(a_rope_and_a_floor_strike_in_turn_until_both_hold),
         cmocka_unit_test(a_rod_jams_with_its_moment_of_momentum),

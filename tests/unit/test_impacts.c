@@ -64,6 +64,7 @@ static double speed_along(const struct scene *scene, int row)
 }
 
 static long in_turn;
+static bool several;
 
 /* Solve, and give the coordinates their velocities. Laws of velocities, and impacts that are asked for one after the
  * other, are never taken in turn instead. */
@@ -84,6 +85,7 @@ static enum impacts_end strike(struct scene *scene, enum impact_law law, bool on
         for (int i = 0; i < 2 * scene->points; i++) scene->v[k] += scene->w[k] * scene->J[i][k] * P[i];
     *work = impacts.work;
     in_turn += impacts.in_turn;
+    several = impacts.several;
     assert_false(impacts.in_turn && (one_after_the_other || impact_by_velocity(law)));
     return end;
 }
@@ -160,6 +162,55 @@ static void a_narrow_wedge_throws_a_ball_back(void **state)
             check(scene.v[1], e, 1e-9);
             check(work, (e * e - 1) / 2, 1e-9);
         }
+}
+
+/* A point falls onto a floor and two slopes at once, all without friction. P_1 = P_2, and of P_3 + 2 * 0.8 P_1 = 1 each share is
+ * as good: by poisson it leaves with e 1.6 P_1 + e_3 P_3, which is e where all have that, and open where they differ. By
+ * newton's law, plastic, and with one slope alone there is one velocity. */
+static void velocities_that_impulses_leave_open_are_told(void **state)
+{
+    static const struct {
+        enum impact_law law;
+        double e, e_floor, v;
+        bool several;
+    } cases[] = {
+        {impact_poisson, 0.5, 0, -1, true},     {impact_stronge, 0.5, 0, -1, true},
+        {impact_poisson, 0.5, 0.5, 0.5, false}, {impact_stronge, 0.5, 0.5, 0.5, false},
+        {impact_newton, 0.5, 0, 0.5, false},    {impact_stronge, 0, 0, 0, false},
+    };
+    (void)state;
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        double v[most_unknowns], P[most_unknowns], work;
+        struct scene scene = {.coordinates = 2, .points = 3, .w = {1, 1}, .v = {0, -1}};
+        const double J[6][2] = {{0.6, 0.8}, {-0.8, 0.6}, {-0.6, 0.8}, {-0.8, -0.6}, {0, 1}, {-1, 0}};
+        for (int k = 0; k < 6; k++) memcpy(scene.J[k], J[k], sizeof J[k]);
+        scene.laws[0].e = scene.laws[1].e = cases[i].e;
+        scene.laws[2].e = cases[i].e_floor;
+        assert_int_equal(strike(&scene, cases[i].law, false, v, P, &work), impacts_done);
+        if (several != cases[i].several) fail_msg("case %zu: %d", i, several);
+        if (!several) check(scene.v[1], cases[i].v, 1e-12);
+        if (several) assert_true(scene.v[1] >= 0 && scene.v[1] <= 0.5);
+    }
+}
+
+/* Between two walls that are opposite to each other a body moves into one of them and along both. What presses it against
+ * both at once is open, and so is what friction leaves of its speed: from 1 - mu down to none. Without friction, or where
+ * friction of the one wall stops it, there is one velocity. */
+static void what_is_gripped_may_slide_on_or_not(void **state)
+{
+    const double mu[] = {0.3, 0, 1.5};
+    (void)state;
+    for (int i = 0; i < 3; i++) {
+        double v[most_unknowns], P[most_unknowns], work;
+        struct scene scene = {.coordinates = 2, .points = 2, .w = {1, 1}, .v = {1, -1}};
+        const double J[4][2] = {{0, 1}, {1, 0}, {0, -1}, {1, 0}};
+        for (int k = 0; k < 4; k++) memcpy(scene.J[k], J[k], sizeof J[k]);
+        scene.laws[0].mu = scene.laws[1].mu = mu[i];
+        assert_int_equal(strike(&scene, impact_stronge, false, v, P, &work), impacts_done);
+        assert_int_equal(several, i == 0);
+        if (i == 0) assert_true(scene.v[0] >= 0 && scene.v[0] <= 1 - mu[i] + 1e-12);
+        if (i > 0) check(scene.v[0], i == 1 ? 1 : 0, 1e-12);
+    }
 }
 
 /* A block b x h that rocks from one corner to the other, plastic and without slip: with the angular momentum
@@ -425,6 +476,7 @@ static enum by_sets compare_with_sets(struct scene *scene, const struct points_b
                               .P = P};
     if (!impacts_by_sets(points, after, impulses)) return unknown_by_sets;
     if (impacts_solve(&impacts) != impacts_done || impacts.in_turn) return refused_by_sets;
+    if (impacts.several) return other_by_sets; /* there are no others */
     for (int i = 0; i < n; i++) size = fmax(size, fabs(after[i]));
     for (int i = 0; i < n; i++) same &= fabs(v[i] - after[i]) <= near * size;
     for (int i = 0; i < n && !same; i++)
@@ -476,6 +528,8 @@ int main(void)
         cmocka_unit_test(a_cue_ball_comes_back),
         cmocka_unit_test(a_jammed_row_comes_to_rest),
         cmocka_unit_test(a_narrow_wedge_throws_a_ball_back),
+        cmocka_unit_test(velocities_that_impulses_leave_open_are_told),
+        cmocka_unit_test(what_is_gripped_may_slide_on_or_not),
         cmocka_unit_test(a_rocking_block_changes_corners),
         cmocka_unit_test(a_stack_of_boxes_rocks),
         cmocka_unit_test(random_impacts_keep_momentum_and_make_no_energy),

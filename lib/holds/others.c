@@ -1,0 +1,125 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * Other forces beside those that have been found. Where the modes leave forces open, M f = right has null vectors z, and f +
+ * t z are forces of the same modes as far as they stay within the limits: of a surface f >= 0, of friction that keeps
+ * |f| <= mu P, and while what gives goes on its way. All of that is a + t b >= 0.
+ */
+#include "holds/others.h"
+
+#include <float.h>
+#include <math.h>
+#include <stdlib.h>
+
+#include "holds/trial.h"
+#include "numeric/svd.h"
+
+/* How far t may go by a + t b >= 0, where a counts as zero up to `zero`. */
+static double within(double limit, double a, double b, double zero, double least)
+{
+    if (!(b < -least)) return limit;
+    return fmin(limit, a <= zero ? 0 : a / -b);
+}
+
+static double answer_to(const struct hold_problem *problem, size_t i, const double *z)
+{
+    double c = 0;
+    for (size_t j = 0; j < problem->count; j++) c += problem->A[i * problem->count + j] * z[j];
+    return c;
+}
+
+/* The largest t with which hold i is as its mode says. */
+static double furthest_of(const struct hold_problem *problem, size_t i, const double *z, double size)
+{
+    const double rounding = 1e-9;
+    const struct hold *hold = &problem->holds[i];
+    double t = HUGE_VAL, most = 0;
+    for (size_t j = 0; j < problem->count; j++) most = fmax(most, fabs(z[j]));
+    const double zero = rounding * size, least = rounding * most;
+    if (hold->mode != hold_keeps) {
+        double weight = holds_weight(problem, i), way = hold->mode * weight;
+        double none = rounding * problem->beside_c;
+        if (holds_is_on_open(problem, hold) || weight == 0) return t;
+        return within(t, way * hold->c, way * answer_to(problem, i, z), none, least / weight);
+    }
+    if (hold->kind == hold_one_sided) return within(t, hold->force, z[i], zero, least);
+    if (hold->press != press_hold || holds_is_on_open(problem, hold)) return 0;
+    double P = problem->holds[hold->presses].force, by = z[hold->presses];
+    t = within(t, hold->mu_s * P - hold->force, hold->mu_s * by - z[i], zero, least);
+    return within(t, hold->mu_s * P + hold->force, hold->mu_s * by + z[i], zero, least);
+}
+
+/* Half of the way along z, or as far as the forces there are, into `step`; false where it has next to no length. */
+static bool set_step(const struct hold_problem *problem, const double *z, double *step)
+{
+    const double short_of = 1e-6;
+    double t = HUGE_VAL, size = 0, most = 0;
+    for (size_t i = 0; i < problem->count; i++) {
+        size = fmax(size, fabs(problem->holds[i].force));
+        most = fmax(most, fabs(z[i]));
+    }
+    for (size_t i = 0; i < problem->count; i++) t = fmin(t, furthest_of(problem, i, z, size));
+    t = fmin(t / 2, size / most);
+    for (size_t i = 0; i < problem->count; i++) step[i] = t * z[i];
+    return t * most > short_of * size;
+}
+
+/* Friction without a coefficient has no force, whatever its mode. */
+static bool has_none(const struct hold *hold)
+{
+    return hold->kind == hold_friction && hold->press == press_hold && hold->mu_s == 0;
+}
+
+static double scale_of(const struct hold_problem *problem, size_t i)
+{
+    double weight = holds_weight(problem, i);
+    return weight > 0 ? weight : 1; /* as share.c has it: f = weight g */
+}
+
+static bool find_open(struct trial *trial, struct svd *svd)
+{
+    const struct hold_problem *problem = trial->problem;
+    size_t n = problem->count;
+    trial_set_system(trial, 0);
+    for (size_t i = 0; i < n; i++) {
+        double *row = trial->A + i * n;
+        for (size_t j = 0; j < n; j++) row[j] *= scale_of(problem, j);
+        if (!has_none(&problem->holds[i])) continue;
+        for (size_t j = 0; j < n; j++) row[j] = i == j;
+    }
+    return svd_decompose(svd, n, n, trial->A);
+}
+
+/* The part of a force at hold i alone that is open: its projection. False where there is none. */
+static bool project(const struct hold_problem *problem, const struct svd *svd, size_t i, double *z)
+{
+    const double rounding = 1e-9;
+    size_t n = problem->count;
+    double most = 0;
+    for (size_t j = 0; j < n; j++) {
+        double sum = 0;
+        for (size_t k = 0; k < n - svd->rank; k++) sum += svd_null(svd, i, k) * svd_null(svd, j, k);
+        z[j] = scale_of(problem, j) * sum;
+        most = fmax(most, fabs(sum));
+    }
+    return most > rounding;
+}
+
+int holds_other_forces(struct hold_problem *problem, double *steps)
+{
+    size_t n = problem->count;
+    struct trial trial;
+    struct svd svd = {0};
+    int found = 0;
+    bool made = trial_new(&trial, problem) && find_open(&trial, &svd);
+    for (size_t i = 0; made && svd.rank < n && i < n; i++) {
+        if (problem->holds[i].kind != hold_one_sided || problem->holds[i].mode != hold_keeps) continue;
+        bool open = project(problem, &svd, i, trial.f);
+        for (int side = -1; open && side <= 1; side += 2) {
+            for (size_t j = 0; j < n; j++) trial.f[j] *= -1;
+            if (set_step(problem, trial.f, steps + (size_t)found * n)) found++;
+        }
+    }
+    svd_free(&svd);
+    trial_free(&trial);
+    return made ? found : -1;
+}
