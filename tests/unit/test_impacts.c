@@ -15,80 +15,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "holds/impacts.h"
 #include "impacts_by_sets.h"
 #include "random_numbers.h"
+#include "struck.h"
 
 static const double pi = 3.14159265358979323846;
-
-enum { most_bodies = 6, most_points = 2 * most_bodies, most_unknowns = 2 * most_points };
-
-static void check(double actual, double expected, double tolerance)
-{
-    if (fabs(actual - expected) <= tolerance) return;
-    fail_msg("%.15g, expected %.15g, off by %.3g of %.3g", actual, expected, fabs(actual - expected),
-             tolerance);
-}
-
-/* Bodies of mass and inertia 1/w, and the rows of points as velocities of them. */
-struct scene {
-    int coordinates, points;
-    double w[3 * most_bodies], J[most_unknowns][3 * most_bodies], W[most_unknowns * most_unknowns];
-    double v[3 * most_bodies]; /* of the coordinates */
-    struct impacts_point laws[most_points];
-};
-
-static void set_answers(struct scene *scene)
-{
-    int n = 2 * scene->points;
-    for (int i = 0; i < n; i++)
-        for (int j = 0; j < n; j++) {
-            scene->W[i * n + j] = 0;
-            for (int k = 0; k < scene->coordinates; k++)
-                scene->W[i * n + j] += scene->J[i][k] * scene->w[k] * scene->J[j][k];
-        }
-}
-
-static double energy_of(const struct scene *scene)
-{
-    double sum = 0;
-    for (int k = 0; k < scene->coordinates; k++) sum += scene->v[k] * scene->v[k] / scene->w[k] / 2;
-    return sum;
-}
-
-static double speed_along(const struct scene *scene, int row)
-{
-    double v = 0;
-    for (int k = 0; k < scene->coordinates; k++) v += scene->J[row][k] * scene->v[k];
-    return v;
-}
-
-static long in_turn;
-static bool several;
-
-/* Solve, and give the coordinates their velocities. Laws of velocities, and impacts that are asked for one after the
- * other, are never taken in turn instead. */
-static enum impacts_end strike(struct scene *scene, enum impact_law law, bool one_after_the_other, double *v,
-                               double *P, double *work)
-{
-    set_answers(scene);
-    for (int i = 0; i < 2 * scene->points; i++) v[i] = speed_along(scene, i);
-    for (int i = 0; i < scene->points; i++) scene->laws[i].law = law;
-    struct impacts impacts = {.count = scene->points,
-                              .propagate = one_after_the_other,
-                              .points = scene->laws,
-                              .W = scene->W,
-                              .v = v,
-                              .P = P};
-    enum impacts_end end = impacts_solve(&impacts);
-    for (int k = 0; k < scene->coordinates; k++)
-        for (int i = 0; i < 2 * scene->points; i++) scene->v[k] += scene->w[k] * scene->J[i][k] * P[i];
-    *work = impacts.work;
-    in_turn += impacts.in_turn;
-    several = impacts.several;
-    assert_false(impacts.in_turn && (one_after_the_other || impact_by_velocity(law)));
-    return end;
-}
 
 static void three_balls_in_a_row(void **state)
 {
@@ -101,8 +32,8 @@ static void three_balls_in_a_row(void **state)
         scene.J[0][1] = scene.J[2][2] = 1;
         scene.laws[0].e = scene.laws[1].e = 1;
         assert_int_equal(strike(&scene, impact_stronge, sequence == 1, v, P, &work), impacts_done);
-        for (int k = 0; k < 3; k++) check(scene.v[k], after[sequence][k], 1e-15);
-        check(work, 0, 1e-15);
+        for (int k = 0; k < 3; k++) struck_check(scene.v[k], after[sequence][k], 1e-15);
+        struck_check(work, 0, 1e-15);
     }
 }
 
@@ -117,9 +48,9 @@ static void a_cue_ball_comes_back(void **state)
     for (int i = 0; i < 2; i++) memcpy(scene.J[2 * i], J[i], sizeof J[i]);
     scene.laws[0].e = scene.laws[1].e = 1;
     assert_int_equal(strike(&scene, impact_stronge, false, v, P, &work), impacts_done);
-    check(scene.v[0], -0.76, 1e-14);
-    check(hypot(scene.v[2], scene.v[3]), 2 * 3.8 * c / 2.5, 1e-14);
-    check(scene.v[3] / scene.v[2], tan(pi / 6), 1e-14);
+    struck_check(scene.v[0], -0.76, 1e-14);
+    struck_check(hypot(scene.v[2], scene.v[3]), 2 * 3.8 * c / 2.5, 1e-14);
+    struck_check(scene.v[3] / scene.v[2], tan(pi / 6), 1e-14);
 }
 
 /* Bodies side by side that fill the room between two walls, and all move to one of them: nothing can give way, whatever is
@@ -136,9 +67,9 @@ static void a_jammed_row_comes_to_rest(void **state)
             scene.laws[i].e = 0.3 + 0.2 * i;
         }
         assert_int_equal(strike(&scene, (enum impact_law)law, false, v, P, &work), impacts_done);
-        check((double)in_turn, 0, 0);
-        check(work, -(2 + 1 + 1.0 / 3) / 2, 1e-12);
-        for (int k = 0; k < 3; k++) check(scene.v[k], 0, 1e-12);
+        struck_check((double)struck_in_turn, 0, 0);
+        struck_check(work, -(2 + 1 + 1.0 / 3) / 2, 1e-12);
+        for (int k = 0; k < 3; k++) struck_check(scene.v[k], 0, 1e-12);
         for (int i = 0; i < 4; i++) assert_true(P[2 * i] >= 0 && P[2 * i] < 20);
     }
 }
@@ -157,10 +88,10 @@ static void a_narrow_wedge_throws_a_ball_back(void **state)
             for (int k = 0; k < 4; k++) memcpy(scene.J[k], J[k], sizeof J[k]);
             scene.laws[0].e = scene.laws[1].e = e;
             assert_int_equal(strike(&scene, (enum impact_law)law, false, v, P, &work), impacts_done);
-            check((double)in_turn, 0, 0);
-            check(scene.v[0], 0, 1e-9);
-            check(scene.v[1], e, 1e-9);
-            check(work, (e * e - 1) / 2, 1e-9);
+            struck_check((double)struck_in_turn, 0, 0);
+            struck_check(scene.v[0], 0, 1e-9);
+            struck_check(scene.v[1], e, 1e-9);
+            struck_check(work, (e * e - 1) / 2, 1e-9);
         }
 }
 
@@ -187,9 +118,9 @@ static void velocities_that_impulses_leave_open_are_told(void **state)
         scene.laws[0].e = scene.laws[1].e = cases[i].e;
         scene.laws[2].e = cases[i].e_floor;
         assert_int_equal(strike(&scene, cases[i].law, false, v, P, &work), impacts_done);
-        if (several != cases[i].several) fail_msg("case %zu: %d", i, several);
-        if (!several) check(scene.v[1], cases[i].v, 1e-12);
-        if (several) assert_true(scene.v[1] >= 0 && scene.v[1] <= 0.5);
+        if (struck_several != cases[i].several) fail_msg("case %zu: %d", i, struck_several);
+        if (!struck_several) struck_check(scene.v[1], cases[i].v, 1e-12);
+        if (struck_several) assert_true(scene.v[1] >= 0 && scene.v[1] <= 0.5);
     }
 }
 
@@ -207,9 +138,9 @@ static void what_is_gripped_may_slide_on_or_not(void **state)
         for (int k = 0; k < 4; k++) memcpy(scene.J[k], J[k], sizeof J[k]);
         scene.laws[0].mu = scene.laws[1].mu = mu[i];
         assert_int_equal(strike(&scene, impact_stronge, false, v, P, &work), impacts_done);
-        assert_int_equal(several, i == 0);
+        assert_int_equal(struck_several, i == 0);
         if (i == 0) assert_true(scene.v[0] >= 0 && scene.v[0] <= 1 - mu[i] + 1e-12);
-        if (i > 0) check(scene.v[0], i == 1 ? 1 : 0, 1e-12);
+        if (i > 0) struck_check(scene.v[0], i == 1 ? 1 : 0, 1e-12);
     }
 }
 
@@ -230,9 +161,9 @@ static void a_rocking_block_changes_corners(void **state)
         for (int k = 0; k < 4; k++) memcpy(scene.J[k], J[k], sizeof J[k]);
         scene.laws[0].mu = scene.laws[1].mu = 100;
         assert_int_equal(strike(&scene, impact_stronge, false, v, P, &work), impacts_done);
-        check(scene.v[2], -ratio[i], 1e-12); /* the table has twelve digits */
+        struck_check(scene.v[2], -ratio[i], 1e-12); /* the table has twelve digits */
         assert_true(v[0] > 0);
-        check(v[2], 0, 0);
+        struck_check(v[2], 0, 0);
     }
 }
 
@@ -317,7 +248,7 @@ static void a_stack_of_boxes_rocks(void **state)
         }
         double x = scene.J[2][2], rate = -(4 - 0.5 * x) / (4 + x * x); /* about the other corner */
         assert_int_equal(strike(&scene, impact_stronge, false, v, P, &work), impacts_done);
-        for (int k = 2; k < scene.coordinates; k += 3) check(scene.v[k], rate, 1e-9);
+        for (int k = 2; k < scene.coordinates; k += 3) struck_check(scene.v[k], rate, 1e-9);
     }
 }
 
@@ -359,7 +290,7 @@ static void check_law_of_newton(const struct scene *scene, const double *before,
     for (int i = 0; i < scene->points; i++) {
         double approach = fmax(0, -before[2 * i]), beyond = v[2 * i] - scene->laws[i].e * approach;
         assert_true(beyond >= -may_miss(scene, before, P, 2 * i));
-        if (approach > 0) check(P[2 * i] * beyond, 0, rounding * size * (1 + P[2 * i]));
+        if (approach > 0) struck_check(P[2 * i] * beyond, 0, rounding * size * (1 + P[2 * i]));
     }
 }
 
@@ -367,8 +298,8 @@ static void check_scene(struct scene *scene, enum impact_law law, bool sequence,
 {
     /* What holds is told within 1e-9 of the forces (holds.c). */
     const double rounding = 1e-10, limit = 1e-9, held = 1e-8;
-    double v[most_unknowns], P[most_unknowns], first[most_unknowns], work, before = energy_of(scene);
-    for (int i = 0; i < 2 * scene->points; i++) first[i] = speed_along(scene, i);
+    double v[most_unknowns], P[most_unknowns], first[most_unknowns], work, before = struck_energy(scene);
+    for (int i = 0; i < 2 * scene->points; i++) first[i] = struck_speed(scene, i);
     enum impacts_end end = strike(scene, law, sequence, v, P, &work);
     census->done += end == impacts_done;
     census->endless += end == impacts_endless;
@@ -377,15 +308,16 @@ static void check_scene(struct scene *scene, enum impact_law law, bool sequence,
     if (end != impacts_done) return;
     double size = before;
     for (int i = 0; i < 2 * scene->points; i++) size += fabs(P[i]);
-    check(energy_of(scene) - before, work, rounding * size);
+    struck_check(struck_energy(scene) - before, work, rounding * size);
     census->made += work > rounding * size;
     if (!impact_by_velocity(law)) assert_true(work <= rounding * size);
     if (impact_by_velocity(law) && !sequence) check_law_of_newton(scene, first, v, P, size);
     for (int i = 0; i < scene->points; i++) {
-        double v_n = speed_along(scene, 2 * i), v_t = speed_along(scene, 2 * i + 1);
+        double v_n = struck_speed(scene, 2 * i), v_t = struck_speed(scene, 2 * i + 1);
         /* What holds is 0 to the digit; where points are redundant, impulses that do so leave a rounding. */
-        check(v_n, v[2 * i], v[2 * i] == 0 ? held * size : may_miss(scene, first, P, 2 * i));
-        check(v_t, v[2 * i + 1], v[2 * i + 1] == 0 ? held * size : may_miss(scene, first, P, 2 * i + 1));
+        struck_check(v_n, v[2 * i], v[2 * i] == 0 ? held * size : may_miss(scene, first, P, 2 * i));
+        struck_check(v_t, v[2 * i + 1],
+                     v[2 * i + 1] == 0 ? held * size : may_miss(scene, first, P, 2 * i + 1));
         assert_true(v_n >= -held * size && P[2 * i] >= -rounding * size);
         assert_true(fabs(P[2 * i + 1]) <= scene->laws[i].mu * P[2 * i] + limit * size);
     }
@@ -426,10 +358,11 @@ static void nearly_redundant_points_do_so_or_are_told(void **state)
     struct random_numbers numbers = {seed_of(20261124)};
     long count = count_of(6000) / 2;
     (void)state;
-    long before = in_turn;
+    long before = struck_in_turn;
     struct census census = try_scenes(&numbers, count, true);
-    print_message("# %ld of them one point after the other instead of all together\n", in_turn - before);
-    assert_true(in_turn > before); /* what is told is met here */
+    print_message("# %ld of them one point after the other instead of all together\n",
+                  struck_in_turn - before);
+    assert_true(struck_in_turn > before); /* what is told is met here */
     assert_true(census.done >= count / 10 * 7);
 }
 
@@ -448,7 +381,7 @@ static struct points_by_sets draw_points(struct random_numbers *numbers, struct 
         points.mu[i] = scene->laws[i].mu;
         points.e[i] = scene->laws[i].e;
     }
-    set_answers(scene);
+    struck_set_answers(scene);
     for (int i = 0; i < n; i++)
         for (int j = 0; j < n; j++) points.W[i][j] = scene->W[i * n + j];
     return points;
@@ -465,7 +398,7 @@ static enum by_sets compare_with_sets(struct scene *scene, const struct points_b
     bool same = true;
     const int n = 2 * points->count;
     for (int i = 0; i < n; i++) {
-        after[i] = before[i] = v[i] = speed_along(scene, i);
+        after[i] = before[i] = v[i] = struck_speed(scene, i);
         size = fmax(size, fabs(v[i]));
     }
     struct impacts impacts = {.count = points->count,
