@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <math.h>
+#include <stdint.h>
 
 #include "expr/program.h"
 
@@ -35,11 +36,25 @@ static double step(double x)
     return x >= 0 ? 1 : x < 0 ? 0 : x;
 }
 
-/* The remainder with the sign of y. fmod is exact; only the turn to the sign of y may round (then up to y
- * itself). */
+/* fmod(x, y), exact as that is. The C library's takes a step for each bit of the quotient, microseconds for mod(x, 1e-300): here
+ * eleven bits a step, of integers of 53 bits each. */
+static double remainder_of(double x, double y)
+{
+    enum { digits = 53, spare = 11 };
+    int of_x, of_y;
+    if (!(fabs(x) >= ldexp(fabs(y), spare)) || !isfinite(x) || y == 0) return fmod(x, y);
+    uint64_t rest = (uint64_t)ldexp(frexp(fabs(x), &of_x), digits);
+    const uint64_t by = (uint64_t)ldexp(frexp(fabs(y), &of_y), digits);
+    rest %= by;
+    for (int left = of_x - of_y; left > 0 && rest > 0; left -= spare)
+        rest = (rest << (left < spare ? left : spare)) % by;
+    return copysign(ldexp((double)rest, of_y - digits), x);
+}
+
+/* The remainder with the sign of y. It is exact; only the turn to the sign of y may round (then up to y itself). */
 static double modulo(double x, double y)
 {
-    double rest = fmod(x, y);
+    double rest = remainder_of(x, y);
     return rest != 0 && (rest < 0) != (y < 0) ? rest + y : rest;
 }
 
