@@ -54,7 +54,8 @@ static bool is_row(const struct tree *tree, int k)
 static bool contact_takes_part(const struct tie *tie, const struct instant *at, int k)
 {
     if (at->slip[tie->surface] != stick) return false;
-    return k == tie->first_row || (tie->pair >= 0 && at->slip[tie->pair] == stick);
+    return k == tie->first_row ||
+           (tie->pair >= 0 && at->slip[tie->pair] == stick && !at->tree->settling_down);
 }
 
 /* Does unknown k take part in the present modes? */

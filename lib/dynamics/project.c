@@ -243,7 +243,9 @@ static bool has_redundant_row(const struct fbd_state *state)
 }
 
 /* g = J q' + q'.H q' / 2 along q' = a T: with J a = 0, and J of less than full rank, there may be no q'' with
- * J q'' = -q'.H q'. What is missed is compared with the curvature of the motion, speed^2 / arm. */
+ * J q'' = -q'.H q'. What is missed is compared with the curvature of the motion, speed^2 / arm. What touches opens or slips
+ * then: a box that tips beside another has the push of that one and the friction under its corner along one line, and
+ * leaves it. */
 int state_locked_row(const struct fbd_state *state, struct fbd_state *other)
 {
     const double T = 1e3, rounding = 1e-6;
@@ -261,7 +263,8 @@ int state_locked_row(const struct fbd_state *state, struct fbd_state *other)
     double speed = speed_of(&place), most = rounding * speed * speed / arm;
     for (int j = 0; j < tree->row_count; j++) {
         double miss = fabs(other->tree->rows[j].g.x2);
-        if (!tree_takes_part(tree, &at, j) || miss <= most) continue;
+        bool touches = tree->ties[tree->tie_of_row[j]].meeting >= 0;
+        if (touches || !tree_takes_part(tree, &at, j) || miss <= most) continue;
         most = miss;
         worst = j;
     }
@@ -280,29 +283,61 @@ bool state_is_fixed(struct fbd_state *state)
     return independent == plan->n;
 }
 
+static void project_velocity(const struct place *place)
+{
+    /* Linear: the second step mends the rounding of the first. */
+    for (int pass = 0; pass < 2; pass++) {
+        prepare(place);
+        if (misfit_of(place).velocity == 0) break;
+        factor(place, least_damping);
+        move(place, true, 1);
+    }
+    prepare(place);
+}
+
+/* So many times what it is off by is too far to bring a state back: its rows nearly contradict each other. */
+static const double far = 1e4;
+
+/* The largest change of a coordinate, or a rate, of what turns at an arm. */
+static double change_since(const struct place *place, const double *y, const double *before, double arm)
+{
+    const struct scene *scene = place->model->scene;
+    double most = 0;
+    for (int i = 0; i < place->model->plan.n; i++)
+        most = fmax(most, (scene->coordinates[i].angle ? arm : 1) * fabs(y[i] - before[i]));
+    return most;
+}
+
+/* What touches and sticks on both sides of what it is jammed in has rows that nearly contradict each other: velocities that
+ * satisfy them all may be far from those that miss them by next to nothing. Then it slips by that. */
 bool state_project_velocity(struct fbd_state *state, bool assemble)
 {
     if (!has_ties(state->model)) return true;
     struct place place = place_of(state, assemble);
+    size_t n = (size_t)state->model->plan.n, bytes = n * sizeof *state->y;
+    double *before = state_scratch(state).dy;
     prepare(&place);
-    double speed = speed_of(&place);
-    /* Linear: the second step mends the rounding of the first. */
-    for (int pass = 0; pass < 2; pass++) {
+    double speed = speed_of(&place), off = misfit_of(&place).velocity;
+    memcpy(before, state->y + n, bytes);
+    project_velocity(&place);
+    if (change_since(&place, state->y + n, before, arm_length(&place)) >
+        far * fmax(off, DBL_EPSILON * speed)) {
+        memcpy(state->y + n, before, bytes);
+        place.at.tree->settling_down = true;
+        project_velocity(&place);
+        place.at.tree->settling_down = false;
         prepare(&place);
-        if (misfit_of(&place).velocity == 0) break;
-        factor(&place, least_damping);
-        move(&place, true, 1);
     }
-    prepare(&place);
     bool there = misfit_of(&place).velocity <= 1e-9 * fmax(speed, speed_of(&place));
     release(&place);
     return there;
 }
 
-static bool project_position(struct fbd_state *state, const struct place *place)
+/* `before`: room for n. */
+static bool bring_home(struct fbd_state *state, const struct place *place, double *before)
 {
     size_t bytes = (size_t)state->model->plan.n * sizeof *state->y;
-    double *before = state->scratch, share = 1;
+    double share = 1;
     prepare(place);
     slots_follow(place->model, place->at.tree); /* from afar: searched once, and not in every evaluation */
     struct misfit misfit = misfit_of(place);
@@ -326,18 +361,36 @@ static bool project_position(struct fbd_state *state, const struct place *place)
     return misfit.position <= 1e3 * rounding(place);
 }
 
+/* Friction that sticks has no place of its own: with it a body that stands by 1e-11 m in its neighbour would have to turn by
+ * the root of that to get out. */
+static bool settle_down(struct fbd_state *state, const struct place *place, double *before)
+{
+    place->at.tree->settling_down = true;
+    bool there = bring_home(state, place, before);
+    place->at.tree->settling_down = false;
+    return there;
+}
+
 bool state_project_position(struct fbd_state *state)
 {
     if (!has_ties(state->model)) return true;
     struct place place = place_of(state, false);
-    return project_position(state, &place);
+    size_t n = (size_t)state->model->plan.n, bytes = n * sizeof *state->y;
+    double *before = state_scratch(state).dy, *start = before + n;
+    memcpy(start, state->y, bytes);
+    look(&place);
+    double off = fmax(misfit_of(&place).position, rounding(&place));
+    bool there = bring_home(state, &place, before);
+    if (change_since(&place, state->y, start, arm_length(&place)) <= far * off) return there;
+    memcpy(state->y, start, bytes);
+    return settle_down(state, &place, before);
 }
 
 bool state_project(struct fbd_state *state, bool assemble)
 {
     if (!has_ties(state->model)) return true;
     struct place place = place_of(state, assemble);
-    bool there = project_position(state, &place);
+    bool there = settle_down(state, &place, state_scratch(state).dy);
     return state_project_velocity(state, assemble) && there;
 }
 

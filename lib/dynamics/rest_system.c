@@ -329,10 +329,11 @@ static bool keep_base(struct rest_system *system, const double *slots)
     return true;
 }
 
-/* As the scene moves what is open to rounding alone: along the others the accelerations would change. */
+/* As the scene moves what is open to rounding alone, which has the gaps of what is closed in it: along the others the
+ * accelerations would change. */
 static double dependent_in_motion(const struct rest_system *system)
 {
-    const double rounding = 1e-13;
+    const double rounding = 1e-11;
     const struct tree *tree = system->state->model->tree;
     double away = 0;
     for (int i = 1; i < tree->count; i++) away = fmax(away, vec_norm(system->at.tree->links[i].p));

@@ -97,6 +97,7 @@ struct tree_work {
     double damping;      /* of a projection: slopes whose square is less than this share are left alone */
     double accuracy;     /* relative, of the coordinates that are projected */
     bool projecting;     /* the system is set up for a projection: no friction */
+    bool settling_down;  /* contacts are brought to their places: their gaps alone count, not what sticks */
     bool is_loop;        /* the scene is the loop of three links that follows, see tree_loop.h */
     struct tree_loop loop;
     bool placed;        /* the places of the unknowns are known, for good: there are no modes */

@@ -351,6 +351,22 @@ static enum agreement look_at_solved(struct fbd_state *state, const struct decid
     return found;
 }
 
+/* Modes agree, and no share of the forces is within the limits: where what slips presses on what is redundant, forces that
+ * leave all holds at rest do not leave accelerations as they are, and what was solved has one of many. That one has nothing
+ * at what holds barely: without it there is no other. */
+static bool open_what_barely_holds(struct fbd_state *state, int *forced)
+{
+    const int *barely = state->slip_barely;
+    bool any = false;
+    for (int pair = 0; pair < (int)state->model->plan.mode_count; pair++) {
+        if (barely[pair] == 0 || barely[pair] == keeps_still || !mode_is_one_sided(mode_of(state, pair)))
+            continue;
+        forced[pair] = state->slip[pair] = barely[pair];
+        any = true;
+    }
+    return any;
+}
+
 /* Solve, and let rates decide what is at its limit, one after the other. False where the forces do not agree
  * with what was solved. */
 static bool decide(struct fbd_state *state, const struct decided *decided, int *forced)
@@ -371,6 +387,8 @@ static bool decide(struct fbd_state *state, const struct decided *decided, int *
             forced[pair] = state->slip[pair] = barely[pair];
             more = true;
         }
+        if (!more && found == differs && state->holds.contradicts < 0)
+            more = open_what_barely_holds(state, forced);
         if (!more) return false;
     }
     return false;
