@@ -366,11 +366,13 @@ void contacts_apply_impulses(struct run *run, int count)
 
 static void fail_impact(struct run *run, enum impacts_end end, enum impact_law law)
 {
+    static const char lost[] =
+        "press against each other so nearly along one line that rounding takes what their "
+        "impulses do: turn one of the surfaces, or move one of the points";
     static const char *const what[] = {
         [impacts_endless] = "go on among each other without end: try `simulate: {impacts: simultaneous}`",
         [impacts_unsolvable] = "have no solution by their law: with `law: stronge` they may have one",
-        [impacts_lost] = "press against each other so nearly along one line that rounding takes what their "
-                         "impulses do: turn one of the surfaces, or move one of the points",
+        [impacts_lost] = lost,
     };
     if (end == impacts_no_memory)
         run_fail(run, FBD_OUT_OF_MEMORY, "out of memory");

@@ -173,7 +173,7 @@ struct act_values act_step_to(struct act_scene *scene, int steps)
     const struct moreau_system system = {n + 1 + scene->states, scene, forces, solve, rows, NULL};
     double q[moreau_most] = {0}, v[moreau_most] = {0};
     struct act_values values = {0};
-    char name[16];
+    char name[24];
     for (int i = 0; i < n; i++) {
         q[i] = scene->body[i].x, v[i] = scene->body[i].v;
         for (int k = 0; k < scene->body[i].acts; k++) scene->body[i].act[k].side = -1;
