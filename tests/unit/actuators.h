@@ -86,7 +86,7 @@ void act_write(const struct act_scene *scene, struct written *text);
 
 struct act_values {
     int count;
-    char name[14][16];
+    char name[14][24];
     double value[14], scale[14];
 };
 
