@@ -93,7 +93,7 @@ void deck_twist(const struct deck_scene *scene, int i, const double *p, double *
 enum { deck_most_named = 30 };
 struct deck_named {
     int count;
-    char name[deck_most_named][16];
+    char name[deck_most_named][24];
     double value[deck_most_named];
     bool rate[deck_most_named];
 };
