@@ -65,11 +65,11 @@ static void weigh(struct deck_body *body)
 
 void deck_twist(const struct deck_scene *scene, int i, const double *p, double *twist)
 {
-    const struct deck_body *body = &scene->body[i];
     if (i < 0) {
         twist[0] = twist[1] = twist[2] = 0;
         return;
     }
+    const struct deck_body *body = &scene->body[i];
     if (body->motion == deck_planar) {
         twist[0] = body->speed[0] - body->speed[2] * (p[1] - body->start[1]);
         twist[1] = body->speed[1] + body->speed[2] * (p[0] - body->start[0]);
