@@ -57,8 +57,8 @@ static void point_at(const double *frame, const double *point, double *p)
 static void add_along(const struct deck_scene *scene, int i, const double *q, const double *p,
                       const double *n, double sign, double *w)
 {
-    const struct deck_body *body = &scene->body[i];
     if (i < 0) return;
+    const struct deck_body *body = &scene->body[i];
     w += first_of(i);
     if (!is_reduced(body)) {
         const double *G = q + first_of(i);
