@@ -17,6 +17,7 @@
 struct decided {
     bool *branches;
     bool *slips, *pulls;
+    bool later; /* it is a moment later than what is asked about, see tree_settle_holds */
 };
 
 /* Settle all modes at the state; `decided` may be NULL. Relative velocities of pairs that stick are set to

@@ -296,7 +296,7 @@ static void project_velocity(const struct place *place)
 }
 
 /* So many times what it is off by is too far to bring a state back: its rows nearly contradict each other. */
-static const double far = 1e4;
+static const double far = 1e2;
 
 /* The largest change of a coordinate, or a rate, of what turns at an arm. */
 static double change_since(const struct place *place, const double *y, const double *before, double arm)

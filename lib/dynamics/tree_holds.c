@@ -11,6 +11,8 @@
  * there is a share within all limits or not (rest_system.h); just beyond, all those that are at theirs give.
  */
 #include <float.h>
+#include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "dynamics/constraint.h"
@@ -442,6 +444,61 @@ static bool answers_wrongly(const struct fbd_state *state)
     return false;
 }
 
+/* ---- to the second order */
+
+/* At rest, and about to turn: a moment later, T, at which what its motion makes of the rows is 1e-4 of the accelerations; 0
+ * where nothing of this counts. */
+static double moment_later(const struct fbd_state *state)
+{
+    const double share = 1e-2;
+    const struct instant at = state_instant(state);
+    double turning = 0;
+    if (state->model->tree->meeting_count == 0 || !tree_rests(state) || !rest_is_open(state->model, &at))
+        return 0;
+    for (int i = 1; i < state->model->tree->count; i++)
+        turning = fmax(turning, fabs(state->tree->links[i].A.alpha));
+    return turning > 0 ? share / sqrt(turning) : 0;
+}
+
+/* What touches, and the friction there, in the modes of a moment later, where these are others. */
+static bool take_later_modes(struct fbd_state *state, const struct fbd_state *later,
+                             const struct decided *decided, int *forced)
+{
+    bool any = false;
+    for (int pair = 0; pair < (int)state->model->plan.mode_count; pair++) {
+        const struct mode *hold = mode_of(state, pair);
+        if (!is_on_contact(state, hold) || !hold_in_question(state, decided, forced, pair)) continue;
+        if (state->slip[pair] != stick || later->slip[pair] == stick || forced[pair] != 0) continue;
+        forced[pair] = state->slip[pair] = later->slip[pair];
+        any = true;
+    }
+    return any;
+}
+
+/* Rows that are redundant let a body turn all the same, and are so no more when it has: then what presses opens, and what sticks
+ * slips, by as little as that is. */
+static bool look_later(struct fbd_state *state, const struct decided *decided, int *forced)
+{
+    const size_t n = (size_t)state->model->plan.n, count = state->model->plan.mode_count;
+    const double T = moment_later(state);
+    if (T == 0) return true;
+    struct fbd_state *later = state_new(state->model);
+    bool *none = calloc(2 * count + (size_t)state->model->plan.branches + 1, sizeof *none);
+    bool agreed = true;
+    if (later && none) {
+        const struct decided nothing = {none + 2 * count, none, none + count, true};
+        state_copy(later, state);
+        for (size_t i = 0; i < n; i++) later->y[n + i] = T * state->a[i];
+        if (modes_settle(later, &nothing) && take_later_modes(state, later, decided, forced))
+            agreed = look(state, decided, forced, true) == agrees;
+    } else {
+        state->holds.found = holds_no_memory;
+    }
+    free(none);
+    state_free(later);
+    return agreed;
+}
+
 bool tree_settle_holds(struct fbd_state *state, const struct decided *decided)
 {
     int *before = state->slip_before;
@@ -458,6 +515,7 @@ bool tree_settle_holds(struct fbd_state *state, const struct decided *decided)
     bool agreed = !holds_what_is_driven(state, decided, forced) &&
                   look(state, decided, forced, false) == agrees && !answers_wrongly(state);
     agreed = agreed || decide(state, decided, forced);
+    agreed = agreed && ((decided && decided->later) || look_later(state, decided, forced));
     turn_idle(state, decided);
     return agreed && memcmp(before, state->slip, bytes) == 0;
 }

@@ -4,7 +4,7 @@
  * the shelf or without one. They slide, tip, lean on each other and stand, and many of their contacts are redundant:
  * all corners on the floor are on one line, and so are the faces that touch. With smooth sides against a time stepping
  * that knows no events (moreau.h); with rough ones a box may jam in itself, between the friction under a corner and the push
- * of its neighbour at the next one, or not: there all that is asked for is that the run comes to its end. FBD_SHELF=1000 tries so many, FBD_SHELF_SEED=17 begins there, FBD_SHELF_SHOW=1 prints the models.
+ * of its neighbour at the next one, or not: there all that is asked for is that the run comes to its end. FBD_SHELF=1000 tries so many, FBD_SHELF_SEED=17 begins there, FBD_SHELF_SHOW=1 prints the models, FBD_SHELF_UNTIL is when to look.
  */
 #include <setjmp.h>
 #include <stdarg.h>
@@ -107,6 +107,7 @@ static void draw_shelf(uint64_t seed, struct shelf *shelf)
     shelf->mu_sides = random_chance(&numbers, 0.5) ? shelf->mu : 0;
     shelf->e = random_perhaps(&numbers, 0.3, 0, 0.6);
     shelf->until = random_between(&numbers, 0.01, 0.15);
+    if (getenv("FBD_SHELF_UNTIL")) shelf->until = strtod(getenv("FBD_SHELF_UNTIL"), NULL);
     for (int i = 0; i < shelf->count; i++) draw_box(&numbers, shelf, &shelf->box[i], &left);
     add(&shelf->text, "fbd: 1\nground: {lines: {floor: {along: %.17g}, end: {along: %.17g}}}\nbodies:\n",
         shelf->slope, shelf->slope - pi / 2);
