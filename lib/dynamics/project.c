@@ -320,8 +320,9 @@ bool state_project_velocity(struct fbd_state *state, bool assemble)
     double speed = speed_of(&place), off = misfit_of(&place).velocity;
     memcpy(before, state->y + n, bytes);
     project_velocity(&place);
-    if (change_since(&place, state->y + n, before, arm_length(&place)) >
-        far * fmax(off, DBL_EPSILON * speed)) {
+    if (state->model->tree->meeting_count > 0 &&
+        change_since(&place, state->y + n, before, arm_length(&place)) >
+            far * fmax(off, DBL_EPSILON * speed)) {
         memcpy(state->y + n, before, bytes);
         place.at.tree->settling_down = true;
         project_velocity(&place);

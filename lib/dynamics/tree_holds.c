@@ -369,6 +369,20 @@ static bool open_what_barely_holds(struct fbd_state *state, int *forced)
     return any;
 }
 
+/* Does what was opened close again, since something else has changed after that? */
+static bool closes_again(const struct fbd_state *state, const int *forced)
+{
+    const struct instant at = state_instant(state);
+    for (int pair = 0; pair < (int)state->model->plan.mode_count; pair++) {
+        if (!mode_is_one_sided(mode_of(state, pair)) || forced[pair] == 0 || forced[pair] == keeps_still ||
+            state->slip[pair] == stick)
+            continue;
+        double closing = one_sided_at(state->model, &at, pair).acceleration;
+        if (closing > 0 && tree_seen_acceleration(state, closing)) return true;
+    }
+    return false;
+}
+
 /* Solve, and let rates decide what is at its limit, one after the other. False where the forces do not agree
  * with what was solved. */
 static bool decide(struct fbd_state *state, const struct decided *decided, int *forced)
@@ -378,7 +392,7 @@ static bool decide(struct fbd_state *state, const struct decided *decided, int *
         memset(barely, 0, (size_t)count * sizeof *barely);
         if (solve(state, decided, forced, barely) >= holds_none) return false;
         enum agreement found = look_at_solved(state, decided, forced);
-        if (found == agrees) return true;
+        if (found == agrees) return !closes_again(state, forced);
         bool more = found == at_limit;
         int on = found == differs ? surface_under(state, state->holds.contradicts) : -1;
         for (int pair = 0; pair < count && found == differs; pair++) {
@@ -490,7 +504,7 @@ static bool look_later(struct fbd_state *state, const struct decided *decided, i
         state_copy(later, state);
         for (size_t i = 0; i < n; i++) later->y[n + i] = T * state->a[i];
         if (modes_settle(later, &nothing) && take_later_modes(state, later, decided, forced))
-            agreed = look(state, decided, forced, true) == agrees;
+            agreed = look(state, decided, forced, true) == agrees && !closes_again(state, forced);
     } else {
         state->holds.found = holds_no_memory;
     }
