@@ -159,21 +159,13 @@ static void rows(const void *context, double t, const double *q, struct moreau_r
     }
 }
 
-static void name_value(struct act_values *values, const char *name, double value, double scale)
+struct stepped_values act_step_to(void *drawn, int steps)
 {
-    int i = values->count++;
-    snprintf(values->name[i], sizeof values->name[i], "%s", name);
-    values->value[i] = value;
-    values->scale[i] = scale;
-}
-
-struct act_values act_step_to(struct act_scene *scene, int steps)
-{
+    struct act_scene *scene = drawn;
     const int n = scene->count;
     const struct moreau_system system = {n + 1 + scene->states, scene, forces, solve, rows, NULL};
     double q[moreau_most] = {0}, v[moreau_most] = {0};
-    struct act_values values = {0};
-    char name[24];
+    struct stepped_values values = {0};
     for (int i = 0; i < n; i++) {
         q[i] = scene->body[i].x, v[i] = scene->body[i].v;
         for (int k = 0; k < scene->body[i].acts; k++) scene->body[i].act[k].side = -1;
@@ -182,14 +174,9 @@ struct act_values act_step_to(struct act_scene *scene, int steps)
     scene->live = scene->body;
     moreau_run(&system, scene->until, steps, q, v);
     for (int i = 0; i < n; i++) {
-        snprintf(name, sizeof name, "b%d.x", i);
-        name_value(&values, name, q[i], 1);
-        snprintf(name, sizeof name, "b%d.v", i);
-        name_value(&values, name, v[i], 0.1);
+        stepped_name(&values, "b", i, "x", q[i], 1);
+        stepped_name(&values, "b", i, "v", v[i], 0.1);
     }
-    for (int k = 0; k < scene->states; k++) {
-        snprintf(name, sizeof name, "states.z%d", k);
-        name_value(&values, name, v[n + 1 + k], 0.1);
-    }
+    for (int k = 0; k < scene->states; k++) stepped_name(&values, "states.z", k, "", v[n + 1 + k], 0.1);
     return values;
 }

@@ -18,6 +18,7 @@
 
 #include "moreau.h"
 #include "random_numbers.h"
+#include "stepped.h"
 #include "written.h"
 
 enum { act_most = 3, act_most_bodies = 3, act_points = 7 };
@@ -81,15 +82,11 @@ struct act_scene {
     struct act_body *live; /* its bodies, for what a step remembers */
 };
 
-void act_draw(uint64_t seed, struct act_scene *scene);
-void act_write(const struct act_scene *scene, struct written *text);
+/* Of a struct act_scene, as stepped.h takes them. */
+void act_draw(uint64_t seed, void *scene);
+void act_write(const void *scene, struct written *text);
 
-struct act_values {
-    int count;
-    char name[14][24];
-    double value[14], scale[14];
-};
-
-struct act_values act_step_to(struct act_scene *scene, int steps);
+/* By time stepping, with coordinates and rates as the model names them. */
+struct stepped_values act_step_to(void *scene, int steps);
 
 #endif

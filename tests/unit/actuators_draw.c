@@ -116,8 +116,9 @@ static void draw_body(struct random_numbers *numbers, struct act_scene *scene, s
     for (int k = 0; k < body->acts; k++) draw_act(numbers, scene, body, &body->act[k]);
 }
 
-void act_draw(uint64_t seed, struct act_scene *scene)
+void act_draw(uint64_t seed, void *drawn)
 {
+    struct act_scene *scene = drawn;
     struct random_numbers numbers = {1000003u * seed + 7};
     *scene = (struct act_scene){.count = 1 + (int)random_between(&numbers, 0, 2.2),
                                 .until = random_between(&numbers, 0.4, 2)};

@@ -101,8 +101,9 @@ static void write_body(const struct act_scene *scene, int i, struct written *tex
     for (int k = 0; k < body->acts; k++) write_act(scene, i, k, text);
 }
 
-void act_write(const struct act_scene *scene, struct written *text)
+void act_write(const void *drawn, struct written *text)
 {
+    const struct act_scene *scene = drawn;
     bool ropes = false, tables = false;
     text->length = 0;
     add(text, "fbd: 1\ngravity: %g\n", act_g);

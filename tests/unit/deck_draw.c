@@ -287,8 +287,9 @@ static void draw_load(struct random_numbers *numbers, struct deck_scene *scene, 
     scene->count++;
 }
 
-void deck_draw(uint64_t seed, struct deck_scene *scene)
+void deck_draw(uint64_t seed, void *drawn)
 {
+    struct deck_scene *scene = drawn;
     struct random_numbers numbers = {1000003u * seed};
     *scene = (struct deck_scene){.until = random_between(&numbers, 0.3, 1.2),
                                  .floor = random_between(&numbers, -0.9, -0.4),

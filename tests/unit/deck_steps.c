@@ -418,20 +418,13 @@ static void start(const struct deck_scene *scene, double *q, double *v)
     }
 }
 
-static void name_value(struct deck_named *named, int body, const char *what, double value, bool rate)
+struct stepped_values deck_step(void *drawn, int steps)
 {
-    int i = named->count++;
-    snprintf(named->name[i], sizeof named->name[i], "b%d.%s", body, what);
-    named->value[i] = value;
-    named->rate[i] = rate;
-}
-
-struct deck_named deck_step(struct deck_scene *scene, int steps)
-{
+    struct deck_scene *scene = drawn;
     static const char *const names[] = {"x", "y", "theta", "vx", "vy", "omega"};
     const struct moreau_system system = {3 * scene->count, scene, forces, solve, rows, NULL};
     double q[moreau_most] = {0}, v[moreau_most] = {0};
-    struct deck_named named = {0};
+    struct stepped_values named = {0};
     scene->h = scene->until / steps;
     start(scene, q, v);
     moreau_run(&system, scene->until, steps, q, v);
@@ -444,14 +437,14 @@ struct deck_named deck_step(struct deck_scene *scene, int steps)
                    omega = v[first_of(i) + 2];
             double rate[3] = {v[first_of(i)] - omega * arm[1], v[first_of(i) + 1] + omega * arm[0], omega};
             for (int k = 0; k < (body->I > 0 ? 3 : 2); k++) {
-                name_value(&named, i, names[k], frame[k], false);
-                name_value(&named, i, names[3 + k], rate[k], true);
+                stepped_name(&named, "b", i, names[k], frame[k], 1);
+                stepped_name(&named, "b", i, names[3 + k], rate[k], 0.1);
             }
         } else {
             bool slides = body->motion == deck_slide;
             double from = slides || body->on < 0 ? 0 : deck_turned(&scene->body[body->on]);
-            name_value(&named, i, slides ? "x" : "theta", coordinate_of(scene, i, q, w) - from, false);
-            name_value(&named, i, slides ? "v" : "omega", dot(w, v), true);
+            stepped_name(&named, "b", i, slides ? "x" : "theta", coordinate_of(scene, i, q, w) - from, 1);
+            stepped_name(&named, "b", i, slides ? "v" : "omega", dot(w, v), 0.1);
         }
     }
     return named;

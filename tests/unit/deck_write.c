@@ -129,8 +129,9 @@ static void write_body(const struct deck_scene *scene, int i, struct written *te
     if (body->motion == deck_pivot) write_joint_loads(scene, body, text);
 }
 
-void deck_write(const struct deck_scene *scene, struct written *text)
+void deck_write(const void *drawn, struct written *text)
 {
+    const struct deck_scene *scene = drawn;
     text->length = 0;
     add(text, "fbd: 1\ngravity: %g\nground:\n  lines:\n    floor: {through: [0, %.17g], along: %.17g}\n",
         deck_g, scene->floor, scene->tilt);

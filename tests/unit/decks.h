@@ -18,6 +18,7 @@
 
 #include "moreau.h"
 #include "random_numbers.h"
+#include "stepped.h"
 #include "written.h"
 
 enum { deck_most_bodies = 5, deck_most_contacts = 10 };
@@ -81,8 +82,9 @@ struct deck_scene {
     double h; /* of the stepping */
 };
 
-void deck_draw(uint64_t seed, struct deck_scene *scene);
-void deck_write(const struct deck_scene *scene, struct written *text);
+/* Of a struct deck_scene, as stepped.h takes them. */
+void deck_draw(uint64_t seed, void *scene);
+void deck_write(const void *scene, struct written *text);
 
 /* How the frame that the model has is turned against that of `struct deck_body`: on a slide it lies along the line. */
 double deck_turned(const struct deck_body *body);
@@ -90,14 +92,7 @@ double deck_turned(const struct deck_body *body);
 /* Velocity of the point at p of a body at the start, and the angular velocity. */
 void deck_twist(const struct deck_scene *scene, int i, const double *p, double *twist);
 
-enum { deck_most_named = 30 };
-struct deck_named {
-    int count;
-    char name[deck_most_named][24];
-    double value[deck_most_named];
-    bool rate[deck_most_named];
-};
-
-struct deck_named deck_step(struct deck_scene *scene, int steps);
+/* By time stepping, with coordinates and rates as the model names them. */
+struct stepped_values deck_step(void *scene, int steps);
 
 #endif

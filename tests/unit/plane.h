@@ -17,6 +17,7 @@
 
 #include "moreau.h"
 #include "random_numbers.h"
+#include "stepped.h"
 #include "written.h"
 
 enum { most_bodies = 3 };
@@ -54,17 +55,6 @@ struct scene {
     double until;
 };
 
-/* Coordinates and rates by the names of the model. */
-enum { most_named = 20 };
-struct named {
-    int count;
-    char name[most_named][24];
-    double value[most_named];
-    bool rate[most_named];
-};
-
-void name_value(struct named *named, int body, const char *what, double value, bool rate);
-
 bool chance(struct random_numbers *numbers, double share);
 struct push draw_push(struct random_numbers *numbers, double size);
 double push_at(const struct push *push, double t);
@@ -91,7 +81,8 @@ struct kind {
     int size; /* coordinates of the stepping for each body */
     void (*start)(const struct scene *scene, double *q, double *v);
     /* What the model calls its coordinates and rates, from those of the stepping. */
-    void (*name_values)(const struct scene *scene, const double *q, const double *v, struct named *named);
+    void (*name_values)(const struct scene *scene, const double *q, const double *v,
+                        struct stepped_values *named);
 };
 
 extern const struct kind plane_links, plane_discs, plane_weights, plane_stack;

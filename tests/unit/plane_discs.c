@@ -181,13 +181,14 @@ static void start(const struct scene *scene, double *q, double *v)
     }
 }
 
-static void name_values(const struct scene *scene, const double *q, const double *v, struct named *named)
+static void name_values(const struct scene *scene, const double *q, const double *v,
+                        struct stepped_values *named)
 {
     static const char *const names[] = {"x", "y", "theta", "vx", "vy", "omega"};
     for (int i = 0; i < scene->count; i++)
         for (int k = 0; k < (scene->body[i].point ? 2 : 3); k++) {
-            name_value(named, i, names[k], q[3 * i + k], false);
-            name_value(named, i, names[3 + k], v[3 * i + k], true);
+            stepped_name(named, "b", i, names[k], q[3 * i + k], 1);
+            stepped_name(named, "b", i, names[3 + k], v[3 * i + k], 0.1);
         }
 }
 

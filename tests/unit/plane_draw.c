@@ -50,14 +50,6 @@ void add_stops(struct written *text, const struct body *body)
     if (body->has_min || body->has_max) add(text, ", restitution: %.17g", body->e);
 }
 
-void name_value(struct named *named, int body, const char *what, double value, bool rate)
-{
-    int i = named->count++;
-    snprintf(named->name[i], sizeof named->name[i], "b%d.%s", body, what);
-    named->value[i] = value;
-    named->rate[i] = rate;
-}
-
 void rope_rows(const struct scene *scene, const double *q, struct moreau_rows *rows)
 {
     for (int j = 0; j < scene->ropes; j++) {

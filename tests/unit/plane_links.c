@@ -144,11 +144,12 @@ static void start(const struct scene *scene, double *q, double *v)
     }
 }
 
-static void name_values(const struct scene *scene, const double *q, const double *v, struct named *named)
+static void name_values(const struct scene *scene, const double *q, const double *v,
+                        struct stepped_values *named)
 {
     for (int i = 0; i < scene->count; i++) {
-        name_value(named, i, "theta", i ? q[1] - q[0] : q[0], false);
-        name_value(named, i, "omega", i ? v[1] - v[0] : v[0], true);
+        stepped_name(named, "b", i, "theta", i ? q[1] - q[0] : q[0], 1);
+        stepped_name(named, "b", i, "omega", i ? v[1] - v[0] : v[0], 0.1);
     }
 }
 

@@ -177,11 +177,12 @@ static void start(const struct scene *scene, double *q, double *v)
     }
 }
 
-static void name_values(const struct scene *scene, const double *q, const double *v, struct named *named)
+static void name_values(const struct scene *scene, const double *q, const double *v,
+                        struct stepped_values *named)
 {
     for (int i = 0; i < scene->count; i++) {
-        name_value(named, i, "x", place_of(scene, i, q), false);
-        name_value(named, i, "v", along_slide(scene, i, v), true);
+        stepped_name(named, "b", i, "x", place_of(scene, i, q), 1);
+        stepped_name(named, "b", i, "v", along_slide(scene, i, v), 0.1);
     }
 }
 

@@ -11,7 +11,6 @@
 
 #include <cmocka.h>
 
-#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -22,25 +21,17 @@
 static const struct kind *const kinds[] = {&plane_links, &plane_discs, &plane_weights, &plane_stack};
 enum { kind_count = sizeof kinds / sizeof *kinds };
 
-static struct named step(const struct scene *scene, int steps)
+static struct stepped_values step(const struct scene *scene, int steps)
 {
     const struct kind *kind = kinds[scene->kind];
     const struct moreau_system system = {
         scene->count * kind->size, scene, kind->forces, kind->solve, kind->rows, NULL};
     double q[moreau_most] = {0}, v[moreau_most] = {0};
-    struct named named = {0};
+    struct stepped_values named = {0};
     kind->start(scene, q, v);
     moreau_run(&system, scene->until, steps, q, v);
     kind->name_values(scene, q, v, &named);
     return named;
-}
-
-static double apart(const struct named *a, const struct named *b)
-{
-    double most = 0;
-    for (int i = 0; i < a->count; i++)
-        most = fmax(most, (a->rate[i] ? 0.1 : 1) * fabs(a->value[i] - b->value[i]));
-    return most;
 }
 
 struct census {
@@ -60,21 +51,6 @@ static void draw_scene(int kind, uint64_t seed, struct scene *scene, struct writ
     add(text, "simulate: {until: %.17g}\n", scene->until);
 }
 
-/* What two runs of the stepping and one of the library say. */
-struct answers {
-    struct named rough, fine, ours;
-};
-
-static double doubt(const struct answers *answers)
-{
-    return apart(&answers->rough, &answers->fine);
-}
-
-static bool agree(const struct answers *answers)
-{
-    return apart(&answers->ours, &answers->fine) <= fmax(10 * doubt(answers), 3e-4);
-}
-
 /* More than one motion agrees with the forces, or two different things are struck within a step of the stepping, which
  * takes that for one impact. */
 static bool is_open(struct trial *trial, double step)
@@ -91,15 +67,10 @@ static bool is_open(struct trial *trial, double step)
     return false;
 }
 
-static void tell(const char *name, unsigned long seed, const struct answers *answers,
+static void tell(const char *name, unsigned long seed, const struct stepped_answers *answers,
                  const struct written *text)
 {
-    print_message("# %s %lu: %.3g apart (half the steps: %.2g):", name, seed,
-                  apart(&answers->ours, &answers->fine), doubt(answers));
-    for (int i = 0; i < answers->ours.count; i++)
-        print_message(" %s %.6g for %.6g", answers->ours.name[i], answers->ours.value[i],
-                      answers->fine.value[i]);
-    print_message("\n");
+    stepped_tell(name, seed, answers);
     for (const char *line = text->all; *line; line += strcspn(line, "\n") + 1)
         print_message("# %.*s\n", (int)strcspn(line, "\n"), line);
 }
@@ -107,33 +78,29 @@ static void tell(const char *name, unsigned long seed, const struct answers *ans
 static void compare(struct checks *checks, const struct scene *scene, const struct written *text,
                     const char *name, unsigned long seed, int steps, struct census *census)
 {
-    const double sensitive = 2e-3;
-    struct answers answers = {step(scene, steps / 2), step(scene, steps), {0}};
+    struct stepped_answers answers = {step(scene, steps / 2), step(scene, steps), {0}};
     census->tried++;
-    if (doubt(&answers) > sensitive) {
+    if (stepped_doubt(&answers) > stepped_sensitive) {
         census->skipped++;
         return;
     }
     struct trial trial = trial_parse(text->all);
     trial_run(&trial, NULL);
-    answers.ours = answers.fine;
-    if (trial.outcome == FBD_DONE)
-        for (int i = 0; i < answers.ours.count; i++)
-            answers.ours.value[i] = trial_get(&trial, answers.ours.name[i]);
+    stepped_ask(&answers, &trial);
     if (trial.outcome != FBD_DONE) {
         census->ended++;
         check_that(checks, "the run comes to its end", false);
         print_message("# %s\n", fbd_simulation_reason(trial.simulation));
         tell(name, seed, &answers, text);
-    } else if (agree(&answers)) {
+    } else if (stepped_agree(&answers)) {
         census->agree++;
     } else {
         const int finer = 8;
         answers.rough = step(scene, steps * finer / 2);
         answers.fine = step(scene, steps * finer);
-        if (doubt(&answers) > sensitive || is_open(&trial, scene->until / (steps * finer))) {
+        if (stepped_doubt(&answers) > stepped_sensitive || is_open(&trial, scene->until / (steps * finer))) {
             census->skipped++;
-        } else if (agree(&answers)) {
+        } else if (stepped_agree(&answers)) {
             census->agree++;
         } else {
             census->differ++;
