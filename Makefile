@@ -222,7 +222,7 @@ $(BUILD)/build.ninja:
 
 $(BUILD)-sanitize/build.ninja:
 	.ci/install-packages run
-	meson setup $(BUILD)-sanitize -Db_sanitize=address,undefined $(MESON_OPTIONS)
+	meson setup $(BUILD)-sanitize -Db_sanitize=address,undefined -Doptimization=1 -Dc_args=-g1 $(MESON_OPTIONS)
 
 $(BUILD)-tsan/build.ninja:
 	.ci/install-packages run

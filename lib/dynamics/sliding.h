@@ -94,8 +94,8 @@ void sliding_solve_along(const struct fbd_model *model, const struct instant *gi
 int sliding_holder(const struct fbd_model *model, const struct instant *at, int coordinate);
 
 /* Where friction holds the coordinates of a switch, does the switch go on being zero as their surfaces move? A surface
- * that is shaken, or that takes them along to where x + T v is another, would take them off the switch, which may hold them where they are. 0, or the sign of what it will
- * be. */
+ * that is shaken, or that takes them along to where x + T v is another, would take them off the switch, which may hold
+ * them where they are. 0, or the sign of what it will be. */
 int sliding_parted(const struct fbd_model *model, const struct instant *given, const struct kink *kink,
                    int part);
 
