@@ -232,6 +232,32 @@ int course_set_coarse(struct course *course, double from, double to, const bool 
     return 0;
 }
 
+bool course_set_powers(struct course *course, double from, double to, const bool *wanted,
+                       course_powers *powers, void *context)
+{
+    const double rounding = 32 * DBL_EPSILON;
+    course->enclosed.from = NAN;
+    course->from = from;
+    course->to = to;
+    course->degree = 0;
+    choose(course, wanted);
+    for (size_t i = 0; i < course->count; i++) {
+        double *c = course->coefficients + i * room, size = 0;
+        if (course->top[i] == not_followed) continue;
+        int degree = powers(context, from, to, course->component[i], c), top = at_rest;
+        if (degree < 0) return false;
+        for (int k = 0; k <= degree; k++) size += fabs(c[k]);
+        for (int k = 1; k <= degree; k++) {
+            if (c[k] != 0 && top == at_rest) top = 0;
+            if (fabs(c[k]) > DBL_EPSILON * size) top = k; /* else left to the doubt */
+        }
+        course->top[i] = top;
+        course->doubt[i] = course->noise[i] + (top == at_rest ? 0 : rounding * size);
+        if (degree > course->degree) course->degree = degree;
+    }
+    return true;
+}
+
 /* b_k of the polynomial c about s0. */
 static void shift(int degree, const double *c, double s0, double *b)
 {

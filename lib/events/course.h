@@ -4,8 +4,8 @@
  *
  * The dense output of a step is taken for the motion: an event is where the dense output has it, and how far
  * that is from the solution is the business of the error control. For most methods each component is a
- * polynomial of a known degree d, which d + 1 samples give to rounding. Where it is not (implicit methods
- * that redo a step, linear systems, places in the world, which are functions of coordinates), the samples
+ * polynomial, whose powers they know; for some of a known degree d, which d + 1 samples give to rounding. Where it is not (implicit methods
+ * that redo a step, places in the world, which are functions of coordinates), the samples
  * give a Chebyshev series, and its last two terms are the bound of what is left out: ASSUMED, not proved; the
  * step is looked at in shorter pieces until they are small. A first look by a series of degree 4 over the
  * whole of a step has wide bounds and costs little: it decides where nothing is near.
@@ -22,6 +22,10 @@ enum { course_most_degree = 16, course_coarse_degree = 4 };
 
 /* Fill y at t; non-zero stops. */
 typedef int course_sampler(void *context, double t, double *y);
+
+/* The powers of s of a component between two times, at -1 and 1, at most course_most_degree of them. The degree; below zero
+ * where the motion is no polynomial. */
+typedef int course_powers(void *context, double from, double to, int component, double *c);
 
 /* The samples of one degree d. */
 struct course_grid {
@@ -66,6 +70,10 @@ void course_start(struct course *course);
  * followed by one to about that share of its size. Non-zero is from the sampler. */
 int course_set(struct course *course, double from, double to, const bool *wanted, int degree,
                double negligible, course_sampler *sample, void *context);
+
+/* Follow it as far as `to` by what the motion itself has for polynomials. False where it is none. */
+bool course_set_powers(struct course *course, double from, double to, const bool *wanted,
+                       course_powers *powers, void *context);
 
 /* Follow it as far as `to` by a series of degree 4. */
 int course_set_coarse(struct course *course, double from, double to, const bool *wanted,

@@ -62,13 +62,15 @@ struct own {
     const gsl_odeiv2_step_type *const *type;
     int (*prepare)(gsl_odeiv2_step *step, const gsl_odeiv2_system *sys);
     void (*eval)(const gsl_odeiv2_step *step, double theta, double *y);
+    int (*powers)(const gsl_odeiv2_step *step, size_t i, const struct powers_piece *piece,
+                  double *c); /* or NULL */
 };
 
 static const struct own owns[] = {
-    {&step_dop853, dop853_dense_prepare, dop853_dense_eval},
-    {&step_nystrom, nystrom_dense_prepare, nystrom_dense_eval},
-    {&step_linear, linear_dense_prepare, linear_dense_eval},
-    {&step_parabola, parabola_dense_prepare, parabola_dense_eval},
+    {&step_dop853, dop853_dense_prepare, dop853_dense_eval, dop853_dense_powers},
+    {&step_nystrom, nystrom_dense_prepare, nystrom_dense_eval, NULL},
+    {&step_linear, linear_dense_prepare, linear_dense_eval, linear_dense_powers},
+    {&step_parabola, parabola_dense_prepare, parabola_dense_eval, parabola_dense_powers},
 };
 
 struct dense {
@@ -187,6 +189,85 @@ static void eval_all(const struct dense *d, double theta, double *y)
     size_t n = d->pairs;
     for (size_t i = 0; i < n; i++) pair_eval(&d->pair[i], d->h, theta, &y[i], &y[n + i]);
     for (size_t i = 0; i < d->extra; i++) y[2 * n + i] = single_eval(&d->single[i], theta);
+}
+
+/* y_i + theta (slope + (1 - theta) (s1 + theta s2)), the cubic of all of them. */
+static int cubic_powers(double y, double slope, double s1, double s2, const struct powers_piece *piece,
+                        double *c)
+{
+    c[0] = s2;
+    int degree = powers_times_theta(0, c, piece);
+    c[0] += s1;
+    degree = powers_times_rest(degree, c, piece);
+    c[0] += slope;
+    degree = powers_times_theta(degree, c, piece);
+    c[0] += y;
+    return degree;
+}
+
+/* c times (theta (1 - theta))^count */
+static int times_w(int degree, double *c, int count, const struct powers_piece *piece)
+{
+    for (int k = 0; k < count; k++) {
+        degree = powers_times_theta(degree, c, piece);
+        degree = powers_times_rest(degree, c, piece);
+    }
+    return degree;
+}
+
+static int add_powers(int degree, double *c, int other_degree, const double *other)
+{
+    for (int k = degree + 1; k <= other_degree; k++) c[k] = 0;
+    for (int k = 0; k <= other_degree; k++) c[k] += other[k];
+    return degree > other_degree ? degree : other_degree;
+}
+
+static int q_powers(const struct pair *p, double h, const struct powers_piece *piece, double *c)
+{
+    c[0] = p->r4;
+    int degree = powers_times_theta(0, c, piece);
+    c[0] += p->r3;
+    degree = powers_times_rest(degree, c, piece);
+    c[0] += p->r2;
+    degree = powers_times_theta(degree, c, piece);
+    c[0] += p->r1;
+    degree = powers_times_rest(degree, c, piece);
+    c[0] += p->dq;
+    degree = powers_times_theta(degree, c, piece);
+    c[0] += p->q;
+    if (p->c0 == 0 && p->c1 == 0 && p->c2 == 0) return degree;
+    double high[dense_most_degree + 1] = {h * p->c2};
+    int of_high = powers_times_centred(0, high, piece);
+    high[0] += h * p->c1;
+    of_high = powers_times_centred(of_high, high, piece);
+    high[0] += h * p->c0;
+    return add_powers(degree, c, times_w(of_high, high, 3, piece), high);
+}
+
+static int v_powers(const struct pair *p, const struct powers_piece *piece, double *c)
+{
+    int degree = cubic_powers(p->v, p->dv, p->s1, p->s2, piece, c), of_high = 0;
+    double high[dense_most_degree + 1] = {-8 * p->c2};
+    if (p->c0 != 0 || p->c1 != 0 || p->c2 != 0) {
+        of_high = powers_times_centred(of_high, high, piece);
+        high[0] -= 7 * p->c1;
+        of_high = powers_times_centred(of_high, high, piece);
+        high[0] += p->c2 / 2 - 6 * p->c0;
+        of_high = powers_times_centred(of_high, high, piece);
+        high[0] += p->c1 / 4;
+    }
+    high[0] += p->p0;
+    return add_powers(degree, c, times_w(of_high, high, 2, piece), high);
+}
+
+static int single_powers(const struct single *x, const struct powers_piece *piece, double *c)
+{
+    int degree = cubic_powers(x->x, x->dx, x->s1, x->s2, piece, c);
+    if (x->b0 == 0 && x->b1 == 0) return degree;
+    double high[dense_most_degree + 1] = {x->b1};
+    int of_high = powers_times_centred(0, high, piece);
+    high[0] += x->b0;
+    return add_powers(degree, c, times_w(of_high, high, 2, piece), high);
 }
 
 /* f = slopes on the present polynomial at s. */
@@ -308,6 +389,18 @@ int dense_eval(struct dense *d, struct moment t, double *y)
     else
         eval_all(d, theta, y);
     return GSL_SUCCESS;
+}
+
+int dense_powers(struct dense *d, struct moment from, struct moment to, size_t i, double *c)
+{
+    size_t n = d->pairs;
+    if ((d->own && !d->own->powers) || (!d->prepared && prepare(d) != GSL_SUCCESS)) return -1;
+    double begin = moment_since(from, d->t0) / d->h, end = moment_since(to, d->t0) / d->h;
+    const struct powers_piece piece = {begin + (end - begin) / 2, (end - begin) / 2};
+    if (d->own) return d->own->powers(d->step, i, &piece, c);
+    if (i < n) return q_powers(&d->pair[i], d->h, &piece, c);
+    if (i < 2 * n) return v_powers(&d->pair[i - n], &piece, c);
+    return single_powers(&d->single[i - 2 * n], &piece, c);
 }
 
 void dense_eval_plain(struct dense *d, struct moment t, double *y)

@@ -38,6 +38,7 @@
 
 #include "base/moment.h"
 #include "integrate/layout.h"
+#include "integrate/powers.h"
 
 struct dense;
 
@@ -61,7 +62,12 @@ void dense_set_errors(struct dense *dense, const double *errors);
  * inside of the step; then y is not touched. */
 int dense_eval(struct dense *dense, struct moment t, double *y);
 
-/* The same at level 0, whatever the method: what is left when evaluations inside of the step fail. */
+/* Component i from `from` to `to` within the step as a polynomial, c[k] the coefficient of s^k, -1 <= s <= 1 between
+ * them. Its degree, at most dense_most_degree; -1 where it is none, or a right-hand side has failed. */
+enum { dense_most_degree = 14 };
+int dense_powers(struct dense *dense, struct moment from, struct moment to, size_t i, double *c);
+
+/* As dense_eval, at level 0, whatever the method: what is left when evaluations inside of the step fail. */
 void dense_eval_plain(struct dense *dense, struct moment t, double *y);
 
 #endif

@@ -360,6 +360,21 @@ void dop853_dense_eval(const gsl_odeiv2_step *step, double theta, double *y)
     }
 }
 
+int dop853_dense_powers(const gsl_odeiv2_step *step, size_t i, const struct powers_piece *piece, double *c)
+{
+    const struct dop853 *s = step->state;
+    size_t n = s->n;
+    const double *p = s->v + v_dense * n + i;
+    int degree = 0;
+    c[0] = p[7 * n];
+    for (size_t m = 6;; m--) {
+        bool falls = m % 2 == 1; /* as dop853_dense_eval has it */
+        degree = falls ? powers_times_rest(degree, c, piece) : powers_times_theta(degree, c, piece);
+        c[0] += p[m * n];
+        if (m == 0) return degree;
+    }
+}
+
 bool dop853_differences(const gsl_odeiv2_step *step, const double **dy, const double **df)
 {
     if (step->type != step_dop853) return false;

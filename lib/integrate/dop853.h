@@ -40,6 +40,8 @@
 #include <gsl/gsl_odeiv2.h>
 #include <stdbool.h>
 
+#include "integrate/powers.h"
+
 extern const gsl_odeiv2_step_type *const step_dop853;
 
 /* Make the dense output of the last step that `step` has made ready: three evaluations of the right-hand
@@ -51,6 +53,9 @@ int dop853_dense_prepare(gsl_odeiv2_step *step, const gsl_odeiv2_system *sys);
 /* y(t0 + theta h), 0 <= theta <= 1, of the prepared step [t0, t0 + h]; error O(h^8), continuous with its
  * first derivative from step to step. */
 void dop853_dense_eval(const gsl_odeiv2_step *step, double theta, double *y);
+
+/* The same of component i as a polynomial over a piece of the step; its degree, 7. */
+int dop853_dense_powers(const gsl_odeiv2_step *step, size_t i, const struct powers_piece *piece, double *c);
 
 /* Two states that the last step has evaluated for one time, its end y1 and the argument of stage 12, differ
  * by dy, their slopes by df: so df = J dy with a mean J of the Jacobian, for nothing (HNW II, IV.2, uses it

@@ -330,6 +330,22 @@ void linear_dense_eval(const gsl_odeiv2_step *step, double theta, double *y)
         leap(s, theta * s->h, y);
 }
 
+int linear_dense_powers(const gsl_odeiv2_step *step, size_t i, const struct powers_piece *piece, double *c)
+{
+    const struct linear *s = step->state;
+    const double *term = s->term + i;
+    int degree = 0;
+    if (!s->has_terms || s->used < 1 || s->used > linear_most_powers) return -1;
+    c[0] = term[(size_t)(s->used - 1) * s->dim];
+    for (int k = s->used - 2; k >= 0; k--) {
+        degree = powers_times_theta(degree, c, piece);
+        c[0] += term[(size_t)k * s->dim];
+    }
+    degree = powers_times_theta(degree, c, piece);
+    c[0] += s->y0[i];
+    return degree;
+}
+
 int linear_dense_degree(const gsl_odeiv2_step *step)
 {
     const struct linear *s = step->state;

@@ -30,6 +30,7 @@
 #include <gsl/gsl_odeiv2.h>
 #include <stdbool.h>
 
+#include "integrate/powers.h"
 #include "integrate/system.h"
 
 extern const gsl_odeiv2_step_type *const step_linear;
@@ -38,9 +39,12 @@ extern const gsl_odeiv2_step_type *const step_linear;
  * need not be asked for. */
 void linear_set_matrix(gsl_odeiv2_step *step, const double *A, double rho);
 
-/* As dop853_dense_prepare and dop853_dense_eval; exact, without evaluations. */
+/* As those of dop853; exact, without evaluations. Powers are had where the last step is a polynomial of no higher degree
+ * than linear_most_powers; else -1. */
+enum { linear_most_powers = 8 };
 int linear_dense_prepare(gsl_odeiv2_step *step, const gsl_odeiv2_system *sys);
 void linear_dense_eval(const gsl_odeiv2_step *step, double theta, double *y);
+int linear_dense_powers(const gsl_odeiv2_step *step, size_t i, const struct powers_piece *piece, double *c);
 
 /* The degree of the polynomial that the last step is, 0 where it is none. */
 int linear_dense_degree(const gsl_odeiv2_step *step);

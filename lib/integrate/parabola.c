@@ -108,6 +108,22 @@ void parabola_dense_eval(const gsl_odeiv2_step *step, double theta, double *y)
     move(s, theta * s->h, y);
 }
 
+int parabola_dense_powers(const gsl_odeiv2_step *step, size_t i, const struct powers_piece *piece, double *c)
+{
+    const struct parabola *s = step->state;
+    bool place = i < s->n;
+    double a = s->a[place ? i : i - s->n], v = s->y0[place ? s->n + i : i];
+    int degree = 0;
+    c[0] = (place ? s->h / 2 : 1) * a * s->h;
+    if (place) {
+        degree = powers_times_theta(degree, c, piece);
+        c[0] += s->h * v;
+    }
+    degree = powers_times_theta(degree, c, piece);
+    c[0] += s->y0[i];
+    return degree;
+}
+
 static const gsl_odeiv2_step_type parabola_type = {
     .name = "parabola",
     .can_use_dydt_in = 1,

@@ -16,10 +16,13 @@
 
 #include <gsl/gsl_odeiv2.h>
 
+#include "integrate/powers.h"
+
 extern const gsl_odeiv2_step_type *const step_parabola;
 
-/* As dop853_dense_prepare and dop853_dense_eval; exact, without evaluations. */
+/* As those of dop853; exact, without evaluations. */
 int parabola_dense_prepare(gsl_odeiv2_step *step, const gsl_odeiv2_system *sys);
 void parabola_dense_eval(const gsl_odeiv2_step *step, double theta, double *y);
+int parabola_dense_powers(const gsl_odeiv2_step *step, size_t i, const struct powers_piece *piece, double *c);
 
 #endif

@@ -86,6 +86,10 @@ int stepper_dense(struct stepper *stepper, struct moment t, double *y);
  * 0), one that follows the state to that share of its size over most steps. */
 int stepper_degree(const struct stepper *stepper, double *negligible);
 
+/* Component i from `from` to `to` within the last step as dense_powers has it; -1 also for methods whose inside is no
+ * polynomial. */
+int stepper_powers(struct stepper *stepper, struct moment from, struct moment to, size_t i, double *c);
+
 /* State y and slopes f at time t within the last accepted step with the full accuracy of the method:
  * one-step methods make a step from its start to t, multistep methods, and others where that fails, use
  * stepper_dense. Codes as there, or that of a right-hand side that fails at t. */

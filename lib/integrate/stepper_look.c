@@ -107,6 +107,15 @@ int stepper_dense(struct stepper *s, struct moment t, double *y)
     return GSL_SUCCESS;
 }
 
+int stepper_powers(struct stepper *s, struct moment from, struct moment to, size_t i, double *c)
+{
+    if (s->method->implicit || !find_within(s, &from) || !find_within(s, &to)) return -1;
+    int last_code = s->system->last_code;
+    int degree = dense_powers(s->dense, from, to, i, c);
+    s->system->last_code = last_code;
+    return degree;
+}
+
 /* A step of the linear method is two radians of the fastest oscillation: the Bessel function J_14(1) of its
  * Chebyshev series is 7e-16. Implicit methods know their states as their equations are solved. */
 int stepper_degree(const struct stepper *s, double *negligible)

@@ -123,6 +123,11 @@ int switcher_dense(struct switcher *s, struct moment t, double *y)
     return stepper_dense(s->steppers[s->made], t, y);
 }
 
+int switcher_powers(struct switcher *s, struct moment from, struct moment to, size_t i, double *c)
+{
+    return stepper_powers(s->steppers[s->made], from, to, i, c);
+}
+
 int switcher_degree(const struct switcher *s, double *negligible)
 {
     return stepper_degree(s->steppers[s->made], negligible);

@@ -57,6 +57,19 @@ static bool make_stepper(struct run *run)
     return run->stepper != NULL;
 }
 
+/* Does a step ask for the forces at its end? Friction of bodies by themselves does where it feeds its own normal force. */
+static bool asks_forces(const struct run *run)
+{
+    const struct plan *plan = &run->model->plan;
+    if (plan->kink_count > 0 || run->poles.count > 0) return true;
+    for (size_t i = 0; i < plan->mode_count; i++) {
+        const struct mode *mode = &plan->modes[i];
+        if (mode->kind != mode_single || run->model->tree || (mode->two_sided && mode->normal_slot >= 0))
+            return true;
+    }
+    return false;
+}
+
 static bool make_run(struct run *run, const struct state_start *begin)
 {
     const struct plan *plan = &run->model->plan;
@@ -95,8 +108,9 @@ static bool make_run(struct run *run, const struct state_start *begin)
     run->decided.pulls = run->decided.slips + plan->mode_count;
     const struct tree *tree = run->model->tree;
     bool meets = tree && tree->meeting_count > 0, couples = tree && tree->tie_count > 0;
-    run->lazy = plan->mode_count == 0 && plan->kink_count == 0 && run->poles.count == 0 && !meets;
-    run->plain = run->lazy && !couples && run->watchers.timed.count + run->watchers.moving.count == 0;
+    run->lazy = !meets && !asks_forces(run);
+    run->plain = run->lazy && plan->mode_count == 0 && !couples &&
+                 run->watchers.timed.count + run->watchers.moving.count == 0;
     run->rates = rates_new(run->during, rates_by_rows);
     if (!run->rates) return false;
     gsl_odeiv2_system system = {.jacobian = jacobian, .dimension = size};

@@ -35,6 +35,15 @@ static bool any_leads(const struct run *run)
     return false;
 }
 
+/* Does run_lead change anything? */
+static bool is_led(const struct run *run)
+{
+    bool led = false;
+    for (size_t i = 0; run->search.leads && i < run->model->plan.mode_count; i++)
+        led |= run->model->plan.modes[i].kind == mode_drive || leads(run, i);
+    return led;
+}
+
 void run_lead(const struct run *run, double t, double *y)
 {
     const struct plan *plan = &run->model->plan;
@@ -140,6 +149,12 @@ static void set_noise(struct run *run)
     }
 }
 
+static int powers_of(void *context, double from, double to, int component, double *c)
+{
+    const struct run *run = context;
+    return switcher_powers(run->stepper, moment_at(from), moment_at(to), (size_t)component, c);
+}
+
 /* Follow the wanted components; returns the end of the piece, NAN where the motion cannot be had. */
 static double follow(struct run *run, double from, double to, bool coarse, const bool *wanted)
 {
@@ -151,6 +166,8 @@ static double follow(struct run *run, double from, double to, bool coarse, const
         degree = course_most_degree;
     }
     set_noise(run);
+    if (negligible == 0 && !is_led(run) && course_set_powers(&run->course, from, to, wanted, powers_of, run))
+        return to;
     coarse = coarse && degree > simple && run->options.step == 0;
     int status = coarse ? course_set_coarse(&run->course, from, to, wanted, sample_course, run)
                         : course_set(&run->course, from, to, wanted, degree, negligible, sample_course, run);

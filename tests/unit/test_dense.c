@@ -18,7 +18,9 @@
 #include "integrate/dense.h"
 #include "integrate/dop853.h"
 #include "integrate/history.h"
+#include "integrate/linear.h"
 #include "integrate/method.h"
+#include "integrate/parabola.h"
 
 enum { size = 3 };
 
@@ -262,6 +264,82 @@ static void dop853_answers_by_itself(void **state)
     gsl_odeiv2_step_free(step);
 }
 
+/* By powers of s over a piece of the step as by its time, to rounding. */
+static void expect_same(struct dense *dense, struct moment from, struct moment to, int count)
+{
+    double c[dense_most_degree + 1], y[size];
+    for (int i = 0; i < count; i++) {
+        int degree = dense_powers(dense, from, to, (size_t)i, c);
+        assert_true(degree >= 0 && degree <= dense_most_degree);
+        for (int k = 0; k <= 16; k++) {
+            double s = k / 8.0 - 1, sum = 0, terms = 0;
+            assert_int_equal(dense_eval(dense, moment_at(from.t + (to.t - from.t) * (1 + s) / 2), y),
+                             GSL_SUCCESS);
+            for (int m = degree; m >= 0; m--) sum = c[m] + s * sum, terms += fabs(c[m]);
+            assert_true(fabs(sum - y[i]) <= 16 * DBL_EPSILON * terms);
+        }
+    }
+}
+
+static int swings(double t, const double y[], double f[], void *params)
+{
+    (void)t;
+    f[0] = y[1];
+    f[1] = *(const double *)params - (*(const double *)params == 0) * 3 * y[0];
+    return GSL_SUCCESS;
+}
+
+static int swings_by(double t, const double y[], double *dfdy, double dfdt[], void *params)
+{
+    (void)t, (void)y, (void)params;
+    dfdy[0] = dfdy[3] = dfdt[0] = dfdt[1] = 0;
+    dfdy[1] = 1;
+    dfdy[2] = -3;
+    return GSL_SUCCESS;
+}
+
+/* The methods that have a dense output of their own: an oscillator, or a constant acceleration. */
+static void expect_same_of(const gsl_odeiv2_step_type *type, double a, double h)
+{
+    gsl_odeiv2_system sys = {swings, swings_by, 2, &a};
+    gsl_odeiv2_step *step = gsl_odeiv2_step_alloc(type, 2);
+    double y0[2] = {0.7, -1.3}, y1[2] = {0.7, -1.3}, yerr[2], f0[2], f1[2];
+    swings(0, y0, f0, &a);
+    assert_int_equal(gsl_odeiv2_step_apply(step, 0.4, h, y1, yerr, f0, f1, &sys), GSL_SUCCESS);
+    const struct layout layout = {.pairs = 1};
+    struct dense *dense = dense_alloc(&layout);
+    dense_set(dense, 8, moment_at(0.4), y0, f0, moment_at(0.4 + h), y1, f1, &sys, step);
+    expect_same(dense, moment_at(0.4), moment_at(0.4 + h), 2);
+    expect_same(dense, moment_at(0.4 + 0.3 * h), moment_at(0.4 + 0.4 * h), 2);
+    dense_free(dense);
+    gsl_odeiv2_step_free(step);
+}
+
+static void powers_over_a_piece_are_the_same_polynomial(void **state)
+{
+    (void)state;
+    const struct layout layout = {.pairs = 1, .extra = 1};
+    const double t0 = 0.4, h = 0.25;
+    for (int order = 1; order <= 8; order++) {
+        struct problem problem = {0};
+        gsl_odeiv2_system sys = {.function = rhs, .dimension = size, .params = &problem};
+        double y0[size], y1[size], f0[size], f1[size];
+        exact(t0, y0);
+        exact(t0 + h, y1);
+        y1[0] += 1e-3; /* not what the method would have: every term of the polynomials counts */
+        rhs(t0, y0, f0, &problem);
+        rhs(t0 + h, y1, f1, &problem);
+        struct dense *dense = dense_alloc(&layout);
+        dense_set(dense, order, moment_at(t0), y0, f0, moment_at(t0 + h), y1, f1, &sys, NULL);
+        expect_same(dense, moment_at(t0), moment_at(t0 + h), size);
+        expect_same(dense, moment_at(t0 + 0.6 * h), moment_at(t0 + 0.85 * h), size);
+        dense_free(dense);
+    }
+    expect_same_of(step_dop853, 0, 0.8);
+    expect_same_of(step_linear, 0, 0.001);
+    expect_same_of(step_parabola, 2.5, 0.8);
+}
+
 /* A train 1e6 m away at 10 m/s, over steps so short that the rounding of q is larger than the way made: the
  * quartic of v would show eps q / h, 2e-4 m/s. */
 static void rounding_of_a_large_coordinate_is_not_seen_in_the_velocity(void **state)
@@ -329,6 +407,7 @@ int main(void)
         cmocka_unit_test(the_ends_are_exact_and_cost_nothing),
         cmocka_unit_test(a_failing_right_hand_side_is_reported),
         cmocka_unit_test(dop853_answers_by_itself),
+        cmocka_unit_test(powers_over_a_piece_are_the_same_polynomial),
         cmocka_unit_test(rounding_of_a_large_coordinate_is_not_seen_in_the_velocity),
         cmocka_unit_test(a_step_back_in_time_is_a_step),
         cmocka_unit_test(the_last_points_give_polynomials_exactly),
