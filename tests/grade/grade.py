@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Usage: grade.py FBD-RUN: errors of students, each named rightly; and the same mechanics in other words. Prints TAP."""
 import json
+import os
 import subprocess
 import sys
 import tempfile
@@ -39,8 +40,9 @@ def grade(key, *answers, options=()):
 
 
 def test_cases(folder):
+    every = 3 if os.environ.get("FBD_THOROUGH") == "no" else 1
     for number, (name, what, changes, kind, item) in enumerate(CASES):
-        if kind is None:
+        if kind is None or number % every != 0:
             continue
         key, answer = folder / f"{name}.key.yaml", folder / f"case{number}.yaml"
         answer.write_text(changed(KEYS[name], changes), encoding="utf-8")

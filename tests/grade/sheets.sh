@@ -7,16 +7,19 @@ set -u
 models="$FBD_SOURCE_ROOT/models"
 examples="$FBD_SOURCE_ROOT/examples/grading"
 cd "$scratch" || exit 1
+every=1
+if [ "${FBD_THOROUGH-}" = no ]; then every=6; fi
+keys=$(ls "$models"/*/*.yaml | awk "NR % $every == 0")
 
 passes_itself() {
-    for model in "$models"/*/*.yaml; do
+    for model in $keys; do
         "$FBD_RUN" --quiet --grade "$model" "$model" || { echo "$model: exit $?"; return 1; }
     done
 }
 
 sheets_are_models() {
     cp "$models"/data/*.csv .
-    for model in "$models"/*/*.yaml; do
+    for model in $keys; do
         "$FBD_RUN" --handout --student 'a "name"' "$model" >sheet.yaml || { echo "$model: no sheet"; return 1; }
         ! grep -E '^    (hand|forces|moments): .*[a-z]' sheet.yaml || { echo "$model: tells the key"; return 1; }
         "$FBD_RUN" --check sheet.yaml >checked 2>&1

@@ -72,7 +72,8 @@ return wrong;
 def models(folder):
     crowded = folder / "crowded.yaml"
     crowded.write_text(CROWDED, encoding="utf-8")
-    return [*sorted(MODELS.glob("*/*.yaml")), crowded]
+    every = 4 if os.environ.get("FBD_THOROUGH") == "no" else 1
+    return [*sorted(MODELS.glob("*/*.yaml"))[::every], crowded]
 
 
 def draw(model, path, *arguments):
