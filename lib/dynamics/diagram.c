@@ -256,7 +256,7 @@ static struct vec guiding_force(const struct model_body *body, const struct inst
 }
 
 /* Add the reaction of a guide or an axis on the ground, or give it to the `normal` that is listed. */
-static size_t add_guide(const struct fbd_model *model, const struct model_body *body,
+static size_t add_guide(const struct fbd_model *model, const struct model_body *body, const struct pose *pose,
                         const struct instant *at, const double *a, struct arrow *arrows, size_t count)
 {
     const bool pivot = body->kind == motion_pivot;
@@ -272,12 +272,11 @@ static size_t add_guide(const struct fbd_model *model, const struct model_body *
         normal->force = reaction;
         return count;
     }
-    struct pose pose = body_pose(body, at);
     arrows[count] =
         (struct arrow){.name = pivot ? "pin" : "guide",
                        .load = -1,
                        .force = reaction,
-                       .point = pivot ? body->origin : point_motion(body, &pose, body->inertia.G).p};
+                       .point = pivot ? body->origin : point_motion(body, pose, body->inertia.G).p};
     return count + 1;
 }
 
@@ -290,7 +289,17 @@ size_t diagram_list(const struct fbd_model *model, int index, const struct insta
     for (size_t i = 0; i < count; i++)
         pose_arrow(model, body->first_load + (int)i, &pose, at, slots, &arrows[i]);
     if (body->place.link > 0) return tree_diagram_add(model, index, at, slots, arrows);
-    return add_guide(model, body, at, a, arrows, count);
+    return add_guide(model, body, &pose, at, a, arrows, count);
+}
+
+double load_power(const struct fbd_model *model, int index, const struct pose *pose, const struct instant *at,
+                  const double *slots)
+{
+    struct arrow arrow;
+    int body = model->loads[index].body;
+    pose_arrow(model, index, pose, at, slots, &arrow);
+    set_share(model, body, at, &arrow);
+    return power_of(&model->bodies[body], at, &arrow);
 }
 
 size_t diagram_fill(const struct fbd_model *model, int index, const struct instant *at, const double *a,

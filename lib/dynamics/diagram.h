@@ -34,7 +34,11 @@ size_t diagram_most_arrows(const struct fbd_model *model);
 size_t diagram_fill(const struct fbd_model *model, int index, const struct instant *at, const double *a,
                     const double *slots, struct arrow *arrows);
 
-/* The same without shares and powers, for who asks for forces, points and couples alone. */
+/* The power of a load that is no reaction on its body, which is on the ground, by itself: as diagram_fill has it. */
+double load_power(const struct fbd_model *model, int index, const struct pose *pose, const struct instant *at,
+                  const double *slots);
+
+/* As diagram_fill without shares and powers, for who asks for forces, points and couples alone. */
 size_t diagram_list(const struct fbd_model *model, int index, const struct instant *at, const double *a,
                     const double *slots, struct arrow *arrows);
 

@@ -52,6 +52,26 @@ void ledger_free(struct ledger *ledger)
     *ledger = (struct ledger){0};
 }
 
+static void add_power(struct ledger *ledger, int load, double weight, double power, double *work)
+{
+    work[load] += weight * power;
+    ledger->turnover += weight * fabs(power);
+}
+
+/* On the ground what is integrated is listed by the body, and its joint does no work. */
+static void add_powers_on_ground(struct ledger *ledger, const struct group *group,
+                                 const struct model_body *body, const struct fbd_state *state, double weight,
+                                 double *work)
+{
+    struct instant at = state_instant(state);
+    const struct pose pose = body_pose(body, &at);
+    for (int i = body->first_load; i < body->first_load + body->load_count; i++) {
+        int load = group_load(group, i);
+        if (ledger->integrated[load])
+            add_power(ledger, load, weight, load_power(group->model, i, &pose, &at, state->slots), work);
+    }
+}
+
 /* Add weight * power of every integrated load of a group in a state of it. */
 static void add_powers(struct ledger *ledger, const struct group *group, const struct fbd_state *state,
                        double weight, double *work)
@@ -66,16 +86,18 @@ static void add_powers(struct ledger *ledger, const struct group *group, const s
         if (!wanted) continue;
         if (body->carried >= 0) {
             double power = body_carried_power(model, body, &at);
-            work[group_load(group, body->carried)] += weight * power;
-            ledger->turnover += weight * fabs(power);
+            add_power(ledger, group_load(group, body->carried), weight, power, work);
+        }
+        if (body->place.link == 0) {
+            add_powers_on_ground(ledger, group, body, state, weight, work);
+            continue;
         }
         size_t count = diagram_fill(model, (int)b, &at, state->a, state->slots, ledger->arrows);
         for (size_t i = 0; i < count; i++) {
             int load = group_load(group, ledger->arrows[i].load);
             /* What acts between two bodies: its power on both. */
             if (load < 0 || !ledger->integrated[load]) continue;
-            work[load] += weight * ledger->arrows[i].power;
-            ledger->turnover += weight * fabs(ledger->arrows[i].power);
+            add_power(ledger, load, weight, ledger->arrows[i].power, work);
         }
     }
 }
