@@ -50,4 +50,13 @@ void gathered_free(struct gathered *all);
  * order, whatever the force is that held it. */
 void gathered_set_out(struct fbd_state *state, const int *gives);
 
+/* ---- friction that has no force in any of its modes: it slips to the side that it moves to, at rest as before, in `forced`,
+ * and is out of question */
+
+/* Where its coefficients are zero for now, and go on so. */
+void tree_find_frictionless(struct fbd_state *state, const struct decided *decided, int *forced);
+
+/* Where nothing presses on its guide, whatever holds, and goes on so. */
+void tree_find_unpressed(struct gathered *all, const struct decided *decided, int *forced);
+
 #endif

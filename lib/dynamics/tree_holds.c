@@ -23,54 +23,6 @@
 #include "dynamics/tree_shared.h"
 #include "dynamics/tree_system.h"
 
-/* ---- friction that has no force in any of its modes: there is nothing to decide */
-
-/* It slips, to the side that it moves to; at rest as before. */
-static void leave_idle(struct fbd_state *state, const struct decided *decided, int *forced, int pair)
-{
-    int side = hold_slips_already(state, decided, forced, pair);
-    if (side == 0) side = state->slip_before[pair];
-    state->slip_idle[pair] = forced[pair] = state->slip[pair] = side < 0 ? slip_minus : slip_plus;
-}
-
-/* Where its coefficients are zero for now, and go on so. */
-static void find_frictionless(struct fbd_state *state, const struct decided *decided, int *forced)
-{
-    const struct fbd_model *model = state->model;
-    struct instant at = state_instant(state);
-    const struct direction flow = {1, state_scratch(state).dy};
-    for (int pair = 0; pair < (int)model->plan.mode_count; pair++) {
-        const struct mode *hold = mode_of(state, pair);
-        state->slip_idle[pair] = forced[pair] = 0;
-        if (!mode_is_friction(hold) || !hold_in_question(state, decided, forced, pair)) continue;
-        if (!friction_is_idle(model, pair, &at, &flow)) continue;
-        leave_idle(state, decided, forced, pair);
-    }
-}
-
-/* Where nothing presses on its guide, whatever holds, and goes on so. */
-static void find_unpressed(struct gathered *all, const struct decided *decided, int *forced)
-{
-    const double little = 1e-12, little_rate = 1e-10;
-    struct fbd_state *state = all->state;
-    const double *slots_along = state_scratch(state).slots_along;
-    size_t count = all->problem.count;
-    double fastest = -1;
-    for (size_t g = 0; g < all->problem.guide_count; g++) {
-        int pair = all->guide[g];
-        const struct mode *hold = mode_of(state, pair);
-        double answer = 0, N = all->problem.guides[g].free;
-        for (size_t j = 0; j < count; j++) answer = fmax(answer, fabs(all->problem.B[g * count + j]));
-        if (hold->tie >= 0 || answer > little || fabs(N) > press_slack(state->model, state->tree, hold->body))
-            continue;
-        if (fastest < 0) tree_evaluate(state);
-        for (int k = 0; k < state->model->plan.slots; k++) fastest = fmax(fastest, fabs(slots_along[k]));
-        if (fabs(slots_along[hold->normal_slot]) > little_rate * fastest) continue;
-        leave_idle(state, decided, forced, pair);
-        all->problem.holds[all->hold[pair]].slip = forced[pair];
-    }
-}
-
 /* ---- what is solved */
 
 /* Painleve's paradox has a friction by which its own normal force grows: the one that does so most. */
@@ -128,7 +80,7 @@ static enum holds_found solve(struct fbd_state *state, const struct decided *dec
     struct gathered all;
     enum holds_found found = holds_no_memory;
     if (gathered_find(&all, state, decided, forced)) {
-        find_unpressed(&all, decided, forced);
+        tree_find_unpressed(&all, decided, forced);
         found = holds_decide(&all.problem);
         if (found != holds_decided) state->holds = trouble_of(&all, found);
     }
@@ -439,7 +391,7 @@ static bool holds_what_is_driven(struct fbd_state *state, const struct decided *
         moves |= all.still[i] == still_stays && all.problem.holds[i].slip != 0 &&
                  state->slip[all.pair[i]] == stick;
     memcpy(forced, state->slip_idle, state->model->plan.mode_count * sizeof *forced);
-    if (gathered) find_unpressed(&all, decided, forced);
+    if (gathered) tree_find_unpressed(&all, decided, forced);
     gathered_free(&all);
     return moves;
 }
@@ -519,7 +471,7 @@ bool tree_settle_holds(struct fbd_state *state, const struct decided *decided)
     size_t count = state->model->plan.mode_count, bytes = count * sizeof *before;
     int *forced = state->slip_forced;
     memcpy(before, state->slip, bytes);
-    find_frictionless(state, decided, forced);
+    tree_find_frictionless(state, decided, forced);
     for (int pair = 0; pair < (int)count; pair++) {
         if (state->slip[pair] == stick || !hold_in_question(state, decided, forced, pair)) continue;
         const struct mode *hold = mode_of(state, pair);

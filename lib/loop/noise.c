@@ -312,7 +312,7 @@ void run_set_noise(struct run *run)
 
 void run_renew_noise(struct run *run)
 {
-    const unsigned long steps = 64; /* costs a hundredth of them */
+    const unsigned long steps = 64;    /* costs a hundredth of them */
     if (run->options.step > 0) return; /* nothing chooses by it */
     bool due = run->model->tree && ++run->grain.since >= steps;
     if (!due && !switcher_noise_counts(run->stepper, run->step.h)) return;
