@@ -40,6 +40,7 @@ static bool explains(const struct hand_check *check, int slip, candidate *value,
     }
     if (!(bottom > 0) || !isfinite(bottom)) return false;
     *factor = top / bottom;
+    if (!isfinite(*factor)) return false; /* the sums have overflowed */
     for (size_t i = 0; i < check->count; i++) {
         const struct hand_sample *sample = &check->samples[i];
         if (sample->slip == slip &&
