@@ -355,8 +355,7 @@ static bool decide(struct fbd_state *state, const struct decided *decided, int *
             forced[pair] = state->slip[pair] = barely[pair];
             more = true;
         }
-        if (!more && found == differs && state->holds.contradicts < 0)
-            more = open_what_barely_holds(state, forced);
+        if (!more && found == differs) more = open_what_barely_holds(state, forced);
         if (!more) return false;
     }
     return false;
