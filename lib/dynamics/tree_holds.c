@@ -321,18 +321,22 @@ static bool open_what_barely_holds(struct fbd_state *state, int *forced)
     return any;
 }
 
-/* Does what was opened close again, since something else has changed after that? */
-static bool closes_again(const struct fbd_state *state, const int *forced)
+/* What was opened and closes again, since something else has changed after that, is closed. Does anything? */
+static bool close_again(struct fbd_state *state, int *forced)
 {
     const struct instant at = state_instant(state);
+    bool any = false;
     for (int pair = 0; pair < (int)state->model->plan.mode_count; pair++) {
         if (!mode_is_one_sided(mode_of(state, pair)) || forced[pair] == 0 || forced[pair] == keeps_still ||
             state->slip[pair] == stick)
             continue;
         double closing = one_sided_at(state->model, &at, pair).acceleration;
-        if (closing > 0 && tree_seen_acceleration(state, closing)) return true;
+        if (closing <= 0 || !tree_seen_acceleration(state, closing)) continue;
+        state->slip[pair] = stick;
+        forced[pair] = 0;
+        any = true;
     }
-    return false;
+    return any;
 }
 
 /* Solve, and let rates decide what is at its limit, one after the other. False where the forces do not agree
@@ -344,7 +348,7 @@ static bool decide(struct fbd_state *state, const struct decided *decided, int *
         memset(barely, 0, (size_t)count * sizeof *barely);
         if (solve(state, decided, forced, barely) >= holds_none) return false;
         enum agreement found = look_at_solved(state, decided, forced);
-        if (found == agrees) return !closes_again(state, forced);
+        if (found == agrees) return !close_again(state, forced);
         bool more = found == at_limit;
         int on = found == differs ? surface_under(state, state->holds.contradicts) : -1;
         for (int pair = 0; pair < count && found == differs; pair++) {
@@ -440,6 +444,14 @@ static bool take_later_modes(struct fbd_state *state, const struct fbd_state *la
     return any;
 }
 
+/* Do the modes agree, with what is open not closing? What closes again is closed, each but once. */
+static bool agrees_open(struct fbd_state *state, const struct decided *decided, int *forced)
+{
+    bool agreed = look(state, decided, forced, true) == agrees;
+    while (agreed && close_again(state, forced)) agreed = look(state, decided, forced, true) == agrees;
+    return agreed;
+}
+
 /* Rows that are redundant let a body turn all the same, and are so no more when it has: then what presses opens, and what sticks
  * slips, by as little as that is. */
 static bool look_later(struct fbd_state *state, const struct decided *decided, int *forced)
@@ -455,7 +467,7 @@ static bool look_later(struct fbd_state *state, const struct decided *decided, i
         state_copy(later, state);
         for (size_t i = 0; i < n; i++) later->y[n + i] = T * state->a[i];
         if (modes_settle(later, &nothing) && take_later_modes(state, later, decided, forced))
-            agreed = look(state, decided, forced, true) == agrees && !closes_again(state, forced);
+            agreed = agrees_open(state, decided, forced);
     } else {
         state->holds.found = holds_no_memory;
     }
