@@ -34,7 +34,7 @@ size_t diagram_most_arrows(const struct fbd_model *model);
 size_t diagram_fill(const struct fbd_model *model, int index, const struct instant *at, const double *a,
                     const double *slots, struct arrow *arrows);
 
-/* The power of a load that is no reaction on its body, which is on the ground, by itself: as diagram_fill has it. */
+/* The power of one load, as diagram_fill has it: of a body on the ground, and not of a reaction (`normal`). */
 double load_power(const struct fbd_model *model, int index, const struct pose *pose, const struct instant *at,
                   const double *slots);
 

@@ -339,6 +339,14 @@ static bool close_again(struct fbd_state *state, int *forced)
     return any;
 }
 
+/* Of modes that agree: do they still, with what is open and closes again closed, each but once? */
+static enum agreement keep_closed(struct fbd_state *state, const struct decided *decided, int *forced)
+{
+    enum agreement found = agrees;
+    while (found == agrees && close_again(state, forced)) found = look(state, decided, forced, true);
+    return found;
+}
+
 /* Solve, and let rates decide what is at its limit, one after the other. False where the forces do not agree
  * with what was solved. */
 static bool decide(struct fbd_state *state, const struct decided *decided, int *forced)
@@ -348,7 +356,8 @@ static bool decide(struct fbd_state *state, const struct decided *decided, int *
         memset(barely, 0, (size_t)count * sizeof *barely);
         if (solve(state, decided, forced, barely) >= holds_none) return false;
         enum agreement found = look_at_solved(state, decided, forced);
-        if (found == agrees) return !close_again(state, forced);
+        if (found == agrees) found = keep_closed(state, decided, forced);
+        if (found == agrees) return true;
         bool more = found == at_limit;
         int on = found == differs ? surface_under(state, state->holds.contradicts) : -1;
         for (int pair = 0; pair < count && found == differs; pair++) {
@@ -444,14 +453,6 @@ static bool take_later_modes(struct fbd_state *state, const struct fbd_state *la
     return any;
 }
 
-/* Do the modes agree, with what is open not closing? What closes again is closed, each but once. */
-static bool agrees_open(struct fbd_state *state, const struct decided *decided, int *forced)
-{
-    bool agreed = look(state, decided, forced, true) == agrees;
-    while (agreed && close_again(state, forced)) agreed = look(state, decided, forced, true) == agrees;
-    return agreed;
-}
-
 /* Rows that are redundant let a body turn all the same, and are so no more when it has: then what presses opens, and what sticks
  * slips, by as little as that is. */
 static bool look_later(struct fbd_state *state, const struct decided *decided, int *forced)
@@ -467,7 +468,8 @@ static bool look_later(struct fbd_state *state, const struct decided *decided, i
         state_copy(later, state);
         for (size_t i = 0; i < n; i++) later->y[n + i] = T * state->a[i];
         if (modes_settle(later, &nothing) && take_later_modes(state, later, decided, forced))
-            agreed = agrees_open(state, decided, forced);
+            agreed =
+                look(state, decided, forced, true) == agrees && keep_closed(state, decided, forced) == agrees;
     } else {
         state->holds.found = holds_no_memory;
     }

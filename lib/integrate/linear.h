@@ -40,7 +40,7 @@ extern const gsl_odeiv2_step_type *const step_linear;
 void linear_set_matrix(gsl_odeiv2_step *step, const double *A, double rho);
 
 /* As those of dop853; exact, without evaluations. Powers are had where the last step is a polynomial of no higher degree
- * than linear_most_powers; else -1. */
+ * than linear_most_powers; else -1: a few samples are cheaper then. */
 enum { linear_most_powers = 8 };
 int linear_dense_prepare(gsl_odeiv2_step *step, const gsl_odeiv2_system *sys);
 void linear_dense_eval(const gsl_odeiv2_step *step, double theta, double *y);

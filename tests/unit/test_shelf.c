@@ -4,7 +4,8 @@
  * the shelf or without one. They slide, tip, lean on each other and stand, and many of their contacts are redundant:
  * all corners on the floor are on one line, and so are the faces that touch. With smooth sides against a time stepping
  * that knows no events (moreau.h); with rough ones a box may jam in itself, between the friction under a corner and the push
- * of its neighbour at the next one, or not: there all that is asked for is that the run comes to its end. FBD_SHELF=1000 tries so many, FBD_SHELF_SEED=17 begins there, FBD_SHELF_SHOW=1 prints the models, FBD_SHELF_UNTIL is when to look.
+ * of its neighbour at the next one, or not: there all that is asked for is that the run comes to its end. FBD_SHELF=1000
+ * tries so many, FBD_SHELF_SEED=17 begins there, FBD_SHELF_SHOW=1 prints the models, FBD_SHELF_UNTIL is when to look.
  */
 #include <setjmp.h>
 #include <stdarg.h>
@@ -325,9 +326,26 @@ static void time_stepping_says_the_same(void **unused)
     moreau_compare("FBD_SHELF", thorough() ? 100 : 20, 5, agrees);
 }
 
+/* Scenes that went wrong, and why. */
+static void what_went_wrong_does_not(void **unused)
+{
+    static const uint64_t seeds[] = {
+        30012, 30075, 20406,               /* half of a turning speed was lost as feet came to stick */
+        20493, 10342, 30169, 30571, 20230, /* redundant contacts let a box turn: other modes at once */
+        31429, 31485, 31706, 30362, 30710, 20694, 10277, /* what holds barely was not let go */
+        31047, 31314, 31545, /* what opens a moment later was open where it closes */
+    };
+    (void)unused;
+    for (size_t i = 0; i < sizeof seeds / sizeof *seeds; i++) {
+        bool sensitive;
+        assert_true(agrees(seeds[i], &sensitive) && !sensitive);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(what_went_wrong_does_not),
         cmocka_unit_test(time_stepping_says_the_same),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
