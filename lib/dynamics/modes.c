@@ -135,8 +135,10 @@ double press_slack(const struct fbd_model *model, const struct tree_work *tree, 
     return 1e-13 * size;
 }
 
+/* `around`: passes have been tried that lead to each other. z at its limit stands still on the branch beyond, which would
+ * not be chosen where it stands still, and is driven back on the other: it stays. */
 static bool settle_branches(struct fbd_state *state, const struct decided *decided,
-                            const struct direction *flow)
+                            const struct direction *flow, bool around)
 {
     const struct plan *plan = &state->model->plan;
     size_t size = (size_t)plan->branches * sizeof *state->branch;
@@ -147,8 +149,8 @@ static bool settle_branches(struct fbd_state *state, const struct decided *decid
         const bool *keep = state->sliding ? state->sliding->keep + first
                            : decided      ? decided->branches + first
                                           : NULL;
-        expr_resolve(kink->formula.expr, state_moment(state), state->y, flow->dt, flow->dy, keep,
-                     state->branch + first);
+        (around ? expr_resolve_at_rest : expr_resolve)(kink->formula.expr, state_moment(state), state->y,
+                                                       flow->dt, flow->dy, keep, state->branch + first);
     }
     return memcmp(state->branch_before, state->branch, size) == 0;
 }
@@ -247,7 +249,7 @@ static bool settle_slips(struct fbd_state *state, const struct decided *decided,
 
 static bool settle(struct fbd_state *state, const struct decided *decided)
 {
-    enum { most_passes = 12 };
+    enum { most_passes = 12, around = 6 };
     const struct plan *plan = &state->model->plan;
     bool first = true;
     state->settled = true;
@@ -257,7 +259,7 @@ static bool settle(struct fbd_state *state, const struct decided *decided)
         state_evaluate(state);
         if (plan->kink_count + plan->mode_count == 0) return state->holds.found < holds_none;
         struct direction flow = flow_of(state);
-        bool same = settle_branches(state, decided, &flow);
+        bool same = settle_branches(state, decided, &flow, pass >= around);
         if (plan->mode_count > 0) same = settle_slips(state, decided, &flow) && same;
         if (state->holds.found >= holds_none) return false;
         if (same && !first) {

@@ -12,6 +12,7 @@
 
 #include "dynamics/absolute.h"
 #include "dynamics/modes.h"
+#include "dynamics/tree_system.h"
 
 enum { most_asked = 16, most_units = 5 };
 
@@ -208,14 +209,19 @@ static double size_of_rate(const struct question *q, const struct asked *asked)
     return size;
 }
 
-/* Accelerations, and those that friction could take: at its limit what is left of both is rounding of these. */
+/* Accelerations, and those that couplings take and that friction could: what is left of all of them is rounding of
+ * these. */
 static void take_sizes(struct question *q)
 {
     struct fbd_state *state = q->state;
     const struct plan *plan = &state->model->plan;
     const struct instant at = state_instant(state);
     for (int i = 0; i < plan->n; i++) q->most = fmax(q->most, fabs(state->a[i]));
-    if (q->count == 0 || plan->mode_count == 0) return;
+    if (q->count == 0) return;
+    for (int j = 0; state->tree && j < state->model->tree->row_count; j++)
+        if (tree_takes_part(state->model->tree, &at, j))
+            q->most = fmax(q->most, fabs(state->tree->rows[j].lambda * state->tree->diagonal[j]));
+    if (plan->mode_count == 0) return;
     force_balance(state->model, &at, state->scratch);
     for (int pair = 0; pair < (int)plan->mode_count; pair++) {
         const struct mode *mode = &plan->modes[pair];

@@ -276,6 +276,9 @@ void watchers_evaluate(const struct watchers *watchers, const struct watcher_set
             size_t entry = 2 * (size_t)watcher->part + (size_t)watcher->end;
             values[i] = watchers->scratch[entry];
             rates[i] = watchers->scratch[2 * kink->count + entry];
+            double rounding = 4 * watchers->scratch[4 * kink->count + entry];
+            /* What stands at its switch, as an integral at its limit, may be beyond it by a rounding of where it came. */
+            if (rates[i] == 0 && values[i] < 0 && values[i] >= -rounding) values[i] = 0;
             bool held = watchers->held[kink->formula.branch + watcher->part];
             if (!held && !slide_of(state, watcher)) break;
             values[i] = HUGE_VAL;

@@ -211,6 +211,11 @@ void expr_margins(const struct expr *expr, struct moment t, const double *y, dou
 void expr_resolve(const struct expr *expr, struct moment t, const double *y, double dt, const double *dy,
                   const bool *keep, int *branch);
 
+/* The same, but that a comparison which is zero with a rate of exactly zero stays on the branch that it has in `branch`,
+ * if that is not 0: the branch holds it there, as the limit of an integral does. */
+void expr_resolve_at_rest(const struct expr *expr, struct moment t, const double *y, double dt,
+                          const double *dy, const bool *keep, int *branch);
+
 /* What the active switches watch, at a point of the motion: u, its rate along (dt, dy), and the rounding of
  * u, within which it is zero. NAN for silent switches. Each array has expr_switches entries. */
 void expr_switchings(const struct expr *expr, double t, const double *y, double dt, const double *dy,

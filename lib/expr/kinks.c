@@ -266,7 +266,8 @@ static int plain_branch(const struct instr *i, const struct motion *at)
     return counted(op_plain_branch(i, at->value[i->a], at->value[i->b]));
 }
 
-static int branch_by_sign(const struct instr *i, int before, const struct motion *at, struct crossing c)
+static int branch_by_sign(const struct instr *i, int before, bool stays, const struct motion *at,
+                          struct crossing c)
 {
     if (!isfinite(c.u)) return plain_branch(i, at);
     if (fabs(c.u) <= c.tolerance) {
@@ -274,6 +275,7 @@ static int branch_by_sign(const struct instr *i, int before, const struct motion
         if (c.rate < 0) return -1;
         if (i->op == op_sign || i->op == op_equal) return 0;
         if (i->op == op_relay) return before > 0 ? 1 : -1;
+        if (stays && before != 0) return before;
     }
     if (i->op == op_relay) return c.u > 0 || (c.u == 0 && before > 0) ? 1 : -1;
     return counted(op_plain_branch(i, c.u, 0));
@@ -307,6 +309,8 @@ static int branch_by_piece(const struct instr *i, const struct motion *at, struc
 
 struct resolution {
     const bool *keep;
+    bool stays;
+    const int *before;
     int *branch;
 };
 
@@ -316,22 +320,36 @@ static void choose_branch(void *context, const struct instr *i, const struct mot
     if (r->keep && r->keep[i->extra]) return;
     int *branch = &r->branch[i->extra];
     *branch = i->op == op_table      ? branch_by_piece(i, at, c)
-              : op_is_by_sign(i->op) ? branch_by_sign(i, *branch, at, c)
+              : op_is_by_sign(i->op) ? branch_by_sign(i, r->before[i->extra], r->stays, at, c)
                                      : branch_by_rounding(i, at, c);
     if (i->op == op_levels) *branch = (int)levels_clamp(*branch);
 }
 
-void expr_resolve(const struct expr *expr, struct moment t, const double *y, double dt, const double *dy,
-                  const bool *keep, int *branch)
+static void resolve(const struct expr *expr, struct moment t, const double *y, double dt, const double *dy,
+                    const bool *keep, bool stays, int *branch)
 {
     if (!expr->switches) return;
     struct motion motion;
-    struct resolution context = {keep, branch};
+    int before[frame_limit];
+    struct resolution context = {keep, stays, before, branch};
+    memcpy(before, branch, expr->switches * sizeof *before);
     for (size_t k = 0; k < expr->switches; k++)
         if ((!keep || !keep[k]) && expr->switch_at[k].op != op_relay) branch[k] = 0;
     /* Who asks without an event means 0.7 by the double next to it, and so where three times that is. */
     load(expr, t, y, dt, dy, keep ? twofold_rounding : DBL_EPSILON, &motion);
     run(expr, branch, &motion, choose_branch, &context);
+}
+
+void expr_resolve(const struct expr *expr, struct moment t, const double *y, double dt, const double *dy,
+                  const bool *keep, int *branch)
+{
+    resolve(expr, t, y, dt, dy, keep, false, branch);
+}
+
+void expr_resolve_at_rest(const struct expr *expr, struct moment t, const double *y, double dt,
+                          const double *dy, const bool *keep, int *branch)
+{
+    resolve(expr, t, y, dt, dy, keep, true, branch);
 }
 
 int expr_branch_beyond(const struct expr *expr, size_t index, int end, int branch)

@@ -4,10 +4,13 @@
  */
 #include <float.h>
 #include <gsl/gsl_errno.h>
+#include <math.h>
 #include <string.h>
 
 #include "dynamics/energy.h"
+#include "dynamics/modes.h"
 #include "dynamics/project.h"
+#include "dynamics/tree_driven.h"
 #include "dynamics/tree_system.h"
 #include "loop/run.h"
 #include "rest/balance.h"
@@ -278,6 +281,27 @@ void run_close_step(struct run *run)
              "at the end of its reach, or the tolerance is too large",
              run_time(run), tie_row_name(run->model->tree, misfit.row >= 0 ? misfit.row : 0),
              misfit.position);
+}
+
+/* What rounding has left of the speed would be taken for a side that it moves to, and of its acceleration nothing comes
+ * within a step. */
+void run_rest_held(struct run *run)
+{
+    const double rounding = 1e-14, little = 1e-12;
+    const struct plan *plan = &run->model->plan;
+    const double *most = run->recent.anchor + plan_size(plan) + plan->n;
+    const struct instant at = state_instant(run->state);
+    bool evaluated = false;
+    for (int pair = 0; pair < (int)plan->mode_count; pair++) {
+        const struct mode *mode = &plan->modes[pair];
+        if (!mode_is_joint_friction(mode) || mode->tie >= 0 || run->state->slip[pair] == stick) continue;
+        double v = slip_velocity(run->model, pair, &at), fastest = most[mode->coordinate];
+        if (v == 0 || fabs(v) > rounding * fastest) continue;
+        if (!evaluated) state_evaluate_unshared(run->state);
+        evaluated = true;
+        double a = tree_hold_acceleration(run->state, &at, pair);
+        if (fabs(a) * run->step.longest <= little * fastest) run->state->y[plan->n + mode->coordinate] -= v;
+    }
 }
 
 void run_check_balance(struct run *run)

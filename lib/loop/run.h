@@ -258,6 +258,9 @@ bool run_tell(struct run *run, double t);
 /* Bring the end of a step back onto the couplings. */
 void run_close_step(struct run *run);
 
+/* Friction of joints that slips where couplings do not let it: its speed against its surface is zero. */
+void run_rest_held(struct run *run);
+
 /* The forces of the diagrams have to account for the motion. */
 void run_check_balance(struct run *run);
 
