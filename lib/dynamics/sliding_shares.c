@@ -85,13 +85,15 @@ void sliding_rates(const struct fbd_model *model, const struct instant *given, d
     }
 }
 
-/* The values of the surfaces, one for each unit. */
+/* The values of the surfaces, one for each unit. One that is zero to rounding is zero: to go there would take what rests on a
+ * surface of friction off that. */
 static void surfaces(const struct fbd_model *model, const struct instant *given, double *values)
 {
     struct sliding *s = given->sliding;
     for (int j = s->count - 1; j >= 0; j--) {
         const struct slide *slide = &s->slides[j];
-        values[slide->unit] = sliding_surface(s, model, given, &model->plan.kinks[slide->kink], slide->part);
+        double u = sliding_surface(s, model, given, &model->plan.kinks[slide->kink], slide->part);
+        values[slide->unit] = !slide->places && fabs(u) <= s->rounding[slide->part] ? 0 : u;
     }
 }
 

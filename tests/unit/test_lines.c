@@ -421,7 +421,7 @@ static void of_friction_that_comes_and_goes(void **unused)
 
 /* Plastic impacts far apart that were taken for the end of a series (771329), friction that is zero for now and
  * changed its side again and again at rest, friction that comes while its body rests, and the sign
- * of a speed that a stop holds at zero. */
+ * of a speed that a stop holds at zero; of one that a rope holds there (the last one). */
 static void seeds_that_once_failed(void **unused)
 {
     static const uint64_t seeds[] = {771329, 771829, 881063, 881081, 2881211, 97134, 98516, 98673};
@@ -430,6 +430,7 @@ static void seeds_that_once_failed(void **unused)
     bool sensitive;
     for (size_t i = 0; i < sizeof seeds / sizeof seeds[0]; i++)
         differ += !agrees(seeds[i], draw_line(seeds[i]), &sensitive);
+    differ += !agrees(140016, draw_roped_line(140016), &sensitive);
     assert_int_equal(differ, 0);
 }
 
