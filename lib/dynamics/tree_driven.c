@@ -151,3 +151,33 @@ bool tree_is_locked(struct fbd_state *state)
     state_free(other);
     return locked;
 }
+
+/* ---- other modes may agree as well */
+
+/* Does a surface that is rubbed on answer its normal force with the wrong sign (Painleve)? */
+static bool answers_wrongly(const struct fbd_state *state)
+{
+    const struct tree *tree = state->model->tree;
+    const struct instant at = state_instant(state);
+    for (int i = 0; i < tree->tie_count; i++) {
+        const struct tie *tie = &tree->ties[i];
+        if (!tie->law->surface || tree_rubbing_share(state->model, &at, tie->first_row) == 0) continue;
+        if (state->tree->diagonal[tie->first_row] < 0) return true;
+    }
+    return false;
+}
+
+/* Is there a switch that is slid on, and whose branches what is closed leaves nothing to do but by rounding? */
+static bool shares_fail(const struct fbd_state *state)
+{
+    const double most = 1e9;
+    const struct sliding *s = state_sliding(state);
+    bool fail = s && s->failed;
+    for (int j = 0; s && j < s->count; j++) fail |= !(fabs(s->slides[j].share) <= most);
+    return fail;
+}
+
+bool tree_is_doubtful(const struct fbd_state *state)
+{
+    return answers_wrongly(state) || shares_fail(state);
+}

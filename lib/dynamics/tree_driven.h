@@ -48,4 +48,7 @@ double tree_sets_out(struct fbd_state *state, const int *slip, int pair);
 /* Does it rest, is it about to move, and does something that sticks not let it, to the second order? */
 bool tree_is_locked(struct fbd_state *state);
 
+/* May modes that agree with the forces not be those that it goes on in? The ones that are solved for then decide. */
+bool tree_is_doubtful(const struct fbd_state *state);
+
 #endif

@@ -408,20 +408,6 @@ static bool holds_what_is_driven(struct fbd_state *state, const struct decided *
     return moves;
 }
 
-/* Does a surface that is rubbed on answer its normal force with the wrong sign? Then what agrees may not be the only one
- * that does (Painleve). */
-static bool answers_wrongly(const struct fbd_state *state)
-{
-    const struct tree *tree = state->model->tree;
-    const struct instant at = state_instant(state);
-    for (int i = 0; i < tree->tie_count; i++) {
-        const struct tie *tie = &tree->ties[i];
-        if (!tie->law->surface || tree_rubbing_share(state->model, &at, tie->first_row) == 0) continue;
-        if (state->tree->diagonal[tie->first_row] < 0) return true;
-    }
-    return false;
-}
-
 /* ---- to the second order */
 
 /* At rest, and about to turn: a moment later, T, at which what its motion makes of the rows is 1e-4 of the accelerations; 0
@@ -492,7 +478,7 @@ bool tree_settle_holds(struct fbd_state *state, const struct decided *decided)
         if (rests) state->slip[pair] = stick; /* tried first */
     }
     bool agreed = !holds_what_is_driven(state, decided, forced) &&
-                  look(state, decided, forced, false) == agrees && !answers_wrongly(state);
+                  look(state, decided, forced, false) == agrees && !tree_is_doubtful(state);
     agreed = agreed || decide(state, decided, forced);
     agreed = agreed && ((decided && decided->later) || look_later(state, decided, forced));
     turn_idle(state, decided);

@@ -3,6 +3,7 @@
  * The values of watchers and their rates along the motion.
  */
 #include <assert.h>
+#include <float.h>
 #include <string.h>
 
 #include "dynamics/absolute.h"
@@ -252,6 +253,8 @@ void watchers_evaluate(const struct watchers *watchers, const struct watcher_set
                        struct fbd_state *state, struct moment t, const double *y, double *values,
                        double *rates)
 {
+    /* What stands at its switch, as an integral at its limit, may be short of it by the error of the step that came there. */
+    const double short_of = 1e-6 / DBL_EPSILON;
     const struct plan *plan = &state->model->plan;
     struct view view = {.state = state,
                         .at = state_instant_at(state, t.t, y),
@@ -276,9 +279,8 @@ void watchers_evaluate(const struct watchers *watchers, const struct watcher_set
             size_t entry = 2 * (size_t)watcher->part + (size_t)watcher->end;
             values[i] = watchers->scratch[entry];
             rates[i] = watchers->scratch[2 * kink->count + entry];
-            double rounding = 4 * watchers->scratch[4 * kink->count + entry];
-            /* What stands at its switch, as an integral at its limit, may be beyond it by a rounding of where it came. */
-            if (rates[i] == 0 && values[i] < 0 && values[i] >= -rounding) values[i] = 0;
+            double rounding = watchers->scratch[4 * kink->count + entry];
+            if (rates[i] == 0 && values[i] < 0 && values[i] >= -short_of * rounding) values[i] = 0;
             bool held = watchers->held[kink->formula.branch + watcher->part];
             if (!held && !slide_of(state, watcher)) break;
             values[i] = HUGE_VAL;
