@@ -347,8 +347,15 @@ static void corners_on_side(const struct fbd_model *model, const struct tree_wor
     }
 }
 
+static bool is_found(const struct outermost *found, double foot, double near)
+{
+    for (int k = 0; k < 2 && found->count > 0; k++)
+        if (fabs(found->foot[k] - foot) <= 4 * near) return true;
+    return false;
+}
+
 /* Where two corners of `moving` lie on the line of a side, that side lies on one of theirs, and its own ends
- * may lie between them. */
+ * may lie between them; or on a corner, that leaves the side over its end as this end comes on that of the corners. */
 static void ends_of_side(const struct fbd_model *model, const struct tree_work *work, int index, int moving,
                          int side, double near, struct outermost *found)
 {
@@ -364,7 +371,10 @@ static void ends_of_side(const struct fbd_model *model, const struct tree_work *
             int corner = k == 0 ? side : beside(on, side, 1);
             int feature = meeting_feature(meeting, 1 - moving, corner, i);
             struct place_on_side at = feature_foot(model, work, index, feature);
-            if (at.foot > near && at.foot < at.length - near) consider(found, feature, k == 0 ? 0 : length);
+            double foot = k == 0 ? 0 : length;
+            bool inside = at.foot > near && at.foot < at.length - near;
+            if (inside || (!is_found(found, foot, near) && is_on_side(model, work, index, &at, near)))
+                consider(found, feature, foot);
         }
     }
 }

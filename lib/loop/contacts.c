@@ -338,8 +338,7 @@ static void unstick(struct run *run, double interval)
 
 /* ---- all of it */
 
-/* What counts as touching; shapes that are in each other by a little more, which was seen late, touch as well. */
-static double reach_of_touch(const struct run *run, int index)
+double contacts_reach(const struct run *run, int index)
 {
     const struct instant at = state_instant(run->state);
     double near = meeting_near(run->model, run->state->tree, index);
@@ -352,7 +351,7 @@ static void find_touching(struct run *run)
 {
     impulse_look(run->state);
     for (int i = 0; i < tree_of(run)->meeting_count; i++)
-        contacts_find_touching(run, i, reach_of_touch(run, i));
+        contacts_find_touching(run, i, contacts_reach(run, i));
     impulse_look(run->state);
 }
 

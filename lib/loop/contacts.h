@@ -162,6 +162,10 @@ void contacts_end_tugs(struct run *run, int count);
 /* The interval between the last two of many of them in a row that nobody sees; 0 elsewhere. */
 double contacts_crowd_of_tugs(const struct run *run);
 
+/* What counts as touching [m, or radians of a stop]; shapes that are in each other by a little more, which was seen late,
+ * touch as well. */
+double contacts_reach(const struct run *run, int index);
+
 /* Give the ties of meeting `index` the features that touch within `near`. */
 void contacts_find_touching(struct run *run, int index, double near);
 

@@ -192,14 +192,14 @@ double run_contact_bend(struct run *run, double from, double to)
 /* Do the shapes of a meeting get no deeper into each other? What has just opened does so from rest, to rounding. */
 static bool parts(const struct run *run, const struct instant *at, int index)
 {
-    const double rounding = 1e-10;
+    const double rounding = 1e-10, of_all = 1e-13; /* of the speeds there, and of those that the scene has seen */
     const struct meeting *meeting = &tree_of(run)->meetings[index];
     double least = HUGE_VAL, speed = meeting_speed(run->state->tree, meeting);
     for (int probe = 0; probe < meeting->probes; probe++) {
         struct gap gap = meeting_probe(run->model, at, index, probe);
         if (gap.x < 0) least = fmin(least, gap.rate);
     }
-    return least >= -rounding * speed;
+    return least >= -fmax(rounding * speed, of_all * run->contacts.speed);
 }
 
 void contacts_note_depths(struct run *run)
@@ -212,8 +212,9 @@ void contacts_note_depths(struct run *run)
         bool beyond =
             deep > meeting_rounding(run->model, state->tree, i); /* rounding is allowed for anyway */
         bool leaves = beyond && deep <= contacts_late * near && parts(run, &at, i);
+        double reach = contacts_reach(run, i);
         bool over_an_end =
-            deep > 0 && deep <= near && meeting_touching(run->model, state->tree, i, near, features) == 0;
+            deep > 0 && deep <= reach && meeting_touching(run->model, state->tree, i, reach, features) == 0;
         run->contacts.deep[i] = leaves || over_an_end ? deep : 0;
     }
 }

@@ -334,6 +334,8 @@ static void what_went_wrong_does_not(void **unused)
         20493, 10342, 30169, 30571, 20230, /* redundant contacts let a box turn: other modes at once */
         31429, 31485, 31706, 30362, 30710, 20694, 10277, /* what holds barely was not let go */
         31047, 31314, 31545, /* what opens a moment later was open where it closes */
+        30673, 31373,        /* what was in the floor and at rest was seen to come into it, again and again */
+        30009, 20221, 20612, 31463, /* a corner leaves a side over its end, which comes on that of the corner */
     };
     (void)unused;
     for (size_t i = 0; i < sizeof seeds / sizeof *seeds; i++) {
