@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Runs every file of the table EXPECTED, which says how a row is read, and holds it to what it must show."""
 import csv
+import functools
 import json
 import os
 import re
@@ -30,11 +31,17 @@ def rows():
         yield file, [program, *words], int(code), [part.strip() for part in what.split(";") if part.strip()]
 
 
+@functools.cache
+def output(program, options, file):
+    """The finished program; run once, whatever is claimed of it."""
+    return subprocess.run([PROGRAMS / program, *options, FOLDER / file], stdin=subprocess.DEVNULL,
+                          capture_output=True, check=False, timeout=60)
+
+
 def run(command, file, code):
     """(standard output, standard error) of a program that ends with that code."""
     program, *options = command
-    done = subprocess.run([PROGRAMS / program, *options, FOLDER / file], stdin=subprocess.DEVNULL,
-                          capture_output=True, check=False, timeout=60)
+    done = output(program, tuple(options), file)
     out, err = done.stdout.decode(errors="replace"), done.stderr.decode(errors="replace")
     assert done.returncode == code, f"exit code {done.returncode} instead of {code}: {err}"
     return out, err

@@ -11,6 +11,7 @@
 #include <cmocka.h>
 
 #include "random_numbers.h"
+#include "thorough.h"
 
 enum { most_sweeps = 5000 };
 static const double settled = 1e-13; /* change of a velocity in a sweep, in units of the scene */
@@ -109,7 +110,7 @@ void moreau_compare(const char *name, int usual, int most, bool (*agrees)(uint64
 {
     char seeds[40];
     snprintf(seeds, sizeof seeds, "%s_SEED", name);
-    int count = number_of(name, usual), first = number_of(seeds, 1), differ = 0, left_out = 0;
+    int count = number_of(name, draws_of(usual)), first = number_of(seeds, 1), differ = 0, left_out = 0;
     for (int i = 0; i < count; i++) {
         bool sensitive;
         differ += !agrees((uint64_t)first + (uint64_t)i, &sensitive);

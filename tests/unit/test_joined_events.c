@@ -24,6 +24,7 @@
 
 #include "gallery.h"
 #include "scenes.h"
+#include "thorough.h"
 #include "waves.h"
 
 enum { text_size = 4000 };
@@ -210,7 +211,8 @@ static uint64_t number_from(const char *name, uint64_t otherwise)
 static void the_first_event_is_that_of_an_independent_search(void **unused)
 {
     (void)unused;
-    uint64_t scenes = number_from("FBD_EVENT_SCENES", 60), only = number_from("FBD_EVENT_SEED", 0);
+    uint64_t scenes = number_from("FBD_EVENT_SCENES", (uint64_t)draws_of(60)),
+             only = number_from("FBD_EVENT_SEED", 0);
     size_t wrong = 0, compared = 0;
     for (size_t k = 0; k < sizeof kinds / sizeof *kinds; k++)
         for (uint64_t seed = 1; seed <= scenes; seed++)
@@ -259,7 +261,7 @@ static void without_weight_rounding_holds_and_lifts_nothing(void **unused)
 {
     (void)unused;
     uint64_t wrong = 0;
-    for (uint64_t seed = 1; seed <= 300; seed++) wrong += !light_cart_agrees(seed);
+    for (uint64_t seed = 1; seed <= (uint64_t)draws_of(300); seed++) wrong += !light_cart_agrees(seed);
     assert_int_equal(wrong, 0);
 }
 

@@ -12,6 +12,7 @@
 #include <cmocka.h>
 
 #include "gallery.h"
+#include "thorough.h"
 #include "waves.h"
 
 #include <stdio.h>
@@ -153,7 +154,7 @@ static void a_short_peak_beyond_a_limit_is_not_lost(void **unused)
     (void)unused;
     enum { seed = 1821 };
     const char *wanted = getenv("FBD_LIMITS");
-    const int draws = wanted ? atoi(wanted) : 40;
+    const int draws = wanted ? atoi(wanted) : draws_of(40);
     struct checks checks = {0};
     struct random_numbers numbers = {seed};
     printf("# seed %d\n", seed);

@@ -16,6 +16,7 @@
 #include "random_numbers.h"
 #include "scene/patch.h"
 #include "sweep_table.h"
+#include "thorough.h"
 
 /* ---- the same rows */
 
@@ -95,7 +96,8 @@ static void sweep_model(struct checks *checks, const char *path)
 {
     struct trial trial = trial_open(path, NULL);
     if (fbd_model_parameter_count(trial.model) > 0)
-        for (int round = 0; round < 2; round++) sweep_parameters(checks, &seed_of_models, path, trial.model);
+        for (int round = 0; round < (thorough() ? 2 : 1); round++)
+            sweep_parameters(checks, &seed_of_models, path, trial.model);
     trial_close(&trial);
 }
 

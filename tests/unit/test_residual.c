@@ -13,6 +13,7 @@
 #include <cmocka.h>
 
 #include "joined_checks.h"
+#include "thorough.h"
 
 /* Bells are found by the levels of exp. Powers of a cosine have none: steps go over them. */
 enum shape { bell, power };
@@ -93,7 +94,7 @@ static void the_energy_tells_of_pulses(void **unused)
 {
     (void)unused;
     struct checks checks = {0};
-    int told = 0, wrong = draw(&checks, 0.1, 0.6, 30, power, &told);
+    int told = 0, wrong = draw(&checks, 0.1, 0.6, draws_of(30), power, &told);
     check_that(&checks, "some go over pulses, and some of these are told", wrong > 0 && told > 0);
     checks_end(&checks);
 }
@@ -102,7 +103,7 @@ static void a_smooth_run_is_not_accused(void **unused)
 {
     (void)unused;
     struct checks checks = {0};
-    int told = 0, wrong = draw(&checks, 1e-4, 3e-3, 20, bell, &told);
+    int told = 0, wrong = draw(&checks, 1e-4, 3e-3, draws_of(20), bell, &told);
     check_that(&checks, "all are right", wrong == 0);
     checks_end(&checks);
 }
@@ -111,7 +112,7 @@ static void no_bell_is_lost(void **unused)
 {
     (void)unused;
     struct checks checks = {0};
-    int told = 0, wrong = draw(&checks, 0.1, 100, 10, bell, &told);
+    int told = 0, wrong = draw(&checks, 0.1, 100, draws_of(10), bell, &told);
     check_that(&checks, "all are right", wrong == 0);
     checks_end(&checks);
 }

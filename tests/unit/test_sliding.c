@@ -13,6 +13,7 @@
 #include "gallery.h"
 #include "random_numbers.h"
 #include "scenes.h"
+#include "thorough.h"
 #include "waves.h"
 
 #include <stdlib.h>
@@ -109,7 +110,7 @@ static void friction_by_sign_is_friction(void **unused)
     (void)unused;
     enum { seed = 1785 };
     const char *given = getenv("FBD_RUBBING");
-    int draws = given ? atoi(given) : 80;
+    int draws = given ? atoi(given) : draws_of(80);
     struct checks checks = {0};
     struct random_numbers numbers = {seed};
     printf("# seed %d\n", seed);
@@ -156,7 +157,8 @@ static size_t count_of(const struct trial *trial, fbd_event_kind kind)
 static void a_short_end_of_rubbing_is_not_lost(void **unused)
 {
     (void)unused;
-    enum { draws = 60, seed = 1779 };
+    enum { seed = 1779 };
+    const int draws = draws_of(60);
     struct checks checks = {0};
     struct random_numbers numbers = {seed};
     printf("# seed %d\n", seed);
@@ -203,7 +205,8 @@ static double left_of(const struct waves *p, double F, double m, double x, doubl
 static void a_short_end_of_a_sliding_mode_is_not_lost(void **unused)
 {
     (void)unused;
-    enum { draws = 60, seed = 1932 };
+    enum { seed = 1932 };
+    const int draws = draws_of(60);
     const double step = 1e-4, until = 20;
     struct checks checks = {0};
     struct random_numbers numbers = {seed};
@@ -248,7 +251,8 @@ static void a_short_end_of_a_sliding_mode_is_not_lost(void **unused)
 static void two_that_rub_on_each_other_are_a_stack(void **unused)
 {
     (void)unused;
-    enum { draws = 30, seed = 1699 };
+    enum { seed = 1699 };
+    const int draws = draws_of(30);
     struct checks checks = {0};
     struct random_numbers numbers = {seed};
     printf("# seed %d\n", seed);
