@@ -12,7 +12,7 @@
 
 #include "dynamics/absolute.h"
 #include "dynamics/modes.h"
-#include "dynamics/tree_system.h"
+#include "dynamics/tree_driven.h"
 
 enum { most_asked = 16, most_units = 5 };
 
@@ -209,19 +209,15 @@ static double size_of_rate(const struct question *q, const struct asked *asked)
     return size;
 }
 
-/* Accelerations, and those that couplings take and that friction could: what is left of all of them is rounding of
- * these. */
+/* Accelerations, and those that couplings take and that friction could: what is left of them is rounding of these. */
 static void take_sizes(struct question *q)
 {
     struct fbd_state *state = q->state;
     const struct plan *plan = &state->model->plan;
     const struct instant at = state_instant(state);
     for (int i = 0; i < plan->n; i++) q->most = fmax(q->most, fabs(state->a[i]));
-    if (q->count == 0) return;
-    for (int j = 0; state->tree && j < state->model->tree->row_count; j++)
-        if (tree_takes_part(state->model->tree, &at, j))
-            q->most = fmax(q->most, fabs(state->tree->rows[j].lambda * state->tree->diagonal[j]));
-    if (plan->mode_count == 0) return;
+    if (q->count > 0 && state->tree) q->most = fmax(q->most, tree_coupled_acceleration(state));
+    if (q->count == 0 || plan->mode_count == 0) return;
     force_balance(state->model, &at, state->scratch);
     for (int pair = 0; pair < (int)plan->mode_count; pair++) {
         const struct mode *mode = &plan->modes[pair];
@@ -409,12 +405,11 @@ static void note_sides(struct question *q)
 static bool keeps_sides(const struct question *q)
 {
     const struct sliding *s = q->state->sliding;
-    bool same = true;
     for (int i = 0; i < q->count; i++) {
         int branch = q->list[i].branch;
-        same &= s->slide_at[branch] == 0 && q->state->branch[branch] == s->kept[branch];
+        if (s->slide_at[branch] > 0 || q->state->branch[branch] != s->kept[branch]) return false;
     }
-    return same;
+    return true;
 }
 
 /* The choice that agrees: its number, -1 when there is none, -2 when there are several. */
@@ -431,9 +426,8 @@ static int find_choice(struct question *q, const struct decided *decided,
         if (!choose(q, decided, choice) || !settle(state, decided)) continue;
         bool agreed = agrees(q);
         if (choice == 0 && !agreed) note_sides(q);
-        if (!agreed) continue;
-        if (found >= 0 && !same_accelerations(q, a)) return -2;
-        if (found >= 0) continue;
+        if (agreed && found >= 0 && !same_accelerations(q, a)) return -2;
+        if (!agreed || found >= 0) continue;
         found = choice;
         memcpy(state->sliding->best, state->a, (size_t)state->model->plan.n * sizeof *a);
     }

@@ -46,6 +46,16 @@ bool tree_seen_acceleration(const struct fbd_state *state, double a)
     return fabs(a) > rounding * size && velocities_fit(state, size);
 }
 
+double tree_coupled_acceleration(const struct fbd_state *state)
+{
+    const struct instant at = state_instant(state);
+    double most = 0;
+    for (int j = 0; j < state->model->tree->row_count; j++)
+        if (tree_takes_part(state->model->tree, &at, j))
+            most = fmax(most, fabs(state->tree->rows[j].lambda * state->tree->diagonal[j]));
+    return most;
+}
+
 static double reach_of(const struct fbd_state *state)
 {
     double reach = 0;

@@ -25,6 +25,9 @@ static inline int hold_sign(const struct mode *hold)
 /* Is an acceleration [m/s^2] more than rounding of those of the links? */
 bool tree_seen_acceleration(const struct fbd_state *state, double a);
 
+/* The largest acceleration along a row that its own force would make, in the units of the row. */
+double tree_coupled_acceleration(const struct fbd_state *state);
+
 /* The acceleration along a hold, evaluated at this instant: of what slips along its surface, of what is
  * one-sided away from it. */
 double tree_hold_acceleration(const struct fbd_state *state, const struct instant *at, int pair);

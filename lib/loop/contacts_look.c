@@ -192,7 +192,8 @@ double run_contact_bend(struct run *run, double from, double to)
 /* Do the shapes of a meeting get no deeper into each other? What has just opened does so from rest, to rounding. */
 static bool parts(const struct run *run, const struct instant *at, int index)
 {
-    const double rounding = 1e-10, of_all = 1e-13; /* of the speeds there, and of those that the scene has seen */
+    const double rounding = 1e-10,
+                 of_all = 1e-13; /* of the speeds there, and of those that the scene has seen */
     const struct meeting *meeting = &tree_of(run)->meetings[index];
     double least = HUGE_VAL, speed = meeting_speed(run->state->tree, meeting);
     for (int probe = 0; probe < meeting->probes; probe++) {
