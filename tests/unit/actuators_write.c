@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "actuators.h"
 
+#include <math.h>
+
 static void write_table(const struct act_table *table, int i, int k, struct written *text)
 {
     static const char *const interpolations[] = {"linear", "step", "cubic"};
@@ -25,10 +27,20 @@ static void write_state(const struct act *act, int i, struct written *text)
     }
     char e[200];
     snprintf(e, sizeof e, "%.17g[m]*sin(%.17g[1/s]*t) - b%d.x", p[0], p[1], i);
-    add(text,
-        "  z%d: {unit: m*s, rate: \"if(states.z%d >= %.17g[m*s], min(%s, 0), if(states.z%d <= -%.17g[m*s], "
-        "max(%s, 0), %s))\"}\n",
-        z, z, p[6], e, z, p[6], e, e);
+    /* The limits in three ways that people write; which, the last digits of the limit say. */
+    const int way = (int)fmod(1e7 * p[6], 3);
+    if (way == 2)
+        add(text,
+            "  z%d: {unit: m*s, rate: \"if((states.z%d >= %.17g[m*s] and %s > 0[m]) or (states.z%d <= "
+            "-%.17g[m*s] and "
+            "%s < 0[m]), 0[m], %s)\"}\n",
+            z, z, p[6], e, z, p[6], e, e);
+    else
+        add(text,
+            "  z%d: {unit: m*s, rate: \"if(states.z%d >%s %.17g[m*s], min(%s, 0), if(states.z%d <%s "
+            "-%.17g[m*s], "
+            "max(%s, 0), %s))\"}\n",
+            z, z, way == 0 ? "=" : "", p[6], e, z, way == 0 ? "=" : "", p[6], e, e);
 }
 
 static void write_act(const struct act_scene *scene, int i, int k, struct written *text)
