@@ -87,9 +87,9 @@ void sliding_rates(const struct fbd_model *model, const struct instant *given, d
 
 /* The values of the surfaces, one for each unit. One that is zero to rounding is zero: to go there would take what rests on a
  * surface of friction off that. */
-static void surfaces(const struct fbd_model *model, const struct instant *given, double *values)
+static void surfaces(struct sliding *s, const struct fbd_model *model, const struct instant *given,
+                     double *values)
 {
-    struct sliding *s = given->sliding;
     for (int j = s->count - 1; j >= 0; j--) {
         const struct slide *slide = &s->slides[j];
         double u = sliding_surface(s, model, given, &model->plan.kinks[slide->kink], slide->part);
@@ -403,7 +403,7 @@ void sliding_project(struct fbd_state *state)
         struct instant at = state_instant(state);
         sliding_solve(state->model, &at);
         if (s->failed) return;
-        surfaces(state->model, &at, s->c);
+        surfaces(s, state->model, &at, s->c);
         for (int unit = 0; unit < s->units; unit++)
             if (s->held[unit] != not_held) s->c[unit] = 0;
         solve(s, s->c);
