@@ -351,6 +351,21 @@ static double speed_to_come(const struct fbd_state *state, int pair)
     return inertia > 0 ? limit * fabs(state->t) / inertia : 0;
 }
 
+/* Twice the speed by which what slips does not move to its side yet, though it is accelerated to it: what other couplings
+ * make of the velocities leaves that. 0 where it moves there, or is too fast for that. */
+static double short_of_side(const struct fbd_state *state, size_t pair)
+{
+    const double rounding = 1e-9;
+    const struct instant at = state_instant(state);
+    int side = slip_side(state->slip[pair]);
+    double v = side * slip_velocity(state->model, (int)pair, &at), fastest = 0;
+    for (int i = 1; v < 0 && i < state->model->tree->count; i++)
+        fastest = fmax(fastest, vec_norm(state->tree->links[i].v));
+    bool comes =
+        v < 0 && -v <= rounding * fastest && side * tree_hold_acceleration(state, &at, (int)pair) > 0;
+    return comes ? -2 * v : 0;
+}
+
 /* What breaks away at its limit has no acceleration yet but for rounding, which may be the other way. It is for the first
  * steps alone, as long as they are an instant: what others hold does not move, and sticks again behind them. */
 static void calm_beginning(struct watchers *watchers, const struct fbd_state *state, size_t pair, double step)
@@ -358,6 +373,7 @@ static void calm_beginning(struct watchers *watchers, const struct fbd_state *st
     const double band = 1e-13, least = 1e-14, instant = 1e-9;
     const struct instant at = state_instant(state);
     if (state->slip[pair] == stick || !mode_is_friction(&state->model->plan.modes[pair])) return;
+    watchers->quiet[pair] = short_of_side(state, pair);
     double v = fabs(slip_velocity(state->model, (int)pair, &at)), *fast = &watchers->fast[pair];
     *fast = fmax(*fast, v);
     if (v == 0) *fast = fmax(*fast, speed_to_come(state, (int)pair));
