@@ -352,18 +352,17 @@ static double speed_to_come(const struct fbd_state *state, int pair)
 }
 
 /* Twice the speed by which what slips does not move to its side yet, though it is accelerated to it: what other couplings
- * make of the velocities leaves that. 0 where it moves there, or is too fast for that. */
-static double short_of_side(const struct fbd_state *state, size_t pair)
+ * make of the velocities leaves that. 0 where it moves there, or is too fast for that. `v`: its velocity to its side. */
+static double short_of_side(const struct fbd_state *state, int pair, double v)
 {
     const double rounding = 1e-9;
     const struct instant at = state_instant(state);
-    int side = slip_side(state->slip[pair]);
-    double v = side * slip_velocity(state->model, (int)pair, &at), fastest = 0;
-    for (int i = 1; v < 0 && i < state->model->tree->count; i++)
+    double fastest = 0;
+    if (v >= 0) return 0;
+    for (int i = 1; i < state->model->tree->count; i++)
         fastest = fmax(fastest, vec_norm(state->tree->links[i].v));
-    bool comes =
-        v < 0 && -v <= rounding * fastest && side * tree_hold_acceleration(state, &at, (int)pair) > 0;
-    return comes ? -2 * v : 0;
+    double to_its_side = slip_side(state->slip[pair]) * tree_hold_acceleration(state, &at, pair);
+    return -v <= rounding * fastest && to_its_side > 0 ? -2 * v : 0;
 }
 
 /* What breaks away at its limit has no acceleration yet but for rounding, which may be the other way. It is for the first
@@ -373,8 +372,9 @@ static void calm_beginning(struct watchers *watchers, const struct fbd_state *st
     const double band = 1e-13, least = 1e-14, instant = 1e-9;
     const struct instant at = state_instant(state);
     if (state->slip[pair] == stick || !mode_is_friction(&state->model->plan.modes[pair])) return;
-    watchers->quiet[pair] = short_of_side(state, pair);
-    double v = fabs(slip_velocity(state->model, (int)pair, &at)), *fast = &watchers->fast[pair];
+    double along = slip_velocity(state->model, (int)pair, &at), v = fabs(along),
+           *fast = &watchers->fast[pair];
+    watchers->quiet[pair] = short_of_side(state, (int)pair, slip_side(state->slip[pair]) * along);
     *fast = fmax(*fast, v);
     if (v == 0) *fast = fmax(*fast, speed_to_come(state, (int)pair));
     if (v > 0 && (step > instant * fabs(state->t) || v > least * *fast)) return;

@@ -283,8 +283,8 @@ void run_close_step(struct run *run)
              misfit.position);
 }
 
-/* What rounding has left of the speed would be taken for a side that it moves to, and of its acceleration nothing comes
- * within a step. */
+/* What rounding has left of such a speed would be taken for a side that it moves to. That nothing comes of it is told by its
+ * acceleration: not even a step as long as the longest makes a speed of that. */
 void run_rest_held(struct run *run)
 {
     const double rounding = 1e-14, little = 1e-12;

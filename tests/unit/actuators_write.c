@@ -32,14 +32,12 @@ static void write_state(const struct act *act, int i, struct written *text)
     if (way == 2)
         add(text,
             "  z%d: {unit: m*s, rate: \"if((states.z%d >= %.17g[m*s] and %s > 0[m]) or (states.z%d <= "
-            "-%.17g[m*s] and "
-            "%s < 0[m]), 0[m], %s)\"}\n",
+            "-%.17g[m*s] and %s < 0[m]), 0[m], %s)\"}\n",
             z, z, p[6], e, z, p[6], e, e);
     else
         add(text,
             "  z%d: {unit: m*s, rate: \"if(states.z%d >%s %.17g[m*s], min(%s, 0), if(states.z%d <%s "
-            "-%.17g[m*s], "
-            "max(%s, 0), %s))\"}\n",
+            "-%.17g[m*s], max(%s, 0), %s))\"}\n",
             z, z, way == 0 ? "=" : "", p[6], e, z, way == 0 ? "=" : "", p[6], e, e);
 }
 

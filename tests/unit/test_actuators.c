@@ -41,10 +41,8 @@ static void what_went_wrong_does_not(void **unused)
 {
     static const unsigned seeds[] = {
         144, /* a block that slides on sign(x + T v) comes to the speed of its belt, which took it off the switch */
-        609,
-        943, /* a switch is passed by what sticks on a belt that shakes: it stays on the switch, and friction slips */
-        436,
-        1265, /* an integral at its limit, a rounding before it */
+        609, 943,  /* what sticks on a belt that shakes passes a switch: it stays there, and friction slips */
+        436, 1265, /* an integral at its limit, a rounding before it */
     };
     (void)unused;
     stepped_try_each(&kind, seeds, sizeof seeds / sizeof *seeds);
