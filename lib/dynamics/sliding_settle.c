@@ -11,49 +11,10 @@
 #include <string.h>
 
 #include "dynamics/absolute.h"
-#include "dynamics/modes.h"
+#include "dynamics/sliding_question.h"
 #include "dynamics/tree_driven.h"
 
-enum { most_asked = 16, most_units = 5 };
-
-/* A switch that is asked. */
-struct asked {
-    int kink, part, branch;
-    int unit, side; /* the surface, and -1 where its u goes against that of the surface's first */
-    bool left;      /* its share has just been used up */
-    bool ended;     /* it is at rest, whatever speed there still is */
-};
-
-struct question {
-    struct fbd_state *state;
-    bool without_places; /* there are too many */
-    struct asked list[most_asked];
-    int count, units;
-    bool back
-        [most_units]; /* of a surface that slides by more than there is the lower side helps, and comes first */
-    double most;      /* of the accelerations tried: what rates are measured by */
-};
-
 /* ---- surfaces */
-
-/* The rate of the surface of a switch, along (dt, dy). */
-static double rate_along(const struct question *q, const struct asked *asked, double dt, const double *dy)
-{
-    const struct fbd_model *model = q->state->model;
-    const struct instant at = state_instant(q->state);
-    return sliding_surface_rate(q->state->sliding, model, &at, &model->plan.kinks[asked->kink], asked->part,
-                                dt, dy);
-}
-
-/* One entry of the gradient of a surface: with time, a coordinate, a rate. */
-static double slope(const struct question *q, const struct asked *asked, size_t i)
-{
-    double *dy = q->state->sliding->flow;
-    size_t size = plan_size(&q->state->model->plan);
-    memset(dy, 0, size * sizeof *dy);
-    if (i > 0) dy[i - 1] = 1;
-    return rate_along(q, asked, i == 0, dy);
-}
 
 /* What may be left of u' where a switch that watches places is at rest: its value, or zero. */
 static double passing_speed(const struct question *q, const struct asked *asked)
@@ -65,7 +26,7 @@ static double passing_speed(const struct question *q, const struct asked *asked)
     if (!kink_watches_places(kink, asked->part) || asked->ended || asked->left) return 0;
     double size = 0, w = sliding_surface(state->sliding, state->model, &at, kink, asked->part);
     size_t n = (size_t)state->model->plan.n;
-    for (size_t i = 0; i < n; i++) size += fabs(slope(q, asked, 1 + n + i) * state->y[n + i]);
+    for (size_t i = 0; i < n; i++) size += fabs(asked_slope(q, asked, 1 + n + i) * state->y[n + i]);
     return fabs(w) > rounding * size ? w : 0;
 }
 
@@ -118,7 +79,7 @@ static double ratio_of(const struct question *q, const struct asked *a, const st
     size_t size = plan_size(&q->state->model->plan);
     double aa = 0, bb = 0, ab = 0;
     for (size_t i = 0; i <= size; i++) {
-        double x = slope(q, a, i), y = slope(q, b, i);
+        double x = asked_slope(q, a, i), y = asked_slope(q, b, i);
         aa += x * x;
         bb += y * y;
         ab += x * y;
@@ -141,7 +102,8 @@ static bool comes_along(const struct question *q, const struct asked *ended, con
            rest = places
                       ? sliding_watched(state->sliding, state->model, &at, &kinks[ended->kink], ended->part)
                       : sliding_surface(state->sliding, state->model, &at, &kinks[ended->kink], ended->part);
-    for (size_t i = 0; i < n; i++) size += fabs(slope(q, other, 1 + n + i) * state->y[places ? i : n + i]);
+    for (size_t i = 0; i < n; i++)
+        size += fabs(asked_slope(q, other, 1 + n + i) * state->y[places ? i : n + i]);
     return fabs(u - ratio * rest) <= rounding * size;
 }
 
@@ -186,12 +148,6 @@ static void find_surfaces(struct question *q)
     }
 }
 
-static int parted_from(const struct fbd_state *state, const struct asked *asked)
-{
-    const struct instant at = state_instant(state);
-    return sliding_parted(state->model, &at, &state->model->plan.kinks[asked->kink], asked->part);
-}
-
 /* ---- does a choice agree? */
 
 /* How large a rate of a surface could be: to rounding it is zero against that. */
@@ -199,13 +155,13 @@ static double size_of_rate(const struct question *q, const struct asked *asked)
 {
     const struct fbd_state *state = q->state;
     size_t n = (size_t)state->model->plan.n;
-    double size = fabs(slope(q, asked, 0));
+    double size = fabs(asked_slope(q, asked, 0));
     for (size_t i = 0; i < n; i++) {
-        size += fabs(slope(q, asked, 1 + i) * state->y[n + i]);
-        size += fabs(slope(q, asked, 1 + n + i)) * q->most;
+        size += fabs(asked_slope(q, asked, 1 + i) * state->y[n + i]);
+        size += fabs(asked_slope(q, asked, 1 + n + i)) * q->most;
     }
     for (size_t i = 0; i < (size_t)state->model->plan.own; i++)
-        size += fabs(slope(q, asked, 1 + 2 * n + i) * state->a[n + i]);
+        size += fabs(asked_slope(q, asked, 1 + 2 * n + i) * state->a[n + i]);
     return size;
 }
 
@@ -246,81 +202,16 @@ static bool agrees(struct question *q)
             double share = s->slides[slide - 1].share;
             if (s->failed || !(share >= -rounding && share <= 1 + rounding)) return false;
             bool held = s->held[s->slides[slide - 1].unit] != not_held;
-            if (held && parted_from(q->state, asked) != 0) return false;
+            if (held && asked_parted(q->state, asked) != 0) return false;
             continue;
         }
         double zero = rounding * size_of_rate(q, asked), *flow = s->flow;
         memcpy(flow, state->y + n, n * sizeof *flow);
         memcpy(flow + n, state->a, plan_rates(&state->model->plan) * sizeof *flow);
-        double rate = rate_along(q, asked, 1, flow);
+        double rate = asked_rate(q, asked, 1, flow);
         if (branch == 0 ? fabs(rate) > zero : branch * rate < -zero) return false;
     }
     return true;
-}
-
-/* ---- switches beside dry friction on the same coordinate: the switch holds first, and friction what is left */
-
-/* Dry friction of a coordinate that is at rest on its surface; -1 without one. */
-static int friction_at_rest(const struct question *q, int coordinate)
-{
-    const struct fbd_model *model = q->state->model;
-    const struct instant at = state_instant(q->state);
-    for (int pair = 0; pair < (int)model->plan.mode_count; pair++) {
-        const struct mode *mode = &model->plan.modes[pair];
-        if (!mode_is_joint_friction(mode) || mode->coordinate != coordinate) continue;
-        if (slip_velocity(model, pair, &at) == 0) return pair;
-    }
-    return -1;
-}
-
-/* Is there friction at rest on all coordinates whose speeds the switch watches? */
-static bool is_held(const struct question *q, const struct asked *asked)
-{
-    bool any = false;
-    size_t n = (size_t)q->state->model->plan.n;
-    if (kink_watches_places(&q->state->model->plan.kinks[asked->kink], asked->part)) return false;
-    for (size_t i = 0; i < n; i++) {
-        if (slope(q, asked, 1 + n + i) == 0) continue;
-        if (friction_at_rest(q, (int)i) < 0) return false;
-        any = true;
-    }
-    return any;
-}
-
-/* What friction on the coordinates of a switch does: it sticks, or with `slips` is no longer decided. */
-static void leave_friction(const struct question *q, const struct asked *asked, bool *slips)
-{
-    size_t n = (size_t)q->state->model->plan.n;
-    for (size_t i = 0; i < n; i++) {
-        int pair = slope(q, asked, 1 + n + i) == 0 ? -1 : friction_at_rest(q, (int)i);
-        if (pair >= 0 && slips) slips[pair] = false;
-        if (pair >= 0 && !slips) q->state->slip[pair] = stick;
-    }
-}
-
-/* Friction whose surface moves off the switch slips: the switch holds its coordinate. */
-static void part_friction(const struct question *q, const struct asked *asked)
-{
-    size_t n = (size_t)q->state->model->plan.n;
-    int side = parted_from(q->state, asked);
-    for (size_t i = 0; i < n && side != 0; i++) {
-        double a = slope(q, asked, 1 + n + i);
-        int pair = a == 0 ? -1 : friction_at_rest(q, (int)i);
-        if (pair >= 0)
-            q->state->sliding->aside[pair] = q->state->slip[pair] = a * side > 0 ? slip_minus : slip_plus;
-    }
-}
-
-/* What is decided, but for friction that shares its coordinate with a switch. */
-static struct decided without_shared(const struct question *q, const struct decided *decided)
-{
-    struct sliding *s = q->state->sliding;
-    struct decided rest = *decided;
-    rest.slips = s->slips;
-    memcpy(s->slips, decided->slips, q->state->model->plan.mode_count * sizeof *s->slips);
-    for (int i = 0; i < q->count; i++)
-        if (is_held(q, &q->list[i])) leave_friction(q, &q->list[i], s->slips);
-    return rest;
 }
 
 /* Is a sign zero, as it is where nothing moves yet? Then the least push would end that. */
@@ -329,27 +220,13 @@ static bool is_undecided(const struct question *q)
     for (int i = 0; i < q->count; i++) {
         const struct asked *asked = &q->list[i];
         bool slides = q->state->sliding->slide_at[asked->branch] > 0;
-        if (q->state->branch[asked->branch] == 0 || (!slides && !asked->left && is_held(q, asked)))
+        if (q->state->branch[asked->branch] == 0 || (!slides && !asked->left && asked_is_held(q, asked)))
             return true;
     }
     return false;
 }
 
 /* ---- all choices */
-
-static void keep_modes(const struct fbd_state *state, bool back)
-{
-    const struct plan *plan = &state->model->plan;
-    struct sliding *s = state->sliding;
-    size_t branches = (size_t)plan->branches, pairs = plan->mode_count;
-    int *parts[] = {state->branch, state->slip, state->pull}, *kept = s->kept;
-    const size_t sizes[] = {branches, pairs, pairs};
-    for (int k = 0; k < 3; k++) {
-        memcpy(back ? parts[k] : kept, back ? kept : parts[k], sizes[k] * sizeof *kept);
-        kept += sizes[k];
-    }
-    memcpy(back ? state->y : s->kept_y, back ? s->kept_y : state->y, plan_size(plan) * sizeof *state->y);
-}
 
 /* Choice number `choice`: a digit for each surface, 0 slides, 1 and 2 its sides. False for one that slides
  * where the share is used up, or where it passes. */
@@ -364,6 +241,7 @@ static bool choose(struct question *q, const struct decided *decided, int choice
     memset(s->aside, 0, state->model->plan.mode_count * sizeof *s->aside);
     sliding_drop(s);
     for (int i = 0; i < state->model->plan.branches; i++) s->keep[i] = decided && decided->branches[i];
+    for (int i = 0; i < q->plain_count; i++) s->keep[q->plain[i]] = false;
     for (int i = 0; i < q->count; i++) {
         const struct asked *asked = &q->list[i];
         int side = (digit[asked->unit] == 2) == q->back[asked->unit] ? 1 : -1;
@@ -378,9 +256,8 @@ static bool choose(struct question *q, const struct decided *decided, int choice
     if (s->count > 0) sliding_number(s);
     if (lands) sliding_project(state); /* before friction asks whether it moves */
     for (int i = 0; i < q->count; i++)
-        if (digit[q->list[i].unit] == 0 && is_held(q, &q->list[i])) {
-            leave_friction(q, &q->list[i], NULL);
-            part_friction(q, &q->list[i]);
+        if (digit[q->list[i].unit] == 0 && asked_is_held(q, &q->list[i])) {
+            question_hold_friction(q, &q->list[i]);
         }
     return true;
 }
@@ -420,9 +297,9 @@ static int find_choice(struct question *q, const struct decided *decided,
     const double *a = state->sliding->best;
     int choices = 1, found = -1;
     for (int unit = 0; unit < q->units; unit++) choices *= 3;
-    keep_modes(state, false);
+    question_keep_modes(state, false);
     for (int choice = 0; choice < choices; choice++) {
-        keep_modes(state, true);
+        question_keep_modes(state, true);
         if (!choose(q, decided, choice) || !settle(state, decided)) continue;
         bool agreed = agrees(q);
         if (choice == 0 && !agreed) note_sides(q);
@@ -431,7 +308,7 @@ static int find_choice(struct question *q, const struct decided *decided,
         found = choice;
         memcpy(state->sliding->best, state->a, (size_t)state->model->plan.n * sizeof *a);
     }
-    keep_modes(state, true);
+    question_keep_modes(state, true);
     return found;
 }
 
@@ -471,6 +348,7 @@ bool sliding_settle(struct fbd_state *state, const struct decided *decided, bool
     if (!asked) asked = gather_without_places(&q, decided);
     memset(s->left, 0, (size_t)state->model->plan.branches * sizeof *s->left);
     memset(s->ended, 0, (size_t)state->model->plan.branches * sizeof *s->ended);
+    if (asked && question_leave_repelling(&q, decided)) settled = settle(state, decided);
     bool fine = asked && (q.count == 0 || (settled && agrees(&q)));
     if (fine && !is_undecided(&q)) return settled;
     if (asked) find_surfaces(&q);
@@ -486,7 +364,7 @@ bool sliding_settle(struct fbd_state *state, const struct decided *decided, bool
     }
     struct decided open;
     const struct decided *given = decided;
-    if (given) open = without_shared(&q, given), decided = &open;
+    if (given) open = question_without_shared(&q, given), decided = &open;
     int choice = find_choice(&q, decided, settle);
     /* A share that only just touches its end goes back. */
     for (int i = 0; choice == -1 && i < q.count; i++) q.list[i].left = false;
