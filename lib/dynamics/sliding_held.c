@@ -161,8 +161,10 @@ bool question_leave_repelling(struct question *q, const struct decided *decided)
         double size;
         bool repels = s->slide_at[asked.branch] == 0 && !asked.left && !asked.ended &&
                       asked_is_held(q, &asked) && pushed_away(q, &asked, &size) > rounding * size;
-        if (!repels) q->list[kept++] = asked;
-        if (!repels) continue;
+        if (!repels) {
+            q->list[kept++] = asked;
+            continue;
+        }
         q->plain[q->plain_count++] = asked.branch;
         s->keep[asked.branch] = false;
         rest_on(q, &asked, decided);
