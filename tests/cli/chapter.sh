@@ -67,8 +67,11 @@ check 'its small oscillations have sqrt(m g L / I_O)' prints 'w0 = 3\.10540871 r
 check 'its period from 60 deg is 2.17137326 s' prints '^  t = 2\.17137326 s .*top' "$pendulum"
 check 'upright it is unstable' prints 'unstable: grows' --linearize --at 'theta=179 deg' "$pendulum"
 
+number=0
 for model in $(ls "$models"/*/*.yaml | grep -v /hard/); do # the hard ones have tests of their own, and some must fail
     check "$(basename "$model") runs" "$FBD_RUN" --quiet "$model"
+    number=$((number + 1))
+    if [ "${FBD_THOROUGH-}" = no ] && [ $((number % 4)) -ne 0 ]; then continue; fi
     check "$(basename "$model") agrees with its hand derivation" "$FBD_RUN" --check-hand "$model"
 done
 finish

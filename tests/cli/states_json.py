@@ -9,7 +9,8 @@ import sys
 from pathlib import Path
 
 RUN = os.environ["FBD_RUN"]
-MODELS = sorted((Path(os.environ["FBD_SOURCE_ROOT"]) / "models").rglob("*.yaml"))
+EVERY = 3 if os.environ.get("FBD_THOROUGH") == "no" else 1
+MODELS = sorted((Path(os.environ["FBD_SOURCE_ROOT"]) / "models").rglob("*.yaml"))[::EVERY]
 
 
 def ask(*arguments):
@@ -68,12 +69,12 @@ def main():
             if len(A) <= 12:
                 wrong += [f"{model.name}: {mode}" for mode in found["eigenvalues"] if not is_eigenvalue(A, mode)]
     for fact, words in ((not wrong, "equations add up, and eigenvalues are those of A"),
-                        (equations > 80, f"{equations} models have equations"), (linear > 20, f"{linear} an equilibrium")):
+                        (equations > 80 / EVERY, f"{equations} models have equations"), (linear > 20 / EVERY, f"{linear} an equilibrium")):
         count += 1
         print(f"{'ok' if fact else 'not ok'} {count} - {words}")
     print("".join(f"# {one}\n" for one in wrong[:20]), end="")
     print(f"1..{count}")
-    return bool(wrong) or equations <= 80 or linear <= 20
+    return bool(wrong) or equations <= 80 / EVERY or linear <= 20 / EVERY
 
 
 sys.exit(main())

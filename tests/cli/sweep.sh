@@ -101,7 +101,7 @@ fi
 
 # ---- kills: a sweep of about a second, wherever it is cut
 count=1000 cases=150
-if [ "${FBD_THOROUGH-}" = no ]; then count=150 cases=30; fi # a sanitizer takes as much longer
+if [ "${FBD_THOROUGH-}" = no ]; then count=150 cases=8; fi # a sanitizer takes as much longer
 slowly="--vary mu_k=0.1:0.6:$count --tolerance 1e-3 --method rkf45 --step 5e-4"
 # shellcheck disable=SC2086
 slow() {

@@ -17,6 +17,8 @@ from claims import claim, close, finish  # pylint: disable=wrong-import-position
 
 FOLDER = SOURCE / "tests" / "faults"
 PROGRAMS = Path(os.environ["FBD_RUN"]).parent
+# A sanitizer looks at each file once: numbers, which take another run, are the same there.
+THOROUGH = os.environ.get("FBD_THOROUGH") != "no"
 NUMBER = re.compile(r"^(\S+) = (\S+) \+- (\S+)$")
 
 
@@ -100,6 +102,8 @@ def main():
         with claim(f"{title}: exit code {code}"):
             run(command, file, code)
         for what in whats:
+            if not THOROUGH and what.split()[0] not in ("says", "never"):
+                continue
             with claim(f"{title}: {what}"):
                 hold(what, command, file, code)
     listed = {file for file, *_ in rows()}

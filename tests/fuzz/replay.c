@@ -2,8 +2,9 @@
  *
  * A target without libFuzzer: TARGET TIMES FOLDER...
  *
- * Gives the target every file below the folders, each in a process of its own, so that one that crashes does
- * not hide the others; and TIMES more, each with other choices (fuzz.h). One claim in TAP for each folder.
+ * Gives the target every file below the folders, some to a process, and where one of them fails each in a process of its
+ * own, so that one that crashes does not hide the others; and TIMES more, each with other choices (fuzz.h). One claim in
+ * TAP for each folder.
  */
 #include <ftw.h>
 #include <inttypes.h>
@@ -18,7 +19,12 @@
 #include "fuzz.h"
 #include "random_numbers.h"
 
-enum { most_files = 10000, patience = 120 /* s for a file, under any sanitizer */ };
+enum {
+    most_files = 10000,
+    together =
+        16, /* files to a process: its end takes longer than a file under a sanitizer, which looks for leaks */
+    patience = 120 /* s for a process, under any sanitizer */
+};
 
 struct files {
     char **paths;
@@ -66,14 +72,15 @@ static void give_all(const char *path, size_t file, unsigned long times)
     }
 }
 
-static bool survives(const char *path, size_t file, unsigned long times)
+/* Are so many files, from `first` on, given to one process without a fault? */
+static bool survive(size_t first, size_t count, unsigned long times)
 {
     int status = 0;
     fflush(stdout);
     pid_t child = fork();
     if (child == 0) {
         alarm(patience);
-        give_all(path, file, times);
+        for (size_t i = first; i < first + count; i++) give_all(found.paths[i], i, times);
         exit(EXIT_SUCCESS);
     }
     return child > 0 && waitpid(child, &status, 0) == child && status == 0;
@@ -87,13 +94,20 @@ static bool replay(const char *folder, int number, unsigned long times)
     found.count = 0;
     if (nftw(folder, note_file, 16, FTW_PHYS) != 0) failed = 1;
     qsort(found.paths, found.count, sizeof *found.paths, by_name);
-    for (size_t i = 0; i < found.count; i++) {
-        if (!survives(found.paths[i], i, times)) {
-            printf("# fails: %s\n", found.paths[i]);
+    for (size_t i = 0; i < found.count; i += together) {
+        size_t count = found.count - i < together ? found.count - i : together, before = failed;
+        if (survive(i, count, times)) continue;
+        for (size_t k = i; k < i + count; k++) {
+            if (survive(k, 1, times)) continue;
+            printf("# fails: %s\n", found.paths[k]);
             failed++;
         }
-        free(found.paths[i]);
+        if (failed == before) { /* none alone */
+            printf("# fail together: %s and %zu more\n", found.paths[i], count - 1);
+            failed++;
+        }
     }
+    for (size_t i = 0; i < found.count; i++) free(found.paths[i]);
     free(found.paths);
     const char *name = strrchr(folder, '/');
     printf("%s %d - nothing is found in the %zu files of %s\n", failed || !found.count ? "not ok" : "ok",

@@ -17,7 +17,7 @@ static double reachable(int order)
     return order >= 8 ? 1e-10 : order >= 4 ? 1e-9 : order == 3 ? 1e-8 : order == 2 ? 1e-6 : 1e-5;
 }
 
-bool hard_method_at(size_t index, struct hard_method *method)
+static bool method_number(size_t index, struct hard_method *method)
 {
     if (index < 2) {
         *method = (struct hard_method){NULL, 1e-10, 8, false, index == 1};
@@ -30,12 +30,18 @@ bool hard_method_at(size_t index, struct hard_method *method)
     return true;
 }
 
+bool hard_method_in_turn(size_t index, size_t turn, struct hard_method *method)
+{
+    if (!thorough() && index > 0) index = 3 * index - 2 + turn % 3;
+    return method_number(index, method);
+}
+
 void hard_each_tolerance(void (*check)(struct checks *checks, const struct hard_method *method))
 {
     static const double tolerances[] = {1e-4, 1e-6, 1e-8, 1e-10, 1e-12};
     struct checks checks = {0};
     struct hard_method method;
-    for (size_t i = 0; hard_method_at(i, &method); i++) {
+    for (size_t i = 0; method_number(i, &method); i++) {
         for (size_t k = 0; k < sizeof tolerances / sizeof *tolerances; k++) {
             method.tolerance = tolerances[k];
             if (!thorough() && k != 1) continue;

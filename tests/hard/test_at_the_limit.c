@@ -26,7 +26,7 @@ static void at_rest_it_stays(void **unused)
     struct hard_method method;
     char setting[32];
     for (size_t i = 0; hard_method_at(i, &method); i++)
-        for (int k = 1; k < 40; k++) {
+        for (int k = 1; k < 40; k += thorough() ? 1 : 6) {
             snprintf(setting, sizeof setting, "mu=%g", 0.017 * k);
             struct trial trial = trial_open("hard/at_the_limit.yaml", SET(setting));
             hard_start(&trial, &method, NAN);
@@ -165,7 +165,7 @@ static void what_slips_without_loss_sticks_where_it_comes_back(void **unused)
     struct hard_method method;
     struct random_numbers numbers = {20261125};
     for (size_t i = 0; hard_method_at(i, &method); i++)
-        for (int draw = 0; draw < 4; draw++) {
+        for (int draw = 0; draw < draws_of(4); draw++) {
             struct belt belt = draw_belt(&numbers);
             struct trial trial = trial_of_belt(&belt);
             hard_start(&trial, &method, NAN);

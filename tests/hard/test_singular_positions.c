@@ -33,8 +33,9 @@ static void rows_of_windows_turn_at_every_tolerance(void **unused)
     struct checks checks = {0};
     static const double tolerances[] = {1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 1e-12};
     for (size_t r = 0; r < sizeof rows / sizeof *rows; r++)
-        for (size_t i = 0; i < (thorough() ? sizeof tolerances / sizeof *tolerances : 3); i++)
-            windows_turn(&checks, &rows[r], &(struct hard_method){.tolerance = tolerances[i]});
+        for (size_t i = 0; i < sizeof tolerances / sizeof *tolerances; i++)
+            if (thorough() || i == r % 3)
+                windows_turn(&checks, &rows[r], &(struct hard_method){.tolerance = tolerances[i]});
     checks_end(&checks);
 }
 

@@ -74,6 +74,7 @@ static void no_passage_is_missed(void **unused)
     for (size_t i = 0; hard_method_at(i, &method); i++) {
         if (method.order < 4 || (method.name && strncmp(method.name, "ms", 2) == 0)) continue;
         for (size_t k = 0; k < sizeof forces / sizeof *forces; k++) {
+            if (!is_in_turn(k, i)) continue;
             size_t passages;
             struct trial trial = trial_open("hard/switched_attraction.yaml", SET(forces[k]));
             hard_start(&trial, &method, NAN);

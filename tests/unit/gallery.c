@@ -13,6 +13,7 @@
 #include <string.h>
 
 #include "limits_kept.h"
+#include "thorough.h"
 
 /* ---- checks */
 
@@ -114,7 +115,7 @@ static int names_in(const char *topic, int (*wanted)(const struct dirent *entry)
     return count;
 }
 
-size_t each_model(struct checks *checks, void (*test)(struct checks *checks, const char *path))
+static size_t go_through(struct checks *checks, bool all, size_t turn, model_test *test)
 {
     struct dirent **topics, **models;
     size_t total = 0;
@@ -124,7 +125,7 @@ size_t each_model(struct checks *checks, void (*test)(struct checks *checks, con
         for (int k = 0; k < count; k++) {
             char path[2 * most_path];
             snprintf(path, sizeof path, "%s/%s", topics[i]->d_name, models[k]->d_name);
-            test(checks, path);
+            if (all || is_in_turn(total + (size_t)k, turn)) test(checks, path);
             free(models[k]);
         }
         free(models);
@@ -133,6 +134,16 @@ size_t each_model(struct checks *checks, void (*test)(struct checks *checks, con
     }
     free(topics);
     return total;
+}
+
+size_t each_model(struct checks *checks, model_test *test)
+{
+    return go_through(checks, true, 0, test);
+}
+
+size_t each_model_in_turn(struct checks *checks, size_t turn, model_test *test)
+{
+    return go_through(checks, false, turn, test);
 }
 
 /* ---- opening */

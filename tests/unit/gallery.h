@@ -44,7 +44,12 @@ struct checks *checks_of(void **state);
 
 /* Call `test` with the path, below models/, of each model of the gallery, in the order of their names: all
  * topics but `hard`, whose cases have tests of their own (tests/hard). Returns their number. */
-size_t each_model(struct checks *checks, void (*test)(struct checks *checks, const char *path));
+typedef void model_test(struct checks *checks, const char *path);
+size_t each_model(struct checks *checks, model_test *test);
+
+/* The same where a test takes long: under a sanitizer of every third model, with `turn` another third (thorough.h). Each
+ * is run there by tests/cli/chapter.sh. */
+size_t each_model_in_turn(struct checks *checks, size_t turn, model_test *test);
 
 /* ---- trials */
 

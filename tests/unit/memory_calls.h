@@ -35,11 +35,11 @@ static inline bool some(char *string)
 }
 
 /* The call has to notice each allocation that fails, and to work when none does. Each one with a stride of 0;
- * where there are thousands, each of the first `stride`, and then ever fewer. Under a sanitizer never all. */
+ * where there are thousands, each of the first `stride`, and then ever fewer. Under a sanitizer never all, and fewer. */
 static inline void fail_each(memory_call *under_test, size_t stride)
 {
     size_t n = 0;
-    if (!stride && !thorough()) stride = 200;
+    if (!thorough()) stride = stride ? stride / 4 : 50;
     for (;; n += 1 + (stride ? n / stride : 0)) {
         fail_alloc_at(n);
         bool done = under_test();

@@ -15,6 +15,7 @@
 
 #include "gallery.h"
 #include "random_numbers.h"
+#include "thorough.h"
 
 static const double g = 9.81, pi = 3.14159265358979323846;
 
@@ -173,7 +174,7 @@ static void flat_boxes_rest_when_their_series_ends(void **unused)
     struct random_numbers numbers = {20261125};
     struct checks checks = {0};
     (void)unused;
-    for (int i = 0; i < 20; i++) {
+    for (int i = 0; i < draws_of(20); i++) {
         char text[600];
         double a = random_between(&numbers, 0.1, 1), b = random_between(&numbers, 0.02, 1);
         double e = random_between(&numbers, 0.2, 0.8), h = random_between(&numbers, 0.1, 2);
@@ -248,7 +249,7 @@ static void a_rod_jams_with_its_moment_of_momentum(void **unused)
     struct random_numbers numbers = {20261123};
     size_t wrong = 0;
     (void)unused;
-    for (int i = 0; i < 100; i++) wrong += !jam_agrees(&numbers, i % 4 == 0);
+    for (int i = 0; i < draws_of(100); i++) wrong += !jam_agrees(&numbers, i % 4 == 0);
     assert_int_equal(wrong, 0);
 }
 

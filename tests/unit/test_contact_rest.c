@@ -19,6 +19,7 @@
 
 #include "gallery.h"
 #include "random_numbers.h"
+#include "thorough.h"
 
 enum { most_boxes = 3, most_arrows = 40, room = 6000 };
 
@@ -98,7 +99,7 @@ static void what_stands_in_statics_stands_in_a_run(void **unused)
 {
     struct random_numbers numbers = {(uint64_t)number_of("FBD_STACK_SEED", 20261126)};
     struct checks checks = {0};
-    int count = number_of("FBD_STACKS", 120), stand = 0, only = number_of("FBD_STACK_ONLY", -1);
+    int count = number_of("FBD_STACKS", draws_of(120)), stand = 0, only = number_of("FBD_STACK_ONLY", -1);
     (void)unused;
     for (int i = 0; i < count; i++) {
         char text[room];

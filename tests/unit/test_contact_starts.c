@@ -11,6 +11,7 @@
 
 #include "gallery.h"
 #include "random_numbers.h"
+#include "thorough.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -146,7 +147,7 @@ static void a_rod_slides_on_along_a_wall(void **unused)
     struct random_numbers numbers = {20261126};
     struct checks checks = {0};
     (void)unused;
-    for (int draw = 0; draw < 400; draw++) {
+    for (int draw = 0; draw < draws_of(400); draw++) {
         double angle = random_between(&numbers, -3, 3), v = random_between(&numbers, 0.1, 3),
                x = random_between(&numbers, -1, 1), y = random_between(&numbers, -1, 1),
                length = random_between(&numbers, 0.2, 1), c = cos(angle), s = sin(angle);

@@ -25,6 +25,7 @@
 
 #include "random_numbers.h"
 #include "scenes.h"
+#include "thorough.h"
 
 enum { text_size = 3000, most_told = 400 };
 
@@ -195,7 +196,7 @@ static void events_beside_the_ends_of_slips_change_nothing(void **unused)
 {
     (void)unused;
     const char *wanted = getenv("FBD_ENDS");
-    int count = wanted ? atoi(wanted) : 300, wrong = 0;
+    int count = wanted ? atoi(wanted) : draws_of(300), wrong = 0;
     struct random_numbers random = {20261124};
     for (int i = 0; i < count; i++) {
         wrong += !stops_as_it_should(&random);

@@ -22,6 +22,7 @@
 #include <stdlib.h>
 
 #include "scenes.h"
+#include "thorough.h"
 #include "waves.h"
 
 enum { most_levels = 64, text_size = 4000 };
@@ -371,7 +372,8 @@ static uint64_t number_from(const char *name, uint64_t otherwise)
 static void lists_of_switches_are_those_of_an_independent_search(void **unused)
 {
     (void)unused;
-    uint64_t scenes = number_from("FBD_EVENT_SCENES", 60), only = number_from("FBD_EVENT_SEED", 0);
+    uint64_t scenes = number_from("FBD_EVENT_SCENES", (uint64_t)draws_of(60)),
+             only = number_from("FBD_EVENT_SEED", 0);
     size_t wrong = 0, compared = 0;
     for (size_t k = 0; k < sizeof kinds / sizeof *kinds; k++)
         for (uint64_t seed = 1; seed <= scenes; seed++)

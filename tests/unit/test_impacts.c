@@ -18,6 +18,7 @@
 #include "impacts_by_sets.h"
 #include "random_numbers.h"
 #include "struck.h"
+#include "thorough.h"
 
 static const double pi = 3.14159265358979323846;
 
@@ -336,10 +337,10 @@ static struct census try_scenes(struct random_numbers *numbers, long count, bool
     return census;
 }
 
-static long count_of(long otherwise)
+static long count_of(int otherwise)
 {
     const char *many = getenv("FBD_IMPACTS");
-    return many ? atol(many) : otherwise;
+    return many ? atol(many) : draws_of(otherwise);
 }
 
 static void random_impacts_keep_momentum_and_make_no_energy(void **state)

@@ -20,6 +20,7 @@
 
 #include "random_numbers.h"
 #include "scenes.h"
+#include "thorough.h"
 
 enum { text_size = 1000 };
 
@@ -127,7 +128,7 @@ static void short_pulses_are_whole_late_in_a_run(void **unused)
 {
     (void)unused;
     size_t wrong = 0;
-    for (uint64_t seed = 1; seed <= number_from("FBD_LATE_SCENES", 200); seed++)
+    for (uint64_t seed = 1; seed <= number_from("FBD_LATE_SCENES", (uint64_t)draws_of(200)); seed++)
         if (!a_pulse_is_whole(seed)) print_error("seed %llu\n", (unsigned long long)seed), wrong++;
     assert_int_equal(wrong, 0);
 }
@@ -179,7 +180,7 @@ static void waves_keep_their_phase_late_in_a_run(void **unused)
     (void)unused;
     size_t wrong = 0;
     if (LDBL_MANT_DIG < 64) skip();
-    for (uint64_t seed = 1; seed <= number_from("FBD_LATE_SCENES", 200); seed++)
+    for (uint64_t seed = 1; seed <= number_from("FBD_LATE_SCENES", (uint64_t)draws_of(200)); seed++)
         if (!a_wave_keeps_its_phase(seed)) print_error("seed %llu\n", (unsigned long long)seed), wrong++;
     assert_int_equal(wrong, 0);
 }

@@ -15,6 +15,7 @@
 
 #include "gallery.h"
 #include "random_numbers.h"
+#include "thorough.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -118,7 +119,7 @@ static void a_series_ends_and_rests_until_it_is_pushed_away(void **unused)
     (void)unused;
     enum { seed = 20261123 };
     const char *wanted = getenv("FBD_PASSAGES");
-    const int draws = wanted ? atoi(wanted) : 160;
+    const int draws = wanted ? atoi(wanted) : draws_of(160);
     struct checks checks = {0};
     struct random_numbers numbers = {seed};
     printf("# seed %d\n", seed);

@@ -96,7 +96,7 @@ static void sweep_model(struct checks *checks, const char *path)
 {
     struct trial trial = trial_open(path, NULL);
     if (fbd_model_parameter_count(trial.model) > 0)
-        for (int round = 0; round < (thorough() ? 2 : 1); round++)
+        for (int round = 0; round < draws_of(2); round++)
             sweep_parameters(checks, &seed_of_models, path, trial.model);
     trial_close(&trial);
 }
@@ -108,7 +108,7 @@ static void patched_rows_are_those_of_a_reading(void **state)
     const char *seed = getenv("FBD_TEST_SEED");
     if (seed) seed_of_models.state = strtoull(seed, NULL, 10);
     fprintf(stderr, "seed %llu\n", (unsigned long long)seed_of_models.state);
-    each_model(&checks, sweep_model);
+    each_model_in_turn(&checks, 1, sweep_model);
     checks_end(&checks);
 }
 

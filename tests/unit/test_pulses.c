@@ -17,6 +17,7 @@
 
 #include "gallery.h"
 #include "random_numbers.h"
+#include "thorough.h"
 
 /* f(u), with $ for u, and its integral over all u. */
 struct bell {
@@ -87,7 +88,7 @@ static void put_in(const struct bell *bell, const char *argument, char *text)
 static int count_of(int usual)
 {
     const char *wanted = getenv("FBD_PULSES");
-    return wanted ? (int)strtol(wanted, NULL, 10) : usual;
+    return wanted ? (int)strtol(wanted, NULL, 10) : draws_of(usual);
 }
 
 struct pulse {
@@ -218,7 +219,7 @@ static void what_a_rope_holds_beside_a_bell_rests(void **unused)
     (void)unused;
     struct checks checks = {0};
     struct random_numbers numbers = {19112513};
-    for (int i = 0; i < 20; i++) {
+    for (int i = 0; i < draws_of(20); i++) {
         char text[room];
         double d[9];
         for (int k = 0; k < 9; k++) d[k] = random_between(&numbers, 0.5, 2);

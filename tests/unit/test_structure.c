@@ -157,7 +157,7 @@ static void runs_with_and_without_agree_over_the_gallery(void **unused)
 {
     (void)unused;
     struct checks checks = {0};
-    each_model(&checks, check_agreement);
+    each_model_in_turn(&checks, 0, check_agreement);
     checks_end(&checks);
 }
 

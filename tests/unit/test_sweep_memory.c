@@ -14,6 +14,7 @@
 
 #include "fail_alloc.h"
 #include "fbd.h"
+#include "thorough.h"
 
 static const char text[] = "fbd: 1\n"
                            "parameters: {mu: 0.3, k: 4 N/m}\n"
@@ -79,7 +80,7 @@ static void no_allocation_that_fails_makes_a_wrong_row(void **state)
     (void)state;
     struct table whole = {.length = 0};
     assert_true(sweep_all("mu=0.1,0.3", keep, &whole));
-    for (size_t n = 0;; n++) {
+    for (size_t n = 0;; n += thorough() ? 1 : 1 + n / 50) {
         struct table table = {.length = 0};
         fail_alloc_at(n);
         bool done = sweep_all("mu=0.1,0.3", keep, &table);
@@ -99,8 +100,11 @@ static void no_allocation_that_fails_makes_a_wrong_row(void **state)
 static void memory_does_not_grow_with_the_number_of_runs(void **state)
 {
     (void)state;
-    const char *const vary[] = {"mu=0.1:0.6:100", "mu=0.1:0.6:10000", "mu=uniform(0.1,0.6):100",
-                                "mu=uniform(0.1,0.6):10000"};
+    const char *const many[] = {"mu=0.1:0.6:100", "mu=0.1:0.6:10000", "mu=uniform(0.1,0.6):100",
+                                "mu=uniform(0.1,0.6):10000"},
+                      *const fewer[] = {"mu=0.1:0.6:100", "mu=0.1:0.6:1000", "mu=uniform(0.1,0.6):100",
+                                        "mu=uniform(0.1,0.6):1000"},
+                      *const *vary = thorough() ? many : fewer;
     long peak[4];
     for (int i = 0; i < 4; i++) {
         alloc_peak_start();

@@ -18,6 +18,7 @@
 #include <string.h>
 
 #include "gallery.h"
+#include "thorough.h"
 
 static const double pi = 3.14159265358979323846;
 
@@ -84,7 +85,8 @@ static struct tether draw(uint64_t *seed)
 static void a_rope_winds_itself_up_any_number_of_times(void **unused)
 {
     (void)unused;
-    enum { scenes = 100, looks = 10 };
+    enum { looks = 10 };
+    const int scenes = draws_of(100);
     struct checks checks = {0};
     uint64_t seed = 1;
     double most = 0;
@@ -113,7 +115,7 @@ static void it_comes_off_when_all_is_unwound(void **unused)
     (void)unused;
     struct checks checks = {0};
     uint64_t seed = 2;
-    for (int i = 0; i < 50; i++) {
+    for (int i = 0; i < draws_of(50); i++) {
         struct tether tether = draw(&seed);
         double end = tether.l + tether.r * pi / 2;
         double when = (end * end - tether.l * tether.l) / (2 * tether.r * tether.v);

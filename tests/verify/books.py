@@ -13,7 +13,8 @@ from claims import claim, finish  # pylint: disable=wrong-import-position
 
 def main():
     programs = Path(os.environ["FBD_RUN"]).parent
-    for path in sorted((SOURCE / "tests" / "books").glob("*.yaml")):
+    every = 4 if os.environ.get("FBD_THOROUGH") == "no" else 1
+    for path in sorted((SOURCE / "tests" / "books").glob("*.yaml"))[::every]:
         case = Case(path, programs)
         with claim(f"{path.stem}: the model names its source and licence, and has an answer"):
             assert case.say["source"] and case.say["licence"] and case.answers
