@@ -94,9 +94,14 @@ static bool in_range(struct reader *reader, const struct node *map, const char *
 bool grading_read(struct reader *reader, const struct node *node)
 {
     const struct pair *pair = node_find(reader->root, "grading");
-    struct grading_keys keys = {
-        .digits = 2, .grading = {.given = node != NULL, .tolerance = 0.01, .partial = 0.5, .pass = 1}};
+    struct grading_keys keys;
     struct grading *grading = &keys.grading;
+    memset(&keys, 0, sizeof keys); /* also between its fields: scenes are compared word by word (patch.c) */
+    keys.digits = 2;
+    grading->given = node != NULL;
+    grading->tolerance = 0.01;
+    grading->partial = 0.5;
+    grading->pass = 1;
     grading->points = (struct grading_points){.force = 1, .derivation = 2, .superfluous = 1};
     bool fine = !node || fields_read(reader, &grading_group, node, pair->at, &reader->constants, &keys);
     if (fine && keys.points)
