@@ -72,6 +72,14 @@ cross-check: $(BUILD)/.tests
 	ninja -C $(BUILD)
 	$(BUILD)/tests/cross/cross_check --scenes $(SCENES) --seed $(SEED) --variants 10 --rest 4 --jobs 2 $(if $(KIND),--of $(KIND))
 
+# Tests whose scenes, values or texts are drawn, with DRAWS times as many as in every change; some four minutes.
+DRAWS = 5
+GENERATORS = actuators cams contact_tolerances dead_centres decks driven emit_drawn hoists linearize_couplings lines \
+	long_pendulum nasty not_finite piles plane pulled_row residual rolls shelf sliding slots sweep wheels
+generators: $(BUILD)/.tests
+	ninja -C $(BUILD)
+	FBD_DRAWS=$(DRAWS) .ci/test $(BUILD) --no-rebuild --timeout-multiplier $(DRAWS) $(GENERATORS)
+
 # What is promised of speed, measured: writes docs/accuracy.md and one table of all bounds, $(BUILD)/bench.md; some
 # minutes. `make measurements` is for what judges nothing.
 bench: $(BUILD)/.tests
@@ -251,5 +259,5 @@ $(BUILD)-count/build.ninja:
 	.ci/install-packages run test lint
 	touch $@
 
-.PHONY: all run mutants test sanitize tsan valgrind faults cross-check fuzz bench measurements effects error-bars event-bars events late-times implicit tighter methods impacts failures gallery python live live-check site check-format format lint install uninstall dist deb deb-check clean
+.PHONY: all run mutants generators test sanitize tsan valgrind faults cross-check fuzz bench measurements effects error-bars event-bars events late-times implicit tighter methods impacts failures gallery python live live-check site check-format format lint install uninstall dist deb deb-check clean
 .SECONDARY:

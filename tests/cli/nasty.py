@@ -37,9 +37,14 @@ bodies:
     hand: "I_O*omega_dot = -m*g*L*cos(theta)"
 simulate: {{until: 1 s, events: [{{name: low, when: pendulum.theta}}]}}
 """
-if os.environ.get("FBD_THOROUGH") == "no":
-    TEXTS = TEXTS[::4]
+# Into each place goes every third text, under a sanitizer every twelfth; with FBD_DRAWS (`make generators`) each.
+SHARE = 1 if "FBD_DRAWS" in os.environ else 12 if os.environ.get("FBD_THOROUGH") == "no" else 3
 commands = 0
+
+
+def texts_for(place):
+    """Those that go into the place of that number."""
+    return TEXTS[place % SHARE::SHARE]
 
 
 def program(name):
@@ -104,22 +109,31 @@ def titles():
     """Every title in every output of fbd-run."""
     write("plain")
     counts = page(run("run", "--quiet", "--html", "-", "m.yaml")[1], "plain")
-    for title in TEXTS:
-        if "\0" in title:
-            continue
-        write(title)
-        for option in [], ["--equations"], ["--explain"], ["--static"], ["--linearize"], ["--check-hand"], ["--check"]:
+
+    def shown(place):
+        for title in texts_for(place):
+            if "\0" not in title:
+                write(title)
+                yield title
+
+    options = [], ["--equations"], ["--explain"], ["--static"], ["--linearize"], ["--check-hand"], ["--check"]
+    for place, option in enumerate(options):
+        for title in shown(place):
             code, out, err = run("run", *option, "m.yaml")
             assert code in (0, 1, 4), (option, err)
             harmless(out, option)
             harmless(err, option)
+    for title in shown(7):
         whole = json.loads(harmless(run("run", "--json", "-", "m.yaml")[1], title))
         assert whole["title"] == title, (whole["title"], title)
         assert json.loads(harmless(run("run", "--static", "--json", "-", "m.yaml")[1], title))["title"] == title
+    for title in shown(8):
         well_formed(run("run", "--quiet", "--svg", "-", "m.yaml")[1], title)
         well_formed(run("run", "--linearize", "--svg", "-", "m.yaml")[1], title)
+    for title in shown(9):
         same_rows(run("run", "--csv", "-", "m.yaml")[1], title)
         assert page(run("run", "--quiet", "--html", "-", "m.yaml")[1], title) == counts, title
+    for title in shown(10):
         script = run("run", "--quiet", "--gnuplot", "-", "m.yaml")[1]
         harmless(script, title)
         with open("plot.gp", "wb") as file:
@@ -163,7 +177,7 @@ def studies():
 
 def paths():
     """Paths of models and of outputs; what is wrong with a model is said with its path, also in a table."""
-    names = [t.replace("/", "|").replace("\0", "").encode() for t in TEXTS] + [b"\xff\xfe\x1b[1m", b"\x9b31m", b"\xed\xa0\x80\xf5"]
+    names = [t.replace("/", "|").replace("\0", "").encode() for t in texts_for(0)] + [b"\xff\xfe\x1b[1m", b"\x9b31m", b"\xed\xa0\x80\xf5"]
     for name in names:
         for model in b"wrong" + name, name:
             with open(b"./" + model, "wb") as file:
@@ -196,19 +210,20 @@ def paths():
 def words():
     """Words of the command line, echoed in messages."""
     write("plain")
-    for text in TEXTS + ["\udcff\udc9b"]:
-        word = text.replace("\0", "")
-        for name, options in {
-            "run": ["--set", "--method", "--tolerance", "--until", "--step", "--accuracy", "--every", "--at", "--body", "--plot-of",
-                    "--seed", "--plot", "--" + word, word, "--svg=x --body"],
-            "cost": ["--methods", "--of", "--budget", "--until", "--set"],
-            "sweep": ["--vary", "--output", "--jobs", "--seed", "--method", "--set"],
-        }.items():
-            for option in options:
+    for name, options in {
+        "run": ["--set", "--method", "--tolerance", "--until", "--step", "--accuracy", "--every", "--at", "--body", "--plot-of",
+                "--seed", "--plot", "--", "", "--svg=x --body"],
+        "cost": ["--methods", "--of", "--budget", "--until", "--set"],
+        "sweep": ["--vary", "--output", "--jobs", "--seed", "--method", "--set"],
+    }.items():
+        for place, option in enumerate(options):
+            for text in texts_for(place) + ["\udcff\udc9b"]:
+                word = text.replace("\0", "")
+                asked = option + word if option in ("--", "") else option  # the option itself
                 more = {"--at": ["--equations"], "--body": ["--svg", "-"], "--plot-of": ["--gnuplot", "-"]}.get(option, [])
                 pairs = ("a=" + word, word + "=1", "k=1,2 " + word) if option in ("--set", "--vary", "--at") else ()
                 for value in (word, *pairs):
-                    code, out, err = run(name, *more, option, value, "m.yaml")
+                    code, out, err = run(name, *more, asked, value, "m.yaml")
                     harmless(err, (name, option, value))
                     if not more:
                         harmless(out, (name, option, value))
@@ -234,8 +249,8 @@ simulate: {{until: 1 s, method: {method}, events: [{{name: {event}, when: {when}
 """
     usual = {"key": "units", "unit": "1 kg", "name": "n", "body": "b", "mass": "k", "motion": "slide", "bodykey": "angle", "force": "normal",
              "load": "p", "value": "1 N", "hand": '"m*v_dot = 0"', "rope": "r", "method": "auto", "event": "e", "when": "b.x"}
-    for text in TEXTS:
-        for place in usual:
+    for number, place in enumerate(usual):
+        for text in texts_for(number):
             for word in (text, "1 " + text, "1[N]*" + text):
                 with open("m.yaml", "w", encoding="utf-8") as file:
                     file.write(scene.format(**{**usual, place: quoted(word)}))
@@ -243,7 +258,7 @@ simulate: {{until: 1 s, method: {method}, events: [{{name: {event}, when: {when}
                 assert code == 3, (code, place, word)
                 harmless(out + err, (place, word))
     # Raw in the file, not as an escape.
-    for text in TEXTS:
+    for text in texts_for(len(usual)):
         with open("m.yaml", "w", encoding="utf-8", errors="surrogateescape", newline="") as file:
             file.write(SCENE.format(title=text) + "wrong " + text + ": " + text)
         _, out, err = run("run", "m.yaml")

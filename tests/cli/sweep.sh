@@ -69,10 +69,12 @@ terminal() { # terminal COMMAND ARGUMENT...: what it shows on a terminal
     TERM=xterm python3 -c 'import pty, sys
 pty.spawn(sys.argv[1:])' "$@" </dev/null >out
 }
+shown=400
+if [ "${FBD_THOROUGH-}" = no ]; then shown=100; fi
 on_a_terminal() {
-    terminal "$program" --vary mu_k=0.1:0.6:400 --tolerance 1e-3 --method rkf45 --step 5e-4 --jobs 1 \
+    terminal "$program" --vary mu_k=0.1:0.6:$shown --tolerance 1e-3 --method rkf45 --step 5e-4 --jobs 1 \
         --csv shown.csv "$incline"
-    rows 400 shown.csv && says '[0-9]+ of 400 runs \([0-9]+ %\), [0-9.e+]+ runs/s, [0-9]+ s left' out
+    rows $shown shown.csv && says "[0-9]+ of $shown runs \\([0-9]+ %\\), [0-9.e+]+ runs/s, [0-9]+ s left" out
 }
 check 'a terminal sees how far it is and how long it will take' on_a_terminal
 check '--quiet shows nothing there' terminal "$program" --quiet --vary mu_k=0.1:0.2:2 --csv hidden.csv "$incline"
@@ -100,7 +102,7 @@ if [ -w /dev/full ]; then
 fi
 
 # ---- kills: a sweep of about a second, wherever it is cut
-count=1000 cases=150
+count=1000 cases=$((40 * ${FBD_DRAWS:-1}))
 if [ "${FBD_THOROUGH-}" = no ]; then count=150 cases=8; fi # a sanitizer takes as much longer
 slowly="--vary mu_k=0.1:0.6:$count --tolerance 1e-3 --method rkf45 --step 5e-4"
 # shellcheck disable=SC2086

@@ -271,7 +271,8 @@ def check_models(folder, pool):
 def main():
     with tempfile.TemporaryDirectory() as folder, ThreadPoolExecutor(2) as pool:
         if chosen[:1] == ["--drawn"]:
-            check_drawn(Path(folder), pool, *chosen[1:])
+            cross_check, first, number = chosen[1:]
+            check_drawn(Path(folder), pool, cross_check, first, int(number) * int(os.environ.get("FBD_DRAWS", "1")))
         else:
             check_models(Path(folder), pool)
     print(f"1..{count}")

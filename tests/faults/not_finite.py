@@ -300,7 +300,7 @@ def main():
     if len(sys.argv) > 1 and sys.argv[1] == "show":
         show(int(sys.argv[2]))
         return
-    count = int(sys.argv[1]) if len(sys.argv) > 1 else 60
+    count = int(sys.argv[1]) * int(os.environ.get("FBD_DRAWS", "1")) if len(sys.argv) > 1 else 60
     first = int(sys.argv[2]) if len(sys.argv) > 2 else 1
     slow = refused = 0
     with tempfile.TemporaryDirectory() as name:

@@ -148,7 +148,7 @@ static void rows_of_blocks(void **unused)
                                                  {.tolerance = 1e-10},
                                                  {.name = "rodas5p", .tolerance = 1e-6},
                                                  {.name = "rodas5p", .tolerance = 1e-10}};
-    for (int draw = 0; draw < (thorough() ? 12 : 3); draw++) {
+    for (int draw = 0; draw < draws_of(3); draw++) {
         struct row row = draw_row(&numbers);
         for (size_t i = 0; i < sizeof methods / sizeof *methods; i++) check_row(&checks, &row, &methods[i]);
         if (checks.failed) print_message("# draw %d, %d blocks\n%s", draw, row.n, text_of(&row));

@@ -39,7 +39,7 @@ static inline bool some(char *string)
 static inline void fail_each(memory_call *under_test, size_t stride)
 {
     size_t n = 0;
-    if (!thorough()) stride = stride ? stride / 4 : 50;
+    if (!thorough()) stride = stride ? stride / 8 : 25;
     for (;; n += 1 + (stride ? n / stride : 0)) {
         fail_alloc_at(n);
         bool done = under_test();

@@ -148,8 +148,8 @@ void stepped_try(const struct stepped_kind *kind)
 {
     struct checks checks = {0};
     struct census census = {0};
-    const int count = asked(kind, "", thorough() ? kind->thorough : kind->usual),
-              seed = asked(kind, "_SEED", -1), first = seed < 0 ? asked(kind, "_FIRST", 0) : seed;
+    const int count = asked(kind, "", draws_of(kind->scenes)), seed = asked(kind, "_SEED", -1),
+              first = seed < 0 ? asked(kind, "_FIRST", 0) : seed;
     for (int i = first; i < first + (seed < 0 ? count : 1); i++)
         compare(&checks, kind, (uint64_t)i, seed >= 0, &census);
     print_message("# %d tried, %d agree, %d differ, %d end, %d too sensitive, %d do not fit\n", census.tried,

@@ -47,7 +47,7 @@ struct stepped_kind {
     const char *
         name; /* of its variables: <name>=1000 tries so many, <name>_FIRST=100 begins there, <name>_SEED=17 tries one
                          and prints its model, <name>_STEPS is how many steps, <name>_UNTIL when to look */
-    int usual, thorough; /* how many scenes */
+    int scenes; /* as many are drawn (thorough.h) */
     void *scene;
     double *until; /* of the scene */
     void (*draw)(uint64_t seed, void *scene);

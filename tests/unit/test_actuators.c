@@ -21,8 +21,7 @@
 static struct act_scene scene;
 static const struct stepped_kind kind = {
     .name = "FBD_ACTUATORS",
-    .usual = 10,
-    .thorough = 60,
+    .scenes = 12,
     .scene = &scene,
     .until = &scene.until,
     .draw = act_draw,

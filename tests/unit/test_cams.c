@@ -153,7 +153,7 @@ static void set_initial(char *text, const char *initial)
 
 static void all_go_as_they_are_thrown(bool cranks)
 {
-    int count = number_of("FBD_CAMS", thorough() ? 60 : 12), thrown = 0, told = 0;
+    int count = number_of("FBD_CAMS", draws_of(12)), thrown = 0, told = 0;
     struct random_numbers numbers = {(uint64_t)number_of("FBD_CAM_SEED", 20261125)};
     struct checks checks = {0};
     for (int i = 0; i < count; i++) {
@@ -248,7 +248,7 @@ static void what_has_been_lifted_is_held(void **unused)
     struct random_numbers numbers = {20261126};
     struct checks checks = {0};
     (void)unused;
-    for (int i = 0; i < (thorough() ? 60 : 12); i++) {
+    for (int i = 0; i < draws_of(12); i++) {
         struct cam cam;
         char text[1600], held[120], name[40];
         const double until = 3;

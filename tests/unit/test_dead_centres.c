@@ -249,7 +249,7 @@ static void friction_turns_in_dead_centres(void **unused)
     (void)unused;
     struct checks checks = {0};
     struct random_numbers numbers = {190411};
-    int draws = thorough() ? 120 : 20;
+    int draws = draws_of(24);
     printf("# seed %d\n", 190411);
     for (int draw = 0; draw < draws && !checks.failed; draw++) {
         struct flywheel wheel = draw_flywheel(&numbers);
@@ -284,7 +284,7 @@ static void what_rests_in_a_dead_centre_sets_out(void **unused)
     (void)unused;
     struct checks checks = {0};
     struct random_numbers numbers = {19112509};
-    int draws = thorough() ? 80 : 20;
+    int draws = draws_of(16);
     for (int draw = 0; draw < draws && !checks.failed; draw++) {
         struct flywheel wheel = draw_at_rest(&numbers);
         wheel.M = wheel.way * (held_moment(&wheel) * random_between(&numbers, 1.01, 3) +
@@ -302,7 +302,7 @@ static void the_limit_of_what_rests_in_a_dead_centre(void **unused)
     (void)unused;
     struct checks checks = {0};
     struct random_numbers numbers = {19112510};
-    int draws = thorough() ? 80 : 20;
+    int draws = draws_of(16);
     for (int draw = 0; draw < draws && !checks.failed; draw++) {
         struct flywheel wheel = draw_at_rest(&numbers);
         bool beyond = draw % 2;
@@ -329,7 +329,7 @@ static void a_moment_rises_until_it_is_not_held(void **unused)
     (void)unused;
     struct checks checks = {0};
     struct random_numbers numbers = {19112511};
-    int draws = thorough() ? 80 : 20;
+    int draws = draws_of(16);
     for (int draw = 0; draw < draws && !checks.failed; draw++) {
         struct flywheel wheel = draw_at_rest(&numbers);
         if (!wheel.yoke || wheel.mu == 0 || wheel.mu_g == 0) continue;

@@ -20,8 +20,7 @@
 static struct deck_scene scene;
 static const struct stepped_kind kind = {
     .name = "FBD_DECKS",
-    .usual = 6,
-    .thorough = 24,
+    .scenes = 5,
     .scene = &scene,
     .until = &scene.until,
     .draw = deck_draw,

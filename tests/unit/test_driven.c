@@ -192,7 +192,7 @@ static void friction_does_not_hold_what_is_driven(void **unused)
     (void)unused;
     struct checks checks = {0};
     struct random_numbers numbers = {1012258};
-    int draws = thorough() ? 2000 : 200;
+    int draws = draws_of(400);
     printf("# seed %d\n", 1012258);
     for (int draw = 0; draw < draws && !checks.failed; draw++) {
         struct crank crank = draw_crank(&numbers);

@@ -276,7 +276,7 @@ static void go_to_balance(struct chain *chain)
 static void written_twice(bool loop)
 {
     struct random_numbers numbers = {loop ? 5 : 4};
-    for (int trial = 0; trial < (thorough() ? 100 : 15); trial++) {
+    for (int trial = 0; trial < draws_of(30); trial++) {
         struct chain chain;
         draw_chain(&numbers, &chain, loop);
         go_to_balance(&chain);

@@ -405,19 +405,19 @@ static void try_lines(struct line (*draw)(uint64_t seed), int count)
 static void time_stepping_says_the_same(void **unused)
 {
     (void)unused;
-    try_lines(draw_line, draws_of(90));
+    try_lines(draw_line, draws_of(18));
 }
 
 static void of_ropes_and_bounces_as_well(void **unused)
 {
     (void)unused;
-    try_lines(draw_roped_line, draws_of(90));
+    try_lines(draw_roped_line, draws_of(18));
 }
 
 static void of_friction_that_comes_and_goes(void **unused)
 {
     (void)unused;
-    try_lines(draw_pulsed_line, draws_of(30));
+    try_lines(draw_pulsed_line, draws_of(6));
 }
 
 /* Plastic impacts far apart that were taken for the end of a series (771329), friction that is zero for now and

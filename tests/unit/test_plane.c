@@ -116,7 +116,7 @@ static void time_stepping_says_the_same(void **unused)
 {
     struct checks checks = {0};
     const char *only = getenv("FBD_PLANE_KIND");
-    long count = number_of("FBD_PLANE", draws_of(40)), first = number_of("FBD_PLANE_FIRST", 0),
+    long count = number_of("FBD_PLANE", draws_of(8)), first = number_of("FBD_PLANE_FIRST", 0),
          seed = number_of("FBD_PLANE_SEED", -1);
     int steps = number_of("FBD_PLANE_STEPS", 10000);
     (void)unused;

@@ -110,7 +110,7 @@ static void friction_by_sign_is_friction(void **unused)
     (void)unused;
     enum { seed = 1785 };
     const char *given = getenv("FBD_RUBBING");
-    int draws = given ? atoi(given) : draws_of(80);
+    int draws = given ? atoi(given) : draws_of(16);
     struct checks checks = {0};
     struct random_numbers numbers = {seed};
     printf("# seed %d\n", seed);
@@ -158,7 +158,7 @@ static void a_short_end_of_rubbing_is_not_lost(void **unused)
 {
     (void)unused;
     enum { seed = 1779 };
-    const int draws = draws_of(60);
+    const int draws = draws_of(12);
     struct checks checks = {0};
     struct random_numbers numbers = {seed};
     printf("# seed %d\n", seed);
@@ -206,7 +206,7 @@ static void a_short_end_of_a_sliding_mode_is_not_lost(void **unused)
 {
     (void)unused;
     enum { seed = 1932 };
-    const int draws = draws_of(60);
+    const int draws = draws_of(12);
     const double step = 1e-4, until = 20;
     struct checks checks = {0};
     struct random_numbers numbers = {seed};
@@ -252,7 +252,7 @@ static void two_that_rub_on_each_other_are_a_stack(void **unused)
 {
     (void)unused;
     enum { seed = 1699 };
-    const int draws = draws_of(30);
+    const int draws = draws_of(6);
     struct checks checks = {0};
     struct random_numbers numbers = {seed};
     printf("# seed %d\n", seed);

@@ -298,7 +298,7 @@ static bool agrees(uint64_t seed, bool *sensitive)
 static void time_stepping_says_the_same(void **unused)
 {
     (void)unused;
-    moreau_compare("FBD_WHEELS", 80, 10, agrees);
+    moreau_compare("FBD_WHEELS", 16, 10, agrees);
 }
 
 int main(void)
