@@ -94,7 +94,7 @@ measurements: $(BUILD)/.tests
 effects: $(BUILD)/.tests
 	ninja -C $(BUILD)
 	FBD_SOURCE_ROOT=$(CURDIR) FBD_RUN=$(BUILD)/apps/fbd-run FBD_COUNT_RHS=$(BUILD)/tests/bench/count_rhs \
-		FBD_RUN_PLAIN= tests/tools/effects --write docs/effects.md
+		tests/tools/effects --write docs/effects.md
 
 # 155,000 random scenes whose lists of events are known; takes some minutes.
 events: $(BUILD)/.tests
