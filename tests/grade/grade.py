@@ -12,6 +12,7 @@ import inventions
 from errors import CASES, KEYS, RIGHT
 
 RUN = sys.argv[1]
+EVERY = 6 if os.environ.get("FBD_THOROUGH") == "no" else 1  # of the cases
 count = 0
 bad = 0
 
@@ -40,9 +41,8 @@ def grade(key, *answers, options=()):
 
 
 def test_cases(folder):
-    every = 3 if os.environ.get("FBD_THOROUGH") == "no" else 1
     for number, (name, what, changes, kind, item) in enumerate(CASES):
-        if kind is None or number % every != 0:
+        if kind is None or number % EVERY != 0:
             continue
         key, answer = folder / f"{name}.key.yaml", folder / f"case{number}.yaml"
         answer.write_text(changed(KEYS[name], changes), encoding="utf-8")
@@ -55,7 +55,7 @@ def test_cases(folder):
 
 
 def test_right(folder):
-    for number, (name, what, changes) in enumerate(RIGHT):
+    for number, (name, what, changes) in list(enumerate(RIGHT))[::EVERY]:
         key, answer = folder / f"{name}.key.yaml", folder / f"right{number}.yaml"
         answer.write_text(changed(KEYS[name], changes), encoding="utf-8")
         code, (result,) = grade(key, answer)
@@ -65,7 +65,7 @@ def test_right(folder):
 
 
 def test_inventions(folder):
-    for number, (name, what, changes, expected) in enumerate(inventions.CASES):
+    for number, (name, what, changes, expected) in list(enumerate(inventions.CASES))[::EVERY]:
         key, answer = folder / f"{name}.key.yaml", folder / f"invention{number}.yaml"
         answer.write_text(changed(inventions.KEYS[name], changes), encoding="utf-8")
         code, (result,) = grade(key, answer)

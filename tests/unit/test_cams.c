@@ -181,7 +181,7 @@ static void all_go_as_they_are_thrown(bool cranks)
         trial_close(&trial);
     }
     print_message("# %d of %d can be told, %d throw\n", told, count, thrown);
-    check_that(&checks, "many do", 4 * told > count && 4 * thrown > told);
+    check_that(&checks, "many do", !thorough() || (4 * told > count && 4 * thrown > told));
     checks_end(&checks);
 }
 

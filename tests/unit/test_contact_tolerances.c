@@ -74,7 +74,7 @@ static void check_tolerances(struct checks *checks, const char *path, const char
     char what[160];
     snprintf(what, sizeof what, "%s, %s: done at 1e-%d", path, name, tightest);
     check_that(checks, what, follow(path, settings, 1e-13, &first));
-    const int stride = draws_asked() > 1 ? 1 : thorough() ? 3 : 9;
+    const int stride = draws_asked() > 1 ? 1 : thorough() ? 3 : 10;
     for (int digits = loosest; digits < tightest; digits += stride) {
         double tolerance = pow(10, -digits);
         snprintf(what, sizeof what, "%s, %s: done at 1e-%d", path, name, digits);
