@@ -72,7 +72,7 @@ cross-check: $(BUILD)/.tests
 	ninja -C $(BUILD)
 	$(BUILD)/tests/cross/cross_check --scenes $(SCENES) --seed $(SEED) --variants 10 --rest 4 --jobs 2 $(if $(KIND),--of $(KIND))
 
-# Tests whose scenes, values or texts are drawn, with DRAWS times as many as in every change; some four minutes.
+# Tests whose scenes, values or texts are drawn, with DRAWS times as many as in every change; some two minutes.
 DRAWS = 5
 GENERATORS = actuators cams contact_tolerances dead_centres decks driven emit_drawn hoists linearize_couplings lines \
 	long_pendulum nasty not_finite piles plane pulled_row residual rolls shelf sliding slots sweep wheels
