@@ -28,7 +28,7 @@ struct subject {
     struct fbd_state *state;
     int n;
     struct random_numbers numbers;
-    bool fits; /* velocities were found that its constraints allow */
+    bool fits; /* velocities were found that its constraints allow, and modes that agree with them */
 };
 
 /* Tree number `seed` in a random state. */
@@ -47,9 +47,9 @@ static struct subject subject_with(uint64_t seed, bool conservative, bool fricti
     for (int i = 0; i < 2 * subject.n; i++) subject.state->y[i] = random_between(&subject.numbers, -2, 2);
     subject.state->t = 0.3;
     state_start_constraints(subject.state);
-    assert_true(modes_settle(subject.state, NULL));
-    subject.fits = state_project_velocity(subject.state, false);
-    assert_true(modes_settle(subject.state, NULL));
+    /* At velocities that are drawn there may be no friction that agrees (Painleve): such a state is left out. */
+    subject.fits = modes_settle(subject.state, NULL) && state_project_velocity(subject.state, false) &&
+                   modes_settle(subject.state, NULL);
     return subject;
 }
 
