@@ -285,11 +285,15 @@ static bool look_run_before(struct run *run, double t, struct fbd_state *state)
     return run_look(run, t == run->state->t ? run_end(run) : moment_at(t), state);
 }
 
-struct fbd_state *ensemble_look_group(struct ensemble *ensemble, size_t index, struct moment t)
+struct fbd_state *ensemble_look_group(struct ensemble *ensemble, size_t index, struct moment t, bool forces)
 {
     struct group *group = &ensemble->groups[index];
     struct run *run = group->run;
     bool at_end = moment_equal(t, run_end(run)), within = t.t >= run->step.from && t.t <= run->state->t;
+    if (!forces && within) {
+        state_set_moment(group->probe, t);
+        return run_coordinates(run, t, group->probe->y) ? group->probe : NULL;
+    }
     bool seen = at_end ? look_at_end(run, group->probe) : within && run_look(run, t, group->probe);
     return seen ? group->probe : NULL;
 }

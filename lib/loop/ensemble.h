@@ -125,8 +125,8 @@ void ensemble_check_balance(struct ensemble *ensemble);
 struct fbd_state *ensemble_state(struct ensemble *ensemble);
 
 /* Group `index` at t, within its last step or at the end of it, as by ensemble_look, in its own coordinates:
- * its probe, or NULL. */
-struct fbd_state *ensemble_look_group(struct ensemble *ensemble, size_t index, struct moment t);
+ * its probe, or NULL. Without `forces` only its coordinates and rates are those at t. */
+struct fbd_state *ensemble_look_group(struct ensemble *ensemble, size_t index, struct moment t, bool forces);
 
 /* The body or load of the whole scene that is `index` in a group; -1 for -1. */
 int group_body(const struct group *group, int index);

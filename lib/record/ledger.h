@@ -4,7 +4,8 @@
  *
  * The work of a conservative force is what its potential energy has lost, exactly. The work of any other is
  * the integral of its power over the motion, by Gauss's rule with five points in each step, on the step's
- * dense output: its error is below that of the motion itself. The residual
+ * dense output, and in parts of a step where a power has more in it than the motion: so its error is below that of
+ * the motion itself. The residual
  *
  *     (KE + PE) - (KE + PE at the start) - work of the forces without a potential
  *
@@ -28,6 +29,7 @@ struct ledger {
     double initial_kinetic, initial_sum;
     double liveliest; /* the most kinetic energy of a group at the end of a step */
     double turnover;  /* integral of the size of all powers that are integrated */
+    double *powers;   /* points of a panel times loads */
     struct arrow *arrows;
     double *scratch; /* 2 n */
 };
