@@ -40,7 +40,7 @@ struct command {
     char *argv[most_words + 1];
 };
 
-/* `run --json - MODEL` is `BUILD/apps/fbd-run --json - MODEL`; words are separated by blanks. */
+/* `run --json - MODEL` is `BUILD/tests/failures/fbd-run --json - MODEL`; words are separated by blanks. */
 static void read_command(struct command *command, const char *line)
 {
     const char *build = getenv("FBD_BUILD_ROOT");
@@ -48,7 +48,8 @@ static void read_command(struct command *command, const char *line)
     memcpy(command->words, command->text, sizeof command->words);
     char *rest, *word = strtok_r(command->words, " ", &rest);
     int count = 0;
-    snprintf(command->program, sizeof command->program, "%s/apps/fbd-%s", build ? build : "build", word);
+    snprintf(command->program, sizeof command->program, "%s/tests/failures/fbd-%s", build ? build : "build",
+             word);
     command->argv[count++] = command->program;
     while ((word = strtok_r(NULL, " ", &rest)) != NULL && count < most_words) command->argv[count++] = word;
     command->argv[count] = NULL;
