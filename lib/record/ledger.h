@@ -19,12 +19,14 @@
 
 struct ledger {
     const struct fbd_model *model;
-    bool *integrated;          /* per load: its work is integrated */
-    bool any;                  /* one of them is, and it was asked for */
-    bool works;                /* it was asked for */
-    double *begin, *end;       /* per load, integrated, up to the begin and end of its group's last step */
-    double *work;              /* per load, integrated, up to the end of the run */
-    double *struck;            /* per load: what impacts have taken by then */
+    bool *integrated;    /* per load: its work is integrated */
+    bool any;            /* one of them is, and it was asked for */
+    bool works;          /* it was asked for */
+    double *begin, *end; /* per load, integrated, up to the begin and end of its group's last step */
+    double *work;        /* per load, integrated, up to the end of the run */
+    double *struck;      /* per load: what impacts have taken by then */
+    double
+        *through; /* per load, of the first one of a group: integral of the size of all powers of the group */
     double *initial_potential; /* per load */
     double initial_kinetic, initial_sum;
     double liveliest; /* the most kinetic energy of a group at the end of a step */
@@ -56,7 +58,7 @@ bool ledger_at(struct ledger *ledger, struct ensemble *ensemble, double *work);
 /* Work of load `index` at a state, given the integrals up to there. */
 double ledger_work(struct ledger *ledger, const struct fbd_state *state, size_t index, const double *work);
 
-/* The largest residual at a state that `steps` steps at a tolerance explain: ten tolerances of the size of the energy
+/* The largest residual at a state that `steps` steps at a tolerance explain: four tolerances of the size of the energy
  * in each - the most that was in motion and what went through by forces without a potential - and the rounding of what
  * it is the difference of. A motion whose steps have gone over a short pulse is far beyond it: its work is looked at in
  * other places than the steps are. NAN where no works are integrated. */
