@@ -10,7 +10,9 @@ static bool account(void *context, struct ensemble *ensemble, size_t group)
 {
     struct bars *bars = context;
     if (bars->is_ended && bars->is_ended(bars->watcher)) ensemble_interrupt(ensemble);
-    return !bars->ledger.any || ledger_step(&bars->ledger, ensemble, group);
+    if (!bars->ledger.any) return true;
+    ledger_note(&bars->ledger, &ensemble->groups[group]);
+    return ledger_step(&bars->ledger, ensemble, group);
 }
 
 static void account_again(void *context, struct ensemble *ensemble, size_t group)

@@ -21,7 +21,7 @@ bool ledger_init(struct ledger *ledger, const struct fbd_model *model, struct fb
     size_t loads = model->load_count;
     *ledger = (struct ledger){.model = model, .works = works};
     ledger->integrated = calloc(loads + 1, sizeof *ledger->integrated);
-    ledger->work = calloc(6 * loads + 1, sizeof *ledger->work);
+    ledger->work = calloc(7 * loads + 2, sizeof *ledger->work);
     ledger->powers = calloc(all_points * loads + 1, sizeof *ledger->powers);
     ledger->arrows = calloc(diagram_most_arrows(model), sizeof *ledger->arrows);
     ledger->scratch = calloc(plan_size(&model->plan) + 1, sizeof *ledger->scratch);
@@ -33,7 +33,8 @@ bool ledger_init(struct ledger *ledger, const struct fbd_model *model, struct fb
     ledger->begin = ledger->initial_potential + loads;
     ledger->end = ledger->begin + loads;
     ledger->struck = ledger->end + loads;
-    ledger->through = ledger->struck + loads;
+    ledger->lively = ledger->struck + loads;
+    ledger->through = ledger->lively + loads + 1;
     struct instant at = state_instant(start);
     ledger->initial_kinetic = kinetic(model, &at);
     for (size_t i = 0; i < loads; i++) {
@@ -124,6 +125,52 @@ static const double legendre[5][all_points] = {
      -2.3826716820551894},
 };
 
+/* How far couplings reach: by that much they know where a body is, wherever that may be. */
+static double reach_of_couplings(const struct tree *tree)
+{
+    double reach = 0;
+    for (int i = 0; tree && i < tree->tie_count; i++) {
+        const struct tie *tie = &tree->ties[i];
+        reach = fmax(reach, fabs(tie->length));
+        for (int end = 0; end < tie->end_count; end++)
+            reach = fmax(reach, vec_norm(tie->end[end].point) + tie->end[end].radius);
+    }
+    return reach;
+}
+
+/* What roundings do at a state, as energies. */
+struct rounded {
+    double
+        places; /* every force times the distance of its point, and every couple: one rounding of all places */
+    double ways; /* of unit time: every force times what it moves its body by alone */
+};
+
+static struct rounded rounded_at(struct ledger *ledger, struct fbd_state *state)
+{
+    const struct fbd_model *model = state->model; /* of a group, or the whole */
+    struct instant at = state_instant(state);
+    struct rounded sum = {0, 0};
+    double reach = reach_of_couplings(model->tree);
+    for (size_t b = 0; b < model->body_count; b++) {
+        size_t count = diagram_fill(model, (int)b, &at, state->a, state->slots, ledger->arrows);
+        double forces = 0, mass = body_mass(&model->bodies[b], &at);
+        for (size_t i = 0; i < count; i++) {
+            const struct arrow *arrow = &ledger->arrows[i];
+            double force = vec_norm(arrow->force);
+            sum.places += force * fmax(vec_norm(arrow->point), reach) + fabs(arrow->couple);
+            forces += force;
+        }
+        if (mass > 0) sum.ways += forces * forces / mass;
+    }
+    return sum;
+}
+
+/* By what is kept of a group: its first load. One without loads has nothing that matters. */
+static size_t first_load(const struct ledger *ledger, const struct group *group)
+{
+    return group->model->load_count > 0 ? (size_t)group_load(group, 0) : ledger->model->load_count;
+}
+
 /* A panel: a part of a group's last step. */
 struct panel {
     size_t group;
@@ -131,6 +178,9 @@ struct panel {
     double length;
     bool forces; /* powers need more than coordinates and rates */
     int points;
+    int halved;    /* so often */
+    double missed; /* what the panel missed that this is a half of: of the mean of its power */
+    double floor;  /* what is rounding of works, where something was missed */
 };
 
 /* Without friction, switches and joints a power is a function of coordinates, rates and the time. */
@@ -163,6 +213,8 @@ static bool has_expressions(const struct fbd_model *model)
 /* Integrals of the powers of all loads; and of the sizes of those of a group, which is the same whatever stands beside it. */
 struct sums {
     double *work, turnover;
+    double lost; /* length of all panels in which the power of a load was not resolved, */
+    int load;    /* this one */
 };
 
 static bool sample(struct ledger *ledger, struct ensemble *ensemble, const struct panel *panel)
@@ -209,31 +261,65 @@ static double missed(const struct ledger *ledger, int load, int points)
     return high > rounding * size_of(ledger, load) ? high * decay * decay * decay : 0;
 }
 
-/* Add the integral of power over a panel; in halves where the motion asks for less points than the powers do: of what sticks
- * on a belt, or is driven, or stands between forces that cancel, the steps know nothing of what these forces are. */
-static bool add_panel(struct ledger *ledger, struct ensemble *ensemble, struct panel panel, int halved,
-                      struct sums *sums)
+/* What the rule misses in a panel. */
+struct look {
+    double missed, turnover; /* of the load of which it misses most; size of all powers, integrated */
+    int load;
+    bool waves; /* it is no rounding: a share of that load's own power */
+};
+
+static struct look look_at(const struct ledger *ledger, const struct group *group, const struct panel *panel)
 {
-    enum { most_halved = 10 };
-    const double share = 0.1, least_tolerance = 1e-12, most_tolerance = 1e-7;
-    const struct group *group = &ensemble->groups[panel.group];
-    if (!sample(ledger, ensemble, &panel)) return false;
-    double worst = 0, turnover = 0;
+    const double rounding = 1e-6; /* of forces whose system is nearly singular */
+    struct look look = {.load = -1};
     for (size_t i = 0; i < group->model->load_count; i++) {
         int load = group_load(group, (int)i);
         if (!ledger->integrated[load]) continue;
-        worst = fmax(worst, missed(ledger, load, panel.points));
-        turnover += panel.length / 2 * size_of(ledger, load);
+        double by = missed(ledger, load, panel->points), size = size_of(ledger, load);
+        look.turnover += panel->length / 2 * size;
+        look.waves |= by > rounding * size;
+        if (!(by > look.missed)) continue;
+        look.missed = by;
+        look.load = load;
     }
+    return look;
+}
+
+/* Add the integral of power over a panel; in halves where the motion asks for less points than the powers do: of what sticks
+ * on a belt, or is driven, or stands between forces that cancel, the steps know nothing of what these forces are. */
+static bool add_panel(struct ledger *ledger, struct ensemble *ensemble, struct panel panel, struct sums *sums)
+{
+    enum { most_halved = 12, at_once = 3 };
+    const double share = 0.1, least_tolerance = 1e-12, most_tolerance = 1e-7, progress = 0.25,
+                 rounding = 1e-14;
+    const struct group *group = &ensemble->groups[panel.group];
+    if (!sample(ledger, ensemble, &panel)) return false;
+    struct look look = look_at(ledger, group, &panel);
     double tolerance = fmin(fmax(group->run->options.tolerance, least_tolerance), most_tolerance);
-    if (panel.length * worst > share * tolerance * (sums->turnover + turnover) && halved < most_halved) {
+    double size = ledger->lively[first_load(ledger, group)] + sums->turnover + look.turnover;
+    double missed = panel.length * look.missed;
+    bool more = missed > share * tolerance * size;
+    if (more && panel.halved == 0) {
+        struct fbd_state *state = ensemble_look_group(ensemble, panel.group, panel.from, true);
+        if (!state) return false;
+        struct rounded rounded = rounded_at(ledger, state); /* of what rests, too */
+        panel.floor = rounding * rounded.places + DBL_EPSILON * rounded.ways * panel.length * panel.length;
+    }
+    more = more && missed > panel.floor &&
+           (look.waves || panel.halved < at_once || look.missed < progress * panel.missed);
+    if (more && panel.halved < most_halved) {
         panel.length /= 2;
+        panel.halved++;
+        panel.missed = look.missed;
         struct panel second = panel;
         second.from = moment_after(panel.from, panel.length);
-        return add_panel(ledger, ensemble, panel, halved + 1, sums) &&
-               add_panel(ledger, ensemble, second, halved + 1, sums);
+        return add_panel(ledger, ensemble, panel, sums) && add_panel(ledger, ensemble, second, sums);
     }
-    sums->turnover += turnover;
+    if (more) {
+        sums->lost += panel.length;
+        sums->load = look.load;
+    }
+    sums->turnover += look.turnover;
     for (size_t i = 0; i < group->model->load_count; i++) {
         int load = group_load(group, (int)i);
         if (ledger->integrated[load]) sums->work[load] += panel.length / 2 * sum_of(ledger, gauss, load);
@@ -256,15 +342,11 @@ static bool integrate(struct ledger *ledger, struct ensemble *ensemble, size_t g
                           .points = has_expressions(of->model) ? all_points : gauss_points};
     for (int i = 0; done && i < panels; i++) {
         panel.from = moment_after(from, i * length / panels);
-        done = add_panel(ledger, ensemble, panel, 0, sums);
+        done = add_panel(ledger, ensemble, panel, sums);
     }
+    /* Not the panels about a corner, but a tenth of a step and more: thousands of waves within it. */
+    if (sums->lost > length / 10) sums->work[sums->load] = NAN;
     return done;
-}
-
-/* Where a group's turnover is kept: by its first load; one without loads has none. */
-static double *through_of(struct ledger *ledger, const struct group *group)
-{
-    return &ledger->through[group->model->load_count > 0 ? group_load(group, 0) : 0];
 }
 
 bool ledger_step(struct ledger *ledger, struct ensemble *ensemble, size_t index)
@@ -276,8 +358,8 @@ bool ledger_step(struct ledger *ledger, struct ensemble *ensemble, size_t index)
         ledger->begin[load] = ledger->end[load];
     }
     const struct run *run = group->run;
-    double *through = through_of(ledger, group), before = *through;
-    struct sums sums = {ledger->end, before};
+    double *through = &ledger->through[first_load(ledger, group)], before = *through;
+    struct sums sums = {.work = ledger->end, .turnover = before};
     if (!integrate(ledger, ensemble, index, run_start(run), run_end(run), &sums)) return false;
     *through = sums.turnover;
     ledger->turnover += sums.turnover - before;
@@ -295,7 +377,8 @@ void ledger_restart(struct ledger *ledger, struct ensemble *ensemble, size_t ind
     const struct group *group = &ensemble->groups[index];
     for (size_t i = 0; i < group->model->load_count; i++) {
         int load = group_load(group, (int)i);
-        ledger->begin[load] = ledger->end[load] = ledger->struck[load] = ledger->through[load] = 0;
+        ledger->begin[load] = ledger->end[load] = ledger->struck[load] = ledger->through[load] =
+            ledger->lively[load] = 0;
     }
 }
 
@@ -309,46 +392,8 @@ void ledger_note(struct ledger *ledger, const struct group *group)
         if (body->place.link == 0) sum += kinetic_energy(body, &at);
     }
     ledger->liveliest = fmax(ledger->liveliest, sum);
-}
-
-/* How far couplings reach: by that much they know where a body is, wherever that may be. */
-static double reach_of_couplings(const struct tree *tree)
-{
-    double reach = 0;
-    for (int i = 0; tree && i < tree->tie_count; i++) {
-        const struct tie *tie = &tree->ties[i];
-        reach = fmax(reach, fabs(tie->length));
-        for (int end = 0; end < tie->end_count; end++)
-            reach = fmax(reach, vec_norm(tie->end[end].point) + tie->end[end].radius);
-    }
-    return reach;
-}
-
-/* What roundings do at a state, as energies. */
-struct rounded {
-    double
-        places; /* every force times the distance of its point, and every couple: one rounding of all places */
-    double ways; /* of unit time: every force times what it moves its body by alone */
-};
-
-static struct rounded rounded_at(struct ledger *ledger, struct fbd_state *state)
-{
-    const struct fbd_model *model = ledger->model;
-    struct instant at = state_instant(state);
-    struct rounded sum = {0, 0};
-    double reach = reach_of_couplings(model->tree);
-    for (size_t b = 0; b < model->body_count; b++) {
-        size_t count = diagram_fill(model, (int)b, &at, state->a, state->slots, ledger->arrows);
-        double forces = 0, mass = body_mass(&model->bodies[b], &at);
-        for (size_t i = 0; i < count; i++) {
-            const struct arrow *arrow = &ledger->arrows[i];
-            double force = vec_norm(arrow->force);
-            sum.places += force * fmax(vec_norm(arrow->point), reach) + fabs(arrow->couple);
-            forces += force;
-        }
-        if (mass > 0) sum.ways += forces * forces / mass;
-    }
-    return sum;
+    double *lively = &ledger->lively[first_load(ledger, group)];
+    *lively = fmax(*lively, sum);
 }
 
 double ledger_explained(struct ledger *ledger, struct fbd_state *state, double tolerance, double steps)
@@ -381,7 +426,7 @@ bool ledger_within(struct ledger *ledger, struct ensemble *ensemble, double t, d
             int load = group_load(group, (int)i);
             work[load] = (at_end ? ledger->end : ledger->begin)[load];
         }
-        struct sums sums = {work, *through_of(ledger, group)};
+        struct sums sums = {.work = work, .turnover = ledger->through[first_load(ledger, group)]};
         if (!at_end && !integrate(ledger, ensemble, g, run_start(group->run), moment_at(t), &sums))
             return false;
     }

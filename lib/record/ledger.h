@@ -25,8 +25,9 @@ struct ledger {
     double *begin, *end; /* per load, integrated, up to the begin and end of its group's last step */
     double *work;        /* per load, integrated, up to the end of the run */
     double *struck;      /* per load: what impacts have taken by then */
-    double
-        *through; /* per load, of the first one of a group: integral of the size of all powers of the group */
+    /* Per load, of the first one of a group: its most kinetic energy at the end of a step, and the integral of the size of
+     * all its powers. */
+    double *lively, *through;
     double *initial_potential; /* per load */
     double initial_kinetic, initial_sum;
     double liveliest; /* the most kinetic energy of a group at the end of a step */
@@ -48,7 +49,7 @@ bool ledger_integrates(const struct ledger *ledger, const struct group *group);
 bool ledger_step(struct ledger *ledger, struct ensemble *ensemble, size_t index);
 void ledger_restart(struct ledger *ledger, struct ensemble *ensemble, size_t index);
 
-/* Note how lively a group is at the end of its last step. */
+/* Note how lively a group is at the end of its last step, before ledger_step. */
 void ledger_note(struct ledger *ledger, const struct group *group);
 
 /* work[load_count]: the integrals up to a time in the last step of every group; up to the ensemble's time. */

@@ -138,6 +138,7 @@ static const char *status_of(fbd_outcome outcome)
 
 static bool account(void *context, struct ensemble *run, size_t group)
 {
+    ledger_note(context, &run->groups[group]);
     return ledger_step(context, run, group);
 }
 
