@@ -32,6 +32,9 @@ static bool note_energies(struct ledger *ledger, const struct fbd_state *state, 
     return false;
 }
 
+static const char unresolved[] = "forces swing thousands of times within a step of the motion, which knows "
+                                 "nothing of them; give a small --step";
+
 bool result_finite(struct ensemble *ensemble, struct ledger *ledger, const double *work)
 {
     struct fbd_state *state = ensemble_state(ensemble);
@@ -41,8 +44,9 @@ bool result_finite(struct ensemble *ensemble, struct ledger *ledger, const doubl
     bool odd = finite == finite_not;
     if (!odd && ledger)
         odd = note_work(ledger, state, work, &found) || note_energies(ledger, state, work, &found);
-    if (odd)
-        ensemble_spoil(ensemble, "%s is not finite at t = %.9g: %s", found.what, state->t,
-                       not_finite_reason(found.value));
+    if (odd) {
+        const char *reason = ledger && ledger->unresolved ? unresolved : not_finite_reason(found.value);
+        ensemble_spoil(ensemble, "%s is not finite at t = %.9g: %s", found.what, state->t, reason);
+    }
     return !odd;
 }

@@ -213,8 +213,7 @@ static bool has_expressions(const struct fbd_model *model)
 /* Integrals of the powers of all loads; and of the sizes of those of a group, which is the same whatever stands beside it. */
 struct sums {
     double *work, turnover;
-    double lost; /* length of all panels in which the power of a load was not resolved, */
-    int load;    /* this one */
+    double lost; /* length of all panels in which a power was not resolved */
 };
 
 static bool sample(struct ledger *ledger, struct ensemble *ensemble, const struct panel *panel)
@@ -263,24 +262,21 @@ static double missed(const struct ledger *ledger, int load, int points)
 
 /* What the rule misses in a panel. */
 struct look {
-    double missed, turnover; /* of the load of which it misses most; size of all powers, integrated */
-    int load;
-    bool waves; /* it is no rounding: a share of that load's own power */
+    double missed, turnover; /* the most of a load; size of all powers, integrated */
+    bool waves;              /* it is no rounding: a share of that load's own power */
 };
 
 static struct look look_at(const struct ledger *ledger, const struct group *group, const struct panel *panel)
 {
     const double rounding = 1e-6; /* of forces whose system is nearly singular */
-    struct look look = {.load = -1};
+    struct look look = {0};
     for (size_t i = 0; i < group->model->load_count; i++) {
         int load = group_load(group, (int)i);
         if (!ledger->integrated[load]) continue;
         double by = missed(ledger, load, panel->points), size = size_of(ledger, load);
         look.turnover += panel->length / 2 * size;
         look.waves |= by > rounding * size;
-        if (!(by > look.missed)) continue;
-        look.missed = by;
-        look.load = load;
+        look.missed = fmax(look.missed, by);
     }
     return look;
 }
@@ -315,16 +311,23 @@ static bool add_panel(struct ledger *ledger, struct ensemble *ensemble, struct p
         second.from = moment_after(panel.from, panel.length);
         return add_panel(ledger, ensemble, panel, sums) && add_panel(ledger, ensemble, second, sums);
     }
-    if (more) {
-        sums->lost += panel.length;
-        sums->load = look.load;
-    }
+    if (more) sums->lost += panel.length;
     sums->turnover += look.turnover;
     for (size_t i = 0; i < group->model->load_count; i++) {
         int load = group_load(group, (int)i);
         if (ledger->integrated[load]) sums->work[load] += panel.length / 2 * sum_of(ledger, gauss, load);
     }
     return true;
+}
+
+/* Thousands of waves within a step: better no works than wrong ones. */
+static void give_up(struct ledger *ledger, const struct group *group, const struct sums *sums)
+{
+    ledger->unresolved = true;
+    for (size_t i = 0; i < group->model->load_count; i++) {
+        int load = group_load(group, (int)i);
+        if (ledger->integrated[load]) sums->work[load] = NAN;
+    }
 }
 
 /* Add the integral of power over [from, to] of a group's last step. */
@@ -344,8 +347,7 @@ static bool integrate(struct ledger *ledger, struct ensemble *ensemble, size_t g
         panel.from = moment_after(from, i * length / panels);
         done = add_panel(ledger, ensemble, panel, sums);
     }
-    /* Not the panels about a corner, but a tenth of a step and more: thousands of waves within it. */
-    if (sums->lost > length / 10) sums->work[sums->load] = NAN;
+    if (sums->lost > length / 10) give_up(ledger, of, sums); /* not the panels about a corner */
     return done;
 }
 

@@ -32,7 +32,9 @@ struct ledger {
     double initial_kinetic, initial_sum;
     double liveliest; /* the most kinetic energy of a group at the end of a step */
     double turnover;  /* integral of the size of all powers that are integrated */
-    double *powers;   /* points of a panel times loads */
+    bool
+        unresolved; /* works are NAN: a force swings thousands of times within a step that knows nothing of it */
+    double *powers; /* points of a panel times loads */
     struct arrow *arrows;
     double *scratch; /* 2 n */
 };
