@@ -15,6 +15,7 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "gallery.h"
 #include "random_numbers.h"
@@ -148,8 +149,35 @@ static void works_are_integrals_of_power(void **unused)
     checks_end(&checks);
 }
 
+/* Half a million waves within the six steps of a run, and the same by steps that are short enough. */
+static void what_cannot_be_resolved_is_said(void **unused)
+{
+    (void)unused;
+    struct scene scene = {.kind = on_a_belt, .wave = {{1, 7000, 0}}, .waves = 1, .u = 0.5, .until = 300};
+    char text[room];
+    write(&scene, text);
+    struct trial trial = trial_parse(text);
+    trial_run(&trial, NULL);
+    assert_int_equal(trial.outcome, FBD_FAILED);
+    assert_true(isnan(fbd_result_work(trial.result, "b", "f0")));
+    assert_non_null(
+        strstr(fbd_simulation_reason(trial.simulation), "swing thousands of times within a step"));
+    trial_close(&trial);
+
+    struct checks checks = {0};
+    fbd_options options = FBD_OPTIONS_DEFAULT;
+    options.method = "rk4";
+    options.step = 1e-3;
+    scene.until = 1;
+    compare(&checks, &scene, &options, 0);
+    checks_end(&checks);
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(works_are_integrals_of_power)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(works_are_integrals_of_power),
+        cmocka_unit_test(what_cannot_be_resolved_is_said),
+    };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
