@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "record/ledger.h"
 
+#include <float.h>
+#include <math.h>
 #include <stdlib.h>
 
 #include "dynamics/energy.h"
-#include "dynamics/mass.h"
-#include "model/tree.h"
+#include "record/powers.h"
 
 static double kinetic(const struct fbd_model *model, const struct instant *at)
 {
@@ -14,15 +15,13 @@ static double kinetic(const struct fbd_model *model, const struct instant *at)
     return sum;
 }
 
-enum { gauss_points = 5, all_points };
-
 bool ledger_init(struct ledger *ledger, const struct fbd_model *model, struct fbd_state *start, bool works)
 {
     size_t loads = model->load_count;
     *ledger = (struct ledger){.model = model, .works = works};
     ledger->integrated = calloc(loads + 1, sizeof *ledger->integrated);
     ledger->work = calloc(7 * loads + 2, sizeof *ledger->work);
-    ledger->powers = calloc(all_points * loads + 1, sizeof *ledger->powers);
+    ledger->powers = calloc(power_points * loads + 1, sizeof *ledger->powers);
     ledger->arrows = calloc(diagram_most_arrows(model), sizeof *ledger->arrows);
     ledger->scratch = calloc(plan_size(&model->plan) + 1, sizeof *ledger->scratch);
     if (!ledger->integrated || !ledger->work || !ledger->powers || !ledger->arrows || !ledger->scratch) {
@@ -58,46 +57,6 @@ void ledger_free(struct ledger *ledger)
     *ledger = (struct ledger){0};
 }
 
-/* On the ground what is integrated is listed by the body, and its joint does no work. */
-static void add_powers_on_ground(struct ledger *ledger, const struct group *group,
-                                 const struct model_body *body, const struct fbd_state *state, double *powers)
-{
-    struct instant at = state_instant(state);
-    const struct pose pose = body_pose(body, &at);
-    for (int i = body->first_load; i < body->first_load + body->load_count; i++) {
-        int load = group_load(group, i);
-        if (ledger->integrated[load]) powers[load] += load_power(group->model, i, &pose, &at, state->slots);
-    }
-}
-
-/* Add the power of every integrated load of a group in a state of it. */
-static void add_powers(struct ledger *ledger, const struct group *group, const struct fbd_state *state,
-                       double *powers)
-{
-    const struct fbd_model *model = group->model;
-    struct instant at = state_instant(state);
-    for (size_t b = 0; b < model->body_count; b++) {
-        const struct model_body *body = &model->bodies[b];
-        bool wanted = body->place.link > 0;
-        for (int i = 0; i < body->load_count; i++)
-            wanted |= ledger->integrated[group_load(group, body->first_load + i)];
-        if (!wanted) continue;
-        if (body->carried >= 0)
-            powers[group_load(group, body->carried)] += body_carried_power(model, body, &at);
-        if (body->place.link == 0) {
-            add_powers_on_ground(ledger, group, body, state, powers);
-            continue;
-        }
-        size_t count = diagram_fill(model, (int)b, &at, state->a, state->slots, ledger->arrows);
-        for (size_t i = 0; i < count; i++) {
-            int load = group_load(group, ledger->arrows[i].load);
-            /* What acts between two bodies: its power on both. */
-            if (load < 0 || !ledger->integrated[load]) continue;
-            powers[load] += ledger->arrows[i].power;
-        }
-    }
-}
-
 bool ledger_integrates(const struct ledger *ledger, const struct group *group)
 {
     for (size_t i = 0; i < group->model->load_count; i++)
@@ -105,251 +64,10 @@ bool ledger_integrates(const struct ledger *ledger, const struct group *group)
     return false;
 }
 
-/* Gauss-Legendre with five points on [-1, 1]: x = 0, sqrt(5 -+ 2 sqrt(10/7)) / 3 (Abramowitz & Stegun, table 25.4), and one
- * more point, where P_5, which is zero at the five, is largest between them. */
-static const double point[all_points] = {-0.90617984593866396, -0.53846931010568311, 0,
-                                         0.53846931010568311,  0.90617984593866396,  0.76505532392946474};
-static const double gauss[all_points] = {0.23692688505618908, 0.47862867049936647, 0.56888888888888889,
-                                         0.47862867049936647, 0.23692688505618908, 0};
-
-/* The coefficients of P_1 to P_5 in Legendre's series: by the weights times these polynomials, and by what the sixth point
- * has beside the interpolation of the five. */
-static const double legendre[5][all_points] = {
-    {-0.32204755229841747, -0.38659027500089127, 0, 0.38659027500089127, 0.32204755229841747, 0},
-    {0.43342389699652306, -0.077868341440967534, -0.71111111111111114, -0.077868341440967534,
-     0.43342389699652306, 0},
-    {-0.41547714135083258, 0.69919864488923333, 0, -0.69919864488923333, 0.41547714135083258, 0},
-    {0.2619960159204453, -0.74199601592044528, 0.95999999999999996, -0.74199601592044528, 0.2619960159204453,
-     0},
-    {-0.087093273766797458, 0.31623492037019446, -0.69711734125845348, 1.8192650194432558, 1.03138235726699,
-     -2.3826716820551894},
-};
-
-/* How far couplings reach: by that much they know where a body is, wherever that may be. */
-static double reach_of_couplings(const struct tree *tree)
-{
-    double reach = 0;
-    for (int i = 0; tree && i < tree->tie_count; i++) {
-        const struct tie *tie = &tree->ties[i];
-        reach = fmax(reach, fabs(tie->length));
-        for (int end = 0; end < tie->end_count; end++)
-            reach = fmax(reach, vec_norm(tie->end[end].point) + tie->end[end].radius);
-    }
-    return reach;
-}
-
-/* What roundings do at a state, as energies. */
-struct rounded {
-    double
-        places; /* every force times the distance of its point, and every couple: one rounding of all places */
-    double ways; /* of unit time: every force times what it moves its body by alone */
-};
-
-static struct rounded rounded_at(struct ledger *ledger, struct fbd_state *state)
-{
-    const struct fbd_model *model = state->model; /* of a group, or the whole */
-    struct instant at = state_instant(state);
-    struct rounded sum = {0, 0};
-    double reach = reach_of_couplings(model->tree);
-    for (size_t b = 0; b < model->body_count; b++) {
-        size_t count = diagram_fill(model, (int)b, &at, state->a, state->slots, ledger->arrows);
-        double forces = 0, mass = body_mass(&model->bodies[b], &at);
-        for (size_t i = 0; i < count; i++) {
-            const struct arrow *arrow = &ledger->arrows[i];
-            double force = vec_norm(arrow->force);
-            sum.places += force * fmax(vec_norm(arrow->point), reach) + fabs(arrow->couple);
-            forces += force;
-        }
-        if (mass > 0) sum.ways += forces * forces / mass;
-    }
-    return sum;
-}
-
 /* By what is kept of a group: its first load. One without loads has nothing that matters. */
 static size_t first_load(const struct ledger *ledger, const struct group *group)
 {
     return group->model->load_count > 0 ? (size_t)group_load(group, 0) : ledger->model->load_count;
-}
-
-/* A panel: a part of a group's last step. */
-struct panel {
-    size_t group;
-    struct moment from;
-    double length;
-    bool forces; /* powers need more than coordinates and rates */
-    int points;
-    int halved;    /* so often */
-    double missed; /* what the panel missed that this is a half of: of the mean of its power */
-    double floor;  /* what is rounding of works, where something was missed */
-};
-
-/* Without friction, switches and joints a power is a function of coordinates, rates and the time. */
-static bool needs_forces(const struct fbd_model *model)
-{
-    return model->tree || model->absolute_count > 0 || model->plan.mode_count > 0 ||
-           model->plan.kink_count > 0;
-}
-
-static bool is_written(const struct model_load *load)
-{
-    return load->value.expr || load->angle.expr || load->fx.expr || load->fy.expr || load->potential.expr ||
-           load->offset_x.expr || load->offset_y.expr || load->couple.expr;
-}
-
-/* Is there an expression, which may do anything within a step? All else goes with the motion. */
-static bool has_expressions(const struct fbd_model *model)
-{
-    bool has = false;
-    for (size_t i = 0; i < model->load_count; i++) has |= is_written(&model->loads[i]);
-    for (size_t b = 0; b < model->body_count; b++)
-        has |= model->bodies[b].varies || model->bodies[b].drive >= 0;
-    for (int i = 0; model->tree && i < model->tree->tie_count; i++) has |= model->tree->ties[i].reels;
-    for (size_t i = 0; i < model->plan.mode_count; i++) {
-        const struct mode *mode = &model->plan.modes[i];
-        has |= mode->mu_s.expr || mode->mu_k.expr || mode->surface_speed.expr;
-    }
-    return has;
-}
-
-/* Integrals of the powers of all loads; and of the sizes of those of a group, which is the same whatever stands beside it. */
-struct sums {
-    double *work, turnover;
-    double lost; /* length of all panels in which a power was not resolved */
-};
-
-static bool sample(struct ledger *ledger, struct ensemble *ensemble, const struct panel *panel)
-{
-    const struct group *group = &ensemble->groups[panel->group];
-    for (int k = 0; k < panel->points; k++) {
-        double *powers = ledger->powers + (size_t)k * ledger->model->load_count;
-        for (size_t i = 0; i < group->model->load_count; i++) powers[group_load(group, (int)i)] = 0;
-        struct moment t = moment_after(panel->from, panel->length / 2 * (1 + point[k]));
-        const struct fbd_state *state = ensemble_look_group(ensemble, panel->group, t, panel->forces);
-        if (!state) return false;
-        add_powers(ledger, group, state, powers);
-    }
-    return true;
-}
-
-static double sum_of(const struct ledger *ledger, const double weights[all_points], int load)
-{
-    double sum = 0;
-    for (int k = 0; k < all_points; k++)
-        sum += weights[k] * ledger->powers[(size_t)k * ledger->model->load_count + (size_t)load];
-    return sum;
-}
-
-/* The mean of the size of a load's power, times two. */
-static double size_of(const struct ledger *ledger, int load)
-{
-    double sum = 0;
-    for (int k = 0; k < gauss_points; k++)
-        sum += gauss[k] * fabs(ledger->powers[(size_t)k * ledger->model->load_count + (size_t)load]);
-    return sum;
-}
-
-/* What the rule misses of a mean power is the term of degree 10 of its series: by the decay from degrees 1 and 2 to 3, 4 and
- * 5, continued (a nonlinear estimate by null rules: Berntsen and Espelid, ACM TOMS 17, 1991). A wave far shorter than the
- * panel may look smooth at five points by chance, hardly at the sixth, too. */
-static double missed(const struct ledger *ledger, int load, int points)
-{
-    const double rounding = 1e-12;
-    double c[5] = {0};
-    for (int k = 0; k < points - 1; k++) c[k] = fabs(sum_of(ledger, legendre[k], load));
-    double low = fmax(c[0], c[1]), high = fmax(fmax(c[2], c[3]), c[4]);
-    double decay = high < low ? high / low : 1;
-    return high > rounding * size_of(ledger, load) ? high * decay * decay * decay : 0;
-}
-
-/* What the rule misses in a panel. */
-struct look {
-    double missed, turnover; /* the most of a load; size of all powers, integrated */
-    bool waves;              /* it is no rounding: a share of that load's own power */
-};
-
-static struct look look_at(const struct ledger *ledger, const struct group *group, const struct panel *panel)
-{
-    const double rounding = 1e-6; /* of forces whose system is nearly singular */
-    struct look look = {0};
-    for (size_t i = 0; i < group->model->load_count; i++) {
-        int load = group_load(group, (int)i);
-        if (!ledger->integrated[load]) continue;
-        double by = missed(ledger, load, panel->points), size = size_of(ledger, load);
-        look.turnover += panel->length / 2 * size;
-        look.waves |= by > rounding * size;
-        look.missed = fmax(look.missed, by);
-    }
-    return look;
-}
-
-/* Add the integral of power over a panel; in halves where the motion asks for less points than the powers do: of what sticks
- * on a belt, or is driven, or stands between forces that cancel, the steps know nothing of what these forces are. */
-static bool add_panel(struct ledger *ledger, struct ensemble *ensemble, struct panel panel, struct sums *sums)
-{
-    enum { most_halved = 12, at_once = 3 };
-    const double share = 0.1, least_tolerance = 1e-12, most_tolerance = 1e-7, progress = 0.25,
-                 rounding = 1e-14;
-    const struct group *group = &ensemble->groups[panel.group];
-    if (!sample(ledger, ensemble, &panel)) return false;
-    struct look look = look_at(ledger, group, &panel);
-    double tolerance = fmin(fmax(group->run->options.tolerance, least_tolerance), most_tolerance);
-    double size = ledger->lively[first_load(ledger, group)] + sums->turnover + look.turnover;
-    double missed = panel.length * look.missed;
-    bool more = missed > share * tolerance * size;
-    if (more && panel.halved == 0) {
-        struct fbd_state *state = ensemble_look_group(ensemble, panel.group, panel.from, true);
-        if (!state) return false;
-        struct rounded rounded = rounded_at(ledger, state); /* of what rests, too */
-        panel.floor = rounding * rounded.places + DBL_EPSILON * rounded.ways * panel.length * panel.length;
-    }
-    more = more && missed > panel.floor &&
-           (look.waves || panel.halved < at_once || look.missed < progress * panel.missed);
-    if (more && panel.halved < most_halved) {
-        panel.length /= 2;
-        panel.halved++;
-        panel.missed = look.missed;
-        struct panel second = panel;
-        second.from = moment_after(panel.from, panel.length);
-        return add_panel(ledger, ensemble, panel, sums) && add_panel(ledger, ensemble, second, sums);
-    }
-    if (more) sums->lost += panel.length;
-    sums->turnover += look.turnover;
-    for (size_t i = 0; i < group->model->load_count; i++) {
-        int load = group_load(group, (int)i);
-        if (ledger->integrated[load]) sums->work[load] += panel.length / 2 * sum_of(ledger, gauss, load);
-    }
-    return true;
-}
-
-/* Thousands of waves within a step: better no works than wrong ones. */
-static void give_up(struct ledger *ledger, const struct group *group, const struct sums *sums)
-{
-    ledger->unresolved = true;
-    for (size_t i = 0; i < group->model->load_count; i++) {
-        int load = group_load(group, (int)i);
-        if (ledger->integrated[load]) sums->work[load] = NAN;
-    }
-}
-
-/* Add the integral of power over [from, to] of a group's last step. */
-static bool integrate(struct ledger *ledger, struct ensemble *ensemble, size_t group, struct moment from,
-                      struct moment to, struct sums *sums)
-{
-    const struct group *of = &ensemble->groups[group];
-    double length = moment_since(to, from);
-    if (!(length > 0) || !ledger_integrates(ledger, of)) return true;
-    int panels = run_panels(of->run);
-    bool done = true;
-    struct panel panel = {.group = group,
-                          .length = length / panels,
-                          .forces = needs_forces(of->model),
-                          .points = has_expressions(of->model) ? all_points : gauss_points};
-    for (int i = 0; done && i < panels; i++) {
-        panel.from = moment_after(from, i * length / panels);
-        done = add_panel(ledger, ensemble, panel, sums);
-    }
-    if (sums->lost > length / 10) give_up(ledger, of, sums); /* not the panels about a corner */
-    return done;
 }
 
 bool ledger_step(struct ledger *ledger, struct ensemble *ensemble, size_t index)
@@ -361,11 +79,11 @@ bool ledger_step(struct ledger *ledger, struct ensemble *ensemble, size_t index)
         ledger->begin[load] = ledger->end[load];
     }
     const struct run *run = group->run;
-    double *through = &ledger->through[first_load(ledger, group)], before = *through;
-    struct sums sums = {.work = ledger->end, .turnover = before};
-    if (!integrate(ledger, ensemble, index, run_start(run), run_end(run), &sums)) return false;
-    *through = sums.turnover;
-    ledger->turnover += sums.turnover - before;
+    size_t first = first_load(ledger, group);
+    struct sums sums = {ledger->end, ledger->lively[first], ledger->through[first], 0};
+    if (!powers_integrate(ledger, ensemble, index, run_start(run), run_end(run), &sums)) return false;
+    ledger->turnover += sums.turnover - ledger->through[first];
+    ledger->through[first] = sums.turnover;
     for (size_t i = 0; i < model->load_count; i++) {
         int load = group_load(group, (int)i);
         if (!ledger->integrated[load]) continue;
@@ -429,8 +147,9 @@ bool ledger_within(struct ledger *ledger, struct ensemble *ensemble, double t, d
             int load = group_load(group, (int)i);
             work[load] = (at_end ? ledger->end : ledger->begin)[load];
         }
-        struct sums sums = {.work = work, .turnover = ledger->through[first_load(ledger, group)]};
-        if (!at_end && !integrate(ledger, ensemble, g, run_start(group->run), moment_at(t), &sums))
+        size_t first = first_load(ledger, group);
+        struct sums sums = {work, ledger->lively[first], ledger->through[first], 0};
+        if (!at_end && !powers_integrate(ledger, ensemble, g, run_start(group->run), moment_at(t), &sums))
             return false;
     }
     return true;
