@@ -17,7 +17,7 @@ static const char help[] =
     "What is simulated\n"
     "  --set NAME=VALUE     give a parameter of the file another value (may be repeated)\n"
     "  --without NAME       leave an effect out, as block.friction (may be repeated)\n"
-    "  --method NAME        integrate with this method (auto, dop853, rodas5p, rk8pd, msbdf, ...)\n"
+    "  --method NAME        integrate with this method (auto, rk8pd, dop853, rodas5p, msbdf, ...)\n"
     "  --tolerance NUMBER   relative error per step (default: the file's, else 1e-10)\n"
     "  --accuracy NUMBER    global error allowed, relative to the size of the motion, instead of a "
     "tolerance\n"

@@ -40,7 +40,7 @@
 #include <string.h>
 
 #include "base/zeroed.h"
-#include "integrate/dop853.h"
+#include "integrate/pair8.h"
 #include "integrate/linear.h"
 #include "integrate/nystrom.h"
 #include "integrate/parabola.h"

@@ -5,13 +5,18 @@
 
 #include "integrate/bdf.h"
 #include "integrate/bsimp.h"
-#include "integrate/dop853.h"
 #include "integrate/implicit_rk.h"
+#include "integrate/pair8.h"
 #include "integrate/rodas5p.h"
 
 /* The orders are measured ones (tests/unit/test_stepper.c): GSL's rk2 gives the result of its formula of
- * order 3. So are the limits of stability; dop853 looks after its own. */
+ * order 3. So are the limits of stability; rk8pd and dop853 look after their own. */
 static const struct method methods[] = {
+    {.name = "rk8pd",
+     .description = "explicit Runge-Kutta, Prince-Dormand 8(7)",
+     .type = &step_rk8pd,
+     .order = 8,
+     .estimate_order = 8},
     {.name = "dop853",
      .description = "explicit Runge-Kutta, Dormand-Prince 8(5,3), dense output of order 7",
      .type = &step_dop853,
@@ -23,12 +28,6 @@ static const struct method methods[] = {
      .order = 5,
      .estimate_order = 5,
      .implicit = true},
-    {.name = "rk8pd",
-     .description = "explicit Runge-Kutta, Prince-Dormand 8(7)",
-     .type = &gsl_odeiv2_step_rk8pd,
-     .order = 8,
-     .estimate_order = 8,
-     .stable = 5.167},
     {.name = "rkf45",
      .description = "explicit Runge-Kutta-Fehlberg 4(5)",
      .type = &gsl_odeiv2_step_rkf45,

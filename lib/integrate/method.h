@@ -21,8 +21,8 @@ struct method {
     bool implicit;      /* needs the Jacobian */
     bool multistep; /* remembers earlier steps: cannot redo part of a step, has to be reset after an event */
     bool needs_driver; /* asks a driver for its control's error level */
-    double stable;     /* it is stable for h lambda in [-stable, 0]; 0: dop853, which finds
-                          out by itself, and implicit ones */
+    double stable;     /* it is stable for h lambda in [-stable, 0]; 0: rk8pd and dop853, which find
+                          out by themselves, and implicit ones */
     bool exact; /* no error: a part of a step is what its dense output says, and no first step is too long */
 };
 

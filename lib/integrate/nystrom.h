@@ -11,7 +11,7 @@
  *
  * Error estimate: the difference to the embedded formulas of order 10, O(h^11). `y` of GSL is
  * (q_1 .. q_n, v_1 .. v_n); an odd dimension is refused by the allocation. With f(t, y) in dydt_in a step
- * costs 17 evaluations, the last of which is f(t + h, y1) = dydt_out. Failures as in dop853.h.
+ * costs 17 evaluations, the last of which is f(t + h, y1) = dydt_out. Failures as in pair8.h.
  *
  * Dense output. The accelerations that the stages leave behind are close to those of the motion, at nine
  * places that lie like Chebyshev's. Their polynomial P (with the true accelerations at both ends), integrated

@@ -9,9 +9,9 @@
 #include <string.h>
 
 #include "base/zeroed.h"
-#include "integrate/dop853.h"
 #include "integrate/first_step.h"
 #include "integrate/linear.h"
+#include "integrate/pair8.h"
 #include "integrate/rodas5p.h"
 #include "integrate/stepper_state.h"
 #include "integrate/stiffness.h"
@@ -172,7 +172,7 @@ static struct outcome judge_failure(const struct stepper *s, const struct counte
     return (struct outcome){false, rejected_not_finite, 0.25};
 }
 
-/* Near the limit of its stability, h |lambda| = 6 or so, a step of dop853 may end well by luck while its
+/* Near the limit of its stability, h |lambda| = 6 or so, a step of rk8pd or dop853 may end well by luck while its
  * inside is off by many times the tolerance. Measured where a motion settles down (terminal speed, drag, an
  * overdamped spring) and tolerances of 1e-4 to 1e-12: without this the dense output errs by up to 460
  * tolerances and is up to 220 times worse than the ends; held to 4, it errs by at most 24, in as many steps,
@@ -182,7 +182,7 @@ static struct outcome keep_stable(struct stepper *s, double h, const double *y, 
 {
     const double most = 5, goal = 4, kept = 0.9;
     const double *dy, *df;
-    if (!outcome.accepted || s->h_fixed > 0 || !dop853_differences(s->step, &dy, &df)) return outcome;
+    if (!outcome.accepted || s->h_fixed > 0 || !pair8_differences(s->step, &dy, &df)) return outcome;
     /* The differences show the fastest rate now more and now less. */
     s->rate = fmax(weights_rate(s->control, y, dy, df), kept * s->rate);
     double h_rate = h * s->rate;

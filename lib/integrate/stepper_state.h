@@ -29,7 +29,7 @@ struct stepper {
     double *jacobian; /* n n + 3 n, for the limit of stability; NULL where that is not looked after */
     double stable_h;  /* the largest step within that limit, when last looked after */
     int since;        /* accepted steps since */
-    double rate;      /* fastest rate that dop853 has seen lately */
+    double rate;      /* fastest rate that rk8pd or dop853 has seen lately */
     bool stepped;     /* a last step stands in the following */
     struct counted_system *system;
     struct moment t0, t1;

@@ -113,9 +113,9 @@ const struct group line_group = {"a line", NULL, FIELDS(line_fields), NULL, 0, "
 /* lib/integrate/method.c has what they do. */
 const struct choice method_choices[] = {
     {"auto", 0, "what the scene allows and asks for"},
-    {"dop853", 1, "explicit Runge-Kutta of order 8"},
-    {"rodas5p", 2, "Rosenbrock of order 5, for stiff systems"},
-    {"rk8pd", 3, "explicit Runge-Kutta of order 8"},
+    {"rk8pd", 1, "explicit Runge-Kutta of order 8"},
+    {"dop853", 2, "explicit Runge-Kutta of order 8"},
+    {"rodas5p", 3, "Rosenbrock of order 5, for stiff systems"},
     {"rkf45", 4, "explicit Runge-Kutta of order 5"},
     {"rkck", 5, "explicit Runge-Kutta of order 5"},
     {"rk4", 6, "explicit Runge-Kutta of order 4"},

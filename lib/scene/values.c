@@ -274,7 +274,7 @@ static const char *usual_choice(fbd_errors *errors, const char *word, const char
         {"particle", "point"},
         {"mass", "point"},
         {"rk45", "rkf45"},
-        {"ode45", "dop853"},
+        {"ode45", "rk8pd"},
         {"implicit", "rodas5p"},
     };
     for (size_t i = 0; i < sizeof words / sizeof *words; i++)

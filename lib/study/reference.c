@@ -12,7 +12,7 @@
 enum { grid_intervals = 240, rungs = 4 };
 
 /* Methods of different families, those first that are likely to agree best. */
-static const char *const candidates[] = {"dop853", "rk8pd", "rodas5p", "msadams", "bsimp"};
+static const char *const candidates[] = {"rk8pd", "dop853", "rodas5p", "msadams", "bsimp"};
 static const double tolerances[rungs] = {1e-11, 1e-12, 1e-13, 1e-14};
 
 enum { candidate_count = sizeof candidates / sizeof *candidates };

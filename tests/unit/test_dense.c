@@ -16,7 +16,7 @@
 #include <string.h>
 
 #include "integrate/dense.h"
-#include "integrate/dop853.h"
+#include "integrate/pair8.h"
 #include "integrate/history.h"
 #include "integrate/linear.h"
 #include "integrate/method.h"

@@ -99,7 +99,7 @@ struct pulse {
 
 static struct pulse draw(struct random_numbers *numbers)
 {
-    static const char *const methods[] = {"auto", "auto", "auto", "dop853", "dop853", "auto"};
+    static const char *const methods[] = {"auto", "auto", "auto", "rk8pd", "rk8pd", "auto"};
     struct pulse pulse = {.bell = &bells[random_bits(numbers) % bell_count]};
     pulse.width = pow(10, random_between(numbers, -7, -1.5));
     pulse.at = random_between(numbers, 2, 8);

@@ -12,7 +12,7 @@
 #include <gsl/gsl_errno.h>
 #include <math.h>
 
-#include "integrate/dop853.h"
+#include "integrate/pair8.h"
 #include "integrate/rodas5p.h"
 #include "integrate/stiffness.h"
 

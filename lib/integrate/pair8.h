@@ -1,21 +1,27 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * The explicit Runge-Kutta pair of Dormand and Prince of order 8(5,3) with dense output of order 7, as a
- * step type for GSL's odeiv2.
+ * Explicit Runge-Kutta pairs of order 8 as step types for GSL's odeiv2: rk8pd of Prince and Dormand, 8(7) in 13 stages, and
+ * dop853 of Dormand and Prince, 8(5,3) in 12 stages, with its dense output of order 7. Their stages take sums of the
+ * same of those before, so there is one stepper for both.
  *
- * It may be used in any GSL program: gsl_odeiv2_step_alloc(step_dop853, dim), with evolve or driver and any
- * control. A step costs 12 evaluations of the right-hand side when f(t, y) is given in dydt_in, the last of
- * which is f(t + h, y1) = dydt_out. It needs neither Jacobian nor driver. No memory is taken after the
- * allocation.
+ * They may be used in any GSL program: gsl_odeiv2_step_alloc(step_rk8pd, dim), with evolve or driver and any
+ * control. A step costs 13 or 12 evaluations of the right-hand side when f(t, y) is given in dydt_in, the last of
+ * which is f(t + h, y1) = dydt_out. They need neither Jacobian nor driver. No memory is taken after the
+ * allocation. GSL has rk8pd as well: this one keeps what rounding takes, tells how fast the system is, and is quicker.
  *
- * Error estimate. Hairer combines two embedded formulas of order 5 and 3 with differences e5 = O(h^5) and
+ * Which is better. With equal steps both err as much, for as many evaluations. Where steps are chosen dop853 takes
+ * up to half as many evaluations more for the same error, as its estimate goes up and down within an oscillation
+ * (`fbd-cost` shows it on any scene, say models/trees/double_pendulum.yaml), so rk8pd is the default.
+ *
+ * Error estimates. That of rk8pd is the difference to its companion of order 7, O(h^8). For dop853
+ * Hairer combines two embedded formulas of order 5 and 3 with differences e5 = O(h^5) and
  * e3 = O(h^3) (both divided by h) to
  *     err = h |e5|^2 / sqrt(|e5|^2 + 0.01 |e3|^2) = O(h^8),
  * which is large where the formula of order 5 happens to agree by accident. A GSL control takes a number
  * for each component, so the same expression is delivered for each: yerr_i = h e5_i |e5_i| / sqrt(e5_i^2 +
  * 0.01 e3_i^2). For one component it is Hairer's formula; for several the maximum of |yerr_i| / scale_i,
  * which a control forms, is as dimension-free as his root mean square, and one component does not dilute
- * the error of another. As the estimate is O(h^8) = O(h^order), the exponent of a step size law is 1/8.
+ * the error of another. As the estimates are O(h^8) = O(h^order), the exponent of a step size law is 1/8.
  *
  * Rounding. What y1 = y0 + (...) loses is kept and added in the next step, and to the arguments of its stages
  * (compensated summation: O. Moller, BIT 5 (1965) 37; E. Hairer, C. Lubich, G. Wanner, Geometric Numerical
@@ -30,21 +36,22 @@
  * where y1 is not finite, GSL_FAILURE (GSL's own steppers would call it success). In both cases y is as it
  * was on entry.
  *
- * Source: E. Hairer, S. P. Norsett, G. Wanner, Solving Ordinary Differential Equations I, 2nd edition,
- * Springer 1993, II.5 (pair), II.10 (error estimate), II.6 (dense output); J. R. Dormand, P. J. Prince, J.
- * Comput. Appl. Math. 6 (1980) 19; coefficients in dop853_table.h.
+ * Sources: P. J. Prince, J. R. Dormand, J. Comput. Appl. Math. 7 (1981) 67 (rk8pd); E. Hairer, S. P. Norsett, G. Wanner,
+ * Solving Ordinary Differential Equations I, 2nd edition,
+ * Springer 1993, II.5 (dop853), II.10 (error estimate), II.6 (dense output); J. R. Dormand, P. J. Prince, J.
+ * Comput. Appl. Math. 6 (1980) 19; coefficients in rk8pd_table.h and dop853_table.h.
  */
-#ifndef FBD_INTEGRATE_DOP853_H
-#define FBD_INTEGRATE_DOP853_H
+#ifndef FBD_INTEGRATE_PAIR8_H
+#define FBD_INTEGRATE_PAIR8_H
 
 #include <gsl/gsl_odeiv2.h>
 #include <stdbool.h>
 
 #include "integrate/powers.h"
 
-extern const gsl_odeiv2_step_type *const step_dop853;
+extern const gsl_odeiv2_step_type *const step_dop853, *const step_rk8pd;
 
-/* Make the dense output of the last step that `step` has made ready: three evaluations of the right-hand
+/* Make the dense output of the last step that `step`, of dop853, has made ready: three evaluations of the right-hand
  * side (four if the step was made without dydt_out), the first time only. The step may have been rejected
  * by a control since. GSL_SUCCESS, the code of a failed right-hand side, or GSL_EINVAL when `step` is of
  * another type or has no step behind it. The result stays valid until the next step or reset. */
@@ -57,10 +64,10 @@ void dop853_dense_eval(const gsl_odeiv2_step *step, double theta, double *y);
 /* The same of component i as a polynomial over a piece of the step; its degree, 7. */
 int dop853_dense_powers(const gsl_odeiv2_step *step, size_t i, const struct powers_piece *piece, double *c);
 
-/* Two states that the last step has evaluated for one time, its end y1 and the argument of stage 12, differ
+/* Two states that the last step has evaluated for one time, its end y1 and the argument of its last stage, differ
  * by dy, their slopes by df: so df = J dy with a mean J of the Jacobian, for nothing (HNW II, IV.2, uses it
- * to detect stiffness). False, and nothing set, unless the last step was made with dydt_out, is of this type
+ * to detect stiffness). False, and nothing set, unless the last step was made with dydt_out, is of one of these types
  * and has no dense output yet. The numbers last until the dense output is made or the next step. */
-bool dop853_differences(const gsl_odeiv2_step *step, const double **dy, const double **df);
+bool pair8_differences(const gsl_odeiv2_step *step, const double **dy, const double **df);
 
 #endif
