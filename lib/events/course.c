@@ -232,7 +232,17 @@ int course_set_coarse(struct course *course, double from, double to, const bool 
     return 0;
 }
 
-bool course_set_powers(struct course *course, double from, double to, const bool *wanted,
+/* How far a motion may be off the polynomial of its ends, a quintic in q and a quartic in v. That of an oscillation errs by
+ * (w h)^6/46080 of its amplitude, in v by (w h)^5/13500, and bends by (w h)^2/8 or (w h)^3/48 of it, by its phase: even
+ * at w h = 4, which no method follows, a quarter of these is four times the error. */
+static double doubt_of_ends(int degree, const double *c)
+{
+    double bends = fabs(c[1]) / 16;
+    for (int k = 2; k <= degree; k++) bends += fabs(c[k]);
+    return bends / 4;
+}
+
+bool course_set_powers(struct course *course, double from, double to, const bool *wanted, bool rough,
                        course_powers *powers, void *context)
 {
     const double rounding = 32 * DBL_EPSILON;
@@ -253,6 +263,7 @@ bool course_set_powers(struct course *course, double from, double to, const bool
         }
         course->top[i] = top;
         course->doubt[i] = course->noise[i] + (top == at_rest ? 0 : rounding * size);
+        if (rough && top != at_rest) course->doubt[i] += doubt_of_ends(degree, c);
         if (degree > course->degree) course->degree = degree;
     }
     return true;

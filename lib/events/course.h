@@ -71,8 +71,9 @@ void course_start(struct course *course);
 int course_set(struct course *course, double from, double to, const bool *wanted, int degree,
                double negligible, course_sampler *sample, void *context);
 
-/* Follow it as far as `to` by what the motion itself has for polynomials. False where it is none. */
-bool course_set_powers(struct course *course, double from, double to, const bool *wanted,
+/* Follow it as far as `to` by what the motion itself has for polynomials. False where it is none. `rough`: they are those of
+ * its ends alone, and it may be off by a quarter of their bends. */
+bool course_set_powers(struct course *course, double from, double to, const bool *wanted, bool rough,
                        course_powers *powers, void *context);
 
 /* Follow it as far as `to` by a series of degree 4. */

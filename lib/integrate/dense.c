@@ -40,9 +40,9 @@
 #include <string.h>
 
 #include "base/zeroed.h"
-#include "integrate/pair8.h"
 #include "integrate/linear.h"
 #include "integrate/nystrom.h"
+#include "integrate/pair8.h"
 #include "integrate/parabola.h"
 
 /* Coefficients of a pair, in the order of the derivation, and of another component. */
@@ -64,13 +64,14 @@ struct own {
     void (*eval)(const gsl_odeiv2_step *step, double theta, double *y);
     int (*powers)(const gsl_odeiv2_step *step, size_t i, const struct powers_piece *piece,
                   double *c); /* or NULL */
+    bool free_of_evaluations;
 };
 
 static const struct own owns[] = {
-    {&step_dop853, dop853_dense_prepare, dop853_dense_eval, dop853_dense_powers},
-    {&step_nystrom, nystrom_dense_prepare, nystrom_dense_eval, NULL},
-    {&step_linear, linear_dense_prepare, linear_dense_eval, linear_dense_powers},
-    {&step_parabola, parabola_dense_prepare, parabola_dense_eval, parabola_dense_powers},
+    {&step_dop853, dop853_dense_prepare, dop853_dense_eval, dop853_dense_powers, false},
+    {&step_nystrom, nystrom_dense_prepare, nystrom_dense_eval, NULL, false},
+    {&step_linear, linear_dense_prepare, linear_dense_eval, linear_dense_powers, true},
+    {&step_parabola, parabola_dense_prepare, parabola_dense_eval, parabola_dense_powers, true},
 };
 
 struct dense {
@@ -335,13 +336,20 @@ static int use_sigma(struct dense *d)
     return GSL_SUCCESS;
 }
 
+/* Pair i as its ends have it. */
+static void set_pair(struct dense *d, size_t i)
+{
+    size_t n = d->pairs;
+    const double *y0 = d->y0, *y1 = d->y1, *f0 = d->f0, *f1 = d->f1;
+    pair_from_ends(&d->pair[i], d->h, y0[i], y0[n + i], f0[n + i], y1[i], y1[n + i], f1[n + i],
+                   d->error ? d->error[i] : 0);
+}
+
 static void from_ends(struct dense *d)
 {
     size_t n = d->pairs;
     const double *y0 = d->y0, *y1 = d->y1, *f0 = d->f0, *f1 = d->f1;
-    for (size_t i = 0; i < n; i++)
-        pair_from_ends(&d->pair[i], d->h, y0[i], y0[n + i], f0[n + i], y1[i], y1[n + i], f1[n + i],
-                       d->error ? d->error[i] : 0);
+    for (size_t i = 0; i < n; i++) set_pair(d, i);
     for (size_t i = 0, j = 2 * n; i < d->extra; i++, j++)
         single_from_ends(&d->single[i], d->h, y0[j], f0[j], y1[j], f1[j]);
 }
@@ -391,12 +399,26 @@ int dense_eval(struct dense *d, struct moment t, double *y)
     return GSL_SUCCESS;
 }
 
+static struct powers_piece piece_between(const struct dense *d, struct moment from, struct moment to)
+{
+    double begin = moment_since(from, d->t0) / d->h, end = moment_since(to, d->t0) / d->h;
+    return (struct powers_piece){begin + (end - begin) / 2, (end - begin) / 2};
+}
+
+int dense_powers_of_ends(struct dense *d, struct moment from, struct moment to, size_t i, double *c)
+{
+    size_t n = d->pairs;
+    if (i >= 2 * n || d->prepared || (d->own && d->own->free_of_evaluations)) return -1;
+    const struct powers_piece piece = piece_between(d, from, to);
+    set_pair(d, i % n);
+    return i < n ? q_powers(&d->pair[i], d->h, &piece, c) : v_powers(&d->pair[i - n], &piece, c);
+}
+
 int dense_powers(struct dense *d, struct moment from, struct moment to, size_t i, double *c)
 {
     size_t n = d->pairs;
     if ((d->own && !d->own->powers) || (!d->prepared && prepare(d) != GSL_SUCCESS)) return -1;
-    double begin = moment_since(from, d->t0) / d->h, end = moment_since(to, d->t0) / d->h;
-    const struct powers_piece piece = {begin + (end - begin) / 2, (end - begin) / 2};
+    const struct powers_piece piece = piece_between(d, from, to);
     if (d->own) return d->own->powers(d->step, i, &piece, c);
     if (i < n) return q_powers(&d->pair[i], d->h, &piece, c);
     if (i < 2 * n) return v_powers(&d->pair[i - n], &piece, c);

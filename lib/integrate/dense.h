@@ -67,6 +67,10 @@ int dense_eval(struct dense *dense, struct moment t, double *y);
 enum { dense_most_degree = 14 };
 int dense_powers(struct dense *dense, struct moment from, struct moment to, size_t i, double *c);
 
+/* The same of a coordinate or its rate by level 0, whatever the method, without an evaluation: for a first look. -1 where
+ * the dense output itself costs none, or none any more. */
+int dense_powers_of_ends(struct dense *dense, struct moment from, struct moment to, size_t i, double *c);
+
 /* As dense_eval, at level 0, whatever the method: what is left when evaluations inside of the step fail. */
 void dense_eval_plain(struct dense *dense, struct moment t, double *y);
 

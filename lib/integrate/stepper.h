@@ -90,6 +90,10 @@ int stepper_degree(const struct stepper *stepper, double *negligible);
  * polynomial. */
 int stepper_powers(struct stepper *stepper, struct moment from, struct moment to, size_t i, double *c);
 
+/* The same as dense_powers_of_ends has it. */
+int stepper_powers_of_ends(struct stepper *stepper, struct moment from, struct moment to, size_t i,
+                           double *c);
+
 /* State y and slopes f at time t within the last accepted step with the full accuracy of the method:
  * one-step methods make a step from its start to t, multistep methods, and others where that fails, use
  * stepper_dense. Codes as there, or that of a right-hand side that fails at t. */

@@ -107,6 +107,12 @@ int stepper_dense(struct stepper *s, struct moment t, double *y)
     return GSL_SUCCESS;
 }
 
+int stepper_powers_of_ends(struct stepper *s, struct moment from, struct moment to, size_t i, double *c)
+{
+    if (s->method->implicit || !find_within(s, &from) || !find_within(s, &to)) return -1;
+    return dense_powers_of_ends(s->dense, from, to, i, c);
+}
+
 int stepper_powers(struct stepper *s, struct moment from, struct moment to, size_t i, double *c)
 {
     if (s->method->implicit || !find_within(s, &from) || !find_within(s, &to)) return -1;

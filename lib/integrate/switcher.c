@@ -128,6 +128,11 @@ int switcher_powers(struct switcher *s, struct moment from, struct moment to, si
     return stepper_powers(s->steppers[s->made], from, to, i, c);
 }
 
+int switcher_powers_of_ends(struct switcher *s, struct moment from, struct moment to, size_t i, double *c)
+{
+    return stepper_powers_of_ends(s->steppers[s->made], from, to, i, c);
+}
+
 int switcher_degree(const struct switcher *s, double *negligible)
 {
     return stepper_degree(s->steppers[s->made], negligible);

@@ -25,6 +25,8 @@ enum stepper_status switcher_step(struct switcher *switcher, struct counted_syst
 /* Of the last step, whichever method made it. */
 int switcher_dense(struct switcher *switcher, struct moment t, double *y);
 int switcher_powers(struct switcher *switcher, struct moment from, struct moment to, size_t i, double *c);
+int switcher_powers_of_ends(struct switcher *switcher, struct moment from, struct moment to, size_t i,
+                            double *c);
 int switcher_degree(const struct switcher *switcher, double *negligible);
 int switcher_partial(struct switcher *switcher, struct moment t, double *y, double *f);
 int switcher_walk(struct switcher *switcher, struct moment t, double *y, double *f);

@@ -155,6 +155,12 @@ static int powers_of(void *context, double from, double to, int component, doubl
     return switcher_powers(run->stepper, moment_at(from), moment_at(to), (size_t)component, c);
 }
 
+static int powers_of_ends(void *context, double from, double to, int component, double *c)
+{
+    const struct run *run = context;
+    return switcher_powers_of_ends(run->stepper, moment_at(from), moment_at(to), (size_t)component, c);
+}
+
 /* Follow the wanted components; returns the end of the piece, NAN where the motion cannot be had. */
 static double follow(struct run *run, double from, double to, bool coarse, const bool *wanted)
 {
@@ -166,9 +172,12 @@ static double follow(struct run *run, double from, double to, bool coarse, const
         degree = course_most_degree;
     }
     set_noise(run);
-    if (negligible == 0 && !is_led(run) && course_set_powers(&run->course, from, to, wanted, powers_of, run))
-        return to;
     coarse = coarse && degree > simple && run->options.step == 0;
+    if (negligible == 0 && !is_led(run)) {
+        struct course *course = &run->course;
+        if (coarse && course_set_powers(course, from, to, wanted, true, powers_of_ends, run)) return to;
+        if (course_set_powers(course, from, to, wanted, false, powers_of, run)) return to;
+    }
     int status = coarse ? course_set_coarse(&run->course, from, to, wanted, sample_course, run)
                         : course_set(&run->course, from, to, wanted, degree, negligible, sample_course, run);
     return status ? NAN : run->course.to;

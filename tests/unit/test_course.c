@@ -13,6 +13,7 @@
 #include <math.h>
 
 #include "events/course.h"
+#include "integrate/dense.h"
 #include "random_numbers.h"
 
 /* A slow wave, and beside it a layer of `width` in which something relaxes from the beginning on. */
@@ -117,10 +118,76 @@ static void what_is_not_wanted_may_be_anything(void **unused)
     arena_free(&memory);
 }
 
+/* q = sin(w t + a) + share sin(w' t + b), and its derivatives, as a step of a method ends. */
+struct swing {
+    double w[2], phase[2], share;
+};
+
+static double swing_at(const struct swing *swing, double t, int derivative)
+{
+    const double quarter = 1.57079632679489661923;
+    double sum = 0;
+    for (int k = 0; k < 2; k++)
+        sum += (k == 0 ? 1 : swing->share) * pow(swing->w[k], derivative) *
+               sin(swing->w[k] * t + swing->phase[k] + derivative * quarter);
+    return sum;
+}
+
+static int powers_of_ends(void *context, double from, double to, int component, double *c)
+{
+    return dense_powers_of_ends(context, moment_at(from), moment_at(to), (size_t)component, c);
+}
+
+/* What the ends of a step say rules nothing out that is there: whole oscillations of up to four radians a step, which no
+ * method follows, lie within it with their rates. */
+static void the_first_look_by_the_ends_has_the_motion_in_it(void **unused)
+{
+    (void)unused;
+    const struct layout layout = {.pairs = 1};
+    struct arena memory = {0};
+    struct course course;
+    struct dense *dense = dense_alloc(&layout);
+    assert_true(dense && course_init(&course, 2, (bool[]){true, true}, &memory));
+    double widest = 0;
+    for (size_t i = 0; i < 20000; i++) {
+        struct random_numbers numbers = {i};
+        double h = 1, fastest = i % 2 == 0 ? 4 : pow(10, random_between(&numbers, -2, 0.6));
+        struct swing swing = {.share = random_between(&numbers, -1, 1)};
+        for (int k = 0; k < 2; k++) {
+            swing.w[k] = random_between(&numbers, 0, fastest);
+            swing.phase[k] = random_between(&numbers, 0, 6.3);
+        }
+        double y0[2] = {swing_at(&swing, 0, 0), swing_at(&swing, 0, 1)},
+               f0[2] = {y0[1], swing_at(&swing, 0, 2)};
+        double y1[2] = {swing_at(&swing, h, 0), swing_at(&swing, h, 1)},
+               f1[2] = {y1[1], swing_at(&swing, h, 2)};
+        dense_set(dense, 8, moment_at(0), y0, f0, moment_at(h), y1, f1, NULL, NULL);
+        course_start(&course);
+        assert_true(course_set_powers(&course, 0, h, NULL, true, powers_of_ends, dense));
+        for (int k = 0; k < 32; k++) {
+            double from = h * k / 32, to = random_between(&numbers, from, h),
+                   t = random_between(&numbers, from, to);
+            course_enclose(&course, &(struct stretch){from, to, from + (to - from) / 2}, NULL);
+            for (int j = 0; j < 2; j++) {
+                struct interval value = course.now[j].value, rate = course.now[j].rate;
+                double is = swing_at(&swing, t, j), goes = swing_at(&swing, t, j + 1);
+                if (!(value.low <= is && is <= value.high && rate.low <= goes && goes <= rate.high))
+                    fail_msg("case %zu: %g in [%g, %g], rate %g in [%g, %g]", i, is, value.low, value.high,
+                             goes, rate.low, rate.high);
+            }
+        }
+        if (fastest < 0.3) widest = fmax(widest, course.doubt[0]);
+    }
+    assert_true(widest < 0.02); /* of 2: it is of use */
+    dense_free(dense);
+    arena_free(&memory);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(what_is_not_wanted_may_be_anything),
+        cmocka_unit_test(the_first_look_by_the_ends_has_the_motion_in_it),
         cmocka_unit_test(pieces_get_long_again_behind_a_layer),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
