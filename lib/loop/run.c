@@ -180,6 +180,7 @@ struct run *run_new(const struct fbd_model *model, const struct run_options *opt
     run->model = model;
     run->options = *options;
     run->recent.time = -HUGE_VAL;
+    run->recent.interval[0] = run->recent.interval[1] = HUGE_VAL;
     run->memory.much_room = true;
     if (!make_run(run, begin)) {
         run_free(run);

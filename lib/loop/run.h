@@ -142,7 +142,7 @@ struct recent {
     double time;      /* of the last one */
     int crowd, turns; /* how many at that instant; how often normal forces have changed their sides there */
     struct moment moment; /* the start, or when events happened last */
-    double interval[2];   /* between the last three of these; 0 where there are none */
+    double interval[2];   /* between the last three of these; infinite before there are three */
     double *
         anchor; /* 2 plan_size: the state around which events have happened lately; the largest |y_i| before the
                        last step */

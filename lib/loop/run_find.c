@@ -128,12 +128,13 @@ static int stay_before_poles(struct run *run, struct moment *t)
     return cut_step(run, *t);
 }
 
-/* Events that crowd are looked for in a panel about as long as what was between the last ones, before those that the
- * step would allow; not shorter by so much that values there are rounding. */
+/* Events that crowd are looked for in a panel about as long as what was between the last ones, or has passed since, before
+ * those that the step would allow; not shorter by so much that values there are rounding. */
 static double soon(const struct run *run, double length)
 {
     const double intervals = 2, least_share = 1e-3;
     double last = fmax(run->recent.interval[0], run->recent.interval[1]);
+    last = fmax(last, run->step.from - run->recent.moment.t);
     return fmax(intervals * last, least_share * length);
 }
 
