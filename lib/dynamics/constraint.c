@@ -5,6 +5,17 @@
 
 #include "expr/curve.h"
 
+bool port_turns(const struct port *port)
+{
+    const double roundings = 1e-10;
+    double arm = vec_norm(port->arm), force = vec_norm(port->force);
+    double d_arm = vec_norm(port->d_arm), d_force = vec_norm(port->d_force);
+    double moment = vec_cross(port->arm, port->force);
+    double later = vec_cross(port->d_arm, port->force) + vec_cross(port->arm, port->d_force);
+    return fabs(moment) > roundings * arm * force ||
+           fabs(later) > roundings * (d_arm * force + arm * d_force);
+}
+
 /* ---- kinds */
 
 static void pin_along(const struct view *view, const struct tie *tie, struct row *rows)

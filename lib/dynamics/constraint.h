@@ -37,6 +37,10 @@ struct port {
     struct vec d_arm, d_force;
 };
 
+/* Has the force a moment about its link, now or a moment later? If not, how the link has turned, and how fast it turns,
+ * is nothing to it: the normal of a disc on a drum points to the centres of both. */
+bool port_turns(const struct port *port);
+
 struct row {
     struct jet g;
     double lambda; /* the multiplier, when solved */

@@ -64,7 +64,7 @@ static void measure_row(const struct mechanisms *mechanisms, const struct row *r
         if (port->link == 0) continue;
         struct mechanism *mechanism = mechanism_of(mechanisms, port->link);
         mechanism->coupled = true;
-        mechanism->arm = fmax(mechanism->arm, vec_norm(port->arm));
+        if (port_turns(port)) mechanism->arm = fmax(mechanism->arm, vec_norm(port->arm));
     }
 }
 

@@ -5,7 +5,8 @@
  * moves without turning), and then steps would follow the rounding, next to a singular position with ever
  * more of them: a row of two parallelograms of `planar` rods took 250,000 steps to the first line of all its
  * rods, and takes 20. So each coordinate has at least a thousandth of the size of the whole mechanism: what
- * the couplings in force, and the joints between moving bodies, join.
+ * the couplings in force, and the joints between moving bodies, join. How fast a drum turns under a smooth disc is no
+ * part of that.
  */
 #ifndef FBD_EVENTS_MECHANISMS_H
 #define FBD_EVENTS_MECHANISMS_H

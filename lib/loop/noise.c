@@ -5,6 +5,7 @@
 #include "dynamics/constraint.h"
 #include "dynamics/own.h"
 #include "dynamics/tree_bare.h"
+#include "dynamics/tree_system.h"
 #include "loop/run.h"
 
 /* How much the links from the ground to each have turned in all: an angle in the world is their sum, and has
@@ -28,9 +29,11 @@ static void measure_turns(struct run *run, const struct instant *at)
         *parent = fmax(*parent, own[i]);
     }
     for (int j = 0; j < tree->row_count; j++) {
+        if (!tree_takes_part(tree, at, j)) continue;
         const struct row *row = &at->tree->rows[j];
         double most = 0;
-        for (int k = 0; k < row->port_count; k++) most = fmax(most, own[row->ports[k].link]);
+        for (int k = 0; k < row->port_count; k++)
+            if (port_turns(&row->ports[k])) most = fmax(most, own[row->ports[k].link]);
         for (int k = 0; k < row->port_count; k++) {
             double *side = &sides[row->ports[k].link];
             *side = fmax(*side, most);
