@@ -32,14 +32,14 @@ struct pair8 {
     double t, h;        /* start and size of the last step */
     bool stepped;       /* a step stands in the vectors */
     bool has_rest;      /* so do the rests of its ends */
-    bool has_end_slope; /* so does stage 13 */
+    bool has_end_slope; /* so does the slope at its end */
     bool prepared;      /* so does the dense output */
     double v[];
 };
 
 #define INLINE static inline __attribute__((always_inline))
 
-/* All pairs have their stages from the same of those before, so their sums are written once. */
+/* Both pairs have their stages from the same of those before, so their sums are written once. */
 struct tableau {
     const double *c;
     const double (*a)[dop853_stages + 1];
