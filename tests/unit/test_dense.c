@@ -16,10 +16,10 @@
 #include <string.h>
 
 #include "integrate/dense.h"
-#include "integrate/pair8.h"
 #include "integrate/history.h"
 #include "integrate/linear.h"
 #include "integrate/method.h"
+#include "integrate/pair8.h"
 #include "integrate/parabola.h"
 
 enum { size = 3 };
