@@ -7,7 +7,7 @@
  * They may be used in any GSL program: gsl_odeiv2_step_alloc(step_rk8pd, dim), with evolve or driver and any
  * control. A step costs 13 or 12 evaluations of the right-hand side when f(t, y) is given in dydt_in, the last of
  * which is f(t + h, y1) = dydt_out. They need neither Jacobian nor driver. No memory is taken after the
- * allocation. GSL has rk8pd as well: this one keeps what rounding takes, tells how fast the system is, and is quicker.
+ * allocation. GSL has rk8pd as well: this one keeps what rounding takes, and tells how fast the system is.
  *
  * Which is better. With equal steps both err as much, for as many evaluations. Where steps are chosen dop853 takes
  * up to half as many evaluations more for the same error, as its estimate goes up and down within an oscillation
