@@ -172,7 +172,7 @@ static struct outcome judge_failure(const struct stepper *s, const struct counte
     return (struct outcome){false, rejected_not_finite, 0.25};
 }
 
-/* Near the limit of its stability, h |lambda| = 6 or so, a step of rk8pd or dop853 may end well by luck while its
+/* Near the limit of its stability, h |lambda| = 5 or 6, a step of rk8pd or dop853 may end well by luck while its
  * inside is off by many times the tolerance. Measured where a motion settles down (terminal speed, drag, an
  * overdamped spring) and tolerances of 1e-4 to 1e-12: without this the dense output errs by up to 460
  * tolerances and is up to 220 times worse than the ends; held to 4, it errs by at most 24, in as many steps,

@@ -5,12 +5,12 @@
 
 enum { shortest_interval = 8, longest_interval = 64, steps_to_confirm = 3, votes_needed = 2 };
 
-/* A step of rodas5p takes 8 evaluations, a Jacobian and a decomposition, one of dop853 12 evaluations: in
+/* A step of rodas5p takes 8 evaluations, a Jacobian and a decomposition, one of rk8pd 13 evaluations: in
  * small systems up to twice the time. So the way to rodas5p asks for more than the way back. Their product is
  * above 1, as otherwise a motion in between could be sent to and fro. */
 static const double gain_for_implicit = 1.8, gain_for_explicit = 1.2;
 
-/* Half the limit of stability, for the steps of the explicit method are longer. */
+/* Well within the limit of stability, for the steps of the explicit method are longer. */
 static const double h_rate_for_explicit = 3;
 
 /* A step without error, that is within rounding, tells the explicit method nothing of longer ones; but where even the
