@@ -27,6 +27,7 @@ static const struct method methods[] = {
      .type = &step_rodas5p,
      .order = 5,
      .estimate_order = 5,
+     .by_time = 1.0 / 3,
      .implicit = true},
     {.name = "rkf45",
      .description = "explicit Runge-Kutta-Fehlberg 4(5)",

@@ -62,7 +62,9 @@ struct stepper *stepper_alloc(const struct stepper_options *options)
     s->layout.angle = NULL;
     s->h_max = options->h_max > 0 ? options->h_max : INFINITY;
     s->h_fixed = options->h_fixed;
-    s->control = weights_alloc(&options->layout, options->tolerance, step_law_for(method->estimate_order));
+    struct step_law law = step_law_for(method->estimate_order);
+    law.by_time = method->by_time;
+    s->control = weights_alloc(&options->layout, options->tolerance, law);
     s->driver = (gsl_odeiv2_driver){.c = s->control};
     s->dense = dense_alloc(&options->layout);
     s->step = step_alloc(method, s->n, &s->driver);

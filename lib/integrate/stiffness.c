@@ -61,6 +61,14 @@ static bool gains(double ratio, int estimate_order, double gain)
     return ratio > 0 && pow(ratio, -1.0 / estimate_order) > gain;
 }
 
+/* Oscillations that have to be followed have ratios of 3 and more; steps near the limit of stability differ by a factor
+ * of two, so that stiff motion may show 6 as well. */
+bool stiffness_doubts(const struct stiffness *s, double ratio, int estimate_order)
+{
+    const double most = 32;
+    return !s->implicit && ratio > 0 && ratio < most && !gains(ratio, estimate_order, gain_for_implicit);
+}
+
 bool stiffness_decide(struct stiffness *s, double ratio, int estimate_order, double h_rate)
 {
     bool better = gains(ratio, estimate_order, s->implicit ? gain_for_explicit : gain_for_implicit);

@@ -79,20 +79,29 @@ static bool is_confined(const struct switcher *s)
     return s->now == 0 && stepper_get_counts(s->steppers[0])->growth < freely;
 }
 
+/* The error ratio of the other method's attempt at a step of this size from t0; infinite where there is no room for it,
+ * as what lies beyond the limit may be another motion. */
+static double attempt(struct switcher *s, struct counted_system *system, struct moment t0, struct moment t_limit,
+                      double size)
+{
+    if (moment_since(t_limit, t0) < size) return INFINITY;
+    return stepper_attempt(s->steppers[!s->now], system, s->steppers[s->now], size);
+}
+
 /* Let the other method try the step that has just been made, and go on with it if it is the better one from
  * here. */
 static enum stepper_status consider(struct switcher *s, struct counted_system *system, struct moment t0,
                                     struct moment t, const double *y, double *f, double *h,
                                     struct moment t_limit)
 {
-    int other = !s->now;
+    int other = !s->now, order = s->methods[other]->estimate_order;
     double size = stiffness_stride(&s->stiffness) * moment_since(t, t0);
-    /* What lies beyond the limit may be another motion, and there is no room for a step that long. */
-    bool fits = moment_since(t_limit, t0) >= size;
-    double ratio = fits ? stepper_attempt(s->steppers[other], system, s->steppers[s->now], size) : INFINITY;
+    double ratio = attempt(s, system, t0, t_limit, size);
     if (ratio == 0 && is_confined(s)) ratio = DBL_MIN;
+    if (stiffness_doubts(&s->stiffness, ratio, order))
+        ratio = fmin(ratio, attempt(s, system, t0, t_limit, stiffness_reach * size) / pow(stiffness_reach, order));
     double h_rate = s->now == 1 ? size * last_rate(s) : 0;
-    if (!stiffness_decide(&s->stiffness, ratio, s->methods[other]->estimate_order, h_rate)) return stepper_ok;
+    if (!stiffness_decide(&s->stiffness, ratio, order, h_rate)) return stepper_ok;
     /* The counters of the system, not of the step, take the evaluations; a reset that fails leaves things as
      * they were. */
     double first;

@@ -79,10 +79,20 @@ static inline double scale_of_v(const struct weights *w, size_t i, double scale,
  * What y has really moved is at most the size it had and has: the motion by the slope at the end is not
  * believed beyond, as a step that has gone wrong has a huge one there (quadratic drag at its terminal speed,
  * passed over by 1000 s at once, ends with a speed of 1e104 m/s and 1e209 m/s^2). */
-static inline double level(const struct weights *w, double scale, double y, double motion, double hidden)
+static inline double level(double tolerance, double scale, double y, double motion, double hidden)
 {
     double moved = smaller(motion, scale + fabs(y));
-    return larger(larger(w->tolerance * scale, DBL_EPSILON * (fabs(y) + moved)), hidden);
+    return larger(larger(tolerance * scale, DBL_EPSILON * (fabs(y) + moved)), hidden);
+}
+
+/* The tolerance of pair i in a step of size h: less where the step is short beside the time in which the motion goes
+ * as far as it has been, as errors of many steps add up. */
+static double tolerance_by_time(const struct weights *w, size_t i, double h)
+{
+    const double most = 1e3, least = 1e-12;
+    double way = smaller(w->scale[i], w->cap[i]), part = fabs(h) * w->scale[w->pairs + i] / (w->law.by_time * way);
+    if (!(part > 0 && part < 1)) return w->tolerance;
+    return smaller(w->tolerance, larger(w->tolerance * larger(part, 1 / most), least));
 }
 
 static inline double allowed_by_noise(const struct weights *w, size_t i, double h)
@@ -110,21 +120,23 @@ double weights_ratio(const gsl_odeiv2_control *control, double h, const double *
 {
     const struct weights *w = control->state;
     size_t n = w->pairs;
+    bool by_time = w->law.by_time > 0;
     double ratio = 0, probe = 0; /* zero times a sum stays zero unless a term is infinite or NaN */
     for (size_t i = 0; i < n; i++) {
         double q = y[i], v = y[n + i], a = f[n + i];
         double q_motion = motion_of_q(h, v, a), v_motion = motion_of(h, a);
         double noise_v = w->noise[i] * fabs(h), noise_q = noise_v * fabs(h);
-        ratio = raised(ratio, yerr[i], level(w, scale_of_q(w, i, q, q_motion), q, q_motion, 4 * noise_q),
+        double tolerance = by_time ? tolerance_by_time(w, i, h) : w->tolerance;
+        ratio = raised(ratio, yerr[i], level(tolerance, scale_of_q(w, i, q, q_motion), q, q_motion, 4 * noise_q),
                        noise_q);
         double scale_v =
             scale_of_v(w, i, scale_of(w, n + i, v, v_motion), amplitude(w, w->before, i, q, v, a));
-        ratio = raised(ratio, yerr[n + i], level(w, scale_v, v, v_motion, hidden_in_v(w, i, h, q)), noise_v);
+        ratio = raised(ratio, yerr[n + i], level(tolerance, scale_v, v, v_motion, hidden_in_v(w, i, h, q)), noise_v);
         probe += 0 * (q + v + a + yerr[i] + yerr[n + i]);
     }
     for (size_t i = 2 * n; i < w->size; i++) {
         double motion = motion_of(h, f[i]);
-        ratio = raised(ratio, yerr[i], level(w, scale_of(w, i, y[i], motion), y[i], motion, 0), 0);
+        ratio = raised(ratio, yerr[i], level(w->tolerance, scale_of(w, i, y[i], motion), y[i], motion, 0), 0);
         probe += 0 * (y[i] + f[i] + yerr[i]);
     }
     return probe == 0 ? ratio : INFINITY;
@@ -264,7 +276,7 @@ static int control_errlevel(void *state, const double y, const double dydt, cons
     double motion = i < n ? motion_of_q(h, dydt, w->before[2 * n + i]) : motion_of(h, dydt);
     double scale = i < n ? scale_of_q(w, i, y, motion) : scale_of(w, i, y, motion);
     double hidden = i >= n && i < 2 * n ? hidden_in_v(w, i - n, h, w->scale[i - n]) : 0;
-    *errlev = level(w, scale, y, motion, hidden);
+    *errlev = level(w->tolerance, scale, y, motion, hidden);
     if (*errlev == 0) *errlev = w->tolerance * scale_of_group(w, i);
     if (*errlev == 0) *errlev = w->tolerance;
     return GSL_SUCCESS;

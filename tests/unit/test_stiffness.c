@@ -115,6 +115,23 @@ static void failed_attempts_and_such_without_error_change_nothing(void **state)
     }
 }
 
+/* Not where it gains enough, nor where it would have to make shorter steps, nor on the way back. */
+static void a_gain_that_is_nearly_enough_leaves_doubt(void **state)
+{
+    (void)state;
+    struct stiffness s;
+    stiffness_start(&s, 1);
+    assert_true(stiffness_doubts(&s, ratio_of(1.7, implicit_order), implicit_order));
+    assert_true(stiffness_doubts(&s, ratio_of(0.6, implicit_order), implicit_order));
+    assert_false(stiffness_doubts(&s, 0, implicit_order));
+    assert_false(stiffness_doubts(&s, ratio_of(1.9, implicit_order), implicit_order));
+    assert_false(stiffness_doubts(&s, ratio_of(0.4, implicit_order), implicit_order));
+    assert_false(stiffness_doubts(&s, INFINITY, implicit_order));
+    assert_false(stiffness_doubts(&s, NAN, implicit_order));
+    s.implicit = true;
+    assert_false(stiffness_doubts(&s, ratio_of(1.1, explicit_order), explicit_order));
+}
+
 static void an_event_between_two_answers_makes_them_void(void **state)
 {
     (void)state;
@@ -254,6 +271,7 @@ int main(void)
         cmocka_unit_test(two_answers_in_a_row_make_the_switch),
         cmocka_unit_test(a_constant_relation_is_not_sent_to_and_fro),
         cmocka_unit_test(failed_attempts_and_such_without_error_change_nothing),
+        cmocka_unit_test(a_gain_that_is_nearly_enough_leaves_doubt),
         cmocka_unit_test(an_event_between_two_answers_makes_them_void),
         cmocka_unit_test(fast_rates_bar_the_way_back),
         cmocka_unit_test(steps_without_error_and_without_fast_rates_open_it),

@@ -198,6 +198,36 @@ static void rounding_noise_of_a_body_at_rest_is_no_error(void **state)
     gsl_odeiv2_control_free(control);
 }
 
+/* A pair of 1 m and 2 m/s goes its own size in 0.5 s; another beside it, in 5 s. */
+static void errors_of_short_steps_count_by_time_where_the_law_says_so(void **state)
+{
+    (void)state;
+    struct layout layout = {.pairs = 2};
+    struct step_law law = step_law_for(5);
+    law.by_time = 0.5;
+    gsl_odeiv2_control *control = weights_alloc(&layout, tolerance, law);
+    const double y[4] = {1, 1, 2, 0.2}, f[4] = {2, 0.2, 0, 0};
+    weights_update(control, y, f);
+    const struct {
+        double h, first, second; /* the tolerance over that of a long step */
+    } cases[] = {{1, 1, 0.4}, {0.25, 1, 0.1}, {0.025, 0.1, 0.01}, {2.5e-6, 1e-3, 1e-3}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        const double first[4] = {1e-7}, second[4] = {0, 1e-7}, rate[4] = {0, 0, 1e-7};
+        double h = cases[i].h;
+        assert_true(fabs(weights_ratio(control, h, y, first, f) * cases[i].first / 0.1 - 1) < 1e-12);
+        assert_true(fabs(weights_ratio(control, h, y, second, f) * cases[i].second / 0.1 - 1) < 1e-12);
+        assert_true(fabs(weights_ratio(control, h, y, rate, f) * cases[i].first / 0.05 - 1) < 1e-12);
+    }
+    gsl_odeiv2_control_free(control);
+
+    /* Where rounding is near there is no less than 1e-12. */
+    control = weights_alloc(&layout, 1e-11, law);
+    weights_update(control, y, f);
+    const double yerr[4] = {1e-12};
+    assert_true(fabs(weights_ratio(control, 1e-4, y, yerr, f) - 1) < 1e-12);
+    gsl_odeiv2_control_free(control);
+}
+
 static void the_step_follows_the_root_of_the_error_within_bounds(void **state)
 {
     (void)state;
@@ -335,6 +365,7 @@ int main(void)
         cmocka_unit_test(a_component_that_starts_from_zero_is_measured_by_its_motion),
         cmocka_unit_test(slopes_at_the_end_of_a_bad_step_excuse_nothing),
         cmocka_unit_test(rounding_noise_of_a_body_at_rest_is_no_error),
+        cmocka_unit_test(errors_of_short_steps_count_by_time_where_the_law_says_so),
         cmocka_unit_test(the_step_follows_the_root_of_the_error_within_bounds),
         cmocka_unit_test(gsl_is_told_what_was_decided),
         cmocka_unit_test(the_error_level_is_the_error_of_ratio_one),
