@@ -432,12 +432,13 @@ FBD_API fbd_outcome fbd_simulation_advance(fbd_simulation *simulation);
 FBD_API void fbd_simulation_interval(const fbd_simulation *simulation, double *from, double *to);
 FBD_API bool fbd_simulation_state(fbd_simulation *simulation, double t, fbd_state *state);
 
-/* Estimated errors at a time t of the last step, of each coordinate and then of each rate (in the order of
- * fbd_model_coordinate, in their units); INFINITY when they are not known. False without error bars, for
- * another t, or when memory is out.
+/* Estimated errors at a time t of the last step, of each coordinate, then of each rate (in the order of
+ * fbd_model_coordinate), then of each state of the file's own, in their units: twice fbd_model_coordinate_count and
+ * fbd_model_state_count numbers. INFINITY when they are not known. False without error bars, for another t, or when
+ * memory is out.
  *
- * They are differences from a second run of the same scene with a smaller tolerance (a fifth, or a hundredth
- * for methods of lower order), and steps and events of its own. See docs/error-bars.md. The trajectory is the
+ * They are differences from a second run of the same scene with a smaller tolerance (a fifth, or a fiftieth
+ * for other methods than rk8pd), and steps and events of its own. See docs/error-bars.md. The trajectory is the
  * same, bit by bit, with error bars and without. */
 FBD_API bool fbd_simulation_errors(fbd_simulation *simulation, double t, double *errors);
 

@@ -30,7 +30,7 @@ static double tolerance_for(const struct run_options *options)
 
 static double sample_interval(const struct companion *companion)
 {
-    enum { samples = 200 };
+    enum { samples = 500 };
     return fmax(companion->ensemble->options.until / samples,
                 DBL_TRUE_MIN); /* a run may be as short as that */
 }
@@ -175,25 +175,27 @@ static void note_sizes(struct companion *companion, const struct ensemble *main,
  * many more. A method may have to redo a step for each look into it, and a run of a few long steps would do little
  * else; with one in a step, the largest error was low by more than a third in one of ten runs, and with two by two
  * thirds where a step has it near its end. Inside the steps of an exact method there is nothing that is not at their
- * ends. */
-static long stride(const struct companion *companion, const struct ensemble *main)
+ * ends. Beyond the end of a step nothing is known of the next one, which may be a short one. */
+static long stride(const struct companion *companion, const struct ensemble *main, double t)
 {
     enum { least = 4 };
-    double every = sample_interval(companion), shortest = HUGE_VAL;
+    double every = sample_interval(companion), shortest = HUGE_VAL, end = HUGE_VAL;
     for (size_t p = 0; p < main->count; p++) {
         const struct run *run = main->groups[p].run;
         bool looked_into = run->state->t > run->step.from && !structure_is_exact(run->kind);
-        if (looked_into) shortest = fmin(shortest, run->state->t - run->step.from);
+        if (!looked_into) continue;
+        shortest = fmin(shortest, run->state->t - run->step.from);
+        end = fmin(end, run->state->t);
     }
-    double longest = main->options.until / every;
-    return (long)fmax(1, floor(fmin(shortest / (least * every), longest)));
+    double longest = main->options.until / every, here = fmin(shortest / least, end - t + every);
+    return (long)fmax(1, floor(fmin(here / every, longest)));
 }
 
 static void plan_next(struct companion *companion, const struct ensemble *main, double t)
 {
     double every = sample_interval(companion);
     if (t != companion->next) return;
-    companion->samples += stride(companion, main);
+    companion->samples += stride(companion, main, t);
     companion->next = every * (double)(companion->samples + 1);
     if (companion->next > main->options.until) companion->next = HUGE_VAL;
 }

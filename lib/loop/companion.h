@@ -36,7 +36,7 @@ struct companion {
     double *y;             /* 2 n each: both runs at the time of a sample */
     struct fbd_state *probe;
     bool follows;        /* the first run chooses its steps alike; those of the companion are shorter */
-    long samples;        /* multiples of 1/200 of the run that have been passed */
+    long samples;        /* multiples of 1/500 of the run that have been passed */
     double next;         /* time of the next sample; HUGE_VAL when there is none */
     double unknown_from; /* HUGE_VAL; or a time from which on there is no estimate */
 };
@@ -58,7 +58,7 @@ bool companion_look(struct companion *companion, const struct ensemble *main, do
                     struct fbd_state *state);
 
 /* Take the errors at time t, where the companion has gone to, into the largest ones. companion->next is a
- * multiple of 1/200 of the run: output times lie within steps, too, where the dense output may err more than
+ * multiple of 1/500 of the run, as rows are: output times lie within steps, too, where the dense output may err more than
  * the end of the step does. The end of the run is a sample, too. */
 void companion_sample(struct companion *companion, struct ensemble *main, double t);
 

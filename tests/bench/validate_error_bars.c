@@ -3,7 +3,7 @@
  * Validation of error bars: for every model of the gallery, every method and six tolerances, the ratio of
  * estimated to true errors. Prints the tables of docs/error-bars.md.
  *
- * Usage: validate_error_bars [--verbose] MODEL...
+ * Usage: validate_error_bars [--verbose] [--method NAME] MODEL...
  */
 #include <math.h>
 #include <stdlib.h>
@@ -21,6 +21,7 @@ enum { tolerance_count = sizeof tolerances / sizeof *tolerances, most_methods = 
 struct totals {
     struct ratio_table by_method[most_methods], by_tolerance[tolerance_count], all;
     unsigned long left_out;
+    const char *method; /* the only one, or NULL for all */
     bool verbose;
 };
 
@@ -48,7 +49,8 @@ static void validate(struct totals *totals, const char *path)
     fbd_model *model = fbd_model_read(path, NULL, 0, errors);
     struct truth *truth = model ? truth_new(model, exact_motion_of(path)) : NULL;
     struct ratio_table here = {0};
-    for (size_t m = 0; truth && method_name(m); m++)
+    for (size_t m = 0; truth && method_name(m); m++) {
+        if (totals->method && strcmp(totals->method, method_name(m)) != 0) continue;
         for (int i = 0; i < tolerance_count; i++) {
             struct ratio_table one = {.verbose = totals->verbose};
             if (!ratio_add(&one, truth, method_name(m), tolerances[i], 0)) {
@@ -60,6 +62,7 @@ static void validate(struct totals *totals, const char *path)
             add(&totals->all, &one);
             add(&here, &one);
         }
+    }
     const char *name = strstr(path, "models/");
     if (truth)
         printf("%-44s %s to %8.1e; %4.0f %% of %lu good\n", name ? name : path,
@@ -95,16 +98,21 @@ int main(int argc, char **argv)
     static struct totals totals;
     gsl_set_error_handler_off();
     int first = 1;
-    if (argc > 1 && strcmp(argv[1], "--verbose") == 0) {
+    if (first < argc && strcmp(argv[first], "--verbose") == 0) {
         totals.verbose = true;
-        first = 2;
+        first++;
+    }
+    if (first + 1 < argc && strcmp(argv[first], "--method") == 0) {
+        totals.method = argv[first + 1];
+        first += 2;
     }
     for (int i = first; i < argc; i++) validate(&totals, argv[i]);
     print_head("quantity");
     for (int k = 0; k < ratio_kinds; k++) print_row(ratio_names[k], &totals.all.counts[k]);
     print_head("global error, by");
     for (size_t m = 0; method_name(m); m++)
-        print_row(method_name(m), &totals.by_method[m].counts[ratio_global]);
+        if (!totals.method || strcmp(totals.method, method_name(m)) == 0)
+            print_row(method_name(m), &totals.by_method[m].counts[ratio_global]);
     for (int i = 0; i < tolerance_count; i++) {
         char name[32];
         snprintf(name, sizeof name, "tolerance %g", tolerances[i]);

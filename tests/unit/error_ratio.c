@@ -7,7 +7,7 @@
 
 #include "api/record.h"
 
-enum { grid = 500, late = grid - 1, most_arrows = 32, energies = 3 };
+enum { grid = 1000, late = grid - 1, most_arrows = 32, energies = 3 };
 
 static const size_t rows_kept = grid + 1;
 
@@ -20,11 +20,12 @@ static const unsigned long most_rhs_of_truth = 30000000, most_rhs = 500000;
 /* ---- what a run gives */
 
 struct track {
-    size_t n, bodies, loads, events;
+    size_t n, width; /* coordinates; with their rates and the file's own states */
+    size_t bodies, loads, events;
     double end;
-    double *y;       /* (grid + 1) x 2 n */
+    double *y;       /* (grid + 1) x width */
     double *errors;  /* the same, estimates */
-    double *largest; /* 2 n: sizes, over all steps */
+    double *largest; /* width: sizes, over all steps */
     double *t, *t_error;
     fbd_arrow *arrows, *arrow_errors; /* bodies x most_arrows */
     double *work, *work_error;        /* loads + energies */
@@ -44,10 +45,11 @@ static void track_free(struct track *track)
 static bool track_make(struct track *track, const fbd_model *model)
 {
     size_t n = fbd_model_coordinate_count(model), bodies = fbd_model_body_count(model);
-    *track = (struct track){.n = n, .bodies = bodies, .loads = model->load_count};
-    track->y = calloc((2 * rows_kept + 1) * 2 * n, sizeof(double));
-    track->errors = track->y ? track->y + rows_kept * 2 * n : NULL;
-    track->largest = track->y ? track->y + 2 * rows_kept * 2 * n : NULL;
+    size_t width = 2 * n + fbd_model_state_count(model);
+    *track = (struct track){.n = n, .width = width, .bodies = bodies, .loads = model->load_count};
+    track->y = calloc((2 * rows_kept + 1) * width, sizeof(double));
+    track->errors = track->y ? track->y + rows_kept * width : NULL;
+    track->largest = track->y ? track->y + 2 * rows_kept * width : NULL;
     track->arrows = calloc(2 * bodies * most_arrows, sizeof(fbd_arrow));
     track->arrow_errors = track->arrows + bodies * most_arrows;
     track->work = calloc(2 * (track->loads + energies), sizeof(double));
@@ -66,13 +68,13 @@ static bool take_motion(struct track *track, fbd_simulation *simulation, double 
         double from, to;
         fbd_simulation_interval(simulation, &from, &to);
         const double *y = ensemble_state(simulation->ensemble)->y;
-        for (size_t i = 0; i < 2 * track->n; i++) track->largest[i] = fmax(track->largest[i], fabs(y[i]));
+        for (size_t i = 0; i < track->width; i++) track->largest[i] = fmax(track->largest[i], fabs(y[i]));
         for (; fine && k <= grid && until * k / grid <= to; k++) {
             double t = until * k / grid;
-            size_t row = (size_t)k * 2 * track->n;
+            size_t row = (size_t)k * track->width;
             fine = fbd_simulation_state(simulation, t, state) &&
                    (!bars || fbd_simulation_errors(simulation, t, track->errors + row));
-            memcpy(track->y + row, state->y, 2 * track->n * sizeof(double));
+            memcpy(track->y + row, state->y, track->width * sizeof(double));
         }
         if (run->outcome != FBD_GOING) break;
         fine = fine && fbd_simulation_stats(simulation).rhs < limit;
@@ -137,12 +139,12 @@ struct truth {
     const fbd_model *model;
     double until;
     struct track a, b;
-    double *scale; /* 2 n, as fbd_stats says */
+    double *scale; /* of each number, as fbd_stats says */
 };
 
 static double *row(const struct track *track, int k)
 {
-    return track->y + (size_t)k * 2 * track->n;
+    return track->y + (size_t)k * track->width;
 }
 
 static void take_scales(struct truth *truth)
@@ -151,12 +153,12 @@ static void take_scales(struct truth *truth)
     size_t n = truth->a.n;
     double *scale = truth->scale, *raw = truth->a.largest;
     const struct coordinate *c = truth->model->scene->coordinates;
-    for (size_t i = 0; i < 2 * n; i++) {
+    for (size_t i = 0; i < truth->a.width; i++) {
         scale[i] = raw[i];
-        for (size_t k = 0; k < n; k++)
+        for (size_t k = 0; k < n && i < 2 * n; k++)
             if (c[k].body == c[i % n].body && c[k].angle == c[i % n].angle)
                 scale[i] = fmax(scale[i], share * raw[i < n ? k : n + k]);
-        if (i >= n) scale[i] = fmax(scale[i], share * raw[i - n] / truth->until);
+        if (i >= n && i < 2 * n) scale[i] = fmax(scale[i], share * raw[i - n] / truth->until);
     }
 }
 
@@ -168,7 +170,7 @@ struct truth *truth_new(const fbd_model *model, exact_motion *exact)
     options.tolerance = tightest;
     if (!truth) return NULL;
     truth->model = model;
-    truth->scale = calloc(2 * fbd_model_coordinate_count(model) + 1, sizeof(double));
+    truth->scale = calloc(2 * fbd_model_coordinate_count(model) + fbd_model_state_count(model) + 1, sizeof(double));
     for (int i = 0; i < 2; i++) {
         options.method = methods[i];
         if (track_run(i == 0 ? &truth->a : &truth->b, model, &options, most_rhs_of_truth)) continue;
@@ -202,7 +204,7 @@ double truth_floor(const struct truth *truth)
 {
     double worst = 0;
     for (int k = 0; k < rows_of(truth, NULL); k++)
-        for (size_t i = 0; i < 2 * truth->a.n; i++)
+        for (size_t i = 0; i < truth->a.width; i++)
             if (truth->scale[i] > 0)
                 worst = fmax(worst, fabs(row(&truth->a, k)[i] - row(&truth->b, k)[i]) / truth->scale[i]);
     return worst;
@@ -257,18 +259,24 @@ static void count(struct ratio_table *table, enum ratio_kind kind, const struct 
                ratio_names[kind], what, estimate, error, floor);
 }
 
+static const char *name_of(const fbd_model *model, size_t i)
+{
+    size_t n = fbd_model_coordinate_count(model);
+    if (i >= 2 * n) return fbd_model_state(model, i - 2 * n).name;
+    fbd_coordinate c = fbd_model_coordinate(model, i % n);
+    return i < n ? c.name : c.rate_name;
+}
+
 static void count_motion(struct ratio_table *table, const struct truth *truth, const struct track *track,
                          const struct trial_name *name)
 {
-    size_t n = track->n;
     double global = 0, uncertain = 0;
     int rows = rows_of(truth, track);
-    for (size_t i = 0; i < 2 * n; i++) {
+    for (size_t i = 0; i < track->width; i++) {
         double estimate = 0, error = 0, doubt = 0, scale = truth->scale[i];
-        fbd_coordinate c = fbd_model_coordinate(truth->model, i < n ? i : i - n);
-        const char *what = i < n ? c.name : c.rate_name;
+        const char *what = name_of(truth->model, i);
         for (int k = 0; k < rows; k++) {
-            double e = track->errors[(size_t)k * 2 * n + i], a = row(&truth->a, k)[i],
+            double e = track->errors[(size_t)k * track->width + i], a = row(&truth->a, k)[i],
                    b = row(&truth->b, k)[i], d = fabs(row(track, k)[i] - a);
             estimate = fmax(estimate, e);
             error = fmax(error, d);

@@ -15,8 +15,8 @@
 
 enum ratio_kind {
     ratio_global,  /* fbd_stats.error_estimate */
-    ratio_largest, /* a coordinate or rate: largest error over the run */
-    ratio_end,     /* a coordinate or rate at one time late in the run */
+    ratio_largest, /* a coordinate, rate or state: largest error over the run */
+    ratio_end,     /* a coordinate, rate or state at one time late in the run */
     ratio_event,   /* the event whose time is worst */
     ratio_force,   /* a component of a force at the end, a moment */
     ratio_energy,  /* energies and works at the end */

@@ -130,6 +130,40 @@ static void short_runs_have_error_bars_too(void **unused)
     assert_true(ratio_determined_share(&table.counts[ratio_end]) >= 0.96);
 }
 
+/* ---- errors between two samples */
+
+/* A block that rests most of the time, and slips for less than what lies between two looks into a long step of rest. */
+static const char slips[] =
+    "fbd: 1\ngravity: 9.81\nbodies: {a: {mass: 1, motion: slide, forces: [gravity, normal, friction: %.3f,\n"
+    "  {applied: {name: pull, value: \"%.4f[N]*sin(%.3f[rad/s]*t)\"}}]}}\nsimulate: {until: %.3f}\n";
+
+static void errors_between_two_samples_are_seen(void **unused)
+{
+    static const double tolerances[] = {1e-4, 1e-6, 1e-8, 1e-10};
+    const int scenes = draws_of(30);
+    (void)unused;
+    struct random_numbers numbers = {11};
+    struct ratio_table table = {.verbose = true};
+    for (int scene = 0; scene < scenes; scene++) {
+        char text[1024];
+        double mu = random_between(&numbers, 0.2, 0.8), over = random_between(&numbers, 1.005, 1.025);
+        double rate = random_between(&numbers, 1, 5), until = random_between(&numbers, 4, 16);
+        snprintf(text, sizeof text, slips, mu, mu * 9.81 * over, rate, until);
+        struct trial trial = trial_parse(text);
+        struct truth *truth = truth_new(trial.model, NULL);
+        assert_non_null(truth);
+        for (size_t k = 0; k < sizeof tolerances / sizeof *tolerances; k++)
+            assert_true(ratio_add(&table, truth, "auto", tolerances[k], 0));
+        truth_free(truth);
+        trial_close(&trial);
+    }
+    const struct ratio_counts *global = &table.counts[ratio_global];
+    printf("# between samples, global error: %lu low, %lu good, %lu high\n", global->low, global->good, global->high);
+    if (!thorough()) return;
+    assert_true(ratio_determined(global) >= 60);
+    assert_true(ratio_determined_share(global) >= 0.95);
+}
+
 /* ---- the first run is left alone */
 
 /* Take out every column whose name has a plus-minus sign. */
@@ -326,6 +360,29 @@ static void who_advances_by_hand_sees_the_errors_within_each_step(void **unused)
     checks_end(&checks);
 }
 
+/* What is the file's own has errors behind those of coordinates and rates. */
+static void states_of_the_file_have_errors_too(void **unused)
+{
+    (void)unused;
+    struct trial trial = trial_open("control/dc_motor.yaml", NULL);
+    fbd_options options = FBD_OPTIONS_DEFAULT;
+    options.error_bars = true;
+    trial_start(&trial, &options);
+    size_t first = 2 * fbd_model_coordinate_count(trial.model), count = first + fbd_model_state_count(trial.model);
+    double from, to, errors[16], worst = 0;
+    assert_true(count > first && count < 16);
+    while (fbd_simulation_advance(trial.simulation) == FBD_GOING) {
+        errors[first] = -1;
+        errors[count] = -1;
+        fbd_simulation_interval(trial.simulation, &from, &to);
+        assert_true(fbd_simulation_errors(trial.simulation, to, errors));
+        assert_true(errors[first] >= 0 && errors[count] == -1);
+        worst = fmax(worst, errors[first]);
+    }
+    assert_true(worst > 0);
+    trial_close(&trial);
+}
+
 static void without_error_bars_there_are_none(void **unused)
 {
     (void)unused;
@@ -350,11 +407,13 @@ int main(void)
         cmocka_unit_test(estimates_are_within_0_3_to_10_times_the_true_error_in_95_of_100_cases),
         cmocka_unit_test(fixed_steps_have_error_bars_too),
         cmocka_unit_test(short_runs_have_error_bars_too),
+        cmocka_unit_test(errors_between_two_samples_are_seen),
         cmocka_unit_test(every_bit_of_the_motion_is_the_same_with_error_bars_and_without),
         cmocka_unit_test(the_estimate_is_the_same_whatever_is_written),
         cmocka_unit_test(an_event_that_only_one_run_has_is_not_known),
         cmocka_unit_test(a_run_that_an_event_stops_has_error_bars_at_its_end),
         cmocka_unit_test(who_advances_by_hand_sees_the_errors_within_each_step),
+        cmocka_unit_test(states_of_the_file_have_errors_too),
         cmocka_unit_test(without_error_bars_there_are_none),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
