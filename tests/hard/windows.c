@@ -85,6 +85,13 @@ static double stiffness(const struct row_of_windows *row)
     return g * (cranks / 2 + couplers) / (row->a * (cranks / 3 + couplers));
 }
 
+double windows_speed_off(const struct trial *trial, const struct row_of_windows *row)
+{
+    double theta = trial_get(trial, "v0.theta"), K = stiffness(row);
+    double omega = -sqrt(row->omega * row->omega + 2 * K * (1 - sin(theta)));
+    return fabs(trial_get(trial, "v0.omega") / omega - 1);
+}
+
 struct worst {
     double gap, speed; /* how far pins are apart; how far crank 0 is off its speed by the energy */
 };
@@ -102,9 +109,7 @@ static void look(const struct trial *trial, const struct row_of_windows *row, st
         double y = row->a * (sin(a) - sin(c)) + row->L * (sin(b) - sin(row->phi));
         worst->gap = fmax(worst->gap, hypot(x, y));
     }
-    double theta = trial_get(trial, "v0.theta"), K = stiffness(row);
-    double omega = -sqrt(row->omega * row->omega + 2 * K * (1 - sin(theta)));
-    worst->speed = fmax(worst->speed, fabs(trial_get(trial, "v0.omega") / omega - 1));
+    worst->speed = fmax(worst->speed, windows_speed_off(trial, row));
 }
 
 /* Outputs lie in steps as well as at their ends; not for bsimp, whose steps are as long as a turn and whose

@@ -25,6 +25,9 @@ struct row_of_windows {
 /* Its model file; the caller frees it. */
 char *windows_text(const struct row_of_windows *row);
 
+/* How far crank 0 is off its speed, as the energy gives it from its angle: relative. */
+double windows_speed_off(const struct trial *trial, const struct row_of_windows *row);
+
 /* Turn it for 10 s with a method, and check the pins and the speed all the way. */
 void windows_turn(struct checks *checks, const struct row_of_windows *row, const struct hard_method *method);
 

@@ -170,7 +170,8 @@ struct truth *truth_new(const fbd_model *model, exact_motion *exact)
     options.tolerance = tightest;
     if (!truth) return NULL;
     truth->model = model;
-    truth->scale = calloc(2 * fbd_model_coordinate_count(model) + fbd_model_state_count(model) + 1, sizeof(double));
+    truth->scale =
+        calloc(2 * fbd_model_coordinate_count(model) + fbd_model_state_count(model) + 1, sizeof(double));
     for (int i = 0; i < 2; i++) {
         options.method = methods[i];
         if (track_run(i == 0 ? &truth->a : &truth->b, model, &options, most_rhs_of_truth)) continue;

@@ -158,7 +158,8 @@ static void errors_between_two_samples_are_seen(void **unused)
         trial_close(&trial);
     }
     const struct ratio_counts *global = &table.counts[ratio_global];
-    printf("# between samples, global error: %lu low, %lu good, %lu high\n", global->low, global->good, global->high);
+    printf("# between samples, global error: %lu low, %lu good, %lu high\n", global->low, global->good,
+           global->high);
     if (!thorough()) return;
     assert_true(ratio_determined(global) >= 60);
     assert_true(ratio_determined_share(global) >= 0.95);
@@ -368,7 +369,8 @@ static void states_of_the_file_have_errors_too(void **unused)
     fbd_options options = FBD_OPTIONS_DEFAULT;
     options.error_bars = true;
     trial_start(&trial, &options);
-    size_t first = 2 * fbd_model_coordinate_count(trial.model), count = first + fbd_model_state_count(trial.model);
+    size_t first = 2 * fbd_model_coordinate_count(trial.model),
+           count = first + fbd_model_state_count(trial.model);
     double from, to, errors[16], worst = 0;
     assert_true(count > first && count < 16);
     while (fbd_simulation_advance(trial.simulation) == FBD_GOING) {
