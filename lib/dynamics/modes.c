@@ -76,7 +76,8 @@ void modes_drive(struct fbd_state *state)
         if (tree->ties[i].reels) resolve_drive(state, &tree->ties[i].reel);
 }
 
-void modes_hold(struct fbd_state *state)
+/* `settling`: see sliding_project. */
+static void hold(struct fbd_state *state, bool settling)
 {
     const struct plan *plan = &state->model->plan;
     struct instant at = state_instant(state);
@@ -87,7 +88,12 @@ void modes_hold(struct fbd_state *state)
         if (state->slip[pair] == stick && mode->tie < 0)
             state->y[plan->n + mode->coordinate] = friction_surface_speed(mode, &at, &acceleration);
     }
-    if (state_sliding(state)) sliding_project(state);
+    if (state_sliding(state)) sliding_project(state, settling);
+}
+
+void modes_hold(struct fbd_state *state)
+{
+    hold(state, false);
 }
 
 /* What begins to slip at the limit of its friction has no acceleration against its surface yet: that is
@@ -263,7 +269,7 @@ static bool settle(struct fbd_state *state, const struct decided *decided)
         if (plan->mode_count > 0) same = settle_slips(state, decided, &flow) && same;
         if (state->holds.found >= holds_none) return false;
         if (same && !first) {
-            modes_hold(state);
+            hold(state, true);
             state_evaluate(state);
             return state->holds.found < holds_none;
         }

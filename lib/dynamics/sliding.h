@@ -93,6 +93,9 @@ void sliding_solve_along(const struct fbd_model *model, const struct instant *gi
 /* The dry friction of its own that keeps a coordinate from accelerating against its surface, -1 for none. */
 int sliding_holder(const struct fbd_model *model, const struct instant *at, int coordinate);
 
+/* The same of what is at rest on its surface, also where it is about to slip. */
+int sliding_rest(const struct fbd_model *model, const struct instant *at, int coordinate);
+
 /* Where friction holds the coordinates of a switch, does the switch go on being zero as their surfaces move? A surface
  * that is shaken, or that takes them along to where x + T v is another, would take them off the switch, which may hold
  * them where they are. 0, or the sign of what it will be. */
@@ -121,8 +124,9 @@ struct fbd_state;
 double sliding_rounding(const struct fbd_state *state, const struct kink *kink, int part);
 
 /* Bring the velocities back onto the surfaces, by impulses of the forces that slide, and likewise the places
- * onto those that are slid on in second order. */
-void sliding_project(struct fbd_state *state);
+ * onto those that are slid on in second order. While modes are settled, `settling`, what is at rest on a surface of
+ * friction stays so: how far an event is off its switch is the rounding of its time, and would have it slip already. */
+void sliding_project(struct fbd_state *state, bool settling);
 
 struct decided;
 

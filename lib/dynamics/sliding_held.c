@@ -35,14 +35,8 @@ int asked_parted(const struct fbd_state *state, const struct asked *asked)
 /* Dry friction of a coordinate that is at rest on its surface; -1 without one. */
 static int friction_at_rest(const struct question *q, int coordinate)
 {
-    const struct fbd_model *model = q->state->model;
     const struct instant at = state_instant(q->state);
-    for (int pair = 0; pair < (int)model->plan.mode_count; pair++) {
-        const struct mode *mode = &model->plan.modes[pair];
-        if (!mode_is_joint_friction(mode) || mode->coordinate != coordinate) continue;
-        if (slip_velocity(model, pair, &at) == 0) return pair;
-    }
-    return -1;
+    return sliding_rest(q->state->model, &at, coordinate);
 }
 
 bool asked_is_held(const struct question *q, const struct asked *asked)

@@ -235,7 +235,7 @@ static bool choose(struct question *q, const struct decided *decided, int choice
     struct fbd_state *state = q->state;
     struct sliding *s = state->sliding;
     int digit[most_units] = {0};
-    bool lands = false;
+    bool lands = false, ends = false;
     for (int unit = 0; unit < q->units; unit++, choice /= 3) digit[unit] = choice % 3;
     for (int j = 0; j < s->count; j++) s->slide_at[s->slides[j].branch] = 0;
     memset(s->aside, 0, state->model->plan.mode_count * sizeof *s->aside);
@@ -251,10 +251,11 @@ static bool choose(struct question *q, const struct decided *decided, int choice
         if (digit[asked->unit] > 0) continue;
         const struct kink *kink = &state->model->plan.kinks[asked->kink];
         lands |= asked->ended || !kink_watches_places(kink, asked->part);
+        ends |= asked->ended;
         sliding_add(s, kink, asked->kink, asked->part, asked->unit, asked->side);
     }
     if (s->count > 0) sliding_number(s);
-    if (lands) sliding_project(state); /* before friction asks whether it moves */
+    if (lands) sliding_project(state, !ends); /* before friction asks whether it moves */
     for (int i = 0; i < q->count; i++)
         if (digit[q->list[i].unit] == 0 && asked_is_held(q, &q->list[i])) {
             question_hold_friction(q, &q->list[i]);

@@ -11,6 +11,7 @@
 
 #include "dynamics/absolute.h"
 #include "dynamics/forward.h"
+#include "dynamics/modes.h"
 #include "dynamics/own.h"
 #include "dynamics/state.h"
 
@@ -159,6 +160,16 @@ int sliding_holder(const struct fbd_model *model, const struct instant *at, int 
         const struct mode *mode = &model->plan.modes[pair];
         if (mode_is_joint_friction(mode) && mode->coordinate == coordinate && at->slip[pair] == stick)
             return pair;
+    }
+    return -1;
+}
+
+int sliding_rest(const struct fbd_model *model, const struct instant *at, int coordinate)
+{
+    for (int pair = 0; pair < (int)model->plan.mode_count; pair++) {
+        const struct mode *mode = &model->plan.modes[pair];
+        if (!mode_is_joint_friction(mode) || mode->coordinate != coordinate) continue;
+        if (slip_velocity(model, pair, at) == 0) return pair;
     }
     return -1;
 }
@@ -360,13 +371,15 @@ void sliding_solve_along(const struct fbd_model *model, const struct instant *gi
 /* ---- back onto the surfaces */
 
 /* Take away the velocities across the surfaces. What is left of one that goes is rounding. */
-static void project_velocities(struct fbd_state *state)
+static void project_velocities(struct fbd_state *state, bool settling)
 {
     const double rounding = 1e-14;
     struct sliding *s = state->sliding;
+    const struct instant at = state_instant(state);
     size_t n = (size_t)state->model->plan.n;
     double *v = state->y + n;
     for (size_t i = 0; i < n; i++) {
+        if (settling && sliding_rest(state->model, &at, (int)i) >= 0) continue;
         double before = v[i];
         for (int unit = 0; unit < s->units; unit++) v[i] -= s->B[(size_t)unit * n + i] * s->c[unit];
         if (fabs(v[i]) <= rounding * fabs(before)) v[i] = 0;
@@ -393,7 +406,7 @@ static void project_places(struct fbd_state *state)
     }
 }
 
-void sliding_project(struct fbd_state *state)
+void sliding_project(struct fbd_state *state, bool settling)
 {
     enum {
         passes = 2
@@ -407,7 +420,7 @@ void sliding_project(struct fbd_state *state)
         for (int unit = 0; unit < s->units; unit++)
             if (s->held[unit] != not_held) s->c[unit] = 0;
         solve(s, s->c);
-        project_velocities(state);
+        project_velocities(state, settling);
         project_places(state);
     }
 }

@@ -42,6 +42,7 @@ static void what_went_wrong_does_not(void **unused)
         144, /* a block that slides on sign(x + T v) comes to the speed of its belt, which took it off the switch */
         609, 943,  /* what sticks on a belt that shakes passes a switch: it stays there, and friction slips */
         436, 1265, /* an integral at its limit, a rounding before it */
+        43,        /* a belt carries what sticks on it onto a switch, a rounding off it, and lets go */
     };
     (void)unused;
     stepped_try_each(&kind, seeds, sizeof seeds / sizeof *seeds);
