@@ -86,6 +86,13 @@ void sliding_solve(const struct fbd_model *model, const struct instant *at);
  * rests on its switch stays exactly. After sliding_solve. */
 void sliding_clear_rounding(const struct sliding *sliding, int n, double *a);
 
+/* After sliding_solve: of what would give the surfaces such rates, one for each unit, what the shares become more by so that
+ * they have none. Where friction holds they stay. */
+void sliding_answer(const struct sliding *sliding, double *rates);
+
+/* More of the share of a unit. */
+void sliding_shift(struct sliding *sliding, int unit, double by);
+
 /* The variations of the shares along a direction, after sliding_solve at the instant. */
 void sliding_solve_along(const struct fbd_model *model, const struct instant *given,
                          const struct direction *direction);

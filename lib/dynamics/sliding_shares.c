@@ -309,6 +309,18 @@ void sliding_solve(const struct fbd_model *model, const struct instant *at)
     }
 }
 
+void sliding_answer(const struct sliding *s, double *rates)
+{
+    for (int unit = 0; unit < s->units; unit++) rates[unit] = s->held[unit] == not_held ? -rates[unit] : 0;
+    solve(s, rates);
+}
+
+void sliding_shift(struct sliding *s, int unit, double by)
+{
+    for (int j = 0; j < s->count; j++)
+        if (s->slides[j].unit == unit) s->slides[j].share += s->slides[j].sign * by;
+}
+
 void sliding_clear_rounding(const struct sliding *s, int n, double *a)
 {
     for (int i = 0; i < n && !s->failed; i++) {

@@ -70,6 +70,7 @@ static void add_answers(struct gathered *all, size_t k)
     struct fbd_state *state = all->state;
     const struct tree *tree = state->model->tree;
     size_t count = all->problem.count;
+    if (all->shares.units > 0) tree_add_unit(tree, state->tree, state->sliding->flow + state->model->plan.n);
     for (size_t i = 0; i < count; i++) {
         const struct mode *hold = mode_of(state, all->pair[i]);
         all->problem.A[i * count + k] +=
@@ -122,7 +123,7 @@ static double least_answer(const struct fbd_state *state, int pair)
 }
 
 /* The links answer, and then the constraints that do not let them. True when these hold it still. */
-static bool add_column(struct gathered *all, size_t k)
+static bool answers_alone(struct gathered *all, size_t k)
 {
     struct fbd_state *state = all->state;
     const struct tree *tree = state->model->tree;
@@ -144,16 +145,76 @@ static bool add_column(struct gathered *all, size_t k)
     return all->problem.A[k * all->problem.count + k] <= immovable * alone;
 }
 
+/* The same, and what it does to the surfaces that are slid on. */
+static bool add_column(struct gathered *all, size_t k)
+{
+    struct sliding *s = all->state->sliding;
+    const struct shared_out *shares = &all->shares;
+    if (shares->units == 0) return answers_alone(all, k);
+    memset(s->flow, 0, plan_size(&all->state->model->plan) * sizeof *s->flow);
+    bool still = answers_alone(all, k);
+    sliding_rates(all->state->model, &all->at, 0, s->flow, shares->rates + k * (size_t)shares->units);
+    return still;
+}
+
+/* Along hold i and to guide g, with the accelerations and forces of just now. */
+static double hold_answer(const struct gathered *all, size_t i)
+{
+    return tree_hold_acceleration(all->state, &all->at, all->pair[i]);
+}
+
+static double guide_answer(const struct gathered *all, size_t g)
+{
+    return -all->state->scratch[mode_of(all->state, all->guide[g])->normal_slot];
+}
+
+/* What more of the share of a unit does. */
+static void find_share_answers(struct gathered *all, int unit)
+{
+    struct fbd_state *state = all->state;
+    const struct hold_problem *problem = &all->problem;
+    double *c = all->shares.c + (size_t)unit * problem->count,
+           *N = all->shares.N + (size_t)unit * problem->guide_count;
+    sliding_shift(state->sliding, unit, 1);
+    accelerations_at_shares(state->model, &all->at, state->scratch, state->a);
+    sliding_shift(state->sliding, unit, -1);
+    for (size_t i = 0; i < problem->count; i++) c[i] = hold_answer(all, i) - problem->holds[i].free;
+    for (size_t g = 0; g < problem->guide_count; g++) N[g] = guide_answer(all, g) - problem->guides[g].free;
+}
+
 /* Without any hold. */
 static void set_free(struct gathered *all)
 {
     struct fbd_state *state = all->state;
-    double *slots = state->scratch;
-    accelerations(state->model, &all->at, slots, state->a);
-    for (size_t i = 0; i < all->problem.count; i++)
-        all->problem.holds[i].free = tree_hold_acceleration(state, &all->at, all->pair[i]);
-    for (size_t g = 0; g < all->problem.guide_count; g++)
-        all->problem.guides[g].free = -slots[mode_of(state, all->guide[g])->normal_slot];
+    accelerations(state->model, &all->at, state->scratch, state->a);
+    for (size_t i = 0; i < all->problem.count; i++) all->problem.holds[i].free = hold_answer(all, i);
+    for (size_t g = 0; g < all->problem.guide_count; g++) all->problem.guides[g].free = guide_answer(all, g);
+    if (all->shares.units == 0) return;
+    if (state->sliding->failed) all->shares.units = 0;
+    for (int unit = 0; unit < all->shares.units; unit++) find_share_answers(all, unit);
+    accelerations_at_shares(state->model, &all->at, state->scratch, state->a);
+}
+
+/* What is slid on takes what a hold does to its surface: the shares answer, too. Where that leaves nothing along the hold
+ * itself, as of a rope along which a switch holds, its own answer stays: it keeps or gives by what there is without it. */
+static void let_shares_answer(struct gathered *all, size_t k)
+{
+    const double rounding = 1e-9;
+    struct hold_problem *problem = &all->problem;
+    const struct shared_out *shares = &all->shares;
+    double *step = shares->rates + k * (size_t)shares->units;
+    sliding_answer(all->state->sliding, step);
+    for (size_t i = 0; i < problem->count; i++) {
+        double *A = &problem->A[i * problem->count + k], taken = 0;
+        for (int unit = 0; unit < shares->units; unit++)
+            taken += shares->c[(size_t)unit * problem->count + i] * step[unit];
+        bool all_of_it = fabs(*A + taken) <= rounding * fabs(taken);
+        if (!all_of_it || i != k) *A = all_of_it ? 0 : *A + taken;
+    }
+    for (size_t g = 0; g < problem->guide_count; g++)
+        for (int unit = 0; unit < shares->units; unit++)
+            problem->B[g * problem->count + k] +=
+                shares->N[(size_t)unit * problem->guide_count + g] * step[unit];
 }
 
 /* ---- the problem */
@@ -162,6 +223,20 @@ void gathered_free(struct gathered *all)
 {
     holds_free(&all->problem);
     free(all->pair);
+    free(all->shares.c);
+}
+
+static bool make_room_for_shares(struct gathered *all)
+{
+    struct shared_out *shares = &all->shares;
+    size_t units = (size_t)all->at.sliding->units, count = all->problem.count,
+           guides = all->problem.guide_count;
+    shares->c = calloc(units * (2 * count + guides) + 1, sizeof *shares->c);
+    if (!shares->c) return false;
+    shares->units = (int)units;
+    shares->N = shares->c + units * count;
+    shares->rates = shares->N + units * guides;
+    return true;
 }
 
 /* Is what presses on a friction a guide, of a slide or of a slot that holds on both sides? */
@@ -195,7 +270,8 @@ static void set_press(struct gathered *all, size_t i, size_t *guides)
     all->problem.guides[(*guides)++].two_sided = mode->two_sided;
 }
 
-bool gathered_find(struct gathered *all, struct fbd_state *state, const struct decided *decided, int *forced)
+bool gathered_find(struct gathered *all, struct fbd_state *state, const struct decided *decided, int *forced,
+                   bool shares_answer)
 {
     const struct plan *plan = &state->model->plan;
     size_t pairs = plan->mode_count, count = 0, guides = 0;
@@ -220,6 +296,7 @@ bool gathered_find(struct gathered *all, struct fbd_state *state, const struct d
         all->trial[p] = loose;
     }
     if (!holds_new(&all->problem, count, guides)) return false;
+    if (at.sliding && shares_answer && !make_room_for_shares(all)) return false;
     guides = 0;
     for (size_t i = 0; i < count; i++) {
         const struct mode *mode = mode_of(state, all->pair[i]);
@@ -234,6 +311,8 @@ bool gathered_find(struct gathered *all, struct fbd_state *state, const struct d
     all->at.slip = all->trial;
     set_free(all);
     for (size_t k = 0; k < count; k++) all->still[k] = add_column(all, k) ? still_stays : 0;
+    for (size_t k = 0; k < count && all->shares.units > 0; k++)
+        if (!all->still[k]) let_shares_answer(all, k);
     for (size_t k = 0; k < count; k++) {
         state->slip_driven[all->pair[k]] = 0;
         if (all->still[k]) hold_still(all, k);
@@ -246,7 +325,7 @@ void gathered_set_out(struct fbd_state *state, const int *gives)
     struct gathered all = {0};
     int *forced = tree_rests(state) ? calloc(state->model->plan.mode_count, sizeof *forced) : NULL;
     if (!forced) return;
-    if (!gathered_find(&all, state, NULL, forced)) state->holds.found = holds_no_memory;
+    if (!gathered_find(&all, state, NULL, forced, false)) state->holds.found = holds_no_memory;
     for (size_t i = 0; i < all.problem.count; i++)
         if (all.still[i] == still_sets_out && gives[all.pair[i]] != 0)
             state->slip[all.pair[i]] = all.problem.holds[i].slip;

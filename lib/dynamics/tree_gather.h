@@ -18,6 +18,13 @@ enum {
  * centre, to the second order, if nothing else holds it. */
 enum { still_stays = 1, still_sets_out };
 
+/* Switches that are slid on: what more of the share of each unit does along the holds (units by holds) and to the guides, and
+ * what one unit of each hold does to the surfaces, then to the shares (holds by units). */
+struct shared_out {
+    int units; /* 0 where no shares are found */
+    double *c, *N, *rates;
+};
+
 struct gathered {
     struct fbd_state *state;
     struct instant at; /* with all of them loose */
@@ -27,6 +34,7 @@ struct gathered {
     int *trial;       /* modes with all of them loose */
     int *still;       /* of a hold: still_..., 0 where something moves along it */
     int *forced;
+    struct shared_out shares;
 };
 
 static inline int link_of(const struct fbd_state *state, int pair)
@@ -42,8 +50,10 @@ bool hold_in_question(const struct fbd_state *state, const struct decided *decid
 int hold_slips_already(const struct fbd_state *state, const struct decided *decided, const int *forced,
                        int pair);
 
-/* The problem of all that are in question; false when memory is out. To be freed in either case. */
-bool gathered_find(struct gathered *all, struct fbd_state *state, const struct decided *decided, int *forced);
+/* The problem of all that are in question; false when memory is out. To be freed in either case. `shares_answer`: what is slid
+ * on stays so whatever the holds do, by shares without a limit. */
+bool gathered_find(struct gathered *all, struct fbd_state *state, const struct decided *decided, int *forced,
+                   bool shares_answer);
 void gathered_free(struct gathered *all);
 
 /* What sets out of a dead centre, of what `gives` (modes, 0 where it does not), slips to where it goes to the second

@@ -75,11 +75,11 @@ static int barely_holds(const struct gathered *all, size_t i)
 
 /* Set the modes by pivoting. `barely`: of a pair, as above. */
 static enum holds_found solve(struct fbd_state *state, const struct decided *decided, int *forced,
-                              int *barely)
+                              int *barely, bool shares_answer)
 {
     struct gathered all;
     enum holds_found found = holds_no_memory;
-    if (gathered_find(&all, state, decided, forced)) {
+    if (gathered_find(&all, state, decided, forced, shares_answer)) {
         tree_find_unpressed(&all, decided, forced);
         found = holds_decide(&all.problem);
         if (found != holds_decided) state->holds = trouble_of(&all, found);
@@ -349,12 +349,12 @@ static enum agreement keep_closed(struct fbd_state *state, const struct decided 
 
 /* Solve, and let rates decide what is at its limit, one after the other. False where the forces do not agree
  * with what was solved. */
-static bool decide(struct fbd_state *state, const struct decided *decided, int *forced)
+static bool decide(struct fbd_state *state, const struct decided *decided, int *forced, bool shares_answer)
 {
     int count = (int)state->model->plan.mode_count, *barely = state->slip_barely;
     for (int round = 0; round <= count; round++) {
         memset(barely, 0, (size_t)count * sizeof *barely);
-        if (solve(state, decided, forced, barely) >= holds_none) return false;
+        if (solve(state, decided, forced, barely, shares_answer) >= holds_none) return false;
         enum agreement found = look_at_solved(state, decided, forced);
         if (found == agrees) found = keep_closed(state, decided, forced);
         if (found == agrees) return true;
@@ -372,6 +372,28 @@ static bool decide(struct fbd_state *state, const struct decided *decided, int *
         if (!more) return false;
     }
     return false;
+}
+
+/* Do switches that are slid on have shares? What is closed may leave them nothing to do, or more than they can. */
+static bool shares_fit(const struct sliding *s)
+{
+    const double rounding = 1e-10;
+    bool fit = !s->failed;
+    for (int j = 0; j < s->count; j++)
+        fit &= s->slides[j].share >= -rounding && s->slides[j].share <= 1 + rounding;
+    return fit;
+}
+
+/* Where switches that are slid on have no share that fits, or nothing has been decided: once more, with shares that answer. A
+ * rope that is tried first leaves nothing to the switch along it, and may have to go slack. */
+static bool decide_with_shares(struct fbd_state *state, const struct decided *decided, int *forced,
+                               bool agreed)
+{
+    const struct sliding *s = state_sliding(state);
+    if (!s || (agreed && shares_fit(s)) || state->holds.found == holds_no_memory) return agreed;
+    state->holds = (struct holds_trouble){.found = holds_decided, .pair = -1, .contradicts = -1};
+    tree_find_frictionless(state, decided, forced);
+    return decide(state, decided, forced, true);
 }
 
 /* Of those at rest, to the side that they begin to move to. */
@@ -397,7 +419,7 @@ static bool holds_what_is_driven(struct fbd_state *state, const struct decided *
     if (!may) return false;
     state_evaluate_unshared(state);
     if (!rest_is_open(state->model, &at)) return false;
-    bool gathered = gathered_find(&all, state, decided, forced);
+    bool gathered = gathered_find(&all, state, decided, forced, false);
     if (!gathered) state->holds.found = holds_no_memory;
     for (size_t i = 0; gathered && i < all.problem.count; i++)
         moves |= all.still[i] == still_stays && all.problem.holds[i].slip != 0 &&
@@ -479,7 +501,8 @@ bool tree_settle_holds(struct fbd_state *state, const struct decided *decided)
     }
     bool agreed = !holds_what_is_driven(state, decided, forced) &&
                   look(state, decided, forced, false) == agrees && !tree_is_doubtful(state);
-    agreed = agreed || decide(state, decided, forced);
+    agreed = agreed || decide(state, decided, forced, false);
+    agreed = decide_with_shares(state, decided, forced, agreed);
     agreed = agreed && ((decided && decided->later) || look_later(state, decided, forced));
     turn_idle(state, decided);
     return agreed && memcmp(before, state->slip, bytes) == 0;

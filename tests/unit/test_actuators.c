@@ -40,9 +40,10 @@ static void what_went_wrong_does_not(void **unused)
 {
     static const unsigned seeds[] = {
         144, /* a block that slides on sign(x + T v) comes to the speed of its belt, which took it off the switch */
-        609, 943,  /* what sticks on a belt that shakes passes a switch: it stays there, and friction slips */
-        436, 1265, /* an integral at its limit, a rounding before it */
-        43,        /* a belt carries what sticks on it onto a switch, a rounding off it, and lets go */
+        609,   943, /* what sticks on a belt that shakes passes a switch: it stays there, and friction slips */
+        436,   1265, /* an integral at its limit, a rounding before it */
+        43,          /* a belt carries what sticks on it onto a switch, a rounding off it, and lets go */
+        50205, 53485, 60645, /* a rope lets go of what a switch holds, beside friction */
     };
     (void)unused;
     stepped_try_each(&kind, seeds, sizeof seeds / sizeof *seeds);
