@@ -323,6 +323,11 @@ void stepper_set_linear(struct stepper *s, const double *A, double rho)
     if (s->step->type == step_linear) linear_set_matrix(s->step, A, rho);
 }
 
+double stepper_h_rate(const struct stepper *s)
+{
+    return s->rate > 0 ? moment_since(s->t1, s->t0) * s->rate : INFINITY;
+}
+
 const double *stepper_jacobian(const struct stepper *s)
 {
     return s->stepped ? rodas5p_jacobian(s->step) : NULL;

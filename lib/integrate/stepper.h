@@ -112,6 +112,10 @@ double stepper_attempt(struct stepper *stepper, struct counted_system *system, c
 /* linear_set_matrix for a stepper of that method; nothing for others. */
 void stepper_set_linear(struct stepper *stepper, const double *A, double rho);
 
+/* The size of the last step times the fastest rate of the system that the method has seen lately (weights_rate);
+ * INFINITY where it sees none. */
+double stepper_h_rate(const struct stepper *stepper);
+
 /* The Jacobian at the start of the last step, row by row, where rodas5p made it; else NULL. */
 const double *stepper_jacobian(const struct stepper *stepper);
 

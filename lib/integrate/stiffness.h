@@ -47,6 +47,7 @@ struct stiffness {
     int interval;  /* accepted steps from the last attempt to the next one */
     int wait;      /* ... and what is left of them */
     int votes;     /* answers in a row for the other method */
+    int calm;      /* steps in a row in which an attempt was due and nothing looked stiff */
     double dear;   /* how much dearer a step of the implicit method is than in a small system, >= 1 */
 };
 
@@ -57,8 +58,10 @@ void stiffness_start(struct stiffness *stiffness, size_t coordinates);
  * stays, and so does the time of the next attempt, lest frequent events put it off for ever. */
 void stiffness_forget(struct stiffness *stiffness);
 
-/* Count an accepted step; true when the other method is to attempt it now. */
-bool stiffness_due(struct stiffness *stiffness);
+/* Count an accepted step; true when the other method is to attempt it now. `h_rate` is the size of the step times the
+ * fastest rate that the explicit method has seen in it: in a large system, where an attempt costs as much as many steps,
+ * it is put off while that is far from stiff. */
+bool stiffness_due(struct stiffness *stiffness, double h_rate);
 
 /* The size of the step that the other method attempts, for one of the step that has been made. */
 double stiffness_stride(const struct stiffness *stiffness);

@@ -122,7 +122,7 @@ enum stepper_status switcher_step(struct switcher *s, struct counted_system *sys
     s->made = s->now;
     if (status != stepper_ok || !s->steppers[1]) return status;
     stepper_note(s->steppers[!s->now], y, f);
-    if (moment_since(t_limit, *t) > 0 && stiffness_due(&s->stiffness))
+    if (moment_since(t_limit, *t) > 0 && stiffness_due(&s->stiffness, stepper_h_rate(s->steppers[s->now])))
         return consider(s, system, t0, *t, y, f, h, t_limit);
     return status;
 }

@@ -303,6 +303,7 @@ void run_set_noise(struct run *run)
     const struct plan *plan = &run->model->plan;
     set_noise(run);
     run->grain.since = 0;
+    run->grain.pause = 1;
     bool coordinates = any_is_small(run), own = false;
     for (int i = 2 * plan->n; i < (int)plan_size(plan); i++) own |= run->state->y[i] == 0;
     if (!coordinates && !own) return;
@@ -313,13 +314,31 @@ void run_set_noise(struct run *run)
     for (int i = 0; i < plan->own; i++) set_own_floor(run, i, lasts);
 }
 
+/* Have accelerations about the noise that they had before? */
+static bool is_steady(const struct run *run, const double *before)
+{
+    const double most = 2;
+    for (int i = 0; i < run->model->plan.n; i++) {
+        double now = run->grain.accelerations[i];
+        if (now > most * before[i] || before[i] > most * now) return false;
+    }
+    return true;
+}
+
+/* Where it counts it has to be that of here. It costs as much as a right-hand side and a half; where it hardly changes, as in a
+ * chain whose last rods move by 1e-9 rad/s, some steps may pass. One that is large for a moment is seen to have changed. */
 void run_renew_noise(struct run *run)
 {
-    const unsigned long steps = 64;    /* costs a hundredth of them */
-    if (run->options.step > 0) return; /* nothing chooses by it */
-    bool due = run->model->tree && ++run->grain.since >= steps;
-    if (!due && !switcher_noise_counts(run->stepper, run->step.h)) return;
+    const unsigned long steps = 64, most_between = 8; /* the former costs a hundredth of them */
+    if (run->options.step > 0) return;                /* nothing chooses by it */
+    run->grain.since++;
+    bool due = run->model->tree && run->grain.since >= steps;
+    bool counts = run->grain.since >= run->grain.pause && switcher_noise_counts(run->stepper, run->step.h);
+    if (!due && !counts) return;
+    double *before = run->work.aside;
+    memcpy(before, run->grain.accelerations, (size_t)run->model->plan.n * sizeof *before);
     run_evaluate(run);
     set_noise(run);
     run->grain.since = 0;
+    run->grain.pause = !is_steady(run, before) ? 1 : 2 * run->grain.pause < most_between ? 2 * run->grain.pause : most_between;
 }

@@ -118,7 +118,7 @@ struct grain {
                               rest of this was set */
     double *turned; /* twice the links of the tree */
     double *cancelled;   /* for each body a force and its moment */
-    unsigned long since; /* steps */
+    unsigned long since, pause; /* steps; and how many may pass while it counts but hardly changes */
 };
 
 /* Scratch of the loop: plan_size numbers each, where nothing else is said. */

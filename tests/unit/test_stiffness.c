@@ -28,7 +28,7 @@ static double ratio_of(double gain, int k)
 static int steps_to_attempt(struct stiffness *s)
 {
     int steps = 1;
-    while (!stiffness_due(s)) steps++;
+    while (!stiffness_due(s, INFINITY)) steps++;
     return steps;
 }
 
@@ -66,6 +66,26 @@ static void large_systems_ask_for_longer_steps_more_seldom(void **state)
         stiffness_start(&s, few);
         assert_true(stiffness_stride(&s) == 1);
     }
+}
+
+/* Where nothing looks stiff; not in small ones, nor on the way back. */
+static void large_systems_put_attempts_off(void **state)
+{
+    (void)state;
+    struct stiffness s;
+    for (int large = 0; large < 2; large++)
+        for (int implicit = 0; implicit < 2; implicit++) {
+            int steps = 1;
+            stiffness_start(&s, large ? 22 : 1);
+            s.implicit = implicit;
+            int usual = s.wait;
+            while (!stiffness_due(&s, 0.49)) steps++;
+            assert_int_equal(steps, large && !implicit ? usual + 4 * 64 - 1 : usual);
+            stiffness_start(&s, large ? 22 : 1);
+            s.implicit = implicit;
+            for (steps = 1; !stiffness_due(&s, 0.51);) steps++;
+            assert_int_equal(steps, usual);
+        }
 }
 
 static void two_answers_in_a_row_make_the_switch(void **state)
@@ -268,6 +288,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(attempts_become_rare_where_nothing_changes),
         cmocka_unit_test(large_systems_ask_for_longer_steps_more_seldom),
+        cmocka_unit_test(large_systems_put_attempts_off),
         cmocka_unit_test(two_answers_in_a_row_make_the_switch),
         cmocka_unit_test(a_constant_relation_is_not_sent_to_and_fro),
         cmocka_unit_test(failed_attempts_and_such_without_error_change_nothing),
