@@ -108,7 +108,7 @@ impacts: $(BUILD)/.tests
 	FBD_IMPACTS=1000000 $(BUILD)/tests/unit/test_impact
 	FBD_IMPACTS=1000000 $(BUILD)/tests/unit/test_impacts
 
-# The tables of docs/error-bars.md; takes some ten minutes.
+# The tables of docs/error-bars.md; takes half an hour.
 error-bars: $(BUILD)/.tests
 	ninja -C $(BUILD)
 	$(BUILD)/tests/bench/bench_error_bars models/*/*.yaml

@@ -71,7 +71,7 @@ static bool is_end(const struct stepper *s, struct moment t)
 /* What the method itself says of the inside. */
 static int own_dense(struct stepper *s, struct moment t, double *y)
 {
-    if (!s->method->implicit || is_end(s, t)) return dense_eval(s->dense, t, y);
+    if (!(s->method->implicit || s->inside) || is_end(s, t)) return dense_eval(s->dense, t, y);
     double share = moment_since(t, s->t0) / moment_since(s->t1, s->t0);
     if (s->step->type == step_rodas5p) {
         int code = rodas5p_dense_prepare(s->step);
@@ -109,13 +109,13 @@ int stepper_dense(struct stepper *s, struct moment t, double *y)
 
 int stepper_powers_of_ends(struct stepper *s, struct moment from, struct moment to, size_t i, double *c)
 {
-    if (s->method->implicit || !find_within(s, &from) || !find_within(s, &to)) return -1;
+    if (s->method->implicit || s->inside || !find_within(s, &from) || !find_within(s, &to)) return -1;
     return dense_powers_of_ends(s->dense, from, to, i, c);
 }
 
 int stepper_powers(struct stepper *s, struct moment from, struct moment to, size_t i, double *c)
 {
-    if (s->method->implicit || !find_within(s, &from) || !find_within(s, &to)) return -1;
+    if (s->method->implicit || s->inside || !find_within(s, &from) || !find_within(s, &to)) return -1;
     int last_code = s->system->last_code;
     int degree = dense_powers(s->dense, from, to, i, c);
     s->system->last_code = last_code;

@@ -41,7 +41,7 @@ struct companion *companion_new(const struct fbd_model *model, const struct run_
     size_t size = plan_size(&model->plan);
     struct run_options own = {.until = options->until,
                               .tolerance = tolerance_for(options),
-                              .method = method_at(0),
+                              .method = structure_method(model, structure_general),
                               .automatic = true,
                               .structure = options->structure,
                               .apart = true};

@@ -5,6 +5,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "loop/structure.h"
+
 static const double default_tolerance = 1e-10;
 
 static const char automatic[] = "auto";
@@ -13,7 +15,7 @@ static const struct method *choose_method(const struct fbd_model *model, const f
                                           fbd_errors *errors)
 {
     const char *name = given->method ? given->method : model->scene->simulate.method;
-    if (!name || strcmp(name, automatic) == 0) return method_at(0);
+    if (!name || strcmp(name, automatic) == 0) return structure_method(model, structure_general);
     const struct method *method = method_find(name);
     if (method) return method;
     const char *names[32];

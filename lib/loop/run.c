@@ -43,7 +43,7 @@ static bool make_stepper(struct run *run)
     for (size_t i = 0; i < n; i++) angle[i] = run->model->scene->coordinates[i].angle;
     if (chooses_structure(run)) {
         if (run->kind != structure_fixed) run->kind = structure_of(run->model);
-        run->options.method = structure_method(run->kind);
+        run->options.method = structure_method(run->model, run->kind);
     }
     struct stepper_options options = {.method = run->options.method,
                                       .layout = {.pairs = n,

@@ -29,7 +29,7 @@ static const struct method linear_method = {.name = "linear",
                                             .estimate_order = 8,
                                             .exact = true};
 
-const struct method *structure_method(enum structure structure)
+const struct method *structure_method(const struct fbd_model *model, enum structure structure)
 {
     switch (structure) {
     case structure_velocity_free: return &nystrom_method;
@@ -39,7 +39,7 @@ const struct method *structure_method(enum structure structure)
     case structure_general:
     case structure_kinds: break;
     }
-    return method_at(0);
+    return model->plan.own > 0 ? method_find("dop853") : method_at(0);
 }
 
 /* ---- velocities */

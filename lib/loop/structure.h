@@ -22,8 +22,9 @@ enum structure {
 
 enum structure structure_of(const struct fbd_model *model);
 
-/* The method for a structure. */
-const struct method *structure_method(enum structure structure);
+/* The method for a structure. In general it is rk8pd; with states of the file's own dop853, which knows the inside of its
+ * steps for them as well as for coordinates, at three evaluations. */
+const struct method *structure_method(const struct fbd_model *model, enum structure structure);
 
 /* Does that method make steps of any length without error? */
 static inline bool structure_is_exact(enum structure structure)

@@ -196,11 +196,11 @@ static void write_method(struct text *text, const struct fbd_model *model, const
         text_printf(text, "\nMethod: there is no `%s`; a run will be refused\n", name);
         return;
     }
-    const struct method *stiff = method_find("rodas5p");
+    const struct method *stiff = method_find("rodas5p"), *other = structure_method(model, structure_general);
     bool structure = !options->no_structure && options->step == 0 && model->scene->simulate.step == 0;
     text_printf(text, "\nMethod: auto, because no other is asked for\n  %s%s (%s)\n",
                 structure ? "what the structure above allows; where it is nothing in particular, " : "",
-                method_at(0)->name, method_at(0)->description);
+                other->name, other->description);
     if (plan_size(&model->plan) <= method_most_stiff_states)
         text_printf(text,
                     "  %s (%s)\n    where a trial step shows that it could go on by much longer steps\n",
