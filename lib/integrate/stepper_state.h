@@ -23,8 +23,8 @@ struct stepper {
     gsl_odeiv2_driver driver; /* GSL's steppers ask it for its control only */
     struct dense *dense;      /* of explicit methods and msadams */
     struct history *history;  /* of msbdf, else NULL */
-    struct inside *inside;    /* of methods without an interpolant that is as good as their steps, else NULL */
-    struct walk *walk;        /* of one-step methods, else NULL */
+    struct inside *inside; /* of methods without an interpolant that is as good as their steps, else NULL */
+    struct walk *walk;     /* of one-step methods, else NULL */
     struct stepper_counts counts;
     double *jacobian; /* n n + 3 n, for the limit of stability; NULL where that is not looked after */
     double stable_h;  /* the largest step within that limit, when last looked after */

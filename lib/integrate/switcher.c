@@ -81,8 +81,8 @@ static bool is_confined(const struct switcher *s)
 
 /* The error ratio of the other method's attempt at a step of this size from t0; infinite where there is no room for it,
  * as what lies beyond the limit may be another motion. */
-static double attempt(struct switcher *s, struct counted_system *system, struct moment t0, struct moment t_limit,
-                      double size)
+static double attempt(struct switcher *s, struct counted_system *system, struct moment t0,
+                      struct moment t_limit, double size)
 {
     if (moment_since(t_limit, t0) < size) return INFINITY;
     return stepper_attempt(s->steppers[!s->now], system, s->steppers[s->now], size);
@@ -99,7 +99,8 @@ static enum stepper_status consider(struct switcher *s, struct counted_system *s
     double ratio = attempt(s, system, t0, t_limit, size);
     if (ratio == 0 && is_confined(s)) ratio = DBL_MIN;
     if (stiffness_doubts(&s->stiffness, ratio, order))
-        ratio = fmin(ratio, attempt(s, system, t0, t_limit, stiffness_reach * size) / pow(stiffness_reach, order));
+        ratio = fmin(ratio,
+                     attempt(s, system, t0, t_limit, stiffness_reach * size) / pow(stiffness_reach, order));
     double h_rate = s->now == 1 ? size * last_rate(s) : 0;
     if (!stiffness_decide(&s->stiffness, ratio, order, h_rate)) return stepper_ok;
     /* The counters of the system, not of the step, take the evaluations; a reset that fails leaves things as

@@ -340,5 +340,7 @@ void run_renew_noise(struct run *run)
     run_evaluate(run);
     set_noise(run);
     run->grain.since = 0;
-    run->grain.pause = !is_steady(run, before) ? 1 : 2 * run->grain.pause < most_between ? 2 * run->grain.pause : most_between;
+    run->grain.pause = !is_steady(run, before)               ? 1
+                       : 2 * run->grain.pause < most_between ? 2 * run->grain.pause
+                                                             : most_between;
 }

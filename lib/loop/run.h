@@ -117,7 +117,7 @@ struct grain {
     double *along;  /* plan_rates: how accelerations and the rates of states change along the motion, when the
                               rest of this was set */
     double *turned; /* twice the links of the tree */
-    double *cancelled;   /* for each body a force and its moment */
+    double *cancelled;          /* for each body a force and its moment */
     unsigned long since, pause; /* steps; and how many may pass while it counts but hardly changes */
 };
 
