@@ -50,11 +50,19 @@ bool hold_in_question(const struct fbd_state *state, const struct decided *decid
 int hold_slips_already(const struct fbd_state *state, const struct decided *decided, const int *forced,
                        int pair);
 
+/* The side on which a guide with two sides presses, by its normal force. */
+void hold_set_pull(struct fbd_state *state, int pair, double N);
+
 /* The problem of all that are in question; false when memory is out. To be freed in either case. `shares_answer`: what is slid
  * on stays so whatever the holds do, by shares without a limit. */
 bool gathered_find(struct gathered *all, struct fbd_state *state, const struct decided *decided, int *forced,
                    bool shares_answer);
 void gathered_free(struct gathered *all);
+
+/* Find that problem, and set the modes by pivoting. `barely`: for each pair what it might as well do, a mode, 0 for nothing
+ * or keeps_still. */
+enum holds_found gathered_solve(struct fbd_state *state, const struct decided *decided, int *forced,
+                                int *barely, bool shares_answer);
 
 /* What sets out of a dead centre, of what `gives` (modes, 0 where it does not), slips to where it goes to the second
  * order, whatever the force is that held it. */

@@ -23,79 +23,6 @@
 #include "dynamics/tree_shared.h"
 #include "dynamics/tree_system.h"
 
-/* ---- what is solved */
-
-/* Painleve's paradox has a friction by which its own normal force grows: the one that does so most. */
-static struct holds_trouble trouble_of(const struct gathered *all, enum holds_found found)
-{
-    struct holds_trouble trouble = {.found = found, .pair = -1, .contradicts = -1};
-    const struct hold_problem *problem = &all->problem;
-    for (size_t i = 0; i < problem->count; i++) {
-        const struct hold *hold = &problem->holds[i];
-        if (hold->kind != hold_friction || hold->press == press_constant) continue;
-        double answer = 0, own = problem->A[(size_t)hold->presses * problem->count + (size_t)hold->presses];
-        if (hold->press == press_guide) answer = problem->B[(size_t)hold->presses * problem->count + i];
-        if (hold->press == press_hold && own > 0)
-            answer = -problem->A[(size_t)hold->presses * problem->count + i] / own;
-        if (fabs(answer) * hold->mu_k <= fabs(trouble.answer)) continue;
-        trouble.answer = fabs(answer) * hold->mu_k;
-        trouble.pair = all->pair[i];
-    }
-    return trouble;
-}
-
-/* The side on which a guide with two sides presses. */
-static void set_pull(struct fbd_state *state, int pair, double N)
-{
-    if (mode_of(state, pair)->two_sided) state->pull[pair] = N < 0 ? -1 : 1;
-}
-
-/* Where a corner touches two surfaces, what one of them holds by friction the other one presses: how much each of them
- * takes is open, and what is found has one at its limit that does not move. Then it slips, by nothing. Of two surfaces
- * that press at nearly the same place one may have no force, and open by next to nothing. And what slips by rounding may
- * as well keep still: keeps_still. */
-static int barely_holds(const struct gathered *all, size_t i)
-{
-    const double rounding = 1e-9;
-    const struct hold *hold = &all->problem.holds[i];
-    bool slips = hold->kind == hold_friction && hold->slip == 0 && hold->mode != hold_keeps;
-    if (slips && !holds_is_on_open(&all->problem, hold) && holds_is_still(&all->problem, i, rounding))
-        return keeps_still;
-    if (hold->slip != 0 || hold->mode != hold_keeps) return 0;
-    if (hold->kind == hold_one_sided) {
-        double most = 0;
-        for (size_t j = 0; j < all->problem.count; j++) most = fmax(most, fabs(all->problem.holds[j].force));
-        return hold->force <= rounding * most ? hold_gives : 0;
-    }
-    if (hold->press != press_hold) return 0;
-    double limit = hold->mu_s * all->problem.holds[hold->presses].force;
-    if (!(limit > 0) || fabs(hold->force) < (1 - rounding) * limit) return 0;
-    return hold->force > 0 ? -1 : 1;
-}
-
-/* Set the modes by pivoting. `barely`: of a pair, as above. */
-static enum holds_found solve(struct fbd_state *state, const struct decided *decided, int *forced,
-                              int *barely, bool shares_answer)
-{
-    struct gathered all;
-    enum holds_found found = holds_no_memory;
-    if (gathered_find(&all, state, decided, forced, shares_answer)) {
-        tree_find_unpressed(&all, decided, forced);
-        found = holds_decide(&all.problem);
-        if (found != holds_decided) state->holds = trouble_of(&all, found);
-    }
-    for (size_t i = 0; found <= holds_several && i < all.problem.count; i++) {
-        const struct hold *hold = &all.problem.holds[i];
-        state->slip[all.pair[i]] = hold->mode;
-        barely[all.pair[i]] = barely_holds(&all, i);
-        if (hold->press == press_guide && !(decided && decided->pulls[all.pair[i]]))
-            set_pull(state, all.pair[i], all.problem.guides[hold->presses].N);
-    }
-    if (found == holds_no_memory) state->holds.found = found;
-    gathered_free(&all);
-    return found;
-}
-
 /* ---- do the modes agree with the forces? */
 
 /* What the friction of a joint alone does to its body: an acceleration that is left of sums of such sizes. */
@@ -204,7 +131,7 @@ static bool pulls(struct fbd_state *state, const double *slots, const struct dec
     if (decided && decided->pulls[pair]) return false;
     double nothing =
         press_slack(state->model, state->tree, hold->body) / 2; /* its event function has twice that */
-    if (state->slip[pair] == stick && fabs(N) > nothing) set_pull(state, pair, N);
+    if (state->slip[pair] == stick && fabs(N) > nothing) hold_set_pull(state, pair, N);
     return state->pull[pair] * N < -nothing;
 }
 
@@ -354,7 +281,7 @@ static bool decide(struct fbd_state *state, const struct decided *decided, int *
     int count = (int)state->model->plan.mode_count, *barely = state->slip_barely;
     for (int round = 0; round <= count; round++) {
         memset(barely, 0, (size_t)count * sizeof *barely);
-        if (solve(state, decided, forced, barely, shares_answer) >= holds_none) return false;
+        if (gathered_solve(state, decided, forced, barely, shares_answer) >= holds_none) return false;
         enum agreement found = look_at_solved(state, decided, forced);
         if (found == agrees) found = keep_closed(state, decided, forced);
         if (found == agrees) return true;

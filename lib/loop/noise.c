@@ -325,7 +325,7 @@ static bool is_steady(const struct run *run, const double *before)
     return true;
 }
 
-/* Where it counts it has to be that of here. It costs as much as a right-hand side and a half; where it hardly changes, as in a
+/* Where it counts it has to be that of here. It costs as much as five right-hand sides; where it hardly changes, as in a
  * chain whose last rods move by 1e-9 rad/s, some steps may pass. One that is large for a moment is seen to have changed. */
 void run_renew_noise(struct run *run)
 {

@@ -1,0 +1,74 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <math.h>
+
+#include "dynamics/modes.h"
+#include "dynamics/tree_gather.h"
+
+/* Painleve's paradox has a friction by which its own normal force grows: the one that does so most. */
+static struct holds_trouble trouble_of(const struct gathered *all, enum holds_found found)
+{
+    struct holds_trouble trouble = {.found = found, .pair = -1, .contradicts = -1};
+    const struct hold_problem *problem = &all->problem;
+    for (size_t i = 0; i < problem->count; i++) {
+        const struct hold *hold = &problem->holds[i];
+        if (hold->kind != hold_friction || hold->press == press_constant) continue;
+        double answer = 0, own = problem->A[(size_t)hold->presses * problem->count + (size_t)hold->presses];
+        if (hold->press == press_guide) answer = problem->B[(size_t)hold->presses * problem->count + i];
+        if (hold->press == press_hold && own > 0)
+            answer = -problem->A[(size_t)hold->presses * problem->count + i] / own;
+        if (fabs(answer) * hold->mu_k <= fabs(trouble.answer)) continue;
+        trouble.answer = fabs(answer) * hold->mu_k;
+        trouble.pair = all->pair[i];
+    }
+    return trouble;
+}
+
+void hold_set_pull(struct fbd_state *state, int pair, double N)
+{
+    if (mode_of(state, pair)->two_sided) state->pull[pair] = N < 0 ? -1 : 1;
+}
+
+/* Where a corner touches two surfaces, what one of them holds by friction the other one presses: how much each of them
+ * takes is open, and what is found has one at its limit that does not move. Then it slips, by nothing. Of two surfaces
+ * that press at nearly the same place one may have no force, and open by next to nothing. And what slips by rounding may
+ * as well keep still: keeps_still. */
+static int barely_holds(const struct gathered *all, size_t i)
+{
+    const double rounding = 1e-9;
+    const struct hold *hold = &all->problem.holds[i];
+    bool slips = hold->kind == hold_friction && hold->slip == 0 && hold->mode != hold_keeps;
+    if (slips && !holds_is_on_open(&all->problem, hold) && holds_is_still(&all->problem, i, rounding))
+        return keeps_still;
+    if (hold->slip != 0 || hold->mode != hold_keeps) return 0;
+    if (hold->kind == hold_one_sided) {
+        double most = 0;
+        for (size_t j = 0; j < all->problem.count; j++) most = fmax(most, fabs(all->problem.holds[j].force));
+        return hold->force <= rounding * most ? hold_gives : 0;
+    }
+    if (hold->press != press_hold) return 0;
+    double limit = hold->mu_s * all->problem.holds[hold->presses].force;
+    if (!(limit > 0) || fabs(hold->force) < (1 - rounding) * limit) return 0;
+    return hold->force > 0 ? -1 : 1;
+}
+
+enum holds_found gathered_solve(struct fbd_state *state, const struct decided *decided, int *forced,
+                                int *barely, bool shares_answer)
+{
+    struct gathered all;
+    enum holds_found found = holds_no_memory;
+    if (gathered_find(&all, state, decided, forced, shares_answer)) {
+        tree_find_unpressed(&all, decided, forced);
+        found = holds_decide(&all.problem);
+        if (found != holds_decided) state->holds = trouble_of(&all, found);
+    }
+    for (size_t i = 0; found <= holds_several && i < all.problem.count; i++) {
+        const struct hold *hold = &all.problem.holds[i];
+        state->slip[all.pair[i]] = hold->mode;
+        barely[all.pair[i]] = barely_holds(&all, i);
+        if (hold->press == press_guide && !(decided && decided->pulls[all.pair[i]]))
+            hold_set_pull(state, all.pair[i], all.problem.guides[hold->presses].N);
+    }
+    if (found == holds_no_memory) state->holds.found = found;
+    gathered_free(&all);
+    return found;
+}
