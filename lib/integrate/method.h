@@ -23,8 +23,8 @@ struct method {
     bool needs_driver; /* asks a driver for its control's error level */
     double stable;     /* it is stable for h lambda in [-stable, 0]; 0: rk8pd and dop853, which find
                           out by themselves, and implicit ones */
-    double by_time; /* as in struct step_law: for methods that lose their order where forces are stiff */
-    bool exact;     /* no error: a part of a step is what its dense output says, and no first step is too long */
+    double by_time;    /* as in struct step_law: for methods that lose their order where forces are stiff */
+    bool exact; /* no error: a part of a step is what its dense output says, and no first step is too long */
 };
 
 /* Method number `index` in the order of preference; NULL beyond the last one. Number 0 is the default. */

@@ -90,7 +90,8 @@ static inline double level(double tolerance, double scale, double y, double moti
 static double tolerance_by_time(const struct weights *w, size_t i, double h)
 {
     const double most = 1e3, least = 1e-12;
-    double way = smaller(w->scale[i], w->cap[i]), part = fabs(h) * w->scale[w->pairs + i] / (w->law.by_time * way);
+    double way = smaller(w->scale[i], w->cap[i]),
+           part = fabs(h) * w->scale[w->pairs + i] / (w->law.by_time * way);
     if (!(part > 0 && part < 1)) return w->tolerance;
     return smaller(w->tolerance, larger(w->tolerance * larger(part, 1 / most), least));
 }
@@ -127,11 +128,12 @@ double weights_ratio(const gsl_odeiv2_control *control, double h, const double *
         double q_motion = motion_of_q(h, v, a), v_motion = motion_of(h, a);
         double noise_v = w->noise[i] * fabs(h), noise_q = noise_v * fabs(h);
         double tolerance = by_time ? tolerance_by_time(w, i, h) : w->tolerance;
-        ratio = raised(ratio, yerr[i], level(tolerance, scale_of_q(w, i, q, q_motion), q, q_motion, 4 * noise_q),
-                       noise_q);
+        ratio = raised(ratio, yerr[i],
+                       level(tolerance, scale_of_q(w, i, q, q_motion), q, q_motion, 4 * noise_q), noise_q);
         double scale_v =
             scale_of_v(w, i, scale_of(w, n + i, v, v_motion), amplitude(w, w->before, i, q, v, a));
-        ratio = raised(ratio, yerr[n + i], level(tolerance, scale_v, v, v_motion, hidden_in_v(w, i, h, q)), noise_v);
+        ratio = raised(ratio, yerr[n + i], level(tolerance, scale_v, v, v_motion, hidden_in_v(w, i, h, q)),
+                       noise_v);
         probe += 0 * (q + v + a + yerr[i] + yerr[n + i]);
     }
     for (size_t i = 2 * n; i < w->size; i++) {

@@ -42,7 +42,8 @@ static int slopes_by_hand(double t, const double *s, double *f, void *context)
 static void end_by_hand(const struct bob *bob, double *state)
 {
     gsl_odeiv2_system system = {slopes_by_hand, NULL, 4, (void *)bob};
-    gsl_odeiv2_driver *driver = gsl_odeiv2_driver_alloc_y_new(&system, gsl_odeiv2_step_rk8pd, 1e-6, 1e-13, 1e-13);
+    gsl_odeiv2_driver *driver =
+        gsl_odeiv2_driver_alloc_y_new(&system, gsl_odeiv2_step_rk8pd, 1e-6, 1e-13, 1e-13);
     double t = 0, start[] = {bob->x, bob->y, bob->vx, bob->vy};
     for (int i = 0; i < 4; i++) state[i] = start[i];
     assert_int_equal(gsl_odeiv2_driver_apply(driver, &t, bob->until, state), GSL_SUCCESS);
@@ -74,7 +75,8 @@ static struct trial trial_of(const struct bob *bob)
              "      - spring: {stiffness: %.17g, to: O, free_length: 1}\n"
              "      - damper: {coefficient: %.17g, to: O}\n      - drag: {linear: %.17g}\n"
              "simulate: {until: %.17g}\n",
-             bob->mass, bob->x, bob->y, bob->vx, bob->vy, bob->stiffness, bob->damping, bob->drag, bob->until);
+             bob->mass, bob->x, bob->y, bob->vx, bob->vy, bob->stiffness, bob->damping, bob->drag,
+             bob->until);
     return trial_parse(text);
 }
 
