@@ -438,7 +438,7 @@ FBD_API bool fbd_simulation_state(fbd_simulation *simulation, double t, fbd_stat
  * memory is out.
  *
  * They are differences from a second run of the same scene with a smaller tolerance (a fifth, or a fiftieth
- * for other methods than rk8pd), and steps and events of its own. See docs/error-bars.md. The trajectory is the
+ * for other methods than that of `auto`), and steps and events of its own. See docs/error-bars.md. The trajectory is the
  * same, bit by bit, with error bars and without. */
 FBD_API bool fbd_simulation_errors(fbd_simulation *simulation, double t, double *errors);
 

@@ -18,6 +18,7 @@ struct weights {
     double *cap;     /* pairs: 1 rad for angles, no bound for others */
     double *noise;   /* pairs: rounding error of a */
     double *floor;   /* pairs: of the rates, as given */
+    double *fastest; /* what is no pair: running maximum of |y'| */
     double *before;  /* 3 pairs: q, v and a of the last accepted state, */
     double *earlier; /* and of the one before it */
     double memory[];
@@ -85,13 +86,12 @@ static inline double level(double tolerance, double scale, double y, double moti
     return larger(larger(tolerance * scale, DBL_EPSILON * (fabs(y) + moved)), hidden);
 }
 
-/* The tolerance of pair i in a step of size h: less where the step is short beside the time in which the motion goes
- * as far as it has been, as errors of many steps add up. */
-static double tolerance_by_time(const struct weights *w, size_t i, double h)
+/* The tolerance in a step of size h of what has gone as far as `way` and as fast as `speed`: less where the step is short
+ * beside the time that this takes, as errors of many steps add up. */
+static double tolerance_by_time(const struct weights *w, double way, double speed, double h)
 {
     const double most = 1e3, least = 1e-12;
-    double way = smaller(w->scale[i], w->cap[i]),
-           part = fabs(h) * w->scale[w->pairs + i] / (w->law.by_time * way);
+    double part = fabs(h) * speed / (w->law.by_time * way);
     if (!(part > 0 && part < 1)) return w->tolerance;
     return smaller(w->tolerance, larger(w->tolerance * larger(part, 1 / most), least));
 }
@@ -127,7 +127,8 @@ double weights_ratio(const gsl_odeiv2_control *control, double h, const double *
         double q = y[i], v = y[n + i], a = f[n + i];
         double q_motion = motion_of_q(h, v, a), v_motion = motion_of(h, a);
         double noise_v = w->noise[i] * fabs(h), noise_q = noise_v * fabs(h);
-        double tolerance = by_time ? tolerance_by_time(w, i, h) : w->tolerance;
+        double tolerance = by_time ? tolerance_by_time(w, smaller(w->scale[i], w->cap[i]), w->scale[n + i], h)
+                                   : w->tolerance;
         ratio = raised(ratio, yerr[i],
                        level(tolerance, scale_of_q(w, i, q, q_motion), q, q_motion, 4 * noise_q), noise_q);
         double scale_v =
@@ -138,7 +139,9 @@ double weights_ratio(const gsl_odeiv2_control *control, double h, const double *
     }
     for (size_t i = 2 * n; i < w->size; i++) {
         double motion = motion_of(h, f[i]);
-        ratio = raised(ratio, yerr[i], level(w->tolerance, scale_of(w, i, y[i], motion), y[i], motion, 0), 0);
+        double tolerance =
+            by_time ? tolerance_by_time(w, w->scale[i], w->fastest[i - 2 * n], h) : w->tolerance;
+        ratio = raised(ratio, yerr[i], level(tolerance, scale_of(w, i, y[i], motion), y[i], motion, 0), 0);
         probe += 0 * (y[i] + f[i] + yerr[i]);
     }
     return probe == 0 ? ratio : INFINITY;
@@ -197,6 +200,8 @@ void weights_update(gsl_odeiv2_control *control, const double *y, const double *
     struct weights *w = control->state;
     for (size_t i = 0; i < w->size; i++) w->scale[i] = larger(w->scale[i], fabs(y[i]));
     size_t n = w->pairs;
+    for (size_t i = 2 * n; i < w->size; i++)
+        w->fastest[i - 2 * n] = larger(w->fastest[i - 2 * n], fabs(f[i]));
     double *now = w->earlier;
     w->earlier = w->before;
     w->before = now;
@@ -344,7 +349,7 @@ static struct weights *weights_state(const struct layout *layout)
 {
     size_t pairs = layout->pairs, size = layout_size(layout);
     if (size == 0 || size > (SIZE_MAX - sizeof(struct weights)) / (8 * sizeof(double))) return NULL;
-    struct weights *w = zeroed(sizeof *w + (size + 9 * pairs) * sizeof(double));
+    struct weights *w = zeroed(sizeof *w + (2 * size + 7 * pairs) * sizeof(double));
     if (!w) return NULL;
     w->pairs = pairs;
     w->size = size;
@@ -354,6 +359,7 @@ static struct weights *weights_state(const struct layout *layout)
     w->floor = w->noise + pairs;
     w->before = w->floor + pairs;
     w->earlier = w->before + 3 * pairs;
+    w->fastest = w->earlier + 3 * pairs;
     for (size_t i = 0; i < pairs; i++) w->cap[i] = layout->angle && layout->angle[i] ? 1.0 : INFINITY;
     return w;
 }

@@ -33,8 +33,8 @@
  * Errors of steps add up. Where the steps of a method are short because of what they leave out, not of what
  * moves, there are very many of them, and all err in the same direction: rodas5p takes 21,000 steps for 20 s of a
  * pendulum of 1 m on a spring of 1e9 N/m at a tolerance of 1e-4, and ends half a turn away. For such a method the
- * law has a share, by_time, of the time S_q / S_v in which a pair goes as far as it has been: the tolerance of a
- * shorter step goes with its size, down to a thousandth and to 1e-12. Measured for rodas5p and a share of a third
+ * law has a share, by_time, of the time S_q / S_v in which a pair goes as far as it has been (of other components by
+ * the running maximum of |y'_i|): the tolerance of a shorter step goes with its size, down to a thousandth and to 1e-12. Measured for rodas5p and a share of a third
  * (random stiff motions, tests/hard/test_stiff_motions.c): one to three times as many steps, a tenth to a
  * thousandth of the error.
  *

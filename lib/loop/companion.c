@@ -7,10 +7,16 @@
 
 /* ---- making and freeing */
 
-/* Does the first run choose its steps as the companion does? */
-static bool is_like(const struct run_options *options)
+/* What the companion goes by, where it chooses nothing else. */
+static const struct method *method_for(const struct fbd_model *model)
 {
-    return options->step == 0 && (options->automatic || options->method == method_at(0));
+    return structure_method(model, structure_general);
+}
+
+/* Does the first run choose its steps as the companion does? */
+static bool is_like(const struct fbd_model *model, const struct run_options *options)
+{
+    return options->step == 0 && (options->automatic || options->method == method_for(model));
 }
 
 /* How much more accurate the companion is asked to be. A fifth of the tolerance, and so of the error, costs a
@@ -18,12 +24,12 @@ static bool is_like(const struct run_options *options)
  * tolerance, and most cost more; bsimp makes errors that have little to do with the tolerance.
  * Large tolerances are proportional to nothing. Where rounding sets the limit, steps of another size are what
  * matters: they round anew. */
-static double tolerance_for(const struct run_options *options)
+static double tolerance_for(const struct fbd_model *model, const struct run_options *options)
 {
     const double fixed = 1e-13, least = 1e-14, other = 4e-14, most = 2e-6;
     if (options->step > 0) return fixed;
-    double share = is_like(options) ? 0.2 : 0.02;
-    if (options->method->implicit && options->method->order > method_at(0)->order) return fixed;
+    double share = is_like(model, options) ? 0.2 : 0.02;
+    if (options->method->implicit && options->method->order > method_for(model)->order) return fixed;
     if (options->tolerance < 2 * least) return other;
     return fmin(fmax(share * options->tolerance, least), most);
 }
@@ -40,14 +46,14 @@ struct companion *companion_new(const struct fbd_model *model, const struct run_
     struct companion *companion = calloc(1, sizeof *companion);
     size_t size = plan_size(&model->plan);
     struct run_options own = {.until = options->until,
-                              .tolerance = tolerance_for(options),
-                              .method = structure_method(model, structure_general),
+                              .tolerance = tolerance_for(model, options),
+                              .method = method_for(model),
                               .automatic = true,
                               .structure = options->structure,
                               .apart = true};
     if (!companion) return NULL;
     companion->model = model;
-    companion->follows = is_like(options);
+    companion->follows = is_like(model, options);
     companion->ensemble = ensemble_new(model, &own);
     companion->probe = state_new(model);
     companion->scale = calloc(4 * size + 1, sizeof *companion->scale);

@@ -71,6 +71,17 @@ static void fixed_steps_have_error_bars_too(void **unused)
     trial_close(&trial);
 }
 
+/* Those of a scene by `auto`. */
+static void add_ratios(struct ratio_table *table, const char *text, const double *tolerances, size_t count)
+{
+    struct trial trial = trial_parse(text);
+    struct truth *truth = truth_new(trial.model, NULL);
+    assert_non_null(truth);
+    for (size_t k = 0; k < count; k++) assert_true(ratio_add(table, truth, "auto", tolerances[k], 0));
+    truth_free(truth);
+    trial_close(&trial);
+}
+
 /* ---- runs of few steps */
 
 static const char pendulum[] =
@@ -113,13 +124,7 @@ static void short_runs_have_error_bars_too(void **unused)
                                   short_scenes[scene % kinds].high[i]);
         snprintf(body, sizeof body, short_scenes[scene % kinds].text, x[0], x[1], x[2], x[3], x[4], x[5]);
         snprintf(text, sizeof text, "fbd: 1\n%ssimulate: {until: %.3f}\n", body, until);
-        struct trial trial = trial_parse(text);
-        struct truth *truth = truth_new(trial.model, NULL);
-        assert_non_null(truth);
-        for (size_t k = 0; k < sizeof tolerances / sizeof *tolerances; k++)
-            assert_true(ratio_add(&table, truth, "auto", tolerances[k], 0));
-        truth_free(truth);
-        trial_close(&trial);
+        add_ratios(&table, text, tolerances, sizeof tolerances / sizeof *tolerances);
     }
     for (int k = 0; k < ratio_kinds; k++)
         printf("# short runs, %s: %.1f %% of %lu determined cases\n", ratio_names[k],
@@ -149,13 +154,7 @@ static void errors_between_two_samples_are_seen(void **unused)
         double mu = random_between(&numbers, 0.2, 0.8), over = random_between(&numbers, 1.005, 1.025);
         double rate = random_between(&numbers, 1, 5), until = random_between(&numbers, 4, 16);
         snprintf(text, sizeof text, slips, mu, mu * 9.81 * over, rate, until);
-        struct trial trial = trial_parse(text);
-        struct truth *truth = truth_new(trial.model, NULL);
-        assert_non_null(truth);
-        for (size_t k = 0; k < sizeof tolerances / sizeof *tolerances; k++)
-            assert_true(ratio_add(&table, truth, "auto", tolerances[k], 0));
-        truth_free(truth);
-        trial_close(&trial);
+        add_ratios(&table, text, tolerances, sizeof tolerances / sizeof *tolerances);
     }
     const struct ratio_counts *global = &table.counts[ratio_global];
     printf("# between samples, global error: %lu low, %lu good, %lu high\n", global->low, global->good,
