@@ -16,9 +16,8 @@
  * other way round, gain of dop853: 0.05 ... 0.4 in stiff forced motion, 1.7 ... 11 in oscillations.
  *
  * The way back to the explicit method asks for more: h times the fastest rate of the system has to be well
- * within the limit of stability: 5.2 for rk8pd where something dies out, 3.7 where it oscillates; about 6 for dop853 in all
- * directions. One attempt does not show it, as the
- * implicit method may have damped the fast components to 1e-100, and it takes steps until their growth is
+ * within the limit of stability: 5.2 for rk8pd where something dies out, 3.7 where it oscillates; about 6 for
+ * dop853 in all directions. One attempt does not show it, as the implicit method may have damped the fast components to 1e-100, and it takes steps until their growth is
  * seen. Van der Pol's oscillator (mu = 1000) and a spring of 1e8 N/m with a strong damper were sent to dop853
  * that way, and blew up.
  *
