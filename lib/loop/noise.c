@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <float.h>
+#include <gsl/gsl_errno.h>
 #include <string.h>
 
 #include "dynamics/constraint.h"
@@ -197,6 +198,67 @@ static void find_times(struct run *run, const struct instant *at, double tau, do
     }
 }
 
+/* What starts to move as far and as fast as it does in these times. */
+static void set_off(const struct run *run, const double *times, double *y)
+{
+    const size_t n = (size_t)run->model->plan.n, rates = (size_t)plan_rates(&run->model->plan);
+    memcpy(y, run->state->y, plan_size(&run->model->plan) * sizeof *y);
+    for (size_t i = 0; i < rates; i++) {
+        double tau = times[i], gain = tau * starting(run, i, tau);
+        if (i < n) y[i] += tau * (y[n + i] + gain);
+        y[n + i] += gain;
+    }
+}
+
+/* Accelerations, and rates of states, at another instant or place; false where there are none. */
+static bool accelerations_there(const struct run *run, double t, const double *y, double *f)
+{
+    const gsl_odeiv2_system *system = &run->system.inner;
+    return system->function(t, y, f, system->params) == GSL_SUCCESS;
+}
+
+/* Halve the times of what acts otherwise than it starts for that long: a force of 1 kN that falls with (t + 1 us)^-2 moves 1 kg
+ * by 1e-3 m/s, and not by 100 m/s in a tenth of a second. */
+static void end_with_forces(struct run *run, double tau, double *times)
+{
+    const double most = 0.75;
+    const size_t n = (size_t)run->model->plan.n, rates = (size_t)plan_rates(&run->model->plan);
+    double *f = run->work.sample;
+    bool bent = true;
+    for (double t = tau; bent && run->state->t + t > run->state->t; t /= 2) {
+        bent = false;
+        bool known = accelerations_there(run, run->state->t + t, run->state->y, f);
+        for (size_t i = 0; i < rates; i++) {
+            double a = starting(run, i, fmin(t, times[i]));
+            if (times[i] < t || a == 0 || (known && fabs(f[n + i] - a) <= most * fabs(a))) continue;
+            times[i] = t / 2;
+            bent = true;
+        }
+    }
+}
+
+/* The answer of springs and dampers in find_times is that of straight lines. One that stiffens, or drag by the square of the
+ * speed, is not there yet where it starts: halved until accelerations change by no more than twice themselves. */
+static void end_with_bends(struct run *run, double *times)
+{
+    enum { most_halvings = 60 };
+    const double most = 2;
+    const size_t n = (size_t)run->model->plan.n, rates = (size_t)plan_rates(&run->model->plan);
+    double *y = run->work.aside, *f = run->work.sample;
+    bool bent = true;
+    for (int halving = 0; bent && halving < most_halvings; halving++) {
+        bent = false;
+        set_off(run, times, y);
+        bool known = accelerations_there(run, run->state->t, y, f);
+        for (size_t i = 0; i < rates; i++) {
+            double a = starting(run, i, times[i]);
+            if (a == 0 || (known && fabs(f[n + i] - a) <= most * fabs(a))) continue;
+            times[i] /= 2;
+            bent = true;
+        }
+    }
+}
+
 /* What a coordinate and its rate become in a short time, and the arm that makes a length of an angle: of a body
  * that turns, the radius of gyration. */
 struct motion_size {
@@ -353,6 +415,8 @@ void run_set_noise(struct run *run)
     struct instant at = state_instant(run->state);
     changes(run, &at, false, run->grain.along);
     find_times(run, &at, tau, times);
+    end_with_forces(run, tau, times);
+    end_with_bends(run, times);
     if (coordinates) set_floors(run, tau, times);
     for (int i = 0; i < plan->own; i++) set_own_floor(run, i, times);
 }

@@ -229,9 +229,9 @@ static bool restart(struct run *run)
     memcpy(run->work.y, run->state->y, plan_size(&run->model->plan) * sizeof *run->work.y);
     scan_forget(&run->search.timed);
     scan_forget(&run->search.moving);
-    if (!structure_is_exact(run->kind)) run_set_noise(run);
     mechanisms_join(&run->mechanisms, run->state);
     bind_rates(run);
+    if (!structure_is_exact(run->kind)) run_set_noise(run);
     watchers_follow(&run->watchers, run->during);
     int status = switcher_reset(run->stepper, &run->system, run_end(run), run->work.y, run->work.f,
                                 moment_at(run->options.until), &run->step.h);
