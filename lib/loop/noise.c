@@ -176,25 +176,55 @@ static void vary(struct run *run, const struct instant *at, const double *dy, do
     if (run->model->plan.own > 0) own_rates_along(run->model, at, &direction, along + run->model->plan.n);
 }
 
-/* How long each acceleration, and rate of a state, goes on as it starts: tau, or as long as what it makes of places and
- * speeds changes it by no more than itself. By a stiff spring, which answers with the square of the time, or a damper,
- * that is much less: a spring of 3e8 N/m whose end is moved by 0.4 m/s would have a block of 0.2 kg at 10 km/s in 4 ms. */
-static void find_times(struct run *run, const struct instant *at, double tau, double *times)
+/* How long each acceleration, and rate of a state, goes on as it starts: for less than the time that is given where something
+ * ends it before. */
+
+/* Accelerations, and rates of states, at another instant or place; false where there are none. */
+static bool accelerations_there(const struct run *run, double t, const double *y, double *f)
+{
+    const gsl_odeiv2_system *system = &run->system.inner;
+    return system->function(t, y, f, system->params) == GSL_SUCCESS;
+}
+
+/* Forces fade, or turn round by themselves: one of 1 kN that falls with (t + 1 us)^-2 moves 1 kg by 1e-3 m/s, and not by
+ * 100 m/s in a tenth of a second. `along` is by the time alone. */
+static void end_with_forces(struct run *run, double tau, double *times)
+{
+    const double most = 0.75;
+    const size_t n = (size_t)run->model->plan.n, rates = (size_t)plan_rates(&run->model->plan);
+    double *f = run->work.sample;
+    bool ends = !tree_is_bare(run->model);
+    for (double t = tau; ends && run->state->t + t > run->state->t; t /= 2) {
+        ends = false;
+        bool known = accelerations_there(run, run->state->t + t, run->state->y, f);
+        for (size_t i = 0; i < rates; i++) {
+            double a = starting(run, i, t);
+            if (times[i] < t || a == 0 || (known && fabs(f[n + i] - a) <= most * fabs(a))) continue;
+            times[i] = t / 2;
+            ends = true;
+        }
+    }
+}
+
+/* Springs and dampers turn it round as soon as what it makes of places and speeds changes it by no less than itself: a
+ * spring of 3e8 N/m whose end is moved by 0.4 m/s would have a block of 0.2 kg at 10 km/s in 4 ms. */
+static void end_with_springs(struct run *run, const struct instant *at, double *times)
 {
     const struct plan *plan = &run->model->plan;
     const size_t n = (size_t)plan->n, size = plan_size(plan), rates = (size_t)plan_rates(plan);
     double *dy = run->work.sample, *by_place = run->work.aside, *by_speed = by_place + size;
     memset(dy, 0, size * sizeof *dy);
-    for (size_t i = 0; i < n; i++) dy[i] = tau * (run->state->y[n + i] + tau * starting(run, i, tau));
+    for (size_t i = 0; i < n; i++)
+        dy[i] = times[i] * (run->state->y[n + i] + times[i] * starting(run, i, times[i]));
     vary(run, at, dy, by_place);
     memset(dy, 0, n * sizeof *dy);
-    for (size_t i = 0; i < rates; i++) dy[n + i] = tau * starting(run, i, tau);
+    for (size_t i = 0; i < rates; i++) dy[n + i] = times[i] * starting(run, i, times[i]);
     vary(run, at, dy, by_speed);
     for (size_t i = 0; i < rates; i++) {
-        double a = fabs(starting(run, i, tau)), springs = sqrt(fabs(by_place[i]) / a),
+        double a = fabs(starting(run, i, times[i])), springs = sqrt(fabs(by_place[i]) / a),
                dampers = fabs(by_speed[i]) / a;
         double share = fmax(isfinite(springs) ? springs : 0, isfinite(dampers) ? dampers : 0);
-        times[i] = tau / fmax(1, share);
+        times[i] /= fmax(1, share);
     }
 }
 
@@ -210,35 +240,8 @@ static void set_off(const struct run *run, const double *times, double *y)
     }
 }
 
-/* Accelerations, and rates of states, at another instant or place; false where there are none. */
-static bool accelerations_there(const struct run *run, double t, const double *y, double *f)
-{
-    const gsl_odeiv2_system *system = &run->system.inner;
-    return system->function(t, y, f, system->params) == GSL_SUCCESS;
-}
-
-/* Halve the times of what acts otherwise than it starts for that long: a force of 1 kN that falls with (t + 1 us)^-2 moves 1 kg
- * by 1e-3 m/s, and not by 100 m/s in a tenth of a second. */
-static void end_with_forces(struct run *run, double tau, double *times)
-{
-    const double most = 0.75;
-    const size_t n = (size_t)run->model->plan.n, rates = (size_t)plan_rates(&run->model->plan);
-    double *f = run->work.sample;
-    bool bent = true;
-    for (double t = tau; bent && run->state->t + t > run->state->t; t /= 2) {
-        bent = false;
-        bool known = accelerations_there(run, run->state->t + t, run->state->y, f);
-        for (size_t i = 0; i < rates; i++) {
-            double a = starting(run, i, fmin(t, times[i]));
-            if (times[i] < t || a == 0 || (known && fabs(f[n + i] - a) <= most * fabs(a))) continue;
-            times[i] = t / 2;
-            bent = true;
-        }
-    }
-}
-
-/* The answer of springs and dampers in find_times is that of straight lines. One that stiffens, or drag by the square of the
- * speed, is not there yet where it starts: halved until accelerations change by no more than twice themselves. */
+/* That was the answer of straight lines. A spring that stiffens, or drag by the square of the speed, is not there yet where
+ * it starts: halved until accelerations change by no more than twice themselves. */
 static void end_with_bends(struct run *run, double *times)
 {
     enum { most_halvings = 60 };
@@ -311,7 +314,7 @@ static double unseen_place(const struct run *run, const struct model_body *body,
 
 /* A coordinate or rate that is exactly zero has no size that an error could be compared with, and a method of
  * low order needs one (Euler's first step from rest errs by all that the body moves). What the acceleration
- * does in a thousandth of the run is small, and enough; of the time for which it lasts (find_times), for a force
+ * does in a thousandth of the run is small, and enough; of the time for which it lasts (end_with_forces and what follows it), for a force
  * that is switched on may be large and short, and a stiff spring turns it round. The last of a row of blocks on springs that is pulled at its other end
  * starts as a high power of the time, or by rounding, which no step follows to a share of itself: what is a
  * billionth of the largest motion has that for its size. */
@@ -412,10 +415,11 @@ void run_set_noise(struct run *run)
     if (!coordinates && !own) return;
     const double share = 1e-3, tau = share * run_time_to_switch(run);
     double *times = run->work.kept;
+    for (size_t i = 0; i < plan_rates(plan); i++) times[i] = tau;
+    end_with_forces(run, tau, times); /* `along` is that of set_noise */
     struct instant at = state_instant(run->state);
     changes(run, &at, false, run->grain.along);
-    find_times(run, &at, tau, times);
-    end_with_forces(run, tau, times);
+    end_with_springs(run, &at, times);
     end_with_bends(run, times);
     if (coordinates) set_floors(run, tau, times);
     for (int i = 0; i < plan->own; i++) set_own_floor(run, i, times);
