@@ -323,6 +323,7 @@ static void refuse_sliding(struct run *run, const bool *moving)
         if (run->state->branch[branch] == run->during->branch[branch])
             continue; /* it has turned back with another */
         if (expr_switch_remembers(expr, (size_t)watcher->part)) continue; /* its other end is elsewhere */
+        if (!expr_switch_jumps(expr, (size_t)watcher->part)) continue; /* rates are the same on both sides */
         /* The other end of the same switch is the one that has been crossed, seen from beyond. */
         for (size_t k = 0; k < set->count; k++) {
             const struct watcher *back = &set->watchers[k];

@@ -193,8 +193,9 @@ static void end_with_forces(struct run *run, double tau, double *times)
     const double most = 0.75;
     const size_t n = (size_t)run->model->plan.n, rates = (size_t)plan_rates(&run->model->plan);
     double *f = run->work.sample;
+    double t = tau;
     bool ends = !tree_is_bare(run->model);
-    for (double t = tau; ends && run->state->t + t > run->state->t; t /= 2) {
+    while (ends && run->state->t + t > run->state->t) {
         ends = false;
         bool known = accelerations_there(run, run->state->t + t, run->state->y, f);
         for (size_t i = 0; i < rates; i++) {
@@ -203,6 +204,7 @@ static void end_with_forces(struct run *run, double tau, double *times)
             times[i] = t / 2;
             ends = true;
         }
+        t /= 2;
     }
 }
 
@@ -312,6 +314,12 @@ static double unseen_place(const struct run *run, const struct model_body *body,
     return DBL_EPSILON / run->options.tolerance * (turns(body, k) ? 1 : reach);
 }
 
+static void set_floor(struct run *run, size_t component, double floor)
+{
+    switcher_set_floor(run->stepper, component, floor);
+    run->grain.floors[component] = fmax(run->grain.floors[component], floor);
+}
+
 /* A coordinate or rate that is exactly zero has no size that an error could be compared with, and a method of
  * low order needs one (Euler's first step from rest errs by all that the body moves). What the acceleration
  * does in a thousandth of the run is small, and enough; of the time for which it lasts (end_with_forces and what follows it), for a force
@@ -339,8 +347,8 @@ static void set_floors(struct run *run, double tau, const double *times)
                 place = unseen_place(run, body, k); /* held by a coupling, before anything acts */
                 speed = place / tau;
             }
-            switcher_set_floor(run->stepper, position, place);
-            switcher_set_floor(run->stepper, rate, speed);
+            set_floor(run, position, place);
+            set_floor(run, rate, speed);
         }
     }
 }
@@ -364,8 +372,7 @@ static void set_own_floor(struct run *run, int i, const double *times)
     size_t state = 2 * (size_t)plan->n + (size_t)i, rate = (size_t)plan->n + (size_t)i;
     double tau = times[rate], change = fabs(run->grain.along[rate]);
     if (run->state->y[state] != 0) return;
-    switcher_set_floor(run->stepper, state,
-                       tau * fabs(run->state->a[rate]) + (isfinite(change) ? tau * tau * change : 0));
+    set_floor(run, state, tau * fabs(run->state->a[rate]) + (isfinite(change) ? tau * tau * change : 0));
 }
 
 /* Roundings of its gross forces that the acceleration of a body is known to. Measured with chains of 16 to
