@@ -381,6 +381,14 @@ static bool limit_step(struct run *run, struct turn *turn)
     return true;
 }
 
+/* A step that fails on the brink of a switch goes on behind it, as one that has been cut there does. */
+static bool go_beyond(struct run *run, struct turn *turn)
+{
+    if (!run_pass_brink(run)) return false;
+    run_apply(run, NULL, run->search.moving.crossed);
+    return run->end.outcome == FBD_GOING && begin_step(run) && limit_step(run, turn);
+}
+
 /* One accepted step, to y and its slopes. One that is torn is made again, shorter. */
 static bool make_step(struct run *run, struct turn *turn)
 {
@@ -389,6 +397,8 @@ static bool make_step(struct run *run, struct turn *turn)
     for (int time = 0;; time++) {
         enum stepper_status status = switcher_step(run->stepper, &run->system, &turn->t, run->work.y,
                                                    run->work.f, &run->step.h, turn->limit);
+        if (status == stepper_underflow && !run->plain && go_beyond(run, turn)) continue;
+        if (run->end.outcome != FBD_GOING) return false;
         if (status != stepper_ok) run_fail_step(run, status);
         if (status != stepper_ok || time == most_times || !run_step_is_torn(run, turn->t))
             return status == stepper_ok;
@@ -440,6 +450,7 @@ static bool apply_events(struct run *run, const struct turn *turn)
     if (happens) {
         run_apply(run, turn->timed ? run->search.timed.crossed : NULL,
                   turn->moving ? run->search.moving.crossed : NULL);
+        if (turn->moving && run->end.outcome == FBD_GOING) run_stand_beyond(run);
     } else {
         /* Who shows forces shares them out: run_look, run_check_balance. */
         if (!run->lazy) run_evaluate(run);

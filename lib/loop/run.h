@@ -250,6 +250,15 @@ bool run_step_is_torn(struct run *run, struct moment end);
  * passed a pole it is cut before that. 1 found, 0 none, -1 failed. (run_find.c) */
 int run_find_event(struct run *run, struct moment *t);
 
+/* Where steps fail: is the state on the brink of switches, by a rounding of the time, as the roots and powers of max(x, 0) or
+ * abs(x) do not let a step look beyond? Then it is put behind them, by as little, and they are the moving functions that have
+ * crossed. (run_find.c) */
+bool run_pass_brink(struct run *run);
+
+/* The same after events that have been found, where the forces beyond are not there for the rounding by which the state is
+ * before them. */
+void run_stand_beyond(struct run *run);
+
 /* Apply what has happened at run->state: `timed` and `moving` flag the functions of each set that have
  * crossed; NULL for none. Settles the modes. */
 void run_apply(struct run *run, const bool *timed, const bool *moving);

@@ -236,3 +236,46 @@ int run_find_event(struct run *run, struct moment *t)
            run->search.moving.count * sizeof *run->work.crossed);
     return change;
 }
+
+/* How long the state has until it is behind switches that are a rounding of the time away; they become the moving functions
+ * that have crossed. */
+static double time_to_brink(struct run *run, struct fbd_state *modes, double most)
+{
+    const struct watcher_set *set = &run->watchers.moving;
+    double longest = -1;
+    watchers_evaluate(&run->watchers, set, modes, state_moment(run->state), run->state->y, run->work.values,
+                      run->work.values + set->count);
+    for (size_t i = 0; i < set->count; i++) {
+        double left = time_left(run, i);
+        bool near = set->watchers[i].kind == watch_kink && left >= 0 && left <= most;
+        run->search.moving.crossed[i] = near;
+        if (near) longest = fmax(longest, left);
+    }
+    return longest;
+}
+
+static void go_on_by(struct run *run, double time, const double *slopes)
+{
+    for (size_t i = 0; i < plan_size(&run->model->plan); i++) run->state->y[i] += time * slopes[i];
+    run->stale = true;
+}
+
+bool run_pass_brink(struct run *run)
+{
+    double most = fmax(instant_at(run->state->t), run->step.h);
+    run_evaluate(run);
+    double left = time_to_brink(run, run->state, most);
+    if (left < 0) return false;
+    go_on_by(run, 2 * left, state_flow(run->state, run->work.sample).dy);
+    return true;
+}
+
+void run_stand_beyond(struct run *run)
+{
+    double probe = 0;
+    for (size_t i = 0; i < plan_rates(&run->model->plan); i++) probe += 0 * run->state->a[i];
+    double left = probe == 0 ? -1 : time_to_brink(run, run->during, instant_at(run->state->t));
+    if (left < 0) return;
+    go_on_by(run, 2 * left, run->work.f);
+    run_evaluate(run);
+}
