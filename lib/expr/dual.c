@@ -22,10 +22,11 @@ static inline double product_rate(double a, double b, double da, double db)
     return isnan(rate) ? along(b, da) + along(a, db) : rate;
 }
 
+/* As is -f/b, which vanishes where the rate of b overflows before b does: 1/cosh(u)^2 at u = -355. */
 static inline double quotient_rate(double b, double f, double da, double db)
 {
     double rate = (da - f * db) / b;
-    return isnan(rate) ? along(1 / b, da) + along(-f / b, db) : rate;
+    return isfinite(rate) ? rate : along(1 / b, da) + along(-f / b, db);
 }
 
 /* Values and rates of variables and constants stand in the frame already. */

@@ -265,6 +265,7 @@ static void derivatives_exist_where_the_function_has_them(void **state)
         {"if(p < 1, p^2, sqrt(p - 9))", 0.5, 0, 1, 2},
         {"tanh(p)", 800, 0, 0, 0},
         {"p/(1 + p^2)", 0, 0, 1, 0},
+        {"1e5/cosh(1e6*p)^2", -354.9e-6, 0, 0, 0},
         {"p^4/4 - p^2/2", 0, 0, 0, -1},
     };
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {

@@ -158,6 +158,37 @@ static void pulses_in_time_are_met(void **unused)
     checks_end(&checks);
 }
 
+/* From rest, where the far end of a bell drives with 1e-300 N: alone, against a damper, and at a spring. The velocity
+ * after a blow of 2 at the middle of the bell; what its width changes is of the order of (width/T)^2. */
+static void pulses_wake_what_rests(void **unused)
+{
+    static const char *const holds[] = {"", ", damper: 0.4", ", spring: 8"};
+    (void)unused;
+    struct checks checks = {0};
+    struct random_numbers numbers = {20261127};
+    for (int i = 0; i < count_of(15); i++) {
+        struct pulse pulse = draw(&numbers);
+        pulse.width = fmin(pulse.width, 1e-4);
+        pulse.bell = &bells[5 + random_bits(&numbers) % 2];
+        int hold = (int)(random_bits(&numbers) % 3);
+        char argument[200], bell[room], text[3 * room];
+        snprintf(argument, sizeof argument, "(t - %.17g[s])/%.17g[s]", pulse.at, pulse.width);
+        put_in(pulse.bell, argument, bell);
+        snprintf(text, sizeof text,
+                 "fbd: 1\nbodies: {b: {mass: 2, motion: slide, forces: [applied: \"%.17g*%s\"%s]}}\n"
+                 "simulate: {until: 10, method: %s, tolerance: 1e-9}\n",
+                 2 / pulse.width / pulse.bell->integral, bell, holds[hold], pulse.method);
+        struct trial trial = trial_parse(text);
+        trial_run(&trial, NULL);
+        double left = 10 - pulse.at;
+        double v = hold == 0 ? 1 : hold == 1 ? exp(-0.2 * left) : cos(2 * left);
+        check_close(&checks, pulse.bell->text, trial_get(&trial, "b.v"), v,
+                    known_to(&pulse) + 20 * pulse.width * pulse.width);
+        trial_close(&trial);
+    }
+    checks_end(&checks);
+}
+
 /* v^2 = 1 + W, with the mass 2; of the particle the work is not that of a potential, and the energy is to agree in any
  * case. */
 static void pulses_in_place_are_met(void **unused)
@@ -246,6 +277,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(integrals_are_right),
         cmocka_unit_test(pulses_in_time_are_met),
+        cmocka_unit_test(pulses_wake_what_rests),
         cmocka_unit_test(pulses_in_place_are_met),
         cmocka_unit_test(pulses_along_a_beam_are_met),
         cmocka_unit_test(what_a_rope_holds_beside_a_bell_rests),
