@@ -256,6 +256,26 @@ static void keep(struct stepper *s, struct counted_system *system, struct moment
     s->counts.accepted++;
 }
 
+int stepper_shorten(struct stepper *s, struct moment t, double *y, double *f)
+{
+    const double far_off = 100;
+    double h = moment_since(t, s->t0), *inside = s->work;
+    bool within = s->stepped && h > 0 && moment_since(s->t1, t) > 0;
+    if (!within || !s->redo || s->history || s->method->exact || s->h_fixed > 0) return 0;
+    int code = stepper_partial(s, t, y, f);
+    if (code == GSL_SUCCESS) code = stepper_dense(s, t, inside);
+    if (code != GSL_SUCCESS) return code;
+    for (size_t i = 0; i < s->n; i++) inside[i] -= y[i];
+    if (weights_ratio(s->control, h, y, inside, f) <= far_off) return 0;
+    memcpy(y, s->y0, s->n * sizeof *y);
+    code = gsl_odeiv2_step_apply(s->step, s->t0.t, h, y, s->yerr, s->f0, f, &s->system->gsl);
+    if (code != GSL_SUCCESS || !all_finite(s->n, y, f)) return GSL_EFAILED;
+    s->counts.accepted--;
+    s->counts.rejected[rejected_error]++;
+    keep(s, s->system, s->t0, t, y, f);
+    return 1;
+}
+
 static enum stepper_status give_up(const struct stepper *s, double *y, double *f, enum stepper_status status)
 {
     memcpy(y, s->y0, s->n * sizeof *y);

@@ -99,7 +99,12 @@ int stepper_powers_of_ends(struct stepper *stepper, struct moment from, struct m
  * stepper_dense. Codes as there, or that of a right-hand side that fails at t. */
 int stepper_partial(struct stepper *stepper, struct moment t, double *y, double *f);
 
-/* The same by as many steps as the tolerance asks for (walk.h). GSL_EFAILED when that does not come to t,
+/* The last step ends at t from here on, by a step of its own, where its inside is far from what such a step has there: what it
+ * has passed behind t, as a narrow peak, may have met the stages that are for the inside alone. 1: it does, with y and f
+ * at t; 0: it stays what it was; or a code as there. */
+int stepper_shorten(struct stepper *stepper, struct moment t, double *y, double *f);
+
+/* State and slopes by as many steps as the tolerance asks for (walk.h). GSL_EFAILED when that does not come to t,
  * GSL_ENOMEM, GSL_EINVAL for a multistep method. The last step stays what it was. */
 int stepper_walk(struct stepper *stepper, struct moment t, double *y, double *f);
 

@@ -153,6 +153,11 @@ int switcher_partial(struct switcher *s, struct moment t, double *y, double *f)
     return stepper_partial(s->steppers[s->made], t, y, f);
 }
 
+int switcher_shorten(struct switcher *s, struct moment t, double *y, double *f)
+{
+    return stepper_shorten(s->steppers[s->made], t, y, f);
+}
+
 int switcher_walk(struct switcher *s, struct moment t, double *y, double *f)
 {
     return stepper_walk(s->steppers[s->made], t, y, f);

@@ -29,6 +29,7 @@ int switcher_powers_of_ends(struct switcher *switcher, struct moment from, struc
                             double *c);
 int switcher_degree(const struct switcher *switcher, double *negligible);
 int switcher_partial(struct switcher *switcher, struct moment t, double *y, double *f);
+int switcher_shorten(struct switcher *switcher, struct moment t, double *y, double *f);
 int switcher_walk(struct switcher *switcher, struct moment t, double *y, double *f);
 
 /* Counts of both methods together, or one of them. */

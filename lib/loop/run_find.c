@@ -56,8 +56,13 @@ static bool polish(struct run *run, double step_end, double *t, double *move)
         if (there || step == most_steps) break;
         *t = next;
     }
-    for (size_t i = 0; i < scan->count; i++)
-        if (fabs(time_left(run, i)) <= instant_at(*t)) scan->crossed[i] = true;
+    /* What lies beyond another one that the scan has not been led to has its own time. */
+    const double share = 1e-3, later = fmax(instant_at(*t), share * (scan->t - *t));
+    for (size_t i = 0; i < scan->count; i++) {
+        double left = time_left(run, i);
+        if (fabs(left) <= instant_at(*t)) scan->crossed[i] = true;
+        if (scan->t - *t > instant_at(*t) && left > later) scan->crossed[i] = false;
+    }
     return true;
 }
 
@@ -138,6 +143,21 @@ static double soon(const struct run *run, double length)
     return fmax(intervals * last, least_share * length);
 }
 
+/* The step ends at the event that cuts it where its inside, from which rows and works are taken, is not that of a step to
+ * there: 1; 0 where it is, with y and f as they were, or -1. */
+static int shorten_step(struct run *run, double t)
+{
+    const size_t bytes = plan_size(&run->model->plan) * sizeof *run->work.y;
+    double *y = run->work.kept, *f = y + plan_size(&run->model->plan);
+    int code = switcher_shorten(run->stepper, moment_at(t), y, f);
+    if (code != 1) return code == 0 ? 0 : -1;
+    memcpy(run->work.y, y, bytes);
+    memcpy(run->work.f, f, bytes);
+    run->step.restart = true;
+    course_start(&run->course);
+    return 1;
+}
+
 /* Look for the first event in (from, t] that changes the motion; on return *t is its time, with y and f
  * there. 1 found, 0 none, -1 failed. Where the event functions change so fast that the scan gives up, the
  * step is cut to what it has seen; one that is noise (it gives up at the very start) is not looked at more
@@ -170,6 +190,12 @@ static int find_change(struct run *run, struct moment *t)
         if (when >= end) return 1;
         if (!polish(run, end, &when, &move) || !look_before(run, start, &when, &move)) return -1;
         if (goes_down(run, when, end) || is_down_at_end(run, when, end)) {
+            int shorter = shorten_step(run, when);
+            if (shorter < 0) return -1;
+            if (shorter > 0) {
+                *t = moment_at(when);
+                return find_change(run, t);
+            }
             *t = run_pin_moving(run, when, move, *t);
             return 1;
         }
