@@ -56,12 +56,15 @@ static bool polish(struct run *run, double step_end, double *t, double *move)
         if (there || step == most_steps) break;
         *t = next;
     }
-    /* What lies beyond another one that the scan has not been led to has its own time. */
-    const double share = 1e-3, later = fmax(instant_at(*t), share * (scan->t - *t));
+    /* Where Newton has come far back from what the scan has found, to another one that crosses, the former has its own
+     * time. */
+    const double far = 1e-4, share = 1e-3;
+    double back = scan->t - *t;
+    bool parted = fabs(*move) <= instant_at(*t) && back > far * (step_end - run->step.from);
     for (size_t i = 0; i < scan->count; i++) {
         double left = time_left(run, i);
         if (fabs(left) <= instant_at(*t)) scan->crossed[i] = true;
-        if (scan->t - *t > instant_at(*t) && left > later) scan->crossed[i] = false;
+        if (parted && left > fmax(instant_at(*t), share * back)) scan->crossed[i] = false;
     }
     return true;
 }
