@@ -165,7 +165,7 @@ void accelerations(const struct fbd_model *model, const struct instant *at, doub
 {
     if (at->sliding) sliding_solve(model, at);
     accelerations_at_shares(model, at, slots, a);
-    if (at->sliding) sliding_clear_rounding(at->sliding, model->plan.n, a);
+    if (at->sliding) sliding_clear_rounding(model, at, a);
 }
 
 /* Right after force_balance at the same instant, which is extended. */
@@ -210,6 +210,7 @@ void accelerations_along(const struct fbd_model *model, const struct instant *at
         sliding_solve_along(model, at, along);
     }
     accelerations_along_at_shares(model, at, along, slots, slots_along, a_along);
+    if (at->sliding) sliding_clear_rounding_along(model, at, a_along);
 }
 
 void body_rates(const struct fbd_model *model, int b, const struct instant *at, double *slots, double *dydt)

@@ -335,6 +335,34 @@ bool state_project_velocity(struct fbd_state *state, bool assemble)
     return there;
 }
 
+/* What the constraints make of the velocities `way`. */
+static void find_way(struct fbd_state *state, double *way)
+{
+    const struct place place = place_of(state, false);
+    size_t n = (size_t)state->model->plan.n, bytes = n * sizeof *way;
+    memcpy(state->y + n, way, bytes);
+    project_velocity(&place);
+    release(&place);
+    memcpy(way, state->y + n, bytes);
+}
+
+void state_find_ways(struct fbd_state *state, double *ways)
+{
+    size_t n = (size_t)state->model->plan.n, bytes = n * sizeof *ways;
+    double *before = state_scratch(state).dy, *still = before + n;
+    memcpy(before, state->y + n, bytes);
+    memset(still, 0, bytes);
+    find_way(state, still); /* what moves by itself, as the length of a rope */
+    memset(ways, 0, n * bytes);
+    for (size_t k = 0; k < n; k++) {
+        ways[k * n + k] = 1;
+        find_way(state, ways + k * n);
+        for (size_t i = 0; i < n; i++) ways[k * n + i] -= still[i];
+    }
+    memcpy(state->y + n, before, bytes);
+    state_evaluate(state);
+}
+
 /* `before`: room for n. */
 static bool bring_home(struct fbd_state *state, const struct place *place, double *before)
 {

@@ -53,4 +53,8 @@ void return_to_constraints(const struct fbd_model *model, const struct instant *
 /* The state's velocities alone. */
 bool state_project_velocity(struct fbd_state *state, bool assemble);
 
+/* ways[n x n], row by row: what couplings in the modes of the state leave of a velocity of each coordinate alone. Evaluates
+ * the state. */
+void state_find_ways(struct fbd_state *state, double *ways);
+
 #endif

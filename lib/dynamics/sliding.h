@@ -14,7 +14,8 @@
  * that enter linearly c is affine in the shares, and one step of Newton's method is exact. Switches with one
  * surface, as two forces with sign(v), are a unit: their shares are as far from 1/2 as each other, each to
  * the side that helps, so that their forces are shared in proportion to what they can be, and a force and its
- * reaction stay equal.
+ * reaction stay equal. So are those whose speeds a coupling makes one, as long as it does: of two bodies on a
+ * taut rope.
  *
  * A switch that watches places, u(x), has the same u' on both sides. It is slid on in second order, where u =
  * 0 and u' = 0, by the share that keeps u'' = 0: what is slid on is w = u' = g v with a constant g, and u = 0
@@ -84,7 +85,9 @@ void sliding_solve(const struct fbd_model *model, const struct instant *at);
 
 /* What is left of accelerations that the shares bring to zero is rounding of the forces, not motion: what
  * rests on its switch stays exactly. After sliding_solve. */
-void sliding_clear_rounding(const struct sliding *sliding, int n, double *a);
+void sliding_clear_rounding(const struct fbd_model *model, const struct instant *at, double *a);
+/* The same of their variations, after sliding_solve_along. */
+void sliding_clear_rounding_along(const struct fbd_model *model, const struct instant *at, double *a_along);
 
 /* After sliding_solve: of what would give the surfaces such rates, one for each unit, what the shares become more by so that
  * they have none. Where friction holds they stay. */

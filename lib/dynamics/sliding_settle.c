@@ -8,145 +8,12 @@
  * crossed. Else all choices are tried, one surface a digit, and the one that agrees is taken. Choices with
  * the same accelerations are one.
  */
+#include <stdlib.h>
 #include <string.h>
 
 #include "dynamics/absolute.h"
 #include "dynamics/sliding_question.h"
 #include "dynamics/tree_driven.h"
-
-/* ---- surfaces */
-
-/* What may be left of u' where a switch that watches places is at rest: its value, or zero. */
-static double passing_speed(const struct question *q, const struct asked *asked)
-{
-    const double rounding = 1e-10;
-    const struct fbd_state *state = q->state;
-    const struct kink *kink = &state->model->plan.kinks[asked->kink];
-    const struct instant at = state_instant(state);
-    if (!kink_watches_places(kink, asked->part) || asked->ended || asked->left) return 0;
-    double size = 0, w = sliding_surface(state->sliding, state->model, &at, kink, asked->part);
-    size_t n = (size_t)state->model->plan.n;
-    for (size_t i = 0; i < n; i++) size += fabs(asked_slope(q, asked, 1 + n + i) * state->y[n + i]);
-    return fabs(w) > rounding * size ? w : 0;
-}
-
-/* ---- who is asked */
-
-/* What is passed with a speed is no place to rest; where there are too many places, none are asked but
- * those that are slid on. */
-static bool is_asked(const struct question *q, const struct decided *decided, const struct kink *kink,
-                     int part)
-{
-    const struct sliding *s = q->state->sliding;
-    int branch = kink->formula.branch + part;
-    if (isnan(s->u[part])) return false; /* in a side of an `if` that is not chosen */
-    if (q->without_places && kink_watches_places(kink, part) && s->slide_at[branch] == 0) return false;
-    return s->slide_at[branch] > 0 || s->left[branch] || s->ended[branch] ||
-           (decided && decided->branches[branch]) || fabs(s->u[part]) <= s->rounding[part];
-}
-
-/* False when there are too many. */
-static bool gather(struct question *q, const struct decided *decided)
-{
-    struct fbd_state *state = q->state;
-    struct sliding *s = state->sliding;
-    const struct plan *plan = &state->model->plan;
-    const struct instant given = state_instant(state), at = instant_extend(state->model, &given);
-    for (size_t i = 0; i < plan->kink_count; i++) {
-        const struct kink *kink = &plan->kinks[i];
-        if (!kink->slides) continue;
-        expr_switchings(kink->formula.expr, at.t, at.y, 0, NULL, at.branch + kink->formula.branch, s->u,
-                        s->rate, s->rounding);
-        for (int part = 0; part < (int)kink->count; part++) {
-            int branch = kink->formula.branch + part;
-            if (!expr_switch_jumps(kink->formula.expr, (size_t)part) ||
-                expr_switch_is_time(kink->formula.expr, (size_t)part) || !is_asked(q, decided, kink, part))
-                continue;
-            const struct asked asked = {(int)i, part, branch, -1, 1, s->left[branch], s->ended[branch]};
-            if (s->slide_at[branch] == 0 && passing_speed(q, &asked) != 0) continue;
-            if (q->count == most_asked) return false;
-            q->list[q->count++] = asked;
-        }
-    }
-    return true;
-}
-
-/* The ratio of the gradients of b and a where they have one direction or opposite ones, so that both have one
- * surface; else 0. */
-static double ratio_of(const struct question *q, const struct asked *a, const struct asked *b)
-{
-    const double rounding = 1e-10;
-    size_t size = plan_size(&q->state->model->plan);
-    double aa = 0, bb = 0, ab = 0;
-    for (size_t i = 0; i <= size; i++) {
-        double x = asked_slope(q, a, i), y = asked_slope(q, b, i);
-        aa += x * x;
-        bb += y * y;
-        ab += x * y;
-    }
-    return ab * ab >= (1 - rounding) * aa * bb && ab != 0 ? ab / aa : 0;
-}
-
-/* Of what will be at rest on its place, u = 0 and w = 0: will another switch, whose gradient is `ratio` times that of
- * w, be at zero with it? sign(v - 3) is not, nor is sign(x - 1). */
-static bool comes_along(const struct question *q, const struct asked *ended, const struct asked *other,
-                        double ratio)
-{
-    const double rounding = 1e-9;
-    const struct fbd_state *state = q->state;
-    const struct kink *kinks = state->model->plan.kinks, *kink = &kinks[other->kink];
-    const struct instant at = state_instant(state);
-    size_t n = (size_t)state->model->plan.n;
-    bool places = kink_watches_places(kink, other->part);
-    double size = 0, u = sliding_watched(state->sliding, state->model, &at, kink, other->part),
-           rest = places
-                      ? sliding_watched(state->sliding, state->model, &at, &kinks[ended->kink], ended->part)
-                      : sliding_surface(state->sliding, state->model, &at, &kinks[ended->kink], ended->part);
-    for (size_t i = 0; i < n; i++)
-        size += fabs(asked_slope(q, other, 1 + n + i) * state->y[places ? i : n + i]);
-    return fabs(u - ratio * rest) <= rounding * size;
-}
-
-static bool is_listed(const struct question *q, int branch)
-{
-    for (int i = 0; i < q->count; i++)
-        if (q->list[i].branch == branch) return true;
-    return false;
-}
-
-/* What rests by the end of its passages takes with it what watches that speed, though it is not zero yet. False when
- * there are too many. */
-static bool join(struct question *q)
-{
-    const struct plan *plan = &q->state->model->plan;
-    int ended = 0, count = q->count;
-    while (ended < count && !q->list[ended].ended) ended++;
-    for (size_t i = 0; i < plan->kink_count && ended < count; i++) {
-        const struct kink *kink = &plan->kinks[i];
-        for (int part = 0; kink->slides && part < (int)kink->count; part++) {
-            struct asked asked = {(int)i, part, kink->formula.branch + part, -1, 1, false, true};
-            if (!expr_switch_jumps(kink->formula.expr, (size_t)part) || is_listed(q, asked.branch)) continue;
-            double ratio = ratio_of(q, &q->list[ended], &asked);
-            if (ratio == 0 || !comes_along(q, &q->list[ended], &asked, ratio)) continue;
-            if (q->count == most_asked) return false;
-            q->list[q->count++] = asked;
-        }
-    }
-    return true;
-}
-
-static void find_surfaces(struct question *q)
-{
-    for (int i = 0; i < q->count; i++) {
-        for (int j = 0; j < i && q->list[i].unit < 0; j++) {
-            double ratio = ratio_of(q, &q->list[j], &q->list[i]);
-            if (ratio == 0) continue;
-            q->list[i].unit = q->list[j].unit;
-            q->list[i].side = ratio > 0 ? q->list[j].side : -q->list[j].side;
-        }
-        if (q->list[i].unit < 0) q->list[i].unit = q->units++;
-    }
-}
 
 /* ---- does a choice agree? */
 
@@ -193,7 +60,7 @@ static bool agrees(struct question *q)
     for (int i = 0; i < q->count; i++) {
         const struct asked *asked = &q->list[i];
         int slide = s->slide_at[asked->branch], branch = state->branch[asked->branch];
-        double speed = passing_speed(q, asked);
+        double speed = asked_passing_speed(q, asked);
         if (speed != 0) {
             if (slide > 0 || branch * speed <= 0) return false;
             continue;
@@ -203,6 +70,7 @@ static bool agrees(struct question *q)
             if (s->failed || !(share >= -rounding && share <= 1 + rounding)) return false;
             bool held = s->held[s->slides[slide - 1].unit] != not_held;
             if (held && asked_parted(q->state, asked) != 0) return false;
+            if (!asked_is_joined(q, asked)) return false;
             continue;
         }
         double zero = rounding * size_of_rate(q, asked), *flow = s->flow;
@@ -245,7 +113,8 @@ static bool choose(struct question *q, const struct decided *decided, int choice
     for (int i = 0; i < q->count; i++) {
         const struct asked *asked = &q->list[i];
         int side = (digit[asked->unit] == 2) == q->back[asked->unit] ? 1 : -1;
-        if (digit[asked->unit] == 0 && (asked->left || passing_speed(q, asked) != 0)) return false;
+        if (digit[asked->unit] == 0 && (q->left[asked->unit] || asked_passing_speed(q, asked) != 0))
+            return false;
         state->branch[asked->branch] = side * asked->side;
         s->keep[asked->branch] = true;
         if (digit[asked->unit] > 0) continue;
@@ -326,54 +195,68 @@ void sliding_keep_rest(struct fbd_state *state)
             if (!kink_watches_places(kink, part) || state->branch[branch] == 0 || s->keep[branch]) continue;
             const struct asked asked = {(int)i, part, branch, -1, 1, false, false};
             double u = sliding_watched(s, state->model, &at, kink, part);
-            s->keep[branch] = fabs(u) <= s->rounding[part] && passing_speed(&q, &asked) == 0;
+            s->keep[branch] = fabs(u) <= s->rounding[part] && asked_passing_speed(&q, &asked) == 0;
         }
     }
 }
 
-/* As though what watches places were passed. */
-static bool gather_without_places(struct question *q, const struct decided *decided)
+/* With what couplings join, and each by itself, as where a rope goes slack. */
+static int find_choice_of(struct question *q, const struct decided *decided,
+                          bool (*settle)(struct fbd_state *state, const struct decided *decided))
 {
-    *q = (struct question){.state = q->state, .without_places = true, .most = q->most};
-    return gather(q, decided);
+    if (!question_find_fewest_surfaces(q)) return -1;
+    int choice = find_choice(q, decided, settle), fewest = q->units;
+    if (choice >= 0 || !q->coupled) return choice;
+    question_find_surfaces(q, false);
+    return q->units == fewest || q->units > most_units ? choice : find_choice(q, decided, settle);
 }
 
-bool sliding_settle(struct fbd_state *state, const struct decided *decided, bool settled,
-                    bool (*settle)(struct fbd_state *state, const struct decided *decided))
+static bool settle_switches(struct question *q, const struct decided *decided, bool settled,
+                            bool (*settle)(struct fbd_state *state, const struct decided *decided))
 {
+    struct fbd_state *state = q->state;
     struct sliding *s = state->sliding;
-    struct question q = {.state = state};
-    s->why = NULL;
-    if (state->holds.found == holds_no_memory) return false;
-    bool asked = gather(&q, decided) && join(&q);
-    if (!asked) asked = gather_without_places(&q, decided);
+    bool asked = question_gather(q, decided) && question_join(q);
+    if (!asked) asked = question_gather_without_places(q, decided);
     memset(s->left, 0, (size_t)state->model->plan.branches * sizeof *s->left);
     memset(s->ended, 0, (size_t)state->model->plan.branches * sizeof *s->ended);
-    if (asked && question_leave_repelling(&q, decided)) settled = settle(state, decided);
-    bool fine = asked && (q.count == 0 || (settled && agrees(&q)));
-    if (fine && !is_undecided(&q)) return settled;
-    if (asked) find_surfaces(&q);
-    if (q.units > most_units && fine) return settled;
-    if (q.units > most_units && !q.without_places && gather_without_places(&q, decided)) {
-        if (q.count == 0) return settled;
-        find_surfaces(&q);
+    if (asked && question_leave_repelling(q, decided)) settled = settle(state, decided);
+    bool fine = asked && (q->count == 0 || (settled && agrees(q)));
+    if (fine && !is_undecided(q)) return settled;
+    if (asked && !question_find_fewest_surfaces(q)) return false;
+    if (q->units > most_units && fine) return settled;
+    if (q->units > most_units && !q->without_places && question_gather_without_places(q, decided)) {
+        if (q->count == 0) return settled;
+        if (!question_find_fewest_surfaces(q)) return false;
     }
-    s->blamed = q.count > 0 ? q.list[0].kink : -1;
-    if (!asked || q.units > most_units) {
+    s->blamed = q->count > 0 ? q->list[0].kink : -1;
+    if (!asked || q->units > most_units) {
         s->why = "too many switches are at zero at once";
         return false;
     }
     struct decided open;
     const struct decided *given = decided;
-    if (given) open = question_without_shared(&q, given), decided = &open;
-    int choice = find_choice(&q, decided, settle);
+    if (given) open = question_without_shared(q, given), decided = &open;
+    int choice = find_choice_of(q, decided, settle);
     /* A share that only just touches its end goes back. */
-    for (int i = 0; choice == -1 && i < q.count; i++) q.list[i].left = false;
-    if (choice == -1) choice = find_choice(&q, decided, settle);
+    for (int i = 0; choice == -1 && i < q->count; i++) q->list[i].left = false;
+    if (choice == -1) choice = find_choice_of(q, decided, settle);
+    if (state->holds.found == holds_no_memory) return false;
     if (choice < 0 && fine) return settle(state, given);
     if (choice >= 0)
-        return choose(&q, decided, choice) && settle(state, fine && keeps_sides(&q) ? given : decided);
+        return choose(q, decided, choice) && settle(state, fine && keeps_sides(q) ? given : decided);
     s->why = choice == -1 ? "neither a branch nor a share of both agrees with what it leads to"
                           : "several ways to go on agree with what they lead to";
     return false;
+}
+
+bool sliding_settle(struct fbd_state *state, const struct decided *decided, bool settled,
+                    bool (*settle)(struct fbd_state *state, const struct decided *decided))
+{
+    struct question q = {.state = state};
+    state->sliding->why = NULL;
+    if (state->holds.found == holds_no_memory) return false;
+    bool agreed = settle_switches(&q, decided, settled, settle);
+    free(q.coupled);
+    return agreed;
 }

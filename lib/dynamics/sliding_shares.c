@@ -14,6 +14,7 @@
 #include "dynamics/modes.h"
 #include "dynamics/own.h"
 #include "dynamics/state.h"
+#include "dynamics/tree.h"
 
 /* ---- the surfaces */
 
@@ -321,13 +322,34 @@ void sliding_shift(struct sliding *s, int unit, double by)
         if (s->slides[j].unit == unit) s->slides[j].share += s->slides[j].sign * by;
 }
 
-void sliding_clear_rounding(const struct sliding *s, int n, double *a)
+/* Coordinate i is the small difference of what drives it and what the shares of the switches and couplings, `unit`, do to it,
+ * each of them a sum along the links: so many terms have their rounding in it. */
+static double rounding_of(const struct fbd_model *model, const struct instant *at, bool along, int i)
 {
-    for (int i = 0; i < n && !s->failed; i++) {
-        double reach = 0;
-        for (int unit = 0; unit < s->units; unit++) reach += fabs(s->B[(size_t)unit * (size_t)n + (size_t)i]);
-        if (fabs(a[i]) <= 8 * DBL_EPSILON * reach) a[i] = 0;
+    const struct sliding *s = at->sliding;
+    const struct tree *tree = model->tree;
+    double size = tree && tree->tie_count > 0 ? fabs(at->tree->unit[i]) : 0;
+    for (int unit = 0; unit < s->units; unit++) {
+        double reach = fabs(s->B[(size_t)unit * (size_t)model->plan.n + (size_t)i]);
+        size += along ? reach * fabs(s->c[unit]) : reach;
     }
+    return 8 * (tree ? tree->count : 1) * DBL_EPSILON * size;
+}
+
+static void clear_rounding(const struct fbd_model *model, const struct instant *at, bool along, double *a)
+{
+    for (int i = 0; i < model->plan.n && !at->sliding->failed; i++)
+        if (fabs(a[i]) <= rounding_of(model, at, along, i)) a[i] = 0;
+}
+
+void sliding_clear_rounding(const struct fbd_model *model, const struct instant *at, double *a)
+{
+    clear_rounding(model, at, false, a);
+}
+
+void sliding_clear_rounding_along(const struct fbd_model *model, const struct instant *at, double *a_along)
+{
+    clear_rounding(model, at, true, a_along);
 }
 
 /* D^2 u [f, d] for the motion f: how the rates change with the place at which they are taken. By central

@@ -1,0 +1,267 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * Which switches are asked, and which of them have one surface: by themselves, and by what couplings make one.
+ */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "dynamics/absolute.h"
+#include "dynamics/project.h"
+#include "dynamics/sliding_question.h"
+
+/* ---- surfaces */
+
+/* What may be left of u' where a switch that watches places is at rest: its value, or zero. */
+double asked_passing_speed(const struct question *q, const struct asked *asked)
+{
+    const double rounding = 1e-10;
+    const struct fbd_state *state = q->state;
+    const struct kink *kink = &state->model->plan.kinks[asked->kink];
+    const struct instant at = state_instant(state);
+    if (!kink_watches_places(kink, asked->part) || asked->ended || asked->left) return 0;
+    double size = 0, w = sliding_surface(state->sliding, state->model, &at, kink, asked->part);
+    size_t n = (size_t)state->model->plan.n;
+    for (size_t i = 0; i < n; i++) size += fabs(asked_slope(q, asked, 1 + n + i) * state->y[n + i]);
+    return fabs(w) > rounding * size ? w : 0;
+}
+
+/* ---- who is asked */
+
+/* What is passed with a speed is no place to rest; where there are too many places, none are asked but
+ * those that are slid on. */
+static bool is_asked(const struct question *q, const struct decided *decided, const struct kink *kink,
+                     int part)
+{
+    const struct sliding *s = q->state->sliding;
+    int branch = kink->formula.branch + part;
+    if (isnan(s->u[part])) return false; /* in a side of an `if` that is not chosen */
+    if (q->without_places && kink_watches_places(kink, part) && s->slide_at[branch] == 0) return false;
+    return s->slide_at[branch] > 0 || s->left[branch] || s->ended[branch] ||
+           (decided && decided->branches[branch]) || fabs(s->u[part]) <= s->rounding[part];
+}
+
+/* False when there are too many. */
+bool question_gather(struct question *q, const struct decided *decided)
+{
+    struct fbd_state *state = q->state;
+    struct sliding *s = state->sliding;
+    const struct plan *plan = &state->model->plan;
+    const struct instant given = state_instant(state), at = instant_extend(state->model, &given);
+    for (size_t i = 0; i < plan->kink_count; i++) {
+        const struct kink *kink = &plan->kinks[i];
+        if (!kink->slides) continue;
+        expr_switchings(kink->formula.expr, at.t, at.y, 0, NULL, at.branch + kink->formula.branch, s->u,
+                        s->rate, s->rounding);
+        for (int part = 0; part < (int)kink->count; part++) {
+            int branch = kink->formula.branch + part;
+            if (!expr_switch_jumps(kink->formula.expr, (size_t)part) ||
+                expr_switch_is_time(kink->formula.expr, (size_t)part) || !is_asked(q, decided, kink, part))
+                continue;
+            const struct asked asked = {(int)i, part, branch, -1, 1, s->left[branch], s->ended[branch]};
+            if (s->slide_at[branch] == 0 && asked_passing_speed(q, &asked) != 0) continue;
+            if (q->count == most_asked) return false;
+            q->list[q->count++] = asked;
+        }
+    }
+    return true;
+}
+
+static bool has_couplings(const struct question *q)
+{
+    const struct tree *tree = q->state->model->tree;
+    return tree && tree->tie_count > 0;
+}
+
+/* In the modes as they are. False when memory is out. */
+static bool find_coupled(struct question *q)
+{
+    size_t n = (size_t)q->state->model->plan.n;
+    if (!has_couplings(q)) return true;
+    if (!q->coupled) q->coupled = calloc(n * n, sizeof *q->coupled);
+    if (q->coupled)
+        state_find_ways(q->state, q->coupled);
+    else
+        q->state->holds.found = holds_no_memory;
+    return q->coupled;
+}
+
+/* Entry i of the gradient of a surface, with time, coordinates, rates: along what couplings let through of one of these. */
+static double slope_of(const struct question *q, const struct asked *asked, size_t i)
+{
+    size_t n = (size_t)q->state->model->plan.n, size = plan_size(&q->state->model->plan);
+    double *dy = q->state->sliding->flow;
+    if (!q->ways || i == 0 || i > 2 * n) return asked_slope(q, asked, i);
+    size_t k = i - 1;
+    memset(dy, 0, size * sizeof *dy);
+    memcpy(dy + (k < n ? 0 : n), q->ways + k % n * n, n * sizeof *dy);
+    return asked_rate(q, asked, 0, dy);
+}
+
+/* The ratio of the gradients of b and a where they have one direction or opposite ones, so that both have one
+ * surface; else 0. What couplings do not let move at all has none. */
+static double ratio_of(const struct question *q, const struct asked *a, const struct asked *b)
+{
+    const double rounding = 1e-10;
+    size_t size = plan_size(&q->state->model->plan);
+    double aa = 0, bb = 0, ab = 0, alone = 0;
+    for (size_t i = 0; i <= size; i++) {
+        double x = slope_of(q, a, i), y = slope_of(q, b, i), own = q->ways ? asked_slope(q, a, i) : 0;
+        aa += x * x;
+        bb += y * y;
+        ab += x * y;
+        alone += own * own;
+    }
+    bool moves = aa > rounding * rounding * alone;
+    return moves && ab * ab >= (1 - rounding) * aa * bb && ab != 0 ? ab / aa : 0;
+}
+
+/* Of what will be at rest on its place, u = 0 and w = 0: will another switch, whose gradient is `ratio` times that of
+ * w, be at zero with it? sign(v - 3) is not, nor is sign(x - 1). */
+static bool comes_along(const struct question *q, const struct asked *ended, const struct asked *other,
+                        double ratio)
+{
+    const double rounding = 1e-9;
+    const struct fbd_state *state = q->state;
+    const struct kink *kinks = state->model->plan.kinks, *kink = &kinks[other->kink];
+    const struct instant at = state_instant(state);
+    size_t n = (size_t)state->model->plan.n;
+    bool places = kink_watches_places(kink, other->part);
+    double size = 0, u = sliding_watched(state->sliding, state->model, &at, kink, other->part),
+           rest = places
+                      ? sliding_watched(state->sliding, state->model, &at, &kinks[ended->kink], ended->part)
+                      : sliding_surface(state->sliding, state->model, &at, &kinks[ended->kink], ended->part);
+    for (size_t i = 0; i < n; i++)
+        size += fabs(asked_slope(q, other, 1 + n + i) * state->y[places ? i : n + i]);
+    return fabs(u - ratio * rest) <= rounding * size;
+}
+
+static bool is_listed(const struct question *q, int branch)
+{
+    for (int i = 0; i < q->count; i++)
+        if (q->list[i].branch == branch) return true;
+    return false;
+}
+
+/* Is a switch of speeds zero where nothing moves, as sign(v) is? */
+static bool is_zero_at_rest(const struct question *q, const struct asked *asked)
+{
+    struct sliding *s = q->state->sliding;
+    const struct fbd_model *model = q->state->model;
+    size_t n = (size_t)model->plan.n;
+    const struct kink *kink = &model->plan.kinks[asked->kink];
+    if (kink_watches_places(kink, asked->part)) return false;
+    struct instant at = state_instant(q->state);
+    memcpy(s->shifted, at.y, plan_size(&model->plan) * sizeof *s->shifted);
+    memset(s->shifted + n, 0, n * sizeof *s->shifted);
+    at.y = s->shifted;
+    return fabs(sliding_watched(s, model, &at, kink, asked->part)) <= s->rounding[asked->part];
+}
+
+/* What rests by the end of its passages takes with it what watches that speed, though it is not zero yet. */
+static bool comes_to_rest(struct question *q, const struct asked *ended, const struct asked *other)
+{
+    q->ways = q->coupled;
+    double ratio = ratio_of(q, ended, other);
+    q->ways = NULL;
+    return ratio != 0 && comes_along(q, ended, other, ratio);
+}
+
+/* What comes to rest takes with it what a coupling moves as fast, a rounding off its switch. */
+static bool rests_with(struct question *q, const struct asked *rests, const struct asked *other)
+{
+    if (!has_couplings(q) || !is_zero_at_rest(q, other) || !is_zero_at_rest(q, rests)) return false;
+    if (!q->coupled && !find_coupled(q)) return false;
+    q->ways = q->coupled;
+    double ratio = ratio_of(q, rests, other);
+    q->ways = NULL;
+    return ratio != 0;
+}
+
+/* Those that come along with one that is listed. False when there are too many. */
+bool question_join(struct question *q)
+{
+    const struct plan *plan = &q->state->model->plan;
+    int ended = 0, count = q->count;
+    while (ended < count && !q->list[ended].ended) ended++;
+    if (ended < count && !find_coupled(q)) return false;
+    for (size_t i = 0; i < plan->kink_count && count > 0; i++) {
+        const struct kink *kink = &plan->kinks[i];
+        for (int part = 0; kink->slides && part < (int)kink->count; part++) {
+            struct asked asked = {(int)i, part, kink->formula.branch + part, -1, 1, false, false};
+            if (!expr_switch_jumps(kink->formula.expr, (size_t)part) || is_listed(q, asked.branch)) continue;
+            asked.ended = ended < count && comes_to_rest(q, &q->list[ended], &asked);
+            bool joins = asked.ended;
+            for (int j = 0; j < count && !joins; j++) joins = rests_with(q, &q->list[j], &asked);
+            if (!joins) continue;
+            if (q->count == most_asked) return false;
+            q->list[q->count++] = asked;
+        }
+    }
+    return true;
+}
+
+/* A surface has been left when all that it is by itself have: what a coupling has just joined has not. */
+static void find_left(struct question *q)
+{
+    for (int unit = 0; unit < q->units; unit++) q->left[unit] = true;
+    for (int i = 0; i < q->count; i++) {
+        bool left = false;
+        for (int j = 0; j < q->count && !left; j++)
+            left = q->list[j].left && (i == j || ratio_of(q, &q->list[i], &q->list[j]) != 0);
+        q->left[q->list[i].unit] &= left;
+    }
+}
+
+/* `coupled`: of speeds that couplings make one, as of two bodies on a taut rope, the switches are one surface. */
+void question_find_surfaces(struct question *q, bool coupled)
+{
+    q->units = 0;
+    q->ways = coupled ? q->coupled : NULL;
+    for (int i = 0; i < q->count; i++) {
+        struct asked *asked = &q->list[i];
+        asked->unit = -1;
+        asked->side = 1;
+        for (int j = 0; j < i && asked->unit < 0; j++) {
+            double ratio = ratio_of(q, &q->list[j], asked);
+            if (ratio == 0) continue;
+            asked->unit = q->list[j].unit;
+            asked->side = ratio > 0 ? q->list[j].side : -q->list[j].side;
+        }
+        if (asked->unit < 0) asked->unit = q->units++;
+    }
+    q->ways = NULL;
+    find_left(q);
+}
+
+/* The fewest that there are. False when memory is out. */
+bool question_find_fewest_surfaces(struct question *q)
+{
+    bool couples = q->count > 1 && has_couplings(q);
+    if (couples && !find_coupled(q)) return false;
+    question_find_surfaces(q, couples);
+    return true;
+}
+
+/* As though what watches places were passed. */
+bool question_gather_without_places(struct question *q, const struct decided *decided)
+{
+    *q = (struct question){.state = q->state, .without_places = true, .most = q->most, .coupled = q->coupled};
+    return question_gather(q, decided);
+}
+
+/* The share of a surface is that of its first switch. Is one that a coupling joined to it still of that surface? Where a
+ * rope has gone slack it is not. */
+bool asked_is_joined(struct question *q, const struct asked *asked)
+{
+    const struct sliding *s = q->state->sliding;
+    int unit = s->slides[s->slide_at[asked->branch] - 1].unit, first = 0, other = 0;
+    while (s->slides[first].unit != unit) first++;
+    while (q->list[other].branch != s->slides[first].branch) other++;
+    if (!has_couplings(q) || ratio_of(q, &q->list[other], asked) != 0) return true;
+    if (!find_coupled(q)) return false;
+    q->ways = q->coupled;
+    double ratio = ratio_of(q, &q->list[other], asked);
+    q->ways = NULL;
+    return ratio != 0;
+}
