@@ -19,13 +19,14 @@ static size_t double_count(const struct fbd_model *model)
 {
     const struct plan *plan = &model->plan;
     size_t room = (size_t)plan->slide_count, n = (size_t)plan->n, size = plan_size(plan);
-    return 2 * room * room + n * room + 3 * room + 3 * most_switches(plan) + 2 * (size_t)plan->slots + 3 * n +
+    return 2 * room * room + n * room + 3 * room + 3 * most_switches(plan) + 2 * (size_t)plan->slots + 4 * n +
            6 * size + extended_size(model) + size;
 }
 
 static size_t int_count(const struct plan *plan)
 {
-    return 4 * (size_t)plan->branches + 3 * plan->mode_count + 2 * (size_t)plan->slide_count;
+    return 4 * (size_t)plan->branches + 3 * plan->mode_count + 2 * (size_t)plan->slide_count +
+           (size_t)plan->n;
 }
 
 size_t sliding_size(const struct fbd_model *model)
@@ -50,7 +51,7 @@ void sliding_init(struct sliding *sliding, const struct fbd_model *model, void *
                               &sliding->rounding, &sliding->slots,  &sliding->slots_along, &sliding->a,
                               &sliding->a_along,  &sliding->flow,   &sliding->zero,        &sliding->kept_y,
                               &sliding->own_y,    &sliding->own_dy, &sliding->best,        &sliding->moved,
-                              &sliding->shifted};
+                              &sliding->as_fast,  &sliding->shifted};
     const size_t sizes[] = {room * room,
                             room * room,
                             n * room,
@@ -71,6 +72,7 @@ void sliding_init(struct sliding *sliding, const struct fbd_model *model, void *
                             size,
                             n,
                             size,
+                            n,
                             extended_size(model) + size};
     for (size_t i = 0; i < sizeof sizes / sizeof *sizes; i++) {
         *parts[i] = next;
@@ -83,10 +85,12 @@ void sliding_init(struct sliding *sliding, const struct fbd_model *model, void *
     sliding->pivot = sliding->kept + 2 * (size_t)plan->branches + 2 * plan->mode_count;
     sliding->held = sliding->pivot + room;
     sliding->aside = sliding->held + room;
-    sliding->keep = (bool *)(sliding->aside + plan->mode_count);
+    sliding->with = sliding->aside + plan->mode_count;
+    sliding->keep = (bool *)(sliding->with + n);
     sliding->left = sliding->keep + plan->branches;
     sliding->ended = sliding->left + plan->branches;
     sliding->slips = sliding->ended + plan->branches;
+    for (int i = 0; i < plan->n; i++) sliding->with[i] = i, sliding->as_fast[i] = 1;
 }
 
 void sliding_copy(const struct fbd_model *model, struct sliding *to, const struct sliding *from)
@@ -95,6 +99,8 @@ void sliding_copy(const struct fbd_model *model, struct sliding *to, const struc
     to->units = from->units;
     memcpy(to->slides, from->slides, (size_t)from->count * sizeof *to->slides);
     memcpy(to->held, from->held, (size_t)from->units * sizeof *to->held);
+    memcpy(to->with, from->with, (size_t)model->plan.n * sizeof *to->with);
+    memcpy(to->as_fast, from->as_fast, (size_t)model->plan.n * sizeof *to->as_fast);
     memcpy(to->slide_at, from->slide_at, (size_t)model->plan.branches * sizeof *to->slide_at);
 }
 

@@ -56,6 +56,8 @@ struct sliding {
     int *
         held; /* units: the slot of what friction holds, where it keeps the one coordinate of the surface at rest; else
                   not_held, or all_held where it keeps several */
+    int *with; /* n: the first coordinate that couplings move as one with it, as of bodies on a taut rope; */
+    double *as_fast; /* n: and how many times as fast as that one it is */
     bool failed;     /* no shares are found: the branches do not act on the surfaces */
     const char *why; /* when modes did not settle for a slide: "none" or "several"; else NULL */
     int blamed;      /* then a kink */
@@ -100,11 +102,16 @@ void sliding_shift(struct sliding *sliding, int unit, double by);
 void sliding_solve_along(const struct fbd_model *model, const struct instant *given,
                          const struct direction *direction);
 
-/* The dry friction of its own that keeps a coordinate from accelerating against its surface, -1 for none. */
-int sliding_holder(const struct fbd_model *model, const struct instant *at, int coordinate);
+/* Is a pair dry friction of a coordinate, or, on a surface that does not move, of one that couplings move as one with it? */
+bool sliding_is_friction_of(const struct sliding *sliding, const struct mode *mode, int coordinate);
+
+/* The dry friction that keeps a coordinate from accelerating against its surface, -1 for none. */
+int sliding_holder(const struct sliding *sliding, const struct fbd_model *model, const struct instant *at,
+                   int coordinate);
 
 /* The same of what is at rest on its surface, also where it is about to slip. */
-int sliding_rest(const struct fbd_model *model, const struct instant *at, int coordinate);
+int sliding_rest(const struct sliding *sliding, const struct fbd_model *model, const struct instant *at,
+                 int coordinate);
 
 /* Where friction holds the coordinates of a switch, does the switch go on being zero as their surfaces move? A surface
  * that is shaken, or that takes them along to where x + T v is another, would take them off the switch, which may hold

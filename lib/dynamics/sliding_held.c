@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Switches beside dry friction on the same coordinate: the switch holds first, and friction what is left.
+ * Switches beside dry friction on the same coordinate, or on one that couplings move as one with it: the switch holds first,
+ * and friction what is left.
  */
 #include <math.h>
 #include <string.h>
@@ -36,7 +37,7 @@ int asked_parted(const struct fbd_state *state, const struct asked *asked)
 static int friction_at_rest(const struct question *q, int coordinate)
 {
     const struct instant at = state_instant(q->state);
-    return sliding_rest(q->state->model, &at, coordinate);
+    return sliding_rest(q->state->sliding, q->state->model, &at, coordinate);
 }
 
 bool asked_is_held(const struct question *q, const struct asked *asked)
@@ -55,11 +56,28 @@ bool asked_is_held(const struct question *q, const struct asked *asked)
 /* What friction on the coordinates of a switch does: it sticks, or with `slips` is no longer decided. */
 static void leave_friction(const struct question *q, const struct asked *asked, bool *slips)
 {
+    const struct plan *plan = &q->state->model->plan;
+    const struct instant at = state_instant(q->state);
+    size_t n = (size_t)plan->n;
+    for (size_t i = 0; i < n; i++) {
+        if (asked_slope(q, asked, 1 + n + i) == 0) continue;
+        for (int pair = 0; pair < (int)plan->mode_count; pair++) {
+            if (!sliding_is_friction_of(q->state->sliding, &plan->modes[pair], (int)i)) continue;
+            if (slip_velocity(q->state->model, pair, &at) != 0) continue;
+            if (slips)
+                slips[pair] = false;
+            else
+                q->state->slip[pair] = stick;
+        }
+    }
+}
+
+void question_take_rest(const struct question *q, const struct asked *asked)
+{
     size_t n = (size_t)q->state->model->plan.n;
     for (size_t i = 0; i < n; i++) {
         int pair = asked_slope(q, asked, 1 + n + i) == 0 ? -1 : friction_at_rest(q, (int)i);
-        if (pair >= 0 && slips) slips[pair] = false;
-        if (pair >= 0 && !slips) q->state->slip[pair] = stick;
+        if (pair >= 0 && mode_of(q->state, pair)->coordinate != (int)i) q->state->y[n + i] = 0;
     }
 }
 
@@ -113,6 +131,7 @@ static double pushed_away(const struct question *q, const struct asked *asked, d
 {
     struct fbd_state *state = q->state;
     size_t n = (size_t)state->model->plan.n;
+    const struct sliding *s = state->sliding;
     double *slots = state_scratch(state).slots, sum = 0;
     *size = 0;
     question_keep_modes(state, false);
@@ -126,6 +145,7 @@ static double pushed_away(const struct question *q, const struct asked *asked, d
             double a = asked_slope(q, asked, 1 + n + i);
             int pair = a == 0 ? -1 : friction_at_rest(q, (int)i);
             double push = pair < 0 ? 0 : a * slots[mode_of(state, pair)->hold_slot];
+            if (pair >= 0) push *= s->as_fast[mode_of(state, pair)->coordinate] / s->as_fast[i];
             sum += side * push;
             *size += fabs(push);
         }

@@ -51,6 +51,9 @@ bool asked_is_held(const struct question *q, const struct asked *asked);
 /* Friction on the coordinates of a switch sticks; it slips where its surface moves off the switch, which holds them. */
 void question_hold_friction(const struct question *q, const struct asked *asked);
 
+/* Where friction is at rest, what couplings move as one with it is: what is left of its velocity is rounding. */
+void question_take_rest(const struct question *q, const struct asked *asked);
+
 /* What is decided, but for friction that shares its coordinate with a switch. */
 struct decided question_without_shared(const struct question *q, const struct decided *decided);
 
@@ -66,6 +69,9 @@ bool question_leave_repelling(struct question *q, const struct decided *decided)
 bool question_gather(struct question *q, const struct decided *decided);
 /* As though what watches places were passed. */
 bool question_gather_without_places(struct question *q, const struct decided *decided);
+
+/* Which coordinates couplings move as one, in sliding->with. False when memory is out. */
+bool question_find_coordinates(struct question *q);
 
 /* Those that come along with one that is listed. False when there are too many. */
 bool question_join(struct question *q);

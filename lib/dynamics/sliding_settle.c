@@ -125,10 +125,11 @@ static bool choose(struct question *q, const struct decided *decided, int choice
     }
     if (s->count > 0) sliding_number(s);
     if (lands) sliding_project(state, !ends); /* before friction asks whether it moves */
-    for (int i = 0; i < q->count; i++)
-        if (digit[q->list[i].unit] == 0 && asked_is_held(q, &q->list[i])) {
-            question_hold_friction(q, &q->list[i]);
-        }
+    for (int i = 0; i < q->count; i++) {
+        if (!asked_is_held(q, &q->list[i])) continue;
+        question_take_rest(q, &q->list[i]);
+        if (digit[q->list[i].unit] == 0) question_hold_friction(q, &q->list[i]);
+    }
     return true;
 }
 
@@ -220,6 +221,7 @@ static bool settle_switches(struct question *q, const struct decided *decided, b
     if (!asked) asked = question_gather_without_places(q, decided);
     memset(s->left, 0, (size_t)state->model->plan.branches * sizeof *s->left);
     memset(s->ended, 0, (size_t)state->model->plan.branches * sizeof *s->ended);
+    if (asked && !question_find_coordinates(q)) return false;
     if (asked && question_leave_repelling(q, decided)) settled = settle(state, decided);
     bool fine = asked && (q->count == 0 || (settled && agrees(q)));
     if (fine && !is_undecided(q)) return settled;

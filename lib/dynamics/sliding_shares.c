@@ -155,23 +155,29 @@ static void set_shares(struct sliding *s)
     }
 }
 
-int sliding_holder(const struct fbd_model *model, const struct instant *at, int coordinate)
+bool sliding_is_friction_of(const struct sliding *s, const struct mode *mode, int coordinate)
 {
-    for (int pair = 0; pair < (int)model->plan.mode_count; pair++) {
-        const struct mode *mode = &model->plan.modes[pair];
-        if (mode_is_joint_friction(mode) && mode->coordinate == coordinate && at->slip[pair] == stick)
+    if (!mode_is_joint_friction(mode)) return false;
+    return mode->coordinate == coordinate ||
+           (!mode->moving && s->with[mode->coordinate] == s->with[coordinate]);
+}
+
+int sliding_holder(const struct sliding *s, const struct fbd_model *model, const struct instant *at,
+                   int coordinate)
+{
+    for (int pair = 0; pair < (int)model->plan.mode_count; pair++)
+        if (at->slip[pair] == stick && sliding_is_friction_of(s, &model->plan.modes[pair], coordinate))
             return pair;
-    }
     return -1;
 }
 
-int sliding_rest(const struct fbd_model *model, const struct instant *at, int coordinate)
+int sliding_rest(const struct sliding *s, const struct fbd_model *model, const struct instant *at,
+                 int coordinate)
 {
-    for (int pair = 0; pair < (int)model->plan.mode_count; pair++) {
-        const struct mode *mode = &model->plan.modes[pair];
-        if (!mode_is_joint_friction(mode) || mode->coordinate != coordinate) continue;
-        if (slip_velocity(model, pair, at) == 0) return pair;
-    }
+    for (int pair = 0; pair < (int)model->plan.mode_count; pair++)
+        if (sliding_is_friction_of(s, &model->plan.modes[pair], coordinate) &&
+            slip_velocity(model, pair, at) == 0)
+            return pair;
     return -1;
 }
 
@@ -190,7 +196,7 @@ static int held_coordinate(const struct fbd_model *model, const struct instant *
         double slope = sliding_surface_rate(s, model, at, kink, s->slides[first].part, 0, s->flow);
         s->flow[n + i] = 0;
         if (slope == 0) continue;
-        int holder = sliding_holder(model, at, i);
+        int holder = sliding_holder(s, model, at, i);
         if (holder < 0) return not_held;
         held = model->plan.modes[holder].hold_slot;
         count++;
@@ -214,7 +220,7 @@ int sliding_parted(const struct fbd_model *model, const struct instant *given, c
             memset(s->flow, 0, size * sizeof *s->flow);
             s->flow[n + i] = 1;
             double slope = sliding_surface_rate(s, model, given, kink, part, 0, s->flow);
-            int holder = slope == 0 ? -1 : sliding_holder(model, &at, (int)i);
+            int holder = slope == 0 ? -1 : sliding_holder(s, model, &at, (int)i);
             if (holder >= 0)
                 s->shifted[n + i] = friction_surface_speed(&model->plan.modes[holder], &at, &acceleration);
             speeds += fabs(slope * s->shifted[n + i]);
@@ -322,24 +328,20 @@ void sliding_shift(struct sliding *s, int unit, double by)
         if (s->slides[j].unit == unit) s->slides[j].share += s->slides[j].sign * by;
 }
 
-/* Coordinate i is the small difference of what drives it and what the shares of the switches and couplings, `unit`, do to it,
- * each of them a sum along the links: so many terms have their rounding in it. */
-static double rounding_of(const struct fbd_model *model, const struct instant *at, bool along, int i)
-{
-    const struct sliding *s = at->sliding;
-    const struct tree *tree = model->tree;
-    double size = tree && tree->tie_count > 0 ? fabs(at->tree->unit[i]) : 0;
-    for (int unit = 0; unit < s->units; unit++) {
-        double reach = fabs(s->B[(size_t)unit * (size_t)model->plan.n + (size_t)i]);
-        size += along ? reach * fabs(s->c[unit]) : reach;
-    }
-    return 8 * (tree ? tree->count : 1) * DBL_EPSILON * size;
-}
-
+/* An acceleration is the small difference of what drives it and what the shares of the switches, and couplings, do to it. */
 static void clear_rounding(const struct fbd_model *model, const struct instant *at, bool along, double *a)
 {
-    for (int i = 0; i < model->plan.n && !at->sliding->failed; i++)
-        if (fabs(a[i]) <= rounding_of(model, at, along, i)) a[i] = 0;
+    const double rounding = 8 * (model->tree ? model->tree->count : 1) * DBL_EPSILON;
+    const struct sliding *s = at->sliding;
+    const double *coupled = model->tree ? tree_rounding(model, at, along) : NULL;
+    for (int i = 0; i < model->plan.n && !s->failed; i++) {
+        double reach = 0;
+        for (int unit = 0; unit < s->units; unit++) {
+            double own = fabs(s->B[(size_t)unit * (size_t)model->plan.n + (size_t)i]);
+            reach += along ? own * fabs(s->c[unit]) : own;
+        }
+        if (fabs(a[i]) <= rounding * reach + (coupled ? coupled[i] : 0)) a[i] = 0;
+    }
 }
 
 void sliding_clear_rounding(const struct fbd_model *model, const struct instant *at, double *a)
@@ -413,7 +415,7 @@ static void project_velocities(struct fbd_state *state, bool settling)
     size_t n = (size_t)state->model->plan.n;
     double *v = state->y + n;
     for (size_t i = 0; i < n; i++) {
-        if (settling && sliding_rest(state->model, &at, (int)i) >= 0) continue;
+        if (settling && sliding_rest(s, state->model, &at, (int)i) >= 0) continue;
         double before = v[i];
         for (int unit = 0; unit < s->units; unit++) v[i] -= s->B[(size_t)unit * n + i] * s->c[unit];
         if (fabs(v[i]) <= rounding * fabs(before)) v[i] = 0;

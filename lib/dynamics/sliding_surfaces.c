@@ -98,6 +98,41 @@ static double slope_of(const struct question *q, const struct asked *asked, size
     return asked_rate(q, asked, 0, dy);
 }
 
+/* How many times as fast as i couplings move j, 0 where they do not move them as one. */
+static double coupled_ratio(const struct question *q, int i, int j)
+{
+    const double rounding = 1e-10;
+    int n = q->state->model->plan.n;
+    double ii = 0, jj = 0, ij = 0;
+    for (int k = 0; k < n; k++) {
+        double x = q->coupled[k * n + i], y = q->coupled[k * n + j];
+        ii += x * x;
+        jj += y * y;
+        ij += x * y;
+    }
+    bool moves = ii > rounding * rounding && jj > rounding * rounding;
+    return moves && ij * ij >= (1 - rounding) * ii * jj ? ij / ii : 0;
+}
+
+bool question_find_coordinates(struct question *q)
+{
+    struct sliding *s = q->state->sliding;
+    const struct plan *plan = &q->state->model->plan;
+    bool coupled = q->count > 0 && plan->mode_count > 0 && has_couplings(q);
+    if (coupled && !find_coupled(q)) return false;
+    for (int j = 0; j < plan->n; j++) {
+        s->with[j] = j;
+        s->as_fast[j] = 1;
+        for (int i = 0; coupled && i < j && s->with[j] == j; i++) {
+            double ratio = s->with[i] == i ? coupled_ratio(q, i, j) : 0;
+            if (ratio == 0) continue;
+            s->with[j] = i;
+            s->as_fast[j] = ratio;
+        }
+    }
+    return true;
+}
+
 /* The ratio of the gradients of b and a where they have one direction or opposite ones, so that both have one
  * surface; else 0. What couplings do not let move at all has none. */
 static double ratio_of(const struct question *q, const struct asked *a, const struct asked *b)

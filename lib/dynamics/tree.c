@@ -18,7 +18,7 @@ static size_t doubles_of(const struct fbd_model *model)
 {
     const struct tree *tree = model->tree;
     size_t borne = tree->meeting_count > 0 ? (size_t)tree->count : 0;
-    return 4 * tree->envelope_size + 7 * (size_t)tree_unknowns(tree) + 3 * (size_t)model->plan.n + borne;
+    return 4 * tree->envelope_size + 7 * (size_t)tree_unknowns(tree) + 4 * (size_t)model->plan.n + borne;
 }
 
 size_t tree_work_size(const struct fbd_model *model)
@@ -54,7 +54,8 @@ void tree_work_init(struct tree_work *work, const struct fbd_model *model, void 
     work->unit = work->rest + unknowns;
     work->a = work->unit + n;
     work->a_along = work->a + n;
-    work->scale = work->a_along + n;
+    work->taken = work->a_along + n;
+    work->scale = work->taken + n;
     work->ordered = work->scale + unknowns;
     work->borne = work->ordered + unknowns;
     void *behind = work->borne + (tree->meeting_count > 0 ? links : 0);
@@ -294,9 +295,13 @@ void tree_accelerations(const struct fbd_model *model, const struct instant *at,
     else
         tree_complete(model, work);
     if (tree->tie_count > 0 || tree_slips(tree, at)) close_system(model, at, a);
+    bool holds = false;
     for (int k = 0; k < tree->watched_count; k++) {
         const struct tree_state *s = &work->links[tree->watched[k]];
-        if (s->locked) a[tree->links[tree->watched[k]].coordinate] = s->held;
+        if (!s->locked) continue;
+        a[tree->links[tree->watched[k]].coordinate] = s->held;
+        holds = true;
     }
+    if (holds) tree_rest(model, at, false, a);
     if (!work->rates_only) tree_slots(model, at, slots);
 }

@@ -92,6 +92,7 @@ struct tree_work {
     size_t envelope_size;
     double *unit;        /* n: accelerations that are added */
     double *a, *a_along; /* n: accelerations of the last force_balance, and their variation */
+    double *taken;       /* n: by tree_rounding */
     double most;         /* the largest scale of a row */
     double *scale;       /* unknowns: how large the diagonals could be, see constraint_solve.c */
     double damping;      /* of a projection: slopes whose square is less than this share are left alone */
@@ -121,6 +122,13 @@ void tree_work_init(struct tree_work *work, const struct fbd_model *model, void 
  * The slots behind get minus the normal forces and minus what holds the sticking pairs, as friction_at
  * expects. The rest of the results is in at->tree. */
 void tree_accelerations(const struct fbd_model *model, const struct instant *at, double *slots, double *a);
+
+/* The rounding of the accelerations of the joints, or with `along` of their variations, by couplings (tree_rounding.c): n, in
+ * the workspace. Of the solution that was last. */
+const double *tree_rounding(const struct fbd_model *model, const struct instant *at, bool along);
+
+/* What friction on one link holds by couplings is at rest: make zero what is no more than that rounding. */
+void tree_rest(const struct fbd_model *model, const struct instant *at, bool along, double *a);
 
 /* After tree_accelerations: make A of the links their accelerations, and F what their joints pass to them. */
 void tree_complete(const struct fbd_model *model, struct tree_work *work);

@@ -22,6 +22,14 @@ static void vary_held(const struct fbd_model *model, const struct instant *at, c
     }
 }
 
+/* Does friction hold a joint? */
+static bool holds(const struct tree *tree, const struct tree_work *work)
+{
+    for (int k = 0; k < tree->watched_count; k++)
+        if (work->links[tree->watched[k]].locked) return true;
+    return false;
+}
+
 /* What a joint passes on acts about the parent's O on an arm that varies. */
 static void vary_arms(const struct tree *tree, struct tree_work *work)
 {
@@ -133,6 +141,7 @@ void tree_accelerations_along(const struct fbd_model *model, const struct instan
         work->z[tree->row_count + k] = friction_along_base(model, at, along, tree->pairs[k]);
     tree_system_solve(model, at, work->z);
     tree_add_unit(tree, work, a_along);
+    if (holds(tree, work)) tree_rest(model, at, true, a_along);
     add_slots(model, at, false, slots_along);
     for (int i = 0; i < tree->tie_count; i++) {
         const struct tie *tie = &tree->ties[i];

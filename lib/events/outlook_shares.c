@@ -156,7 +156,7 @@ static void write_equation(const struct outlook *o, int unit, struct equations *
         s->flow[i] = 1;
         double slope = sliding_surface_rate(s, state->model, &at, kink, s->slides[first].part, 0, s->flow);
         s->flow[i] = 0;
-        if (slope == 0 || (i >= n && sliding_holder(state->model, &at, (int)(i - n)) >= 0)) continue;
+        if (slope == 0 || (i >= n && sliding_holder(s, state->model, &at, (int)(i - n)) >= 0)) continue;
         if (i < n)
             e->c[unit] = enclosure_add(e->c[unit], enclosure_scale(slope, o->y[n + i]));
         else
