@@ -191,9 +191,43 @@ struct operand build_operation(struct builder *b, int base, enum op op, int extr
     return build_instr(b, base, (struct instr){.op = (unsigned char)op, .extra = extra}, x, y, kind, at);
 }
 
+/* So many jumps are switches of their own. */
+enum { most_own_jumps = 8 };
+
+/* A table of steps of the state, with few jumps: r_i = r_(i-1) + step(x - x_i) (y_i - r_(i-1)), so that each jump is a switch
+ * like sign(x - x_i), at which a motion may stay (dynamics/sliding.h). One is the whole table, of which steps take the
+ * value as it is. */
+static bool has_own_jumps(const struct table *table, const struct operand *x)
+{
+    return table->interpolation == table_step && x->state &&
+           (table->beyond == table_hold || table->beyond == table_zero) && table->count <= most_own_jumps;
+}
+
+static struct operand build_jumps(struct builder *b, int base, const struct table *table,
+                                  const struct operand *x, struct kind kind, struct pos at)
+{
+    struct kind own = x->kind, pure = {.failed = kind.failed};
+    struct operand value = build_constant(table->before, kind, at);
+    for (size_t i = 0; i < table->count; i++) {
+        bool last = i + 1 == table->count;
+        double level = last ? table->after : table->c[4 * i];
+        if (!last && value.place == place_constant && value.value == level) continue;
+        struct operand edge = build_constant(table->x[i], own, at), next = build_constant(level, kind, at);
+        int room = base + 1; /* behind the argument */
+        struct operand far = build_operation(b, room + 1, op_subtract, 0, x, &edge, own, at);
+        struct operand on =
+            build_instr(b, room + 1, (struct instr){.op = op_step, .table = table}, &far, NULL, pure, at);
+        struct operand rise = build_operation(b, room + 2, op_subtract, 0, &next, &value, kind, at);
+        rise = build_operation(b, room + 1, op_multiply, 0, &on, &rise, kind, at);
+        value = build_operation(b, last ? base : room, op_add, 0, &value, &rise, kind, at);
+    }
+    return value;
+}
+
 struct operand build_table(struct builder *b, int base, const struct table *table, const struct operand *x,
                            struct kind kind, struct pos at)
 {
+    if (has_own_jumps(table, x)) return build_jumps(b, base, table, x, kind, at);
     return build_instr(b, base, (struct instr){.op = op_table, .table = table}, x, NULL, kind, at);
 }
 
