@@ -3,6 +3,7 @@
 
 #include <string.h>
 
+#include "base/sine.h"
 #include "dynamics/laws.h"
 
 /* ---- terms of one coordinate */
@@ -11,7 +12,7 @@
 static double sine_value(const struct sine_term *term, const double *q, bool turns, struct vec turn)
 {
     if (turns) return term->s * turn.y + term->c * turn.x;
-    return term->c == 0 ? term->s * sin(q[term->coordinate]) : term->c * cos(q[term->coordinate]);
+    return term->c == 0 ? term->s * sine(q[term->coordinate]) : term->c * cos(q[term->coordinate]);
 }
 
 static void simple_terms(const struct plan *plan, const struct body_terms *terms, const struct instant *at,

@@ -3,6 +3,7 @@
 
 #include <string.h>
 
+#include "base/sine.h"
 #include "dynamics/laws.h"
 #include "dynamics/own.h"
 #include "dynamics/tree.h"
@@ -47,7 +48,7 @@ static inline double with_square_and_friction(const struct row *row, double v, d
 
 static inline double sine_sum(const struct row *row, double q)
 {
-    if (row->c == 0) return row->s * sin(q);
+    if (row->c == 0) return row->s * sine(q);
     if (row->s == 0) return row->c * cos(q);
     return row->s * sin(q) + row->c * cos(q);
 }
@@ -79,7 +80,7 @@ int swing_row(double t, const double y[], double dydt[], void *params)
     double q = y[row->q], v = y[row->v];
     (void)t;
     dydt[row->q] = v;
-    dydt[row->v] = row->inverse * (row->s * sin(q) - row->kv * v);
+    dydt[row->v] = row->inverse * (row->s * sine(q) - row->kv * v);
     return 0;
 }
 
