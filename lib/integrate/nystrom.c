@@ -9,7 +9,7 @@
 #include <string.h>
 
 #include "base/zeroed.h"
-#include "integrate/nystrom_table.h"
+#include "integrate/nystrom_sums.h"
 
 struct nystrom {
     size_t n; /* pairs */
@@ -84,78 +84,38 @@ static inline int evaluate(struct nystrom *s, int i, const gsl_odeiv2_system *sy
     return GSL_SUCCESS;
 }
 
-/* The argument of stage i, given the sum over the stages before. Sums are written out, in two chains of
- * additions that a processor can work on at the same time: loops over the coefficients take a third more time
- * for the step of a pendulum. */
+/* Stage i: its argument, given the sum over the stages before, and its value. */
 #define A(i, j) (nystrom_a[i][j] * k[j])
-#define EACH(i, sum)                                                                                         \
+#define STAGE(i, sum)                                                                                        \
     for (size_t m = 0; m < s->n; m++) {                                                                      \
         const double *k = s->k + m * row;                                                                    \
         s->argument[m] = y[m] + (nystrom_c[i] * s->h * y[s->n + m] + s->h * s->h * (sum));                   \
-    }
+    }                                                                                                        \
+    if ((status = evaluate(s, i, sys))) return status;
 
 static int stages_2_to_9(struct nystrom *s, const double *y, const gsl_odeiv2_system *sys)
 {
     int status;
-    EACH(2, A(2, 1));
-    if ((status = evaluate(s, 2, sys))) return status;
-    EACH(3, A(3, 1) + A(3, 2));
-    if ((status = evaluate(s, 3, sys))) return status;
-    EACH(4, A(4, 1) + A(4, 2) + A(4, 3));
-    if ((status = evaluate(s, 4, sys))) return status;
-    EACH(5, A(5, 1) + A(5, 3) + A(5, 4));
-    if ((status = evaluate(s, 5, sys))) return status;
-    EACH(6, (A(6, 1) + A(6, 4)) + (A(6, 3) + A(6, 5)));
-    if ((status = evaluate(s, 6, sys))) return status;
-    EACH(7, (A(7, 1) + A(7, 4) + A(7, 6)) + (A(7, 3) + A(7, 5)));
-    if ((status = evaluate(s, 7, sys))) return status;
-    EACH(8, (A(8, 1) + A(8, 5) + A(8, 7)) + (A(8, 4) + A(8, 6)));
-    if ((status = evaluate(s, 8, sys))) return status;
-    EACH(9, (A(9, 1) + A(9, 4) + A(9, 6) + A(9, 8)) + (A(9, 3) + A(9, 5) + A(9, 7)));
-    return evaluate(s, 9, sys);
+    NYSTROM_STAGES_2_TO_9(STAGE, A)
+    return GSL_SUCCESS;
 }
 
 static int stages_10_to_14(struct nystrom *s, const double *y, const gsl_odeiv2_system *sys)
 {
     int status;
-    EACH(10, (A(10, 1) + A(10, 4) + A(10, 6) + A(10, 8)) + (A(10, 3) + A(10, 5) + A(10, 7) + A(10, 9)));
-    if ((status = evaluate(s, 10, sys))) return status;
-    EACH(11, (A(11, 1) + A(11, 4) + A(11, 6) + A(11, 8) + A(11, 10)) +
-                 (A(11, 3) + A(11, 5) + A(11, 7) + A(11, 9)));
-    if ((status = evaluate(s, 11, sys))) return status;
-    EACH(12, (A(12, 1) + A(12, 4) + A(12, 6) + A(12, 8) + A(12, 10)) +
-                 (A(12, 3) + A(12, 5) + A(12, 7) + A(12, 9) + A(12, 11)));
-    if ((status = evaluate(s, 12, sys))) return status;
-    EACH(13, (A(13, 1) + A(13, 4) + A(13, 6) + A(13, 8) + A(13, 10) + A(13, 12)) +
-                 (A(13, 3) + A(13, 5) + A(13, 7) + A(13, 9) + A(13, 11)));
-    if ((status = evaluate(s, 13, sys))) return status;
-    EACH(14, (A(14, 1) + A(14, 4) + A(14, 6) + A(14, 8) + A(14, 10) + A(14, 12)) +
-                 (A(14, 3) + A(14, 5) + A(14, 7) + A(14, 9) + A(14, 11) + A(14, 13)));
-    return evaluate(s, 14, sys);
+    NYSTROM_STAGES_10_TO_14(STAGE, A)
+    return GSL_SUCCESS;
 }
 
 static int stages_15_to_17(struct nystrom *s, const double *y, const gsl_odeiv2_system *sys)
 {
     int status;
-    EACH(15, (A(15, 1) + A(15, 4) + A(15, 6) + A(15, 8) + A(15, 10) + A(15, 12) + A(15, 14)) +
-                 (A(15, 3) + A(15, 5) + A(15, 7) + A(15, 9) + A(15, 11) + A(15, 13)));
-    if ((status = evaluate(s, 15, sys))) return status;
-    EACH(16, (A(16, 1) + A(16, 4) + A(16, 6) + A(16, 8) + A(16, 10) + A(16, 12) + A(16, 14)) +
-                 (A(16, 3) + A(16, 5) + A(16, 7) + A(16, 9) + A(16, 11) + A(16, 13) + A(16, 15)));
-    if ((status = evaluate(s, 16, sys))) return status;
-    EACH(17, (A(17, 1) + A(17, 4) + A(17, 6) + A(17, 8) + A(17, 10) + A(17, 12) + A(17, 14)) +
-                 (A(17, 3) + A(17, 5) + A(17, 7) + A(17, 9) + A(17, 11) + A(17, 13) + A(17, 15)));
-    return evaluate(s, 17, sys);
+    NYSTROM_STAGES_15_TO_17(STAGE, A)
+    return GSL_SUCCESS;
 }
 
 #undef A
-#undef EACH
-
-#define SUM(w)                                                                                               \
-    (((w)[1] * k[1] + (w)[8] * k[8] + (w)[10] * k[10] + (w)[12] * k[12] + (w)[14] * k[14] +                  \
-      (w)[16] * k[16]) +                                                                                     \
-     ((w)[7] * k[7] + (w)[9] * k[9] + (w)[11] * k[11] + (w)[13] * k[13] + (w)[15] * k[15] +                  \
-      (w)[17] * k[17]))
+#undef STAGE
 
 /* y1 and its error. False if y1 is not finite. */
 static bool finish(struct nystrom *s, const double *y, double *yerr)
@@ -164,17 +124,15 @@ static bool finish(struct nystrom *s, const double *y, double *yerr)
     double h = s->h, probe = 0;
     for (size_t m = 0; m < n; m++) {
         const double *k = s->k + m * row;
-        double b = SUM(nystrom_b), d = SUM(nystrom_d);
+        double b = NYSTROM_SUM(nystrom_b, k), d = NYSTROM_SUM(nystrom_d, k);
         s->y1[m] = y[m] + (h * y[n + m] + h * h * b);
         s->y1[n + m] = y[n + m] + h * d;
-        yerr[m] = h * h * (b - SUM(nystrom_b_low));
-        yerr[n + m] = h * (d - SUM(nystrom_d_low));
+        yerr[m] = h * h * (b - NYSTROM_SUM(nystrom_b_low, k));
+        yerr[n + m] = h * (d - NYSTROM_SUM(nystrom_d_low, k));
         probe += 0 * (s->y1[m] + s->y1[n + m]);
     }
     return probe == 0;
 }
-
-#undef SUM
 
 static void keep_end(struct nystrom *s, const double *slopes)
 {
