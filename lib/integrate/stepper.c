@@ -372,6 +372,27 @@ const struct stepper_counts *stepper_get_counts(const struct stepper *s)
     return &s->counts;
 }
 
+bool stepper_lend(const struct stepper *s, struct lent *lent)
+{
+    const struct method *method = s->method;
+    bool plain = !method->implicit && !method->multistep && !method->exact && !(method->by_time > 0);
+    if (!plain || s->h_fixed > 0 || s->h_max < INFINITY || s->jacobian || s->rate > 0) return false;
+    lent->type = s->step->type;
+    lent->growth = s->counts.growth;
+    lent->accepted = lent->rejected = 0;
+    return weights_lend(s->control, lent);
+}
+
+void stepper_settle(struct stepper *s, const struct lent *lent)
+{
+    s->stepped = false;
+    s->counts.accepted += lent->accepted;
+    s->counts.rejected[rejected_error] += lent->rejected;
+    if (lent->rejected > 0) s->counts.last = rejected_error;
+    s->counts.growth = lent->growth;
+    weights_settle(s->control, lent);
+}
+
 gsl_odeiv2_control *stepper_control(struct stepper *s)
 {
     return s->control;

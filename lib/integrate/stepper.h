@@ -15,6 +15,7 @@
 
 #include "base/moment.h"
 #include "integrate/layout.h"
+#include "integrate/lent.h"
 #include "integrate/method.h"
 #include "integrate/system.h"
 
@@ -128,6 +129,12 @@ const double *stepper_jacobian(const struct stepper *stepper);
 void stepper_note(struct stepper *stepper, const double *y, const double *f);
 
 const struct stepper_counts *stepper_get_counts(const struct stepper *stepper);
+
+/* Lend what steps go by to somebody who makes them, and take back what has become of it; the next step starts from there,
+ * and until then none can be looked into. False where more than `lent` has is gone by: a step of fixed or bounded size, a
+ * limit of stability, a method that remembers steps. */
+bool stepper_lend(const struct stepper *stepper, struct lent *lent);
+void stepper_settle(struct stepper *stepper, const struct lent *lent);
 
 /* The error control, for weights_set_floor. */
 gsl_odeiv2_control *stepper_control(struct stepper *stepper);

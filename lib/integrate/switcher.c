@@ -163,6 +163,33 @@ int switcher_walk(struct switcher *s, struct moment t, double *y, double *f)
     return stepper_walk(s->steppers[s->made], t, y, f);
 }
 
+static bool are_equal(const struct lent_state *a, const struct lent_state *b)
+{
+    return a->q == b->q && a->v == b->v && a->a == b->a;
+}
+
+/* The other method is told of every step, so it has the same scales and states from the second step on. */
+bool switcher_lend(const struct switcher *s, struct lent *lent)
+{
+    struct lent other;
+    if (s->now != 0 || s->made != 0 || !stepper_lend(s->steppers[0], lent)) return false;
+    lent->steps = INFINITY;
+    if (!s->steppers[1]) return true;
+    lent->steps = s->stiffness.wait - 1;
+    return lent->steps > 0 && weights_lend(stepper_control(s->steppers[1]), &other) &&
+           other.scale_q == lent->scale_q && other.scale_v == lent->scale_v &&
+           are_equal(&other.last, &lent->last);
+}
+
+void switcher_settle(struct switcher *s, const struct lent *lent)
+{
+    if (lent->accepted == 0) return;
+    stepper_settle(s->steppers[0], lent);
+    if (!s->steppers[1]) return;
+    weights_settle(stepper_control(s->steppers[1]), lent);
+    s->stiffness.wait -= (int)lent->accepted;
+}
+
 unsigned long switcher_rejected(const struct switcher *s, enum rejection why)
 {
     unsigned long more = s->steppers[1] ? stepper_get_counts(s->steppers[1])->rejected[why] : 0;

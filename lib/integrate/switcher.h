@@ -32,6 +32,10 @@ int switcher_partial(struct switcher *switcher, struct moment t, double *y, doub
 int switcher_shorten(struct switcher *switcher, struct moment t, double *y, double *f);
 int switcher_walk(struct switcher *switcher, struct moment t, double *y, double *f);
 
+/* stepper_lend for the explicit method, while it makes the steps, as many as there are before the other one is asked. */
+bool switcher_lend(const struct switcher *switcher, struct lent *lent);
+void switcher_settle(struct switcher *switcher, const struct lent *lent);
+
 /* Counts of both methods together, or one of them. */
 struct stepper_counts switcher_counts(const struct switcher *switcher);
 unsigned long switcher_rejected(const struct switcher *switcher, enum rejection why);

@@ -55,6 +55,7 @@
 #include <stdbool.h>
 
 #include "integrate/layout.h"
+#include "integrate/lent.h"
 
 /* Numbers of the step size law, without units. */
 struct step_law {
@@ -111,5 +112,11 @@ void weights_scales(const gsl_odeiv2_control *control, double h, const double *y
                     double *scales);
 
 double weights_tolerance(const gsl_odeiv2_control *control);
+
+/* Of one pair, all of `lent` that is the control's; false where it has others. */
+bool weights_lend(const gsl_odeiv2_control *control, struct lent *lent);
+
+/* Take back what has become of it. */
+void weights_settle(gsl_odeiv2_control *control, const struct lent *lent);
 
 #endif
