@@ -2,6 +2,8 @@
 #include "study/crew.h"
 
 #include "base/call.h"
+#include "batch/batch.h"
+#include "study/abreast.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -60,13 +62,14 @@ static void put_in_order(fbd_sweep_crew *crew, struct place *place)
 }
 
 /* How many runs the next share has: what takes some milliseconds for each thread of who takes it, and toward
- * the end a part of what is left. */
+ * the end a part of what is left; where runs go abreast, enough of them. */
 static uint64_t share_size(const fbd_sweep_crew *crew, size_t jobs)
 {
     double workers = (double)(crew->jobs + crew->helpers);
     double runs = crew->seconds > 0 ? fmin(share_seconds / crew->seconds, most_share) : 1;
     double left = (double)(crew->work.end - crew->next);
     double size = fmin(runs * (double)jobs, left / (2 * workers));
+    if (crew->abreast) size = fmax(size, fmin((double)(batch_most_lanes * jobs), ceil(left / workers)));
     return size >= 1 ? (uint64_t)size : 1;
 }
 
@@ -117,6 +120,14 @@ static void make_rows(struct row_maker *maker, struct place *place)
     place->rows.length = whole;
 }
 
+/* The same in the lanes of a batch. */
+static void make_rows_abreast(struct abreast *abreast, struct place *place)
+{
+    const struct rows_made rows = abreast_make(abreast, place->first, place->end, &place->rows);
+    place->made = rows.made;
+    place->failed = rows.failed;
+}
+
 static struct place *wait_for_share(fbd_sweep_crew *crew)
 {
     struct place *place;
@@ -131,18 +142,23 @@ static void *work(void *context)
     bool ready = row_maker_init(&maker, crew->sweep);
     maker.stop = stops;
     maker.stop_context = crew;
+    struct abreast *abreast = crew->abreast ? abreast_new(crew->sweep, batch_most_lanes, stops, crew) : NULL;
     pthread_mutex_lock(&crew->lock);
     if (!ready) end_early(crew, FBD_SWEEP_OUT_OF_MEMORY);
     for (struct place *place; (place = wait_for_share(crew)) != NULL;) {
         pthread_mutex_unlock(&crew->lock);
         double start = now();
-        make_rows(&maker, place);
+        if (abreast)
+            make_rows_abreast(abreast, place);
+        else
+            make_rows(&maker, place);
         double seconds = (now() - start) / (double)(place->end - place->first);
         pthread_mutex_lock(&crew->lock);
         crew->seconds = crew->seconds > 0 ? 0.5 * (crew->seconds + seconds) : seconds;
         put_in_order(crew, place);
     }
     pthread_mutex_unlock(&crew->lock);
+    abreast_free(abreast);
     row_maker_free(&maker);
     return NULL;
 }
@@ -185,6 +201,7 @@ fbd_sweep_crew *fbd_sweep_start(const fbd_sweep *sweep, const fbd_sweep_work *gi
     crew->sweep = sweep;
     crew->work = own;
     crew->helpers = helpers;
+    crew->abreast = abreast_suits(sweep);
     if (crew->work.end > sweep->axes.runs) crew->work.end = (size_t)sweep->axes.runs;
     crew->next = work->first;
     crew->jobs = work->jobs ? work->jobs : processors();

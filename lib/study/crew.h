@@ -31,6 +31,7 @@ struct fbd_sweep_crew {
     fbd_sweep_work work;
     size_t jobs, threads; /* wanted; running */
     size_t helpers;       /* other processes that claim shares */
+    bool abreast;         /* runs go abreast (abreast.h) */
     pthread_t *thread;
 
     atomic_bool over; /* no more rows are wanted */

@@ -177,11 +177,11 @@ static void put_outcome(const struct ensemble *run, struct text *text)
     put_end(text, status_of(run->outcome), run->refused ? reason : run->reason);
 }
 
+/* What is noted of a run that has come to its end. */
 static enum row_end put_run(struct row_maker *maker, struct ensemble *run, struct ledger *ledger,
-                            struct fbd_state *probe, struct text *text)
+                            struct text *text)
 {
     const struct columns *columns = &maker->sweep->columns;
-    if (!carry(maker, run, ledger, probe)) return row_stopped;
     bool ended = run->outcome == FBD_DONE || run->outcome == FBD_STOPPED;
     bool known =
         !ended || result_finite(run, ledger, ledger ? ledger->work : NULL) || run->outcome == FBD_FAILED;
@@ -197,33 +197,37 @@ static enum row_end put_run(struct row_maker *maker, struct ensemble *run, struc
     return run->outcome == FBD_DONE || run->outcome == FBD_STOPPED ? row_well : row_failed;
 }
 
-static enum row_end simulate(struct row_maker *maker, const struct fbd_model *model, struct text *text,
+/* A run at its start; NULL where the values do not go with the options, or memory is out. */
+static struct ensemble *start_run(const struct row_maker *maker, const struct fbd_model *model,
+                                  fbd_errors *errors)
+{
+    struct run_options options;
+    if (!options_choose(model, &maker->sweep->options, &options, errors)) return NULL;
+    return ensemble_new(model, &options);
+}
+
+static enum row_end simulate(struct row_maker *maker, struct ensemble *run, struct text *text,
                              fbd_errors *errors)
 {
     const struct columns *columns = &maker->sweep->columns;
-    struct run_options options;
+    const struct fbd_model *model = run->model;
     struct ledger ledger = {0};
     struct fbd_state *probe = NULL;
-    if (!options_choose(model, &maker->sweep->options, &options, errors)) {
-        put_wrong(maker, errors, text);
-        return row_failed;
-    }
-    struct ensemble *run = ensemble_new(model, &options);
-    bool ready = run != NULL;
-    if (ready && columns->ledger) ready = ledger_init(&ledger, model, ensemble_state(run), true);
+    bool ready = true;
+    if (columns->ledger) ready = ledger_init(&ledger, model, ensemble_state(run), true);
     if (ready && columns->extreme_count) {
         probe = state_new(model);
         ready = probe != NULL;
         extremes_start(maker->extremes, columns->extreme_count, ensemble_state(run));
     }
+    struct ledger *kept = columns->ledger ? &ledger : NULL;
     enum row_end end = row_failed;
-    if (ready)
-        end = put_run(maker, run, columns->ledger ? &ledger : NULL, probe, text);
-    else
+    if (!ready)
         put_wrong(maker, errors, text);
+    else
+        end = carry(maker, run, kept, probe) ? put_run(maker, run, kept, text) : row_stopped;
     if (columns->ledger) ledger_free(&ledger);
     state_free(probe);
-    ensemble_free(run);
     return end;
 }
 
@@ -290,22 +294,38 @@ static struct fbd_model *make_model(struct row_maker *maker, fbd_errors *errors)
     return scene ? model_compile(scene, errors) : NULL;
 }
 
+bool row_open(struct row_maker *maker, uint64_t run, struct open_row *row, struct text *text)
+{
+    *row = (struct open_row){.errors = fbd_errors_new()};
+    if (!row->errors || !row_maker_set(maker, run)) lose(text);
+    if (text->failed) return false;
+    put_start(maker, run, text);
+    row->model = make_model(maker, row->errors);
+    row->run = row->model ? start_run(maker, row->model, row->errors) : NULL;
+    if (!row->run) put_wrong(maker, row->errors, text);
+    return row->run != NULL;
+}
+
+void row_close(struct open_row *row)
+{
+    ensemble_free(row->run);
+    model_free(row->model);
+    fbd_errors_free(row->errors);
+    *row = (struct open_row){0};
+}
+
+enum row_end row_put(struct row_maker *maker, const struct open_row *row, struct text *text)
+{
+    return put_run(maker, row->run, NULL, text);
+}
+
 enum row_end row_make(struct row_maker *maker, uint64_t run, struct text *text)
 {
     size_t start = text->length;
-    fbd_errors *errors = fbd_errors_new();
-    if (!errors || !row_maker_set(maker, run)) lose(text);
+    struct open_row row;
     enum row_end end = row_failed;
-    if (!text->failed) {
-        put_start(maker, run, text);
-        struct fbd_model *model = make_model(maker, errors);
-        if (model)
-            end = simulate(maker, model, text, errors);
-        else
-            put_wrong(maker, errors, text);
-        model_free(model);
-    }
-    fbd_errors_free(errors);
+    if (row_open(maker, run, &row, text)) end = simulate(maker, row.run, text, row.errors);
+    row_close(&row);
     if (end == row_stopped) text->length = start;
     return end;
 }

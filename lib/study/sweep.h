@@ -11,6 +11,7 @@
 #ifndef FBD_STUDY_SWEEP_H
 #define FBD_STUDY_SWEEP_H
 
+#include "loop/ensemble.h"
 #include "model/model.h"
 #include "scene/patch.h"
 #include "study/axes.h"
@@ -60,5 +61,19 @@ enum row_end {
 
 /* Make run `run` (from 0) and append its row to `text`. */
 enum row_end row_make(struct row_maker *maker, uint64_t run, struct text *text);
+
+/* A row whose run is under way. */
+struct open_row {
+    fbd_errors *errors;
+    struct fbd_model *model;
+    struct ensemble *run;
+};
+
+/* The same in parts, for a run that somebody else carries to its end, of which no column asks for more than that. Append
+ * the start of the row and begin the run: false where there is none, and the row is whole (row_failed). Then, at the end
+ * of the run, the rest of it. The maker is not to be used for another row until this one is closed. */
+bool row_open(struct row_maker *maker, uint64_t run, struct open_row *row, struct text *text);
+enum row_end row_put(struct row_maker *maker, const struct open_row *row, struct text *text);
+void row_close(struct open_row *row);
 
 #endif

@@ -1,154 +1,111 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * What batches could bring: runs of a pendulum four abreast, by the compiler's vector types, in equal steps of dop853,
- * beside the same runs one after the other. A prototype: the library has no batches. Each lane is made by the operations
- * of the single run in the same order, so the ends have the same bits, which is checked.
+ * What the lanes of a batch bring to a sweep over a pendulum: the rows one after the other, beside the same rows with four
+ * runs abreast and with as many as this processor has lanes for, in turn, by one thread. The texts are compared.
  *
- * The sine is that of the mathematics library, lane by lane, or a polynomial that works on all lanes: with the library's
- * own sine, the sines are what is left.
+ * Usage: bench_lanes MODEL, whose parameter theta0 is varied
  */
+#include <gsl/gsl_errno.h>
 #include <math.h>
-#include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "integrate/dop853_table.h"
+#include "batch/batch.h"
+#include "claim.h"
+#include "study/abreast.h"
 #include "timing.h"
 
-enum { lanes = 4, steps = 200, runs = 2000, rounds = 15 };
+enum { rounds = 15, ways = 3 };
 
-static const double g = 9.81, h = 0.05; /* 1/s^2 (length 1 m), s */
-
-typedef double wide __attribute__((vector_size(lanes * sizeof(double))));
-typedef long long bits __attribute__((vector_size(lanes * sizeof(long long))));
-
-#define INLINE static inline __attribute__((always_inline))
-
-/* Processors that have them use registers of four doubles, in one and the same program. */
-#if defined(__x86_64__) && defined(__GLIBC__) && defined(__GNUC__) && !defined(__clang__)
-#define CLONES __attribute__((target_clones("avx2", "default")))
-#else
-#define CLONES
-#endif
-
-/* ---- sines: reduced by multiples of pi in two parts (Cody and Waite), then Taylor's polynomial up to r^15; some 1e-11 off
- * at pi/2, which is enough to time it */
-
-#define POLYNOMIAL_SINE(number, whole, x)                                                                    \
-    const double round = 6755399441055744.0;                                                                 \
-    number shifted = (x) * (1 / 3.141592653589793) + round, n = shifted - round;                             \
-    number r = (x)-n * 3.141592653589793116 - n * 1.2246467991473532e-16, z = r * r;                         \
-    number p = z * -7.6471637318198165e-13 + 1.6059043836821615e-10;                                         \
-    p = p * z - 2.5052108385441719e-08;                                                                      \
-    p = p * z + 2.7557319223985891e-06;                                                                      \
-    p = p * z - 1.984126984126984e-04;                                                                       \
-    p = p * z + 8.333333333333333e-03;                                                                       \
-    p = p * z - 1.6666666666666666e-01;                                                                      \
-    number sine = r + r * z * p;                                                                             \
-    whole odd, image;                                                                                        \
-    memcpy(&odd, &shifted, sizeof odd);                                                                      \
-    memcpy(&image, &sine, sizeof image);                                                                     \
-    image ^= (odd & 1) << 63;                                                                                \
-    memcpy(&sine, &image, sizeof sine);
-
-INLINE void library_sine(double *x)
+static fbd_sweep *open_sweep(const char *path, const char *vary, double until)
 {
-    *x = sin(*x);
+    fbd_errors *errors = fbd_errors_new();
+    fbd_options options = FBD_OPTIONS_DEFAULT;
+    options.until = until;
+    const fbd_sweep_plan plan = {.vary = &vary, .vary_count = 1, .run = &options};
+    fbd_sweep *sweep = errors ? fbd_sweep_read(path, &plan, errors) : NULL;
+    if (errors && !sweep) fbd_errors_print(errors, stderr);
+    fbd_errors_free(errors);
+    if (!sweep) exit(2);
+    return sweep;
 }
 
-INLINE void library_sines(wide *x)
+/* Of each way what it needs, and its rows. */
+struct way {
+    struct row_maker maker;
+    struct abreast *abreast; /* NULL: one after the other */
+    struct text rows;
+};
+
+static double time_of(struct way *way, size_t runs)
 {
-    for (int i = 0; i < lanes; i++) (*x)[i] = sin((*x)[i]);
-}
-
-INLINE void polynomial_sine(double *x)
-{
-    POLYNOMIAL_SINE(double, long long, *x)
-    *x = sine;
-}
-
-INLINE void polynomial_sines(wide *x)
-{
-    POLYNOMIAL_SINE(wide, bits, *x)
-    *x = sine;
-}
-
-/* ---- runs: `q` from rest, to where it is after all steps */
-
-#define RUN(name, number, sine)                                                                              \
-    CLONES static void name(const number *start, number *end)                                                \
-    {                                                                                                        \
-        number q = *start, v = q - q;                                                                        \
-        for (int n = 0; n < steps; n++) {                                                                    \
-            number k[13][2];                                                                                 \
-            k[1][0] = v;                                                                                     \
-            number at = q;                                                                                   \
-            sine(&at);                                                                                       \
-            k[1][1] = -g * at;                                                                               \
-            for (int s = 2; s <= 13; s++) {                                                                  \
-                number a = k[1][0] * dop853_a[s][1], b = k[1][1] * dop853_a[s][1];                           \
-                for (int j = 2; j < s; j++) {                                                                \
-                    if (dop853_a[s][j] == 0) continue;                                                       \
-                    a += k[j][0] * dop853_a[s][j];                                                           \
-                    b += k[j][1] * dop853_a[s][j];                                                           \
-                }                                                                                            \
-                if (s == 13) {                                                                               \
-                    q += h * a;                                                                              \
-                    v += h * b;                                                                              \
-                    break;                                                                                   \
-                }                                                                                            \
-                k[s][0] = v + h * b;                                                                         \
-                at = q + h * a;                                                                              \
-                sine(&at);                                                                                   \
-                k[s][1] = -g * at;                                                                           \
-            }                                                                                                \
-        }                                                                                                    \
-        *end = q;                                                                                            \
+    const double begin = processor_seconds();
+    way->rows.length = 0;
+    if (way->abreast) {
+        abreast_make(way->abreast, 0, runs, &way->rows);
+    } else {
+        for (size_t run = 0; run < runs; run++) row_make(&way->maker, run, &way->rows);
     }
-
-RUN(one_by_library, double, library_sine)
-RUN(one_by_polynomial, double, polynomial_sine)
-RUN(all_by_library, wide, library_sines)
-RUN(all_by_polynomial, wide, polynomial_sines)
-
-/* ---- side by side */
-
-static double starts[runs], ends[4][runs];
-
-static double time_of(int way)
-{
-    double begin = processor_seconds();
-    for (int i = 0; i < runs; i += way < 2 ? 1 : lanes) {
-        wide q, end;
-        if (way == 0) one_by_library(&starts[i], &ends[0][i]);
-        if (way == 1) one_by_polynomial(&starts[i], &ends[1][i]);
-        if (way < 2) continue;
-        memcpy(&q, &starts[i], sizeof q);
-        if (way == 2) all_by_library(&q, &end);
-        if (way == 3) all_by_polynomial(&q, &end);
-        memcpy(&ends[way][i], &end, sizeof end);
-    }
-    return (processor_seconds() - begin) / runs;
+    return (processor_seconds() - begin) / (double)runs;
 }
 
-int main(void)
+static void open_way(struct way *way, const fbd_sweep *sweep, unsigned lanes)
 {
-    static double seconds[4][rounds], by_library[rounds], by_polynomial[rounds];
-    for (int i = 0; i < runs; i++) starts[i] = 0.1 + 1e-3 * i;
-    for (int round = 0; round < rounds; round++) {
-        for (int way = 0; way < 4; way++) seconds[way][round] = time_of(way);
-        by_library[round] = seconds[0][round] / seconds[2][round];
-        by_polynomial[round] = seconds[1][round] / seconds[3][round];
+    *way = (struct way){0};
+    if (lanes == 0 && row_maker_init(&way->maker, sweep)) return;
+    way->abreast = abreast_suits(sweep) ? abreast_new(sweep, lanes, NULL, NULL) : NULL;
+    if (!way->abreast) exit(1);
+}
+
+static void close_way(struct way *way)
+{
+    if (!way->abreast) row_maker_free(&way->maker);
+    abreast_free(way->abreast);
+    text_free(&way->rows);
+}
+
+/* Where the processor has no four lanes it is not measured. */
+static void measure(const char *path, double until, const char *vary, double bound)
+{
+    static const unsigned lanes[ways] = {0, 4, batch_most_lanes};
+    static double seconds[ways][rounds], gain[ways][rounds];
+    fbd_sweep *sweep = open_sweep(path, vary, until);
+    const size_t runs = fbd_sweep_run_count(sweep);
+    struct way way[ways];
+    for (int i = 0; i < ways; i++) open_way(&way[i], sweep, lanes[i]);
+    for (int round = 0; round < rounds; round++)
+        for (int i = 0; i < ways; i++) {
+            seconds[i][round] = time_of(&way[i], runs);
+            gain[i][round] = seconds[0][round] / seconds[i][round];
+        }
+    printf("a pendulum for %g s: %.1f us a run", until, 1e6 * median(seconds[0], rounds));
+    for (int i = 1; i < ways; i++) {
+        const bool same = way[i].rows.length == way[0].rows.length &&
+                          memcmp(way[i].rows.data, way[0].rows.data, way[0].rows.length) == 0;
+        const double most = median(gain[i], rounds); /* which sorts them */
+        printf(", %u abreast %.1f us: %.2f times as many (quartiles %.2f to %.2f)",
+               abreast_lanes(way[i].abreast), 1e6 * median(seconds[i], rounds), most, gain[i][rounds / 4],
+               gain[i][3 * rounds / 4]);
+        if (!same) fputs("\nthe rows abreast differ from the others\n", stderr), exit(1);
     }
-    bool same =
-        memcmp(ends[0], ends[2], sizeof ends[0]) == 0 && memcmp(ends[1], ends[3], sizeof ends[1]) == 0;
-    printf("pendulum, %d steps of dop853: %.1f us a run, four abreast %.1f us: %.2f times as many runs\n",
-           steps, 1e6 * median(seconds[0], rounds), 1e6 * median(seconds[2], rounds),
-           median(by_library, rounds));
-    printf(
-        "with a sine for all lanes at once: %.1f us a run, four abreast %.1f us: %.2f times as many runs\n",
-        1e6 * median(seconds[1], rounds), 1e6 * median(seconds[3], rounds), median(by_polynomial, rounds));
-    printf("the bits of the single runs: %s\n", same ? "yes" : "NO");
-    return same ? 0 : 1;
+    printf("\n");
+    char what[160];
+    snprintf(what, sizeof what, "sweep: runs of a pendulum (%g s) in four lanes over the same one by one",
+             until);
+    const bool four = abreast_lanes(way[1].abreast) == 4;
+    if (bound > 0) claim_at_least(what, four ? median(gain[1], rounds) : (double)NAN, bound);
+    for (int i = 0; i < ways; i++) close_way(&way[i]);
+    fbd_sweep_free(sweep);
+}
+
+int main(int argc, char **argv)
+{
+    const double enough = 3;
+    gsl_set_error_handler_off();
+    if (argc != 2) return 2;
+    measure(argv[1], 10, "theta0=0.1:3:2000", 0);
+    measure(argv[1], 100, "theta0=0.1:3:500", enough);
+    measure(argv[1], 1000, "theta0=0.1:3:100", 0);
+    return 0;
 }
