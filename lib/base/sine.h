@@ -24,45 +24,51 @@
 
 /* For a number x, or a vector of them: y0 + y1 = r; the last two bits of `shifted` are those of n. */
 #define SINE_REDUCE(number, x, shifted, y0, y1)                                                              \
-    const number shifted = (x)*0.63661977236758138 + 6755399441055744.0,                                     \
-                 n_ = shifted - 6755399441055744.0; /* 1.5 2^52, whose last bit is 1 */                      \
-    const number a_ = (x)-n_ * 1.5707963267341256, b_ = n_ * 6.0771005063039657e-11, r_ = a_ - b_;           \
-    const number c_ = n_ * 2.0222662487959506e-21 - ((a_ - r_) - b_), y0 = r_ - c_, y1 = (r_ - y0) - c_;
+    do {                                                                                                     \
+        const double whole_ = 6755399441055744.0; /* 1.5 2^52, whose last bit is 1 */                        \
+        (shifted) = (x)*0.63661977236758138 + whole_;                                                        \
+        const number n_ = (shifted)-whole_, a_ = (x)-n_ * 1.5707963267341256,                                \
+                     b_ = n_ * 6.0771005063039657e-11, r_ = a_ - b_,                                         \
+                     c_ = n_ * 2.0222662487959506e-21 - ((a_ - r_) - b_);                                    \
+        (y0) = r_ - c_;                                                                                      \
+        (y1) = (r_ - (y0)) - c_;                                                                             \
+    } while (0)
 
 /* sin(y0 + y1), given z = y0^2, */
 #define SINE_OF_REST(number, y0, y1, z, result)                                                              \
-    const number s_ = (z) * (y0),                                                                            \
-                 p_ = 8.33333333332248946124e-03 +                                                           \
-                      (z) * (-1.98412698298579493134e-04 + (z)*2.75573137070700676789e-06) +                 \
-                      (z) * ((z) * (z)) * (-2.50507602534068634195e-08 + (z)*1.58969099521155010221e-10);    \
-    const number result = (y0) - (((z) * (0.5 * (y1)-s_ * p_) - (y1)) - s_ * -1.66666666666666324348e-01);
+    do {                                                                                                     \
+        const number s_ = (z) * (y0),                                                                        \
+                     p_ =                                                                                    \
+                         8.33333333332248946124e-03 +                                                        \
+                         (z) * (-1.98412698298579493134e-04 + (z)*2.75573137070700676789e-06) +              \
+                         (z) * ((z) * (z)) * (-2.50507602534068634195e-08 + (z)*1.58969099521155010221e-10); \
+        (result) = (y0) - (((z) * (0.5 * (y1)-s_ * p_) - (y1)) - s_ * -1.66666666666666324348e-01);          \
+    } while (0)
 
 /* and cos(y0 + y1). */
 #define COSINE_OF_REST(number, y0, y1, z, result)                                                            \
-    const number w_ = (z) * (z),                                                                             \
-                 g_ = (z) * (4.16666666666666019037e-02 +                                                    \
-                             (z) * (-1.38888888888741095749e-03 + (z)*2.48015872894767294178e-05)) +         \
-                      w_ * w_ *                                                                              \
-                          (-2.75573143513906633035e-07 +                                                     \
-                           (z) * (2.08757232129817482790e-09 + (z) * -1.13596475577881948265e-11));          \
-    const number half_ = 0.5 * (z), one_ = 1.0 - half_;                                                      \
-    const number result = one_ + (((1.0 - one_) - half_) + ((z)*g_ - (y0) * (y1)));
+    do {                                                                                                     \
+        const number w_ = (z) * (z), half_ = 0.5 * (z), one_ = 1.0 - half_,                                  \
+                     g_ = (z) * (4.16666666666666019037e-02 +                                                \
+                                 (z) * (-1.38888888888741095749e-03 + (z)*2.48015872894767294178e-05)) +     \
+                          w_ * w_ *                                                                          \
+                              (-2.75573143513906633035e-07 +                                                 \
+                               (z) * (2.08757232129817482790e-09 + (z) * -1.13596475577881948265e-11));      \
+        (result) = one_ + (((1.0 - one_) - half_) + ((z)*g_ - (y0) * (y1)));                                 \
+    } while (0)
 
 static inline double sine(double x)
 {
     if (!(fabs(x) <= SINE_MOST)) return sin(x);
     unsigned long long quarter;
-    SINE_REDUCE(double, x, shifted, y0, y1)
+    double shifted, y0, y1, result;
+    SINE_REDUCE(double, x, shifted, y0, y1);
     memcpy(&quarter, &shifted, sizeof quarter);
     const double z = y0 * y0;
-    double result;
-    if (quarter & 1) {
-        COSINE_OF_REST(double, y0, y1, z, cosine)
-        result = cosine;
-    } else {
-        SINE_OF_REST(double, y0, y1, z, sine)
-        result = sine;
-    }
+    if (quarter & 1)
+        COSINE_OF_REST(double, y0, y1, z, result);
+    else
+        SINE_OF_REST(double, y0, y1, z, result);
     return quarter & 2 ? -result : result;
 }
 

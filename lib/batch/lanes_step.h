@@ -77,10 +77,11 @@ INLINE mask mask_of(unsigned bits)
 
 INLINE wide sine_of(wide x)
 {
-    SINE_REDUCE(wide, x, shifted, y0, y1)
+    wide shifted, y0, y1, of_even, of_odd;
+    SINE_REDUCE(wide, x, shifted, y0, y1);
     const wide z = y0 * y0;
-    SINE_OF_REST(wide, y0, y1, z, of_even)
-    COSINE_OF_REST(wide, y0, y1, z, of_odd)
+    SINE_OF_REST(wide, y0, y1, z, of_even);
+    COSINE_OF_REST(wide, y0, y1, z, of_odd);
     const mask quarter = (mask)shifted;
     return (wide)((mask)select(-(quarter & 1), of_odd, of_even) ^ (quarter & 2) << 62);
 }
@@ -192,68 +193,147 @@ INLINE mask is_finite(const struct attempt *end)
     return 0 * (end->q + end->v + end->a + end->error_q + end->error_v) == 0;
 }
 
-/* ---- all of it */
+/* ---- what the lanes have come to */
+
+struct standing {
+    struct measure m;
+    wide t, h, tried, q, v, a, q0, v0, a0, most_q, most_v, since, left, growth, attempts, accepted, rejected;
+};
+
+INLINE struct standing load_all(const struct lanes *lanes)
+{
+    return (struct standing){
+        .m = {load(lanes->tolerance), load(lanes->cap), load(lanes->noise), load(lanes->floor),
+              load(lanes->scale_q), load(lanes->scale_v)},
+        .t = load(lanes->t),
+        .h = load(lanes->h),
+        .tried = load(lanes->tried),
+        .q = load(lanes->q),
+        .v = load(lanes->v),
+        .a = load(lanes->a),
+        .q0 = load(lanes->q0),
+        .v0 = load(lanes->v0),
+        .a0 = load(lanes->a0),
+        .most_q = load(lanes->most_q),
+        .most_v = load(lanes->most_v),
+        .since = load(lanes->since),
+        .left = load(lanes->steps_left),
+        .growth = load(lanes->growth),
+        .attempts = load(lanes->attempts),
+        .accepted = load(lanes->accepted),
+        .rejected = load(lanes->rejected),
+    };
+}
+
+INLINE void store_all(struct lanes *lanes, const struct standing *s)
+{
+    store(lanes->scale_q, s->m.scale_q);
+    store(lanes->scale_v, s->m.scale_v);
+    store(lanes->t, s->t);
+    store(lanes->h, s->h);
+    store(lanes->tried, s->tried);
+    store(lanes->q, s->q);
+    store(lanes->v, s->v);
+    store(lanes->a, s->a);
+    store(lanes->q0, s->q0);
+    store(lanes->v0, s->v0);
+    store(lanes->a0, s->a0);
+    store(lanes->most_q, s->most_q);
+    store(lanes->most_v, s->most_v);
+    store(lanes->since, s->since);
+    store(lanes->steps_left, s->left);
+    store(lanes->growth, s->growth);
+    store(lanes->attempts, s->attempts);
+    store(lanes->accepted, s->accepted);
+    store(lanes->rejected, s->rejected);
+}
+
+/* ---- one attempt of all lanes */
+
+/* The size that it has (stepper.c, plan_step). */
+struct size {
+    mask half, ready; /* half of the way to the end of the run; nothing but a step is due */
+    wide asked, step, t1;
+};
+
+INLINE struct size plan_size_of(const struct standing *s, wide until)
+{
+    const wide room = until - s->t;
+    struct size size = {.half = 2 * s->tried > room};
+    size.asked = select(size.half, room / 2, s->tried);
+    size.t1 = s->t + size.asked;
+    size.step = size.t1 - s->t;
+    size.ready = (1.01 * s->tried < room) & (room > 64 * DBL_EPSILON * size_of(s->t)) &
+                 (size.step > 8 * DBL_EPSILON * size_of(size.t1)) & (size.step > 1e-30 * room) &
+                 (s->left > 0);
+    return size;
+}
+
+/* The step ends in lanes `taken`, where `proposed` is the next one. */
+INLINE void accept(struct standing *s, mask taken, const struct attempt *end, wide t1, wide proposed,
+                   wide factor)
+{
+    s->accepted = select(taken, s->accepted + 1, s->accepted);
+    s->rejected = select(taken, s->rejected + s->attempts, s->rejected);
+    s->h = select(taken, proposed, s->h);
+    s->growth = select(taken, factor, s->growth);
+    s->most_q = select(taken, larger_of(s->most_q, size_of(s->q)), s->most_q);
+    s->most_v = select(taken, larger_of(s->most_v, size_of(s->v)), s->most_v);
+    s->m.scale_q = select(taken, larger_of(s->m.scale_q, size_of(end->q)), s->m.scale_q);
+    s->m.scale_v = select(taken, larger_of(s->m.scale_v, size_of(end->v)), s->m.scale_v);
+    s->q0 = select(taken, s->q, s->q0);
+    s->v0 = select(taken, s->v, s->v0);
+    s->a0 = select(taken, s->a, s->a0);
+    s->q = select(taken, end->q, s->q);
+    s->v = select(taken, end->v, s->v);
+    s->a = select(taken, end->a, s->a);
+    s->t = select(taken, t1, s->t);
+    s->since = select(taken, s->since + 1, s->since);
+    s->left = select(taken, s->left - 1, s->left);
+}
+
+/* Would rounding count in the step after this one (weights_noise_counts, run_renew_noise)? */
+INLINE mask noise_counts(const struct standing *s, const struct attempt *end, wide pause, wide proposed,
+                         wide swing)
+{
+    const struct measure *m = &s->m;
+    const wide zero = {0}, scale = larger_of(m->scale_v, size_of(end->v)),
+               allowed = 4 * m->noise * size_of(proposed);
+    return (s->since + 1 >= pause) & (allowed > m->tolerance * scale_of_rate(m, scale, zero)) &
+           (allowed > m->tolerance * scale_of_rate(m, scale, swing));
+}
+
+/* Those that have to do something else; what they have tried is forgotten when they are taken out. */
+INLINE mask attempt(struct standing *s, const struct system *system, mask active, wide pause,
+                    const struct size *size)
+{
+    const wide zero = {0}, one = zero + 1;
+    const struct attempt end = try_step(system, size->step, s->q, s->v, s->a);
+    const wide swing = amplitude_of(s->q, s->v, s->a, &end), ratio = ratio_of(&s->m, size->step, &end, swing),
+               factor = factor_of(ratio);
+    const wide next = size->step * select(s->attempts > 0, smaller_of(factor, one), factor),
+               proposed = select(size->half, larger_of(next, s->tried), next);
+    const mask odd = ~is_finite(&end) | ~(ratio < INFINITY) | end.beyond, passes = ratio <= 1,
+               counts = noise_counts(s, &end, pause, proposed, swing),
+               taken = active & passes & ~(odd | counts), again = active & ~(odd | passes);
+    accept(s, taken, &end, size->t1, proposed, factor);
+    s->attempts = select(taken, zero, select(again, s->attempts + 1, s->attempts));
+    s->tried = select(taken, proposed, select(again, size->asked * factor, s->tried));
+    return active & (odd | (passes & counts));
+}
 
 unsigned LANES_GO(struct lanes *lanes, unsigned active_bits)
 {
-    const wide until = load(lanes->until), pause = load(lanes->pause), zero = {0}, one = zero + 1;
+    const wide until = load(lanes->until), pause = load(lanes->pause);
     const struct system system = {load(lanes->inverse), load(lanes->s), load(lanes->kv)};
-    struct measure m = {load(lanes->tolerance), load(lanes->cap),     load(lanes->noise),
-                        load(lanes->floor),     load(lanes->scale_q), load(lanes->scale_v)};
-    wide t = load(lanes->t), h = load(lanes->h), tried = load(lanes->tried);
-    wide q = load(lanes->q), v = load(lanes->v), a = load(lanes->a);
-    wide q0 = load(lanes->q0), v0 = load(lanes->v0), a0 = load(lanes->a0);
-    wide most_q = load(lanes->most_q), most_v = load(lanes->most_v), since = load(lanes->since);
-    wide left = load(lanes->steps_left), growth = load(lanes->growth), attempts = load(lanes->attempts);
-    wide accepted = load(lanes->accepted), rejected = load(lanes->rejected);
     const mask active = mask_of(active_bits);
-    unsigned stops;
-    for (;;) {
-        const wide room = until - t;
-        const mask half = 2 * tried > room;
-        const wide asked = select(half, room / 2, tried), t1 = t + asked, step = t1 - t;
-        const mask ready = (1.01 * tried < room) & (room > 64 * DBL_EPSILON * size_of(t)) &
-                           (step > 8 * DBL_EPSILON * size_of(t1)) & (step > 1e-30 * room) & (left > 0);
-        stops = bits_of(active & ~ready);
-        if (stops) break;
-
-        const struct attempt end = try_step(&system, step, q, v, a);
-        const wide swing = amplitude_of(q, v, a, &end), ratio = ratio_of(&m, step, &end, swing);
-        const wide factor = factor_of(ratio);
-        const mask odd = ~is_finite(&end) | ~(ratio < INFINITY) | end.beyond;
-        const wide next = step * select(attempts > 0, smaller_of(factor, one), factor),
-                   proposed = select(half, larger_of(next, tried), next);
-        const wide scale_v = larger_of(m.scale_v, size_of(end.v)), allowed = 4 * m.noise * size_of(proposed);
-        const mask counts = (since + 1 >= pause) &
-                            (allowed > m.tolerance * scale_of_rate(&m, scale_v, zero)) &
-                            (allowed > m.tolerance * scale_of_rate(&m, scale_v, swing));
-        const mask passes = ratio <= 1, taken = active & passes & ~(odd | counts),
-                   again = active & ~(odd | passes);
-
-        accepted = select(taken, accepted + 1, accepted);
-        rejected = select(taken, rejected + attempts, rejected);
-        attempts = select(taken, zero, select(again, attempts + 1, attempts));
-        tried = select(taken, proposed, select(again, asked * factor, tried));
-        h = select(taken, proposed, h);
-        growth = select(taken, factor, growth);
-        most_q = select(taken, larger_of(most_q, size_of(q)), most_q);
-        most_v = select(taken, larger_of(most_v, size_of(v)), most_v);
-        m.scale_q = select(taken, larger_of(m.scale_q, size_of(end.q)), m.scale_q);
-        m.scale_v = select(taken, scale_v, m.scale_v);
-        q0 = select(taken, q, q0), v0 = select(taken, v, v0), a0 = select(taken, a, a0);
-        q = select(taken, end.q, q), v = select(taken, end.v, v), a = select(taken, end.a, a);
-        t = select(taken, t1, t);
-        since = select(taken, since + 1, since);
-        left = select(taken, left - 1, left);
-        stops = bits_of(active & (odd | (passes & counts)));
-        if (stops) break;
+    struct standing s = load_all(lanes);
+    unsigned stops = 0;
+    while (!stops) {
+        const struct size size = plan_size_of(&s, until);
+        stops = bits_of(active & ~size.ready);
+        if (!stops) stops = bits_of(attempt(&s, &system, active, pause, &size));
     }
-    store(lanes->scale_q, m.scale_q), store(lanes->scale_v, m.scale_v);
-    store(lanes->t, t), store(lanes->h, h), store(lanes->tried, tried);
-    store(lanes->q, q), store(lanes->v, v), store(lanes->a, a);
-    store(lanes->q0, q0), store(lanes->v0, v0), store(lanes->a0, a0);
-    store(lanes->most_q, most_q), store(lanes->most_v, most_v), store(lanes->since, since);
-    store(lanes->steps_left, left), store(lanes->growth, growth), store(lanes->attempts, attempts);
-    store(lanes->accepted, accepted), store(lanes->rejected, rejected);
+    store_all(lanes, &s);
     return stops;
 }
