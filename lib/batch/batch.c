@@ -10,10 +10,15 @@
 #include "dynamics/rates_row.h"
 #include "integrate/nystrom.h"
 #include "integrate/nystrom_table.h"
+#include "integrate/pair8.h"
+
+/* Evaluations of the right-hand side in a step: those of nystrom.h are as many as the stages that it has. */
+enum { rk8pd_stages = 13 };
 
 struct batch {
     unsigned count;
-    lanes_function *go;
+    lanes_function *const *go; /* by enum lane_motion */
+    enum lane_motion motion;   /* of all that is in the lanes */
     struct run *runs[most_lanes];
     struct lent lent[most_lanes];
     struct lanes lanes;
@@ -23,7 +28,7 @@ struct batch {
 
 struct width {
     unsigned lanes;
-    lanes_function *go;
+    lanes_function *const *go;
 };
 
 /* The widest of at most so many lanes. */
@@ -70,71 +75,108 @@ bool batch_suits(const struct fbd_model *model)
 static bool is_quiet(const struct run *run)
 {
     return run->end.outcome == FBD_GOING && run->plain && !run->step.restart && run->step.crawl == 0 &&
-           run->options.step == 0 && !run->options.apart && run->kind == structure_velocity_free &&
+           run->options.step == 0 && !run->options.apart && !structure_is_exact(run->kind) &&
            run->poles.count == 0 && !run->search.wakes && !run->contacts.due && !run->projected &&
            run->passages.end == HUGE_VAL && run->state->rest == 0;
 }
 
-/* The row of a pendulum, where that is all that moves. */
-static const struct row *row_of(const struct run *run)
+/* What moves there; `motions` where that is none of them. */
+static enum lane_motion lane_motion_of(const struct run *run, const struct lent *lent)
 {
     const struct row *row = run->system.inner.params;
-    return run->system.inner.function == swing_row && row->q == 0 && row->v == 1 && row->kv == 0 ? row : NULL;
+    if (run->system.inner.function == swing_row && row->q == 0 && row->v == 1) {
+        if (lent->type == step_nystrom) return swings;
+        if (lent->type == step_rk8pd) return swings_damped;
+    }
+    return motions;
+}
+
+static void put_constants(const struct run *run, struct lanes *lanes, unsigned lane)
+{
+    const struct row *row = run->system.inner.params;
+    lanes->constants[0][lane] = row->inverse;
+    lanes->constants[1][lane] = row->s;
+    lanes->constants[2][lane] = row->kv;
+}
+
+/* The numbers of `from`, one for each component, to a lane; and back. */
+static void spread(each_lane *to, unsigned lane, const double *from, size_t count)
+{
+    for (size_t c = 0; c < count; c++) to[c][lane] = from[c];
+}
+
+static void gather(double *to, each_lane *from, unsigned lane, size_t count)
+{
+    for (size_t c = 0; c < count; c++) to[c] = from[c][lane];
+}
+
+static void fill_lane(struct lanes *lanes, unsigned lane, const struct run *run, const struct lent *lent)
+{
+    const size_t n = lent->pairs;
+    put_constants(run, lanes, lane);
+    spread(lanes->cap, lane, lent->cap, n);
+    spread(lanes->noise, lane, lent->noise, n);
+    spread(lanes->floor, lane, lent->floor, n);
+    spread(lanes->y, lane, lent->last, 3 * n);
+    spread(lanes->before, lane, lent->before, 3 * n);
+    spread(lanes->rest, lane, lent->rest, 2 * n);
+    spread(lanes->scale, lane, lent->scale, 2 * n);
+    spread(lanes->most, lane, run->recent.anchor + 2 * n, 2 * n);
+    lanes->until[lane] = run->options.until;
+    lanes->tolerance[lane] = lent->tolerance;
+    lanes->pause[lane] = (double)run->grain.pause;
+    lanes->t[lane] = run->state->t;
+    lanes->h[lane] = lanes->tried[lane] = run->step.h;
+    lanes->rate[lane] = lanes->tried_rate[lane] = lent->rate;
+    lanes->since[lane] = (double)run->grain.since;
+    lanes->steps_left[lane] = fmin(lent->steps, (double)run_steps_to_noise(run));
+    lanes->growth[lane] = lent->growth;
+    lanes->accepted[lane] = lanes->rejected[lane] = lanes->attempts[lane] = 0;
+}
+
+static bool is_empty(const struct batch *batch)
+{
+    for (unsigned lane = 0; lane < batch->count; lane++)
+        if (batch->runs[lane]) return false;
+    return true;
+}
+
+/* Is what the method knows of the state the state? */
+static bool agrees_with(const struct lent *lent, const struct run *run)
+{
+    const size_t bytes = lent->pairs * sizeof(double);
+    return memcmp(lent->last, run->state->y, 2 * bytes) == 0 &&
+           memcmp(lent->last + 2 * lent->pairs, run->work.f + lent->pairs, bytes) == 0;
 }
 
 bool batch_put(struct batch *batch, unsigned lane, struct run *run)
 {
     struct lent *lent = &batch->lent[lane];
-    struct lanes *lanes = &batch->lanes;
     if (!batch_suits(run->model) || !is_quiet(run)) return false;
-    const struct row *row = row_of(run);
-    const double *y = run->state->y;
-    if (!row || !switcher_lend(run->stepper, lent) || lent->type != step_nystrom) return false;
-    if (lent->last.q != y[0] || lent->last.v != y[1] || lent->last.a != run->work.f[1]) return false;
+    if (!switcher_lend(run->stepper, lent) || lent->pairs != (size_t)run->model->plan.n) return false;
+    const enum lane_motion motion = lane_motion_of(run, lent);
+    if (motion == motions || !agrees_with(lent, run)) return false;
+    if (is_empty(batch)) batch->motion = motion;
+    if (batch->motion != motion) return false;
     batch->runs[lane] = run;
-    lanes->until[lane] = run->options.until;
-    lanes->tolerance[lane] = lent->tolerance;
-    lanes->cap[lane] = lent->cap;
-    lanes->noise[lane] = lent->noise;
-    lanes->floor[lane] = lent->floor;
-    lanes->inverse[lane] = row->inverse;
-    lanes->s[lane] = row->s;
-    lanes->kv[lane] = row->kv;
-    lanes->pause[lane] = (double)run->grain.pause;
-    lanes->t[lane] = run->state->t;
-    lanes->h[lane] = lanes->tried[lane] = run->step.h;
-    lanes->q[lane] = y[0];
-    lanes->v[lane] = y[1];
-    lanes->a[lane] = run->work.f[1];
-    lanes->q0[lane] = lent->before.q;
-    lanes->v0[lane] = lent->before.v;
-    lanes->a0[lane] = lent->before.a;
-    lanes->scale_q[lane] = lent->scale_q;
-    lanes->scale_v[lane] = lent->scale_v;
-    lanes->most_q[lane] = run->recent.anchor[2];
-    lanes->most_v[lane] = run->recent.anchor[3];
-    lanes->since[lane] = (double)run->grain.since;
-    lanes->steps_left[lane] = lent->steps;
-    lanes->growth[lane] = lent->growth;
-    lanes->accepted[lane] = lanes->rejected[lane] = lanes->attempts[lane] = 0;
+    fill_lane(&batch->lanes, lane, run, lent);
     return true;
 }
 
 /* The last step has no inside: it goes from its end to its end. */
-static void settle_run(struct run *run, const struct lanes *lanes, unsigned lane, const struct lent *lent)
+static void settle_run(struct run *run, struct lanes *lanes, unsigned lane, const struct lent *lent)
 {
-    const unsigned long evaluations = nystrom_stages * (lent->accepted + lent->rejected);
-    run->system.rhs += evaluations;
-    run->state->y[0] = run->work.y[0] = lanes->q[lane];
-    run->state->y[1] = run->work.y[1] = lanes->v[lane];
-    run->work.f[0] = lanes->v[lane];
-    run->work.f[1] = lanes->a[lane];
+    const size_t n = lent->pairs, bytes = n * sizeof(double);
+    const unsigned long evaluations = lent->type == step_nystrom ? nystrom_stages : rk8pd_stages;
+    run->system.rhs += evaluations * (lent->accepted + lent->rejected);
+    memcpy(run->state->y, lent->last, 2 * bytes);
+    memcpy(run->work.y, lent->last, 2 * bytes);
+    memcpy(run->work.f, lent->last + n, 2 * bytes);
     state_set_moment(run->state, moment_at(lanes->t[lane]));
     run->step.from = run->state->t;
     run->step.from_rest = 0;
     run->step.h = lanes->h[lane];
-    run->recent.anchor[2] = lanes->most_q[lane];
-    run->recent.anchor[3] = lanes->most_v[lane];
+    gather(run->recent.anchor + 2 * n, lanes->most, lane, 2 * n);
     run->grain.since = (unsigned long)lanes->since[lane];
     run->stale = true;
 }
@@ -143,15 +185,17 @@ void batch_take(struct batch *batch, unsigned lane)
 {
     struct run *run = batch->runs[lane];
     struct lent *lent = &batch->lent[lane];
-    const struct lanes *lanes = &batch->lanes;
+    struct lanes *lanes = &batch->lanes;
+    const size_t n = lent->pairs;
     batch->runs[lane] = NULL;
     lent->accepted = (unsigned long)lanes->accepted[lane];
     lent->rejected = (unsigned long)lanes->rejected[lane];
     if (lent->accepted == 0) return;
-    lent->last = (struct lent_state){lanes->q[lane], lanes->v[lane], lanes->a[lane]};
-    lent->before = (struct lent_state){lanes->q0[lane], lanes->v0[lane], lanes->a0[lane]};
-    lent->scale_q = lanes->scale_q[lane];
-    lent->scale_v = lanes->scale_v[lane];
+    gather(lent->last, lanes->y, lane, 3 * n);
+    gather(lent->before, lanes->before, lane, 3 * n);
+    gather(lent->rest, lanes->rest, lane, 2 * n);
+    gather(lent->scale, lanes->scale, lane, 2 * n);
+    lent->rate = lanes->rate[lane];
     lent->growth = lanes->growth[lane];
     switcher_settle(run->stepper, lent);
     settle_run(run, lanes, lane, lent);
@@ -162,7 +206,7 @@ unsigned batch_go(struct batch *batch)
     unsigned active = 0;
     for (unsigned lane = 0; lane < batch->count; lane++)
         active |= (unsigned)(batch->runs[lane] != NULL) << lane;
-    unsigned stops = active ? batch->go(&batch->lanes, active) : 0;
+    unsigned stops = active ? batch->go[batch->motion](&batch->lanes, active) : 0;
     for (unsigned lane = 0; lane < batch->count; lane++)
         if (stops >> lane & 1) batch_take(batch, lane);
     return stops;

@@ -4,43 +4,49 @@
  * processor.
  *
  * What a run does in a step in which nothing happens is done here by the same operations in the same order: one attempt of
- * all lanes at a time (nystrom.c), its error against what is allowed (weights.c), the size of the next one (stepper.c),
- * and whether the rounding of accelerations counts (noise.c). There is no branch for a lane. One in which anything else is
- * due keeps what it had before that step, and the run itself makes it.
+ * all lanes at a time (nystrom.c, pair8.c), its error against what is allowed (weights.c), the size of the next one
+ * (stepper.c), and whether the rounding of accelerations counts (noise.c). There is no branch for a lane. One in which
+ * anything else is due keeps what it had before that step, and the run itself makes it.
  *
  * The functions are one text (lanes_step.h) for registers of two, four and eight numbers.
  */
 #ifndef FBD_BATCH_LANES_H
 #define FBD_BATCH_LANES_H
 
-enum { most_lanes = 8 };
+enum { most_lanes = 8, most_pairs = 2, link_numbers = 9 };
 
 /* A number for each lane. */
 typedef double each_lane[most_lanes];
 
+/* Components as in the state of a run: coordinates, then rates, then accelerations. */
 struct lanes {
     /* what stays as it is */
-    each_lane until, tolerance, cap, noise, floor;
-    each_lane inverse, s, kv; /* acceleration = inverse (s sin q - kv v) */
-    each_lane pause;          /* steps from `since` = 0 until the noise is looked at */
+    each_lane until, tolerance, cap[most_pairs], noise[most_pairs], floor[most_pairs];
+    each_lane constants[2 * link_numbers]; /* of the equations of motion: lanes_step.h */
+    each_lane pause;                       /* steps from `since` = 0 until the noise is looked at */
     /* after the last step */
-    each_lane t, h;       /* h: proposed for the next one */
-    each_lane q, v, a;    /* the state */
-    each_lane q0, v0, a0; /* and that before it */
-    each_lane scale_q, scale_v;
-    each_lane most_q, most_v; /* the largest from which a step has begun */
+    each_lane t, h; /* h: proposed for the next one */
+    each_lane y[3 * most_pairs], before[3 * most_pairs];
+    each_lane rest[2 * most_pairs];
+    each_lane scale[2 * most_pairs];
+    each_lane most[2 * most_pairs]; /* the largest from which a step has begun */
+    each_lane rate;
     each_lane since;
     each_lane steps_left; /* that may be made here */
     each_lane growth;     /* the factor of the last step: stepper_counts */
     each_lane accepted, rejected;
     /* of the step that is being made */
-    each_lane tried;    /* size of the next attempt */
-    each_lane attempts; /* that were rejected */
+    each_lane tried, tried_rate; /* size of the next attempt, and the rate that it knows */
+    each_lane attempts;          /* that were rejected */
 };
 
 /* Make steps in the lanes of the mask `active` until some of them are due to do something else; those. */
 typedef unsigned lanes_function(struct lanes *lanes, unsigned active);
 
-lanes_function lanes_by_two, lanes_by_four, lanes_by_eight;
+/* What moves, and by which method. */
+enum lane_motion { swings, swings_damped, motions };
+
+extern lanes_function *const lanes_by_two[motions], *const lanes_by_four[motions],
+                                                        *const lanes_by_eight[motions];
 
 #endif

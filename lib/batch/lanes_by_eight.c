@@ -14,8 +14,8 @@
 #pragma GCC target("avx512f")
 #endif
 
-#define LANES_GO lanes_by_eight
-#define LANES    8
+#define LANES_TABLE lanes_by_eight
+#define LANES       8
 #include "batch/lanes_step.h"
 
 #if defined(__clang__)

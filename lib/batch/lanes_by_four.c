@@ -14,8 +14,8 @@
 #pragma GCC target("avx2")
 #endif
 
-#define LANES_GO lanes_by_four
-#define LANES    4
+#define LANES_TABLE lanes_by_four
+#define LANES       4
 #include "batch/lanes_step.h"
 
 #if defined(__clang__)

@@ -1,141 +1,155 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * The text of a function of lanes.h, to be included once by a file that says what it is called, `LANES_GO`, and how many
- * lanes it has, `LANES`.
- *
- * A comparison of vectors has all bits set where it holds, and none where it does not.
+ * The text of the functions of lanes.h, to be included once by a file that says how their table is called, `LANES_TABLE`,
+ * and how many lanes there are, `LANES`. `kind` and `n`, the number of coordinates, are constants wherever they stand.
  */
-#include <float.h>
-#include <math.h>
-#include <string.h>
+#ifndef FBD_BATCH_LANES_STEP_H
+#define FBD_BATCH_LANES_STEP_H
 
-#include "base/sine.h"
-#include "batch/lanes.h"
+#include "batch/lanes_vector.h"
 #include "integrate/nystrom_sums.h"
+#include "integrate/rk8pd_table.h"
 
-typedef double wide __attribute__((vector_size(LANES * sizeof(double))));
-typedef long long mask __attribute__((vector_size(LANES * sizeof(long long))));
+#ifndef LANES_TABLE
+#define LANES_TABLE lanes_by_two
+#endif
 
-#define INLINE static inline __attribute__((always_inline))
-
-/* ---- vectors */
-
-INLINE wide load(const double *from)
-{
-    wide x;
-    memcpy(&x, from, sizeof x);
-    return x;
-}
-
-INLINE void store(double *to, wide x)
-{
-    memcpy(to, &x, sizeof x);
-}
-
-INLINE wide select(mask which, wide a, wide b)
-{
-    return (wide)((which & (mask)a) | (~which & (mask)b));
-}
-
-INLINE wide larger_of(wide a, wide b)
-{
-    return select(a > b, a, b);
-}
-
-INLINE wide smaller_of(wide a, wide b)
-{
-    return select(a < b, a, b);
-}
-
-INLINE wide size_of(wide x)
-{
-    return (wide)((mask)x & 0x7fffffffffffffff);
-}
-
-INLINE wide root_of(wide x)
-{
-    double numbers[LANES];
-    store(numbers, x);
-    for (int i = 0; i < LANES; i++) numbers[i] = sqrt(numbers[i]);
-    return load(numbers);
-}
-
-/* One bit for each lane. */
-INLINE unsigned bits_of(mask which)
-{
-    unsigned bits = 0;
-    for (int i = 0; i < LANES; i++) bits |= (unsigned)(which[i] & 1) << i;
-    return bits;
-}
-
-INLINE mask mask_of(unsigned bits)
-{
-    mask which = {0};
-    for (int i = 0; i < LANES; i++) which[i] = -(long long)(bits >> i & 1);
-    return which;
-}
-
-INLINE wide sine_of(wide x)
-{
-    wide shifted, y0, y1, of_even, of_odd;
-    SINE_REDUCE(wide, x, shifted, y0, y1);
-    const wide z = y0 * y0;
-    SINE_OF_REST(wide, y0, y1, z, of_even);
-    COSINE_OF_REST(wide, y0, y1, z, of_odd);
-    const mask quarter = (mask)shifted;
-    return (wide)((mask)select(-(quarter & 1), of_odd, of_even) ^ (quarter & 2) << 62);
-}
-
-/* ---- a step */
+/* ---- equations of motion */
 
 struct system {
-    wide inverse, s, kv;
+    wide constants[2 * link_numbers];
+    mask beyond; /* a sine was asked for of more than SINE_MOST */
 };
 
-INLINE wide rate(const struct system *system, wide q, wide v)
+INLINE wide known_sine(struct system *system, wide x)
 {
-    return system->inverse * (system->s * sine_of(q) - system->kv * v);
+    system->beyond |= ~(size_of(x) <= SINE_MOST);
+    return sine_of(x);
 }
 
-/* What a step of size h comes to, and its errors. */
+/* Accelerations (rates_row.c). */
+INLINE void accelerate(enum lane_motion kind, struct system *system, const wide *q, const wide *v, wide *a)
+{
+    const wide *c = system->constants;
+    (void)kind;
+    a[0] = c[0] * (c[1] * known_sine(system, q[0]) - c[2] * v[0]);
+}
+
+/* ---- a step of size h, from y = q, v, a: what it comes to */
+
 struct attempt {
-    wide q, v, a, error_q, error_v;
-    mask beyond; /* a sine was asked for of more than SINE_MOST */
+    wide y[3 * most_pairs], error[2 * most_pairs], rest[2 * most_pairs];
+    wide dy[2 * most_pairs], da[most_pairs]; /* pair8_differences */
 };
 
 #define A(i, j) (nystrom_a[i][j] * k[j])
 #define STAGE(i, sum)                                                                                        \
     {                                                                                                        \
         const wide at = q + (nystrom_c[i] * h * v + h * h * (sum));                                          \
-        beyond |= ~(size_of(at) <= SINE_MOST);                                                               \
-        k[i] = rate(system, at, v);                                                                          \
+        accelerate(kind, system, &at, &v, &k[i]);                                                            \
     }
 
-INLINE struct attempt try_step(const struct system *system, wide h, wide q, wide v, wide a)
+/* Of one coordinate. */
+INLINE void try_nystrom(enum lane_motion kind, struct system *system, wide h, const wide *y,
+                        struct attempt *end)
 {
+    const wide q = y[0], v = y[1];
     wide k[nystrom_stages + 1];
-    mask beyond = {0};
-    k[1] = a;
+    k[1] = y[2];
     NYSTROM_STAGES_2_TO_9(STAGE, A)
     NYSTROM_STAGES_10_TO_14(STAGE, A)
     NYSTROM_STAGES_15_TO_17(STAGE, A)
     const wide b = NYSTROM_SUM(nystrom_b, k), d = NYSTROM_SUM(nystrom_d, k);
-    struct attempt end = {.q = q + (h * v + h * h * b),
-                          .v = v + h * d,
-                          .error_q = h * h * (b - NYSTROM_SUM(nystrom_b_low, k)),
-                          .error_v = h * (d - NYSTROM_SUM(nystrom_d_low, k))};
-    end.beyond = beyond | ~(size_of(end.q) <= SINE_MOST);
-    end.a = rate(system, end.q, end.v);
-    return end;
+    end->y[0] = q + (h * v + h * h * b);
+    end->y[1] = v + h * d;
+    end->error[0] = h * h * (b - NYSTROM_SUM(nystrom_b_low, k));
+    end->error[1] = h * (d - NYSTROM_SUM(nystrom_d_low, k));
+    accelerate(kind, system, &end->y[0], &end->y[1], &end->y[2]);
 }
 
 #undef A
 #undef STAGE
 
+enum { stages = 13 };
+
+/* The stages of one component. */
+struct slopes {
+    wide k[stages + 1];
+};
+
+/* The sum over the stages before `count`, of which those without a coefficient are left out. */
+INLINE wide sum_of(const double *row, const struct slopes *slopes, int count)
+{
+    const wide *k = slopes->k;
+    wide sum = row[1] * k[1];
+    if (count > 2 && row[2] != 0) sum += row[2] * k[2];
+    if (count > 3 && row[3] != 0) sum += row[3] * k[3];
+    if (count > 4 && row[4] != 0) sum += row[4] * k[4];
+    if (count > 5 && row[5] != 0) sum += row[5] * k[5];
+    if (count > 6 && row[6] != 0) sum += row[6] * k[6];
+    if (count > 7 && row[7] != 0) sum += row[7] * k[7];
+    if (count > 8 && row[8] != 0) sum += row[8] * k[8];
+    if (count > 9 && row[9] != 0) sum += row[9] * k[9];
+    if (count > 10 && row[10] != 0) sum += row[10] * k[10];
+    if (count > 11 && row[11] != 0) sum += row[11] * k[11];
+    if (count > 12 && row[12] != 0) sum += row[12] * k[12];
+    if (count > 13 && row[13] != 0) sum += row[13] * k[13];
+    return sum;
+}
+
+/* Stage i of all components, whose argument goes to `u`. */
+INLINE void make_stage(enum lane_motion kind, int n, struct system *system, int i, wide h, const wide *y,
+                       const wide *rest, struct slopes *slopes, wide *u)
+{
+    wide a[most_pairs];
+    for (int c = 0; c < 2 * n; c++) u[c] = y[c] + (rest[c] + h * sum_of(rk8pd_a[i], &slopes[c], i));
+    accelerate(kind, system, u, u + n, a);
+    for (int c = 0; c < n; c++) {
+        slopes[c].k[i] = u[n + c];
+        slopes[n + c].k[i] = a[c];
+    }
+}
+
+/* a + b - sum, where `sum` is a + b rounded (pair8.c). */
+INLINE wide lost_by(wide a, wide b, wide sum)
+{
+    const wide b_part = sum - a, a_part = sum - b_part;
+    return (a - a_part) + (b - b_part);
+}
+
+INLINE void try_rk8pd(enum lane_motion kind, int n, struct system *system, wide h, const wide *y,
+                      const wide *rest, struct attempt *end)
+{
+    struct slopes slopes[2 * most_pairs];
+    wide u[2 * most_pairs];
+    for (int c = 0; c < 2 * n; c++) slopes[c].k[1] = y[n + c];
+    make_stage(kind, n, system, 2, h, y, rest, slopes, u);
+    make_stage(kind, n, system, 3, h, y, rest, slopes, u);
+    make_stage(kind, n, system, 4, h, y, rest, slopes, u);
+    make_stage(kind, n, system, 5, h, y, rest, slopes, u);
+    make_stage(kind, n, system, 6, h, y, rest, slopes, u);
+    make_stage(kind, n, system, 7, h, y, rest, slopes, u);
+    make_stage(kind, n, system, 8, h, y, rest, slopes, u);
+    make_stage(kind, n, system, 9, h, y, rest, slopes, u);
+    make_stage(kind, n, system, 10, h, y, rest, slopes, u);
+    make_stage(kind, n, system, 11, h, y, rest, slopes, u);
+    make_stage(kind, n, system, 12, h, y, rest, slopes, u);
+    make_stage(kind, n, system, 13, h, y, rest, slopes, u);
+    for (int c = 0; c < 2 * n; c++) {
+        const wide rise = rest[c] + h * sum_of(rk8pd_a[14], &slopes[c], stages + 1);
+        end->error[c] = h * sum_of(rk8pd_e7, &slopes[c], stages + 1);
+        end->y[c] = y[c] + rise;
+        end->rest[c] = lost_by(y[c], rise, end->y[c]);
+        end->dy[c] = end->y[c] - u[c];
+    }
+    accelerate(kind, system, end->y, &end->y[n], &end->y[2 * n]);
+    for (int c = 0; c < n; c++) end->da[c] = end->y[2 * n + c] - slopes[n + c].k[stages];
+}
+
 /* ---- its error (weights.c) */
 
 struct measure {
-    wide tolerance, cap, noise, floor, scale_q, scale_v;
+    wide tolerance, cap[most_pairs], noise[most_pairs], floor[most_pairs], scale[2 * most_pairs];
 };
 
 INLINE wide scale_or_motion(wide scale, wide y, wide motion)
@@ -150,96 +164,129 @@ INLINE wide level_of(wide tolerance, wide scale, wide y, wide motion, wide hidde
     return larger_of(larger_of(tolerance * scale, DBL_EPSILON * (size_of(y) + moved)), hidden);
 }
 
-INLINE wide scale_of_rate(const struct measure *m, wide scale, wide swing)
+INLINE wide scale_of_rate(const struct measure *m, int i, wide scale, wide swing)
 {
-    return smaller_of(scale, larger_of(swing, larger_of(m->floor, 1e-3 * scale)));
+    return smaller_of(scale, larger_of(swing, larger_of(m->floor[i], 1e-3 * scale)));
 }
 
-INLINE wide amplitude_of(wide q0, wide v0, wide a0, const struct attempt *end)
+INLINE wide amplitude_of(int n, int i, const wide *y0, const wide *y1)
 {
-    const wide fast = larger_of(size_of(end->v), size_of(v0)), mean = (a0 + end->a) / 2;
-    const wide square = fast * fast + mean * mean * size_of((end->q - q0) / (end->a - a0));
+    const wide q = y1[i], v = y1[n + i], a = y1[2 * n + i], a0 = y0[2 * n + i];
+    const wide fast = larger_of(size_of(v), size_of(y0[n + i])), mean = (a0 + a) / 2;
+    const wide square = fast * fast + mean * mean * size_of((q - y0[i]) / (a - a0));
     return select(square >= 0, root_of(square), (wide){0} + INFINITY);
 }
 
-INLINE wide ratio_of(const struct measure *m, wide h, const struct attempt *end, wide swing)
+/* Of pair i. */
+INLINE wide ratio_of_pair(int n, int i, const struct measure *m, wide h, const struct attempt *end,
+                          wide swing, wide ratio)
 {
-    const wide q = end->q, v = end->v, a = end->a, zero = {0};
+    const wide q = end->y[i], v = end->y[n + i], a = end->y[2 * n + i];
     const wide q_motion = size_of(h * v) + size_of(h * h * a), v_motion = size_of(h * a);
-    const wide noise_v = m->noise * size_of(h), noise_q = noise_v * size_of(h);
-    const wide scale_q = smaller_of(scale_or_motion(m->scale_q, q, q_motion), m->cap);
-    const wide scale_v = scale_of_rate(m, scale_or_motion(m->scale_v, v, v_motion), swing);
+    const wide noise_v = m->noise[i] * size_of(h), noise_q = noise_v * size_of(h);
+    const wide scale_q = smaller_of(scale_or_motion(m->scale[i], q, q_motion), m->cap[i]);
+    const wide scale_v = scale_of_rate(m, i, scale_or_motion(m->scale[n + i], v, v_motion), swing);
     const wide hidden =
-        larger_of(DBL_EPSILON * smaller_of(size_of(q), m->cap) / size_of(h), 4 * m->noise * size_of(h));
+        larger_of(DBL_EPSILON * smaller_of(size_of(q), m->cap[i]) / size_of(h), 4 * m->noise[i] * size_of(h));
     const wide level_q = level_of(m->tolerance, scale_q, q, q_motion, 4 * noise_q),
                level_v = level_of(m->tolerance, scale_v, v, v_motion, hidden);
-    const wide error_q = size_of(end->error_q), error_v = size_of(end->error_v);
-    const wide by_q = select(error_q > noise_q, larger_of(zero, error_q / level_q), zero);
+    const wide error_q = size_of(end->error[i]), error_v = size_of(end->error[n + i]);
+    const wide by_q = select(error_q > noise_q, larger_of(ratio, error_q / level_q), ratio);
     return select(error_v > noise_v, larger_of(by_q, error_v / level_v), by_q);
 }
 
-/* The next step over this one, for an estimate of order 11. */
-INLINE wide factor_of(wide ratio)
+/* The next step over this one, for an estimate of order 11 or 8. */
+INLINE wide factor_of(enum lane_motion kind, wide ratio)
 {
     const double safety = 0.7, shrink = 0.333, grow = 6;
-    const wide sixteenth = root_of(root_of(root_of(root_of(ratio))));
-    const wide factor = safety / (sixteenth * root_of(sixteenth)), one = (wide){0} + 1;
-    const wide least = (wide){0} + shrink, most = (wide){0} + grow;
+    const wide eighth = root_of(root_of(root_of(ratio))), one = (wide){0} + 1;
+    wide root = eighth;
+    if (kind == swings) {
+        const wide sixteenth = root_of(eighth);
+        root = sixteenth * root_of(sixteenth);
+    }
+    const wide factor = safety / root, least = (wide){0} + shrink, most = (wide){0} + grow;
     return select(ratio == 0, most, select(ratio > one, larger_of(factor, least), smaller_of(factor, most)));
 }
 
-INLINE mask is_finite(const struct attempt *end)
+INLINE mask is_finite(int n, const struct attempt *end)
 {
-    return 0 * (end->q + end->v + end->a + end->error_q + end->error_v) == 0;
+    wide probe = {0};
+    for (int c = 0; c < 3 * n; c++) probe += 0 * end->y[c];
+    for (int c = 0; c < 2 * n; c++) probe += 0 * end->error[c];
+    return probe == 0;
+}
+
+/* The fastest rate that the step has seen (weights_rate). */
+INLINE wide rate_of(int n, const struct measure *m, const struct attempt *end)
+{
+    const wide zero = {0};
+    wide by_q = zero, by_v = zero, by_a = zero;
+    for (int i = 0; i < n; i++) {
+        const wide scale = larger_of(m->scale[n + i], size_of(end->y[n + i]));
+        const mask counts = scale != 0;
+        by_q = select(counts, by_q + size_of(end->dy[i]) / scale, by_q);
+        by_v = select(counts, by_v + size_of(end->dy[n + i]) / scale, by_v);
+        by_a = select(counts, by_a + larger_of(size_of(end->da[i]) - 8 * m->noise[i], zero) / scale, by_a);
+    }
+    const wide root = by_v + root_of(by_v * by_v + 4 * by_q * by_a);
+    return select((by_a > 0) & (root > 0), 2 * by_a / root, zero);
 }
 
 /* ---- what the lanes have come to */
 
 struct standing {
     struct measure m;
-    wide t, h, tried, q, v, a, q0, v0, a0, most_q, most_v, since, left, growth, attempts, accepted, rejected;
+    wide y[3 * most_pairs], before[3 * most_pairs], rest[2 * most_pairs], most[2 * most_pairs];
+    wide t, h, tried, rate, tried_rate, since, left, growth, attempts, accepted, rejected;
 };
 
-INLINE struct standing load_all(const struct lanes *lanes)
+INLINE void load_each(int count, wide *to, const double *from)
 {
-    return (struct standing){
-        .m = {load(lanes->tolerance), load(lanes->cap), load(lanes->noise), load(lanes->floor),
-              load(lanes->scale_q), load(lanes->scale_v)},
-        .t = load(lanes->t),
-        .h = load(lanes->h),
-        .tried = load(lanes->tried),
-        .q = load(lanes->q),
-        .v = load(lanes->v),
-        .a = load(lanes->a),
-        .q0 = load(lanes->q0),
-        .v0 = load(lanes->v0),
-        .a0 = load(lanes->a0),
-        .most_q = load(lanes->most_q),
-        .most_v = load(lanes->most_v),
-        .since = load(lanes->since),
-        .left = load(lanes->steps_left),
-        .growth = load(lanes->growth),
-        .attempts = load(lanes->attempts),
-        .accepted = load(lanes->accepted),
-        .rejected = load(lanes->rejected),
-    };
+    for (int c = 0; c < count; c++) to[c] = load(from + (size_t)c * most_lanes);
 }
 
-INLINE void store_all(struct lanes *lanes, const struct standing *s)
+INLINE void store_each(int count, double *to, const wide *from)
 {
-    store(lanes->scale_q, s->m.scale_q);
-    store(lanes->scale_v, s->m.scale_v);
+    for (int c = 0; c < count; c++) store(to + (size_t)c * most_lanes, from[c]);
+}
+
+INLINE void load_all(int n, const struct lanes *lanes, struct standing *s)
+{
+    load_each(n, s->m.cap, lanes->cap[0]);
+    load_each(n, s->m.noise, lanes->noise[0]);
+    load_each(n, s->m.floor, lanes->floor[0]);
+    load_each(2 * n, s->m.scale, lanes->scale[0]);
+    load_each(3 * n, s->y, lanes->y[0]);
+    load_each(3 * n, s->before, lanes->before[0]);
+    load_each(2 * n, s->rest, lanes->rest[0]);
+    load_each(2 * n, s->most, lanes->most[0]);
+    s->m.tolerance = load(lanes->tolerance);
+    s->t = load(lanes->t);
+    s->h = load(lanes->h);
+    s->tried = load(lanes->tried);
+    s->rate = load(lanes->rate);
+    s->tried_rate = load(lanes->tried_rate);
+    s->since = load(lanes->since);
+    s->left = load(lanes->steps_left);
+    s->growth = load(lanes->growth);
+    s->attempts = load(lanes->attempts);
+    s->accepted = load(lanes->accepted);
+    s->rejected = load(lanes->rejected);
+}
+
+INLINE void store_all(int n, struct lanes *lanes, const struct standing *s)
+{
+    store_each(2 * n, lanes->scale[0], s->m.scale);
+    store_each(3 * n, lanes->y[0], s->y);
+    store_each(3 * n, lanes->before[0], s->before);
+    store_each(2 * n, lanes->rest[0], s->rest);
+    store_each(2 * n, lanes->most[0], s->most);
     store(lanes->t, s->t);
     store(lanes->h, s->h);
     store(lanes->tried, s->tried);
-    store(lanes->q, s->q);
-    store(lanes->v, s->v);
-    store(lanes->a, s->a);
-    store(lanes->q0, s->q0);
-    store(lanes->v0, s->v0);
-    store(lanes->a0, s->a0);
-    store(lanes->most_q, s->most_q);
-    store(lanes->most_v, s->most_v);
+    store(lanes->rate, s->rate);
+    store(lanes->tried_rate, s->tried_rate);
     store(lanes->since, s->since);
     store(lanes->steps_left, s->left);
     store(lanes->growth, s->growth);
@@ -269,71 +316,128 @@ INLINE struct size plan_size_of(const struct standing *s, wide until)
     return size;
 }
 
+/* What has been said of an attempt. */
+struct verdict {
+    mask odd, passes; /* not for lanes to judge; accepted */
+    wide factor, rate;
+};
+
+INLINE struct verdict judge(enum lane_motion kind, int n, const struct standing *s, wide h,
+                            const struct attempt *end, const wide *swings_of)
+{
+    wide ratio = {0};
+    for (int i = 0; i < n; i++) ratio = ratio_of_pair(n, i, &s->m, h, end, swings_of[i], ratio);
+    struct verdict verdict = {.passes = ratio <= 1, .factor = factor_of(kind, ratio), .rate = s->tried_rate};
+    verdict.odd = ~is_finite(n, end) | ~(ratio < INFINITY);
+    if (kind == swings) return verdict;
+    /* stepper.c, keep_stable */
+    const wide goal = (wide){0} + 4, kept = 0.9 * s->tried_rate, seen = rate_of(n, &s->m, end),
+               rate = larger_of(seen, kept), h_rate = h * rate;
+    const mask fast = verdict.passes & (h_rate > 5);
+    verdict.rate = select(verdict.passes, rate, s->tried_rate);
+    verdict.factor =
+        select(verdict.passes & ~fast & (h_rate * verdict.factor > goal), goal / h_rate, verdict.factor);
+    verdict.factor = select(fast, larger_of(goal / h_rate, (wide){0} + 0.1), verdict.factor);
+    verdict.passes &= ~fast;
+    return verdict;
+}
+
+/* Would rounding count in the step after this one (weights_noise_counts, run_renew_noise)? */
+INLINE mask noise_counts(int n, const struct standing *s, const struct attempt *end, wide pause,
+                         wide proposed, const wide *swings_of)
+{
+    const struct measure *m = &s->m;
+    const wide zero = {0};
+    mask counts = {0};
+    for (int i = 0; i < n; i++) {
+        const wide scale = larger_of(m->scale[n + i], size_of(end->y[n + i])),
+                   allowed = 4 * m->noise[i] * size_of(proposed);
+        counts |= (allowed > m->tolerance * scale_of_rate(m, i, scale, zero)) &
+                  (allowed > m->tolerance * scale_of_rate(m, i, scale, swings_of[i]));
+    }
+    return counts & (s->since + 1 >= pause);
+}
+
 /* The step ends in lanes `taken`, where `proposed` is the next one. */
-INLINE void accept(struct standing *s, mask taken, const struct attempt *end, wide t1, wide proposed,
+INLINE void accept(int n, struct standing *s, mask taken, const struct attempt *end, wide t1, wide proposed,
                    wide factor)
 {
     s->accepted = select(taken, s->accepted + 1, s->accepted);
     s->rejected = select(taken, s->rejected + s->attempts, s->rejected);
     s->h = select(taken, proposed, s->h);
     s->growth = select(taken, factor, s->growth);
-    s->most_q = select(taken, larger_of(s->most_q, size_of(s->q)), s->most_q);
-    s->most_v = select(taken, larger_of(s->most_v, size_of(s->v)), s->most_v);
-    s->m.scale_q = select(taken, larger_of(s->m.scale_q, size_of(end->q)), s->m.scale_q);
-    s->m.scale_v = select(taken, larger_of(s->m.scale_v, size_of(end->v)), s->m.scale_v);
-    s->q0 = select(taken, s->q, s->q0);
-    s->v0 = select(taken, s->v, s->v0);
-    s->a0 = select(taken, s->a, s->a0);
-    s->q = select(taken, end->q, s->q);
-    s->v = select(taken, end->v, s->v);
-    s->a = select(taken, end->a, s->a);
+    for (int c = 0; c < 2 * n; c++) {
+        s->most[c] = select(taken, larger_of(s->most[c], size_of(s->y[c])), s->most[c]);
+        s->m.scale[c] = select(taken, larger_of(s->m.scale[c], size_of(end->y[c])), s->m.scale[c]);
+    }
+    for (int c = 0; c < 3 * n; c++) {
+        s->before[c] = select(taken, s->y[c], s->before[c]);
+        s->y[c] = select(taken, end->y[c], s->y[c]);
+    }
     s->t = select(taken, t1, s->t);
     s->since = select(taken, s->since + 1, s->since);
     s->left = select(taken, s->left - 1, s->left);
 }
 
-/* Would rounding count in the step after this one (weights_noise_counts, run_renew_noise)? */
-INLINE mask noise_counts(const struct standing *s, const struct attempt *end, wide pause, wide proposed,
-                         wide swing)
-{
-    const struct measure *m = &s->m;
-    const wide zero = {0}, scale = larger_of(m->scale_v, size_of(end->v)),
-               allowed = 4 * m->noise * size_of(proposed);
-    return (s->since + 1 >= pause) & (allowed > m->tolerance * scale_of_rate(m, scale, zero)) &
-           (allowed > m->tolerance * scale_of_rate(m, scale, swing));
-}
-
 /* Those that have to do something else; what they have tried is forgotten when they are taken out. */
-INLINE mask attempt(struct standing *s, const struct system *system, mask active, wide pause,
-                    const struct size *size)
+INLINE mask attempt(enum lane_motion kind, int n, struct standing *s, struct system *system, mask active,
+                    wide pause, const struct size *size)
 {
     const wide zero = {0}, one = zero + 1;
-    const struct attempt end = try_step(system, size->step, s->q, s->v, s->a);
-    const wide swing = amplitude_of(s->q, s->v, s->a, &end), ratio = ratio_of(&s->m, size->step, &end, swing),
-               factor = factor_of(ratio);
-    const wide next = size->step * select(s->attempts > 0, smaller_of(factor, one), factor),
+    struct attempt end;
+    wide swings_of[most_pairs];
+    system->beyond = (mask){0};
+    if (kind == swings)
+        try_nystrom(kind, system, size->step, s->y, &end);
+    else
+        try_rk8pd(kind, n, system, size->step, s->y, s->rest, &end);
+    for (int i = 0; i < n; i++) swings_of[i] = amplitude_of(n, i, s->y, end.y);
+    struct verdict verdict = judge(kind, n, s, size->step, &end, swings_of);
+    verdict.odd |= system->beyond;
+    const wide next = size->step * select(s->attempts > 0, smaller_of(verdict.factor, one), verdict.factor),
                proposed = select(size->half, larger_of(next, s->tried), next);
-    const mask odd = ~is_finite(&end) | ~(ratio < INFINITY) | end.beyond, passes = ratio <= 1,
-               counts = noise_counts(s, &end, pause, proposed, swing),
-               taken = active & passes & ~(odd | counts), again = active & ~(odd | passes);
-    accept(s, taken, &end, size->t1, proposed, factor);
+    const mask counts = noise_counts(n, s, &end, pause, proposed, swings_of),
+               taken = active & verdict.passes & ~(verdict.odd | counts),
+               again = active & ~(verdict.odd | verdict.passes);
+    accept(n, s, taken, &end, size->t1, proposed, verdict.factor);
+    if (kind != swings) {
+        for (int c = 0; c < 2 * n; c++) s->rest[c] = select(taken, end.rest[c], s->rest[c]);
+        s->tried_rate = select(taken | again, verdict.rate, s->tried_rate);
+        s->rate = select(taken, verdict.rate, s->rate);
+    }
     s->attempts = select(taken, zero, select(again, s->attempts + 1, s->attempts));
-    s->tried = select(taken, proposed, select(again, size->asked * factor, s->tried));
-    return active & (odd | (passes & counts));
+    s->tried = select(taken, proposed, select(again, size->asked * verdict.factor, s->tried));
+    return active & (verdict.odd | (verdict.passes & counts));
 }
 
-unsigned LANES_GO(struct lanes *lanes, unsigned active_bits)
+INLINE unsigned go(enum lane_motion kind, int n, struct lanes *lanes, unsigned active_bits)
 {
     const wide until = load(lanes->until), pause = load(lanes->pause);
-    const struct system system = {load(lanes->inverse), load(lanes->s), load(lanes->kv)};
     const mask active = mask_of(active_bits);
-    struct standing s = load_all(lanes);
+    struct system system;
+    struct standing s;
+    load_each(2 * link_numbers, system.constants, lanes->constants[0]);
+    load_all(n, lanes, &s);
     unsigned stops = 0;
     while (!stops) {
         const struct size size = plan_size_of(&s, until);
         stops = bits_of(active & ~size.ready);
-        if (!stops) stops = bits_of(attempt(&s, &system, active, pause, &size));
+        if (!stops) stops = bits_of(attempt(kind, n, &s, &system, active, pause, &size));
     }
-    store_all(lanes, &s);
+    store_all(n, lanes, &s);
     return stops;
 }
+
+static unsigned go_swinging(struct lanes *lanes, unsigned active)
+{
+    return go(swings, 1, lanes, active);
+}
+
+static unsigned go_damped(struct lanes *lanes, unsigned active)
+{
+    return go(swings_damped, 1, lanes, active);
+}
+
+lanes_function *const LANES_TABLE[motions] = {[swings] = go_swinging, [swings_damped] = go_damped};
+
+#endif

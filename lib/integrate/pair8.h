@@ -47,6 +47,7 @@
 #include <gsl/gsl_odeiv2.h>
 #include <stdbool.h>
 
+#include "integrate/lent.h"
 #include "integrate/powers.h"
 
 extern const gsl_odeiv2_step_type *const step_dop853, *const step_rk8pd;
@@ -69,5 +70,9 @@ int dop853_dense_powers(const gsl_odeiv2_step *step, size_t i, const struct powe
  * to detect stiffness). False, and nothing set, unless the last step was made with dydt_out, is of one of these types
  * and has no dense output yet. The numbers last until the dense output is made or the next step. */
 bool pair8_differences(const gsl_odeiv2_step *step, const double **dy, const double **df);
+
+/* What the last state of `lent` has lost by rounding, known to a step of one of these types; and take it back. */
+void pair8_lend(const gsl_odeiv2_step *step, struct lent *lent);
+void pair8_settle(gsl_odeiv2_step *step, const struct lent *lent);
 
 #endif

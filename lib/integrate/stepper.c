@@ -376,21 +376,26 @@ bool stepper_lend(const struct stepper *s, struct lent *lent)
 {
     const struct method *method = s->method;
     bool plain = !method->implicit && !method->multistep && !method->exact && !(method->by_time > 0);
-    if (!plain || s->h_fixed > 0 || s->h_max < INFINITY || s->jacobian || s->rate > 0) return false;
+    if (!plain || s->h_fixed > 0 || s->h_max < INFINITY || s->jacobian) return false;
     lent->type = s->step->type;
+    lent->rate = s->rate;
     lent->growth = s->counts.growth;
     lent->accepted = lent->rejected = 0;
-    return weights_lend(s->control, lent);
+    if (!weights_lend(s->control, lent)) return false;
+    if (lent->type == step_rk8pd || lent->type == step_dop853) pair8_lend(s->step, lent);
+    return true;
 }
 
 void stepper_settle(struct stepper *s, const struct lent *lent)
 {
     s->stepped = false;
+    s->rate = lent->rate;
     s->counts.accepted += lent->accepted;
     s->counts.rejected[rejected_error] += lent->rejected;
     if (lent->rejected > 0) s->counts.last = rejected_error;
     s->counts.growth = lent->growth;
     weights_settle(s->control, lent);
+    if (lent->type == step_rk8pd || lent->type == step_dop853) pair8_settle(s->step, lent);
 }
 
 gsl_odeiv2_control *stepper_control(struct stepper *s)

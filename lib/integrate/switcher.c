@@ -163,9 +163,13 @@ int switcher_walk(struct switcher *s, struct moment t, double *y, double *f)
     return stepper_walk(s->steppers[s->made], t, y, f);
 }
 
-static bool are_equal(const struct lent_state *a, const struct lent_state *b)
+/* Do both methods have the same scales and the same last state? */
+static bool agree(const struct lent *a, const struct lent *b)
 {
-    return a->q == b->q && a->v == b->v && a->a == b->a;
+    bool same = true;
+    for (size_t i = 0; i < 2 * a->pairs; i++) same &= a->scale[i] == b->scale[i];
+    for (size_t i = 0; i < 3 * a->pairs; i++) same &= a->last[i] == b->last[i];
+    return same;
 }
 
 /* The other method is told of every step, so it has the same scales and states from the second step on. */
@@ -176,9 +180,7 @@ bool switcher_lend(const struct switcher *s, struct lent *lent)
     lent->steps = INFINITY;
     if (!s->steppers[1]) return true;
     lent->steps = s->stiffness.wait - 1;
-    return lent->steps > 0 && weights_lend(stepper_control(s->steppers[1]), &other) &&
-           other.scale_q == lent->scale_q && other.scale_v == lent->scale_v &&
-           are_equal(&other.last, &lent->last);
+    return lent->steps > 0 && weights_lend(stepper_control(s->steppers[1]), &other) && agree(lent, &other);
 }
 
 void switcher_settle(struct switcher *s, const struct lent *lent)

@@ -247,30 +247,26 @@ double weights_tolerance(const gsl_odeiv2_control *control)
 bool weights_lend(const gsl_odeiv2_control *control, struct lent *lent)
 {
     const struct weights *w = control->state;
-    if (w->pairs != 1 || w->size != 2) return false;
+    const size_t n = w->pairs, bytes = n * sizeof(double);
+    if (n == 0 || n > lent_most_pairs || w->size != 2 * n) return false;
+    lent->pairs = n;
     lent->tolerance = w->tolerance;
-    lent->scale_q = w->scale[0];
-    lent->scale_v = w->scale[1];
-    lent->cap = w->cap[0];
-    lent->noise = w->noise[0];
-    lent->floor = w->floor[0];
-    lent->last = (struct lent_state){w->before[0], w->before[1], w->before[2]};
-    lent->before = (struct lent_state){w->earlier[0], w->earlier[1], w->earlier[2]};
+    memcpy(lent->scale, w->scale, 2 * bytes);
+    memcpy(lent->cap, w->cap, bytes);
+    memcpy(lent->noise, w->noise, bytes);
+    memcpy(lent->floor, w->floor, bytes);
+    memcpy(lent->last, w->before, 3 * bytes);
+    memcpy(lent->before, w->earlier, 3 * bytes);
     return true;
 }
 
 void weights_settle(gsl_odeiv2_control *control, const struct lent *lent)
 {
     struct weights *w = control->state;
-    const struct lent_state *states[] = {&lent->before, &lent->last};
-    w->scale[0] = lent->scale_q;
-    w->scale[1] = lent->scale_v;
-    for (int k = 0; k < 2; k++) {
-        double *state = k == 0 ? w->earlier : w->before;
-        state[0] = states[k]->q;
-        state[1] = states[k]->v;
-        state[2] = states[k]->a;
-    }
+    const size_t bytes = w->pairs * sizeof(double);
+    memcpy(w->scale, lent->scale, 2 * bytes);
+    memcpy(w->before, lent->last, 3 * bytes);
+    memcpy(w->earlier, lent->before, 3 * bytes);
 }
 
 /* The largest scale among the components of the same group (q, v or x) as `i`: a reference for one that has

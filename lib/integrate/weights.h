@@ -113,7 +113,7 @@ void weights_scales(const gsl_odeiv2_control *control, double h, const double *y
 
 double weights_tolerance(const gsl_odeiv2_control *control);
 
-/* Of one pair, all of `lent` that is the control's; false where it has others. */
+/* All of `lent` that is the control's; false where there are more pairs than it has room for, or others than pairs. */
 bool weights_lend(const gsl_odeiv2_control *control, struct lent *lent);
 
 /* Take back what has become of it. */

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <float.h>
 #include <gsl/gsl_errno.h>
+#include <limits.h>
 #include <string.h>
 
 #include "dynamics/constraint.h"
@@ -443,14 +444,24 @@ static bool is_steady(const struct run *run, const double *before)
     return true;
 }
 
+/* Steps after which it is looked at, in trees: it costs a hundredth of them. */
+static const unsigned long steps_between = 64;
+
+unsigned long run_steps_to_noise(const struct run *run)
+{
+    const unsigned long next = run->grain.since + 1;
+    if (!run->model->tree) return ULONG_MAX;
+    return next < steps_between ? steps_between - next : 0;
+}
+
 /* Where it counts it has to be that of here. It costs as much as five right-hand sides; where it hardly changes, as in a
  * chain whose last rods move by 1e-9 rad/s, some steps may pass. One that is large for a moment is seen to have changed. */
 void run_renew_noise(struct run *run)
 {
-    const unsigned long steps = 64, most_between = 8; /* the former costs a hundredth of them */
-    if (run->options.step > 0) return;                /* nothing chooses by it */
+    const unsigned long most_between = 8;
+    if (run->options.step > 0) return; /* nothing chooses by it */
     run->grain.since++;
-    bool due = run->model->tree && run->grain.since >= steps;
+    bool due = run->model->tree && run->grain.since >= steps_between;
     bool counts = run->grain.since >= run->grain.pause && switcher_noise_counts(run->stepper, run->step.h);
     if (!due && !counts) return;
     double *before = run->work.aside;

@@ -347,6 +347,9 @@ void run_set_noise(struct run *run);
  * joints change with the motion. */
 void run_renew_noise(struct run *run);
 
+/* How many steps may be made before that has to be looked at for their number alone. */
+unsigned long run_steps_to_noise(const struct run *run);
+
 /* The time as it is told: what is nothing beside the first step is a rounding of the start. */
 double run_time(const struct run *run);
 

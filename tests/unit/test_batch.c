@@ -29,7 +29,7 @@ static const unsigned seed = 1738;
 struct twins {
     fbd_model *model;
     struct run *run, *alone;
-    char text[400], told[120];
+    char text[500], told[120];
     unsigned long abreast; /* steps in lanes */
 };
 
@@ -193,39 +193,44 @@ enum { width_count = sizeof widths / sizeof *widths };
 struct supply {
     struct random_numbers numbers;
     int left;
-    bool fast; /* it goes round so often that the sine of large angles is asked for */
+    bool damped; /* some of them by a damper, the others by the general method */
+    bool fast;   /* it goes round so often that the sine of large angles is asked for */
 };
 
 static bool open_pendulum(struct twins *twins, void *context)
 {
     struct supply *supply = context;
     struct random_numbers *numbers = &supply->numbers;
-    char text[400];
+    char text[500], damper[100] = "";
     if (supply->left == 0) return false;
     supply->left--;
     const bool turns = random_chance(numbers, 0.3), rod = random_chance(numbers, 0.5);
     double theta = random_perhaps(numbers, 0.9, -3.14159, 3.14159),
            omega = turns ? random_between(numbers, -40, 40) : random_perhaps(numbers, 0.3, -3, 3);
+    const bool damped = supply->damped && random_chance(numbers, 0.7);
     if (supply->fast) omega = random_between(numbers, 200, 700);
+    if (damped)
+        snprintf(damper, sizeof damper, "    moments: [{damper: {coefficient: %.17g}}]\n",
+                 pow(10, random_between(numbers, -4, 3)));
     snprintf(text, sizeof text,
              "fbd: 1\ngravity: %.17g\nbodies:\n  b:\n    %smass: %.17g\n    %s%.17g%s\n    motion: pivot\n"
-             "    initial: {theta: %.17g rad, omega: %.17g}\n    forces: [gravity]\n",
+             "    initial: {theta: %.17g rad, omega: %.17g}\n    forces: [gravity]\n%s",
              random_between(numbers, 1, 20), rod ? "shape: rod\n    " : "", random_between(numbers, 0.1, 10),
              rod ? "from: [0, 0]\n    to: [0, -" : "center: [0, -", random_between(numbers, 0.1, 10), "]",
-             theta, omega);
+             theta, omega, damper);
     fbd_options options = FBD_OPTIONS_DEFAULT;
     options.tolerance = pow(10, random_between(numbers, -15, -2));
     options.until =
         supply->fast ? 100 : random_between(numbers, 0.01, random_chance(numbers, 0.2) ? 400 : 40);
+    if (supply->damped && (!damped || random_chance(numbers, 0.2))) options.method = "rk8pd";
     open_twins(twins, text, &options);
     return true;
 }
 
-static void pendulums_have_their_bits(void **unused)
+static void check_pendulums(bool damped)
 {
-    (void)unused;
     for (int i = 0; i < width_count; i++) {
-        struct supply supply = {{seed + (unsigned)i}, 200, false};
+        struct supply supply = {{seed + (unsigned)i}, 200, damped, false};
         const struct tally tally = run_all(widths[i], open_pendulum, &supply);
         assert_int_equal(tally.runs, 200);
         print_message("%u lanes: %lu of %lu steps abreast\n", widths[i], tally.abreast, tally.all);
@@ -233,11 +238,23 @@ static void pendulums_have_their_bits(void **unused)
     }
 }
 
+static void pendulums_have_their_bits(void **unused)
+{
+    (void)unused;
+    check_pendulums(false);
+}
+
+static void damped_pendulums_have_their_bits(void **unused)
+{
+    (void)unused;
+    check_pendulums(true);
+}
+
 /* Beyond SINE_MOST they are made alone. */
 static void fast_pendulums_have_their_bits(void **unused)
 {
     (void)unused;
-    struct supply supply = {{seed}, 12, true};
+    struct supply supply = {{seed}, 12, false, true};
     const struct tally tally = run_all(8, open_pendulum, &supply);
     assert_int_equal(tally.runs, 12);
     print_message("%lu of %lu steps abreast\n", tally.abreast, tally.all);
@@ -269,8 +286,6 @@ static void others_are_refused(void **unused)
     static const struct {
         const char *what, *body;
     } bodies[] = {
-        {"a damped pendulum",
-         "initial: {theta: 1}\n    forces: [gravity]\n    moments: [{damper: {coefficient: 1}}]"},
         {"one with a spring",
          "initial: {theta: 1}\n    forces: [gravity]\n    moments: [{spring: {stiffness: 1}}]"},
         {"one that is driven", "initial: {theta: 1}\n    forces: [gravity]\n    moments: [{applied: {value: "
@@ -292,7 +307,7 @@ static void others_are_refused(void **unused)
     other.step = 0.01;
     check_refused("steps of equal size", swings, &other);
     other = options;
-    other.method = "rk8pd";
+    other.method = "dop853";
     check_refused("another method", swings, &other);
 }
 
@@ -324,6 +339,7 @@ int main(void)
     gsl_set_error_handler_off();
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(pendulums_have_their_bits),
+        cmocka_unit_test(damped_pendulums_have_their_bits),
         cmocka_unit_test(fast_pendulums_have_their_bits),
         cmocka_unit_test(others_are_refused),
         cmocka_unit_test(sines_are_sines),

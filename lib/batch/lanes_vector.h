@@ -1,0 +1,93 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * Vectors of `LANES` numbers, for lanes_step.h. A comparison has all bits set where it holds, and none where it does not.
+ */
+#ifndef FBD_BATCH_LANES_VECTOR_H
+#define FBD_BATCH_LANES_VECTOR_H
+
+#include <float.h>
+#include <math.h>
+#include <string.h>
+
+#include "base/sine.h"
+#include "batch/lanes.h"
+
+/* Every processor has vectors of two. */
+#ifndef LANES
+#define LANES 2
+#endif
+
+typedef double wide __attribute__((vector_size(LANES * sizeof(double))));
+typedef long long mask __attribute__((vector_size(LANES * sizeof(long long))));
+
+#define INLINE static inline __attribute__((always_inline))
+
+/* ---- vectors */
+
+INLINE wide load(const double *from)
+{
+    wide x;
+    memcpy(&x, from, sizeof x);
+    return x;
+}
+
+INLINE void store(double *to, wide x)
+{
+    memcpy(to, &x, sizeof x);
+}
+
+INLINE wide select(mask which, wide a, wide b)
+{
+    return (wide)((which & (mask)a) | (~which & (mask)b));
+}
+
+INLINE wide larger_of(wide a, wide b)
+{
+    return select(a > b, a, b);
+}
+
+INLINE wide smaller_of(wide a, wide b)
+{
+    return select(a < b, a, b);
+}
+
+INLINE wide size_of(wide x)
+{
+    return (wide)((mask)x & 0x7fffffffffffffff);
+}
+
+INLINE wide root_of(wide x)
+{
+    double numbers[LANES];
+    store(numbers, x);
+    for (int i = 0; i < LANES; i++) numbers[i] = sqrt(numbers[i]);
+    return load(numbers);
+}
+
+/* One bit for each lane. */
+INLINE unsigned bits_of(mask which)
+{
+    unsigned bits = 0;
+    for (int i = 0; i < LANES; i++) bits |= (unsigned)(which[i] & 1) << i;
+    return bits;
+}
+
+INLINE mask mask_of(unsigned bits)
+{
+    mask which = {0};
+    for (int i = 0; i < LANES; i++) which[i] = -(long long)(bits >> i & 1);
+    return which;
+}
+
+INLINE wide sine_of(wide x)
+{
+    wide shifted, y0, y1, of_even, of_odd;
+    SINE_REDUCE(wide, x, shifted, y0, y1);
+    const wide z = y0 * y0;
+    SINE_OF_REST(wide, y0, y1, z, of_even);
+    COSINE_OF_REST(wide, y0, y1, z, of_odd);
+    const mask quarter = (mask)shifted;
+    return (wide)((mask)select(-(quarter & 1), of_odd, of_even) ^ (quarter & 2) << 62);
+}
+
+#endif
