@@ -8,8 +8,7 @@
  * Manual for the Elementary Functions, 1980). r is kept as y0 + y1. The third part and its product are rounded, to n 2^-120
  * in all: looked at for each n, the double next to n pi/2 has an r that this leaves known to 0.24 of its rounding up to
  * n = 14,500, and to 0.76 up to 2^17. Then sin r or cos r by the polynomials of fdlibm (K. C. Ng, Sun Microsystems, 1993:
- * k_sin.c, k_cos.c), as n says. Measured against quadruple precision: at most 0.78 of
- * a rounding of the result.
+ * k_sin.c, k_cos.c), as n says. Measured against quadruple precision: at most 0.78 of a rounding of the result.
  *
  * Beyond 20,000 rad, and for what is no number, it is that of the mathematics library.
  */
@@ -70,6 +69,26 @@ static inline double sine(double x)
     else
         SINE_OF_REST(double, y0, y1, z, result);
     return quarter & 2 ? -result : result;
+}
+
+/* Both of an angle. */
+static inline void cosine_and_sine(double x, double *cosine, double *sine)
+{
+    if (!(fabs(x) <= SINE_MOST)) {
+        *cosine = cos(x);
+        *sine = sin(x);
+        return;
+    }
+    unsigned long long quarter;
+    double shifted, y0, y1, of_even, of_odd;
+    SINE_REDUCE(double, x, shifted, y0, y1);
+    memcpy(&quarter, &shifted, sizeof quarter);
+    const double z = y0 * y0;
+    SINE_OF_REST(double, y0, y1, z, of_even);
+    COSINE_OF_REST(double, y0, y1, z, of_odd);
+    const double s = quarter & 1 ? of_odd : of_even, c = quarter & 1 ? of_even : of_odd;
+    *sine = quarter & 2 ? -s : s;
+    *cosine = (quarter + 1) & 2 ? -c : c;
 }
 
 #endif

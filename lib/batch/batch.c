@@ -8,6 +8,7 @@
 #include "base/zeroed.h"
 #include "batch/lanes.h"
 #include "dynamics/rates_row.h"
+#include "dynamics/tree_bare.h"
 #include "integrate/nystrom.h"
 #include "integrate/nystrom_table.h"
 #include "integrate/pair8.h"
@@ -67,8 +68,11 @@ void batch_free(struct batch *batch)
 bool batch_suits(const struct fbd_model *model)
 {
     const struct plan *plan = &model->plan;
-    return plan->n == 1 && plan->own == 0 && !model->tree && plan->watch_count == 0 &&
-           plan->mode_count == 0 && plan->kink_count == 0 && plan->pole_count == 0 && plan->sine_count == 1;
+    if (plan->own > 0 || plan->watch_count + plan->mode_count + plan->kink_count + plan->pole_count > 0)
+        return false;
+    if (model->tree)
+        return plan->n == 2 && tree_is_bare(model) && tree_bare_form(model) == tree_form_two_pivots;
+    return plan->n == 1 && plan->sine_count == 1;
 }
 
 /* Is there nothing that any step is to look after? */
@@ -88,15 +92,48 @@ static enum lane_motion lane_motion_of(const struct run *run, const struct lent 
         if (lent->type == step_nystrom) return swings;
         if (lent->type == step_rk8pd) return swings_damped;
     }
-    return motions;
+    const bool in_order = row->links && row->links[0].coordinate == 0 && row->links[1].coordinate == 1;
+    return run->system.inner.function == two_pivots_row && in_order && lent->type == step_rk8pd
+               ? swings_double
+               : motions;
+}
+
+static void put_swing(const struct row *row, each_lane *c, unsigned lane)
+{
+    c[swing_inverse][lane] = row->inverse;
+    c[swing_s][lane] = row->s;
+    c[swing_kv][lane] = row->kv;
+}
+
+static void put_links(const struct row *row, each_lane *c, unsigned lane)
+{
+    const struct tree_link *first = &row->links[0], *last = &row->links[1];
+    c[first_along][lane] = first->along;
+    c[first_sine][lane] = first->sine;
+    c[first_cosine][lane] = first->cosine;
+    c[first_I_O][lane] = first->I_O;
+    c[first_g][lane] = row->bare[0].g;
+    c[last_along][lane] = last->along;
+    c[last_sine][lane] = last->sine;
+    c[last_cosine][lane] = last->cosine;
+    c[last_g][lane] = row->bare[1].g;
+    c[last_at_x][lane] = last->at.x;
+    c[last_at_y][lane] = last->at.y;
+    c[last_moment_x][lane] = last->moment.x;
+    c[last_moment_y][lane] = last->moment.y;
+    c[last_force_x][lane] = last->force.x;
+    c[last_force_y][lane] = last->force.y;
+    c[last_D][lane] = last->inverse_I_O;
+    c[last_across][lane] = last->across;
 }
 
 static void put_constants(const struct run *run, struct lanes *lanes, unsigned lane)
 {
     const struct row *row = run->system.inner.params;
-    lanes->constants[0][lane] = row->inverse;
-    lanes->constants[1][lane] = row->s;
-    lanes->constants[2][lane] = row->kv;
+    if (run->system.inner.function == swing_row)
+        put_swing(row, lanes->constants, lane);
+    else
+        put_links(row, lanes->constants, lane);
 }
 
 /* The numbers of `from`, one for each component, to a lane; and back. */

@@ -8,9 +8,9 @@
  * the bits that it has alone: a lane does what the run does in a quiet step, by the same operations in the same order, and
  * what the run goes by is in its place before and after.
  *
- * What a lane takes: a single pendulum under gravity alone, perhaps with a damper, by the method that `auto` has for that
- * (nystrom.h, rk8pd of pair8.h), of which nobody asks what there is inside of its steps: without events. Others are
- * refused, and in one batch those that are not of the same kind as what is there.
+ * What a lane takes: a single pendulum, perhaps with a damper, or a double one, under constant forces, by the method that
+ * `auto` has for that (nystrom.h, rk8pd of pair8.h), of which nobody asks what there is inside of its steps: without events.
+ * Others are refused, and while there are runs in the batch those that are of another kind.
  */
 #ifndef FBD_BATCH_BATCH_H
 #define FBD_BATCH_BATCH_H

@@ -13,7 +13,32 @@
 #ifndef FBD_BATCH_LANES_H
 #define FBD_BATCH_LANES_H
 
-enum { most_lanes = 8, most_pairs = 2, link_numbers = 9 };
+enum { most_lanes = 8, most_pairs = 2 };
+
+/* The constants of the equations of motion: of the row of a pendulum (rates_row.h), */
+enum { swing_inverse, swing_s, swing_kv };
+
+/* and of the links of a double one (tree_short.c), first and last; what acts in their joints. */
+enum {
+    first_along,
+    first_sine,
+    first_cosine,
+    first_I_O,
+    first_g,
+    last_along,
+    last_sine,
+    last_cosine,
+    last_g,
+    last_at_x,
+    last_at_y,
+    last_moment_x,
+    last_moment_y,
+    last_force_x,
+    last_force_y,
+    last_D,
+    last_across,
+    most_constants
+};
 
 /* A number for each lane. */
 typedef double each_lane[most_lanes];
@@ -22,8 +47,8 @@ typedef double each_lane[most_lanes];
 struct lanes {
     /* what stays as it is */
     each_lane until, tolerance, cap[most_pairs], noise[most_pairs], floor[most_pairs];
-    each_lane constants[2 * link_numbers]; /* of the equations of motion: lanes_step.h */
-    each_lane pause;                       /* steps from `since` = 0 until the noise is looked at */
+    each_lane constants[most_constants];
+    each_lane pause; /* steps from `since` = 0 until the noise is looked at */
     /* after the last step */
     each_lane t, h; /* h: proposed for the next one */
     each_lane y[3 * most_pairs], before[3 * most_pairs];
@@ -44,7 +69,7 @@ struct lanes {
 typedef unsigned lanes_function(struct lanes *lanes, unsigned active);
 
 /* What moves, and by which method. */
-enum lane_motion { swings, swings_damped, motions };
+enum lane_motion { swings, swings_damped, swings_double, motions };
 
 extern lanes_function *const lanes_by_two[motions], *const lanes_by_four[motions],
                                                         *const lanes_by_eight[motions];

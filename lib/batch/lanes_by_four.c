@@ -2,6 +2,7 @@
 #if defined(__x86_64__)
 
 #include <float.h>
+#include <limits.h>
 #include <math.h>
 #include <string.h>
 

@@ -17,22 +17,55 @@
 /* ---- equations of motion */
 
 struct system {
-    wide constants[2 * link_numbers];
+    wide constants[most_constants];
     mask beyond; /* a sine was asked for of more than SINE_MOST */
 };
 
-INLINE wide known_sine(struct system *system, wide x)
+INLINE void note_beyond(struct system *system, wide angle)
 {
-    system->beyond |= ~(size_of(x) <= SINE_MOST);
-    return sine_of(x);
+    system->beyond |= ~(size_of(angle) <= SINE_MOST);
 }
 
-/* Accelerations (rates_row.c). */
-INLINE void accelerate(enum lane_motion kind, struct system *system, const wide *q, const wide *v, wide *a)
+/* rates_row.c, swing_row */
+INLINE void swing(struct system *system, const wide *q, const wide *v, wide *a)
 {
     const wide *c = system->constants;
-    (void)kind;
-    a[0] = c[0] * (c[1] * known_sine(system, q[0]) - c[2] * v[0]);
+    note_beyond(system, q[0]);
+    a[0] = c[swing_inverse] * (c[swing_s] * sine_of(q[0]) - c[swing_kv] * v[0]);
+}
+
+INLINE struct unit turned(struct unit r, wide x, wide y)
+{
+    return (struct unit){r.x * x - r.y * y, r.y * x + r.x * y};
+}
+
+/* tree_short.c, tree_two_pivots */
+INLINE void swing_double(struct system *system, const wide *q, const wide *v, wide *a)
+{
+    const wide *k = system->constants;
+    const wide angle = k[first_along] + q[0], sum = angle + k[last_along] + q[1];
+    note_beyond(system, angle);
+    note_beyond(system, sum);
+    const struct unit turn0 = unit_of(angle), turn1 = unit_of(sum);
+    const struct unit d = turned(turn0, k[last_at_x], k[last_at_y]),
+                      h = turned(turn1, k[last_moment_x], k[last_moment_y]);
+    const wide C = d.x * h.x + d.y * h.y, X = d.x * h.y - d.y * h.x, D = k[last_D], w = v[0] + v[1];
+    const wide u = D * (k[last_g] + (k[last_sine] * turn1.y + k[last_cosine] * turn1.x) - v[0] * v[0] * X);
+    const wide moment = k[first_g] - k[last_g] + (k[first_sine] * turn0.y + k[first_cosine] * turn0.x) +
+                        (d.x * k[last_force_y] - d.y * k[last_force_x]) + w * w * X;
+    const wide J = k[first_I_O] +
+                   k[last_across] * (k[last_at_x] * k[last_at_x] + k[last_at_y] * k[last_at_y]) + D * X * X;
+    const wide alpha = (moment - C * u) / J;
+    a[0] = alpha;
+    a[1] = u - D * C * alpha - alpha;
+}
+
+INLINE void accelerate(enum lane_motion kind, struct system *system, const wide *q, const wide *v, wide *a)
+{
+    if (kind == swings_double)
+        swing_double(system, q, v, a);
+    else
+        swing(system, q, v, a);
 }
 
 /* ---- a step of size h, from y = q, v, a: what it comes to */
@@ -142,7 +175,7 @@ INLINE void try_rk8pd(enum lane_motion kind, int n, struct system *system, wide 
         end->rest[c] = lost_by(y[c], rise, end->y[c]);
         end->dy[c] = end->y[c] - u[c];
     }
-    accelerate(kind, system, end->y, &end->y[n], &end->y[2 * n]);
+    accelerate(kind, system, end->y, &end->y[n], &end->y[n + n]);
     for (int c = 0; c < n; c++) end->da[c] = end->y[2 * n + c] - slopes[n + c].k[stages];
 }
 
@@ -416,7 +449,7 @@ INLINE unsigned go(enum lane_motion kind, int n, struct lanes *lanes, unsigned a
     const mask active = mask_of(active_bits);
     struct system system;
     struct standing s;
-    load_each(2 * link_numbers, system.constants, lanes->constants[0]);
+    load_each(most_constants, system.constants, lanes->constants[0]);
     load_all(n, lanes, &s);
     unsigned stops = 0;
     while (!stops) {
@@ -438,6 +471,12 @@ static unsigned go_damped(struct lanes *lanes, unsigned active)
     return go(swings_damped, 1, lanes, active);
 }
 
-lanes_function *const LANES_TABLE[motions] = {[swings] = go_swinging, [swings_damped] = go_damped};
+static unsigned go_double(struct lanes *lanes, unsigned active)
+{
+    return go(swings_double, 2, lanes, active);
+}
+
+lanes_function *const LANES_TABLE[motions] = {
+    [swings] = go_swinging, [swings_damped] = go_damped, [swings_double] = go_double};
 
 #endif

@@ -6,6 +6,7 @@
 #define FBD_BATCH_LANES_VECTOR_H
 
 #include <float.h>
+#include <limits.h>
 #include <math.h>
 #include <string.h>
 
@@ -79,6 +80,12 @@ INLINE mask mask_of(unsigned bits)
     return which;
 }
 
+/* x, or -x where the last bit of `which` is set. */
+INLINE wide with_sign(wide x, mask which)
+{
+    return (wide)((mask)x ^ (-(which & 1) & LLONG_MIN));
+}
+
 INLINE wide sine_of(wide x)
 {
     wide shifted, y0, y1, of_even, of_odd;
@@ -87,7 +94,31 @@ INLINE wide sine_of(wide x)
     SINE_OF_REST(wide, y0, y1, z, of_even);
     COSINE_OF_REST(wide, y0, y1, z, of_odd);
     const mask quarter = (mask)shifted;
-    return (wide)((mask)select(-(quarter & 1), of_odd, of_even) ^ (quarter & 2) << 62);
+    return with_sign(select(-(quarter & 1), of_odd, of_even), quarter >> 1);
+}
+
+/* Of an angle, as vec_unit (base/vec.h) has it. */
+struct unit {
+    wide x, y;
+};
+
+INLINE wide without_rounding(wide x)
+{
+    const wide zero = {0};
+    return select(size_of(x) < 2.5e-16, zero, x);
+}
+
+INLINE struct unit unit_of(wide angle)
+{
+    wide shifted, y0, y1, of_even, of_odd;
+    SINE_REDUCE(wide, angle, shifted, y0, y1);
+    const wide z = y0 * y0;
+    SINE_OF_REST(wide, y0, y1, z, of_even);
+    COSINE_OF_REST(wide, y0, y1, z, of_odd);
+    const mask quarter = (mask)shifted, odd = -(quarter & 1);
+    const wide s = with_sign(select(odd, of_odd, of_even), quarter >> 1),
+               c = with_sign(select(odd, of_even, of_odd), (quarter + 1) >> 1);
+    return (struct unit){without_rounding(c), without_rounding(s)};
 }
 
 #endif

@@ -15,9 +15,19 @@
  */
 #include "dynamics/tree_short.h"
 
+#include "base/sine.h"
+
 static inline double moment_of_forces(const struct tree_link *link, struct vec turn)
 {
     return link->sine * turn.y + link->cosine * turn.x;
+}
+
+/* vec_unit, by the library's own sines. */
+static inline struct vec unit(double angle)
+{
+    struct vec u;
+    cosine_and_sine(angle, &u.x, &u.y);
+    return vec_without_rounding(u);
 }
 
 static inline double square(double x)
@@ -58,7 +68,7 @@ void tree_two_pivots(const struct tree_link *links, const struct tree_bare *s, c
     const struct tree_link *first = &links[0], *last = &links[1];
     int q0 = first->coordinate, q1 = last->coordinate;
     double angle = first->along + y[q0];
-    struct vec turn0 = vec_unit(angle), turn1 = vec_unit(angle + last->along + y[q1]);
+    struct vec turn0 = unit(angle), turn1 = unit(angle + last->along + y[q1]);
     struct vec d = vec_turn(turn0, last->at), h = vec_turn(turn1, last->moment);
     double C = vec_dot(d, h), X = vec_cross(d, h), D = last->inverse_I_O;
     double u = D * (s[1].g + moment_of_forces(last, turn1) - square(v[q0]) * X);

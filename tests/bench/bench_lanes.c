@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * What the lanes of a batch bring to a sweep over a pendulum: the rows one after the other, beside the same rows with four
+ * What the lanes of a batch bring to sweeps over a pendulum, a damped one and a double one: the rows one after the other, beside the same rows with four
  * runs abreast and with as many as this processor has lanes for, in turn, by one thread. The texts are compared.
  *
- * Usage: bench_lanes MODEL, whose parameter theta0 is varied
+ * Usage: bench_lanes PENDULUM DAMPED DOUBLE, whose parameters theta0, c and theta_2 are varied
  */
 #include <gsl/gsl_errno.h>
 #include <math.h>
@@ -66,7 +66,7 @@ static void close_way(struct way *way)
 }
 
 /* Where the processor has no four lanes it is not measured. */
-static void measure(const char *path, double until, const char *vary, double bound)
+static void measure(const char *name, const char *path, double until, const char *vary, double bound)
 {
     static const unsigned lanes[ways] = {0, 4, batch_most_lanes};
     static double seconds[ways][rounds], gain[ways][rounds];
@@ -79,7 +79,7 @@ static void measure(const char *path, double until, const char *vary, double bou
             seconds[i][round] = time_of(&way[i], runs);
             gain[i][round] = seconds[0][round] / seconds[i][round];
         }
-    printf("a pendulum for %g s: %.1f us a run", until, 1e6 * median(seconds[0], rounds));
+    printf("%s for %g s: %.1f us a run", name, until, 1e6 * median(seconds[0], rounds));
     for (int i = 1; i < ways; i++) {
         const bool same = way[i].rows.length == way[0].rows.length &&
                           memcmp(way[i].rows.data, way[0].rows.data, way[0].rows.length) == 0;
@@ -91,7 +91,7 @@ static void measure(const char *path, double until, const char *vary, double bou
     }
     printf("\n");
     char what[160];
-    snprintf(what, sizeof what, "sweep: runs of a pendulum (%g s) in four lanes over the same one by one",
+    snprintf(what, sizeof what, "sweep: runs of %s (%g s) in four lanes over the same one by one", name,
              until);
     const bool four = abreast_lanes(way[1].abreast) == 4;
     if (bound > 0) claim_at_least(what, four ? median(gain[1], rounds) : (double)NAN, bound);
@@ -103,9 +103,11 @@ int main(int argc, char **argv)
 {
     const double enough = 3;
     gsl_set_error_handler_off();
-    if (argc != 2) return 2;
-    measure(argv[1], 10, "theta0=0.1:3:2000", 0);
-    measure(argv[1], 100, "theta0=0.1:3:500", enough);
-    measure(argv[1], 1000, "theta0=0.1:3:100", 0);
+    if (argc != 4) return 2;
+    measure("a pendulum", argv[1], 10, "theta0=0.1:3:2000", 0);
+    measure("a pendulum", argv[1], 100, "theta0=0.1:3:500", enough);
+    measure("a damped pendulum", argv[2], 10, "c=0.01:0.1:1000", enough);
+    measure("a double pendulum", argv[3], 5, "theta_2=1:2:500", enough);
+    measure("a double pendulum", argv[3], 60, "theta_2=1:2:50", 0);
     return 0;
 }

@@ -13,16 +13,34 @@
 #include "study/abreast.h"
 #include "sweep_table.h"
 
-static const char pendulum[] = "fbd: 1\n"
-                               "parameters: {L: 1 m, m: 2 kg, theta0: 1 rad, omega0: 0 rad/s, T: 12 s}\n"
-                               "bodies:\n"
-                               "  b:\n"
-                               "    mass: m\n"
-                               "    center: [0, -L]\n"
-                               "    motion: pivot\n"
-                               "    initial: {theta: theta0, omega: omega0}\n"
-                               "    forces: [gravity]\n"
-                               "simulate: {until: T}\n";
+static const char pendulum[] =
+    "fbd: 1\n"
+    "parameters: {L: 1 m, m: 2 kg, theta0: 1 rad, omega0: 0 rad/s, T: 12 s, c: 0 N*m*s/rad}\n"
+    "bodies:\n"
+    "  b:\n"
+    "    mass: m\n"
+    "    center: [0, -L]\n"
+    "    motion: pivot\n"
+    "    initial: {theta: theta0, omega: omega0}\n"
+    "    forces: [gravity]\n"
+    "    moments: [{damper: {coefficient: c}}]\n"
+    "simulate: {until: T}\n";
+
+static const char double_pendulum[] = "fbd: 1\n"
+                                      "parameters: {m: 1 kg, theta_1: 1 rad, theta_2: 2 rad}\n"
+                                      "bodies:\n"
+                                      "  a:\n"
+                                      "    {shape: rod, mass: 1, from: [0, 0], to: [0, -1], motion: pivot, "
+                                      "initial: {theta: theta_1}, forces: [gravity]}\n"
+                                      "  b:\n"
+                                      "    shape: rod\n"
+                                      "    mass: m\n"
+                                      "    from: [0, 0]\n"
+                                      "    to: [0, -1]\n"
+                                      "    motion: {pivot: {on: a, at: right, point: left}}\n"
+                                      "    initial: {theta: theta_2}\n"
+                                      "    forces: [gravity]\n"
+                                      "simulate: {until: 6 s}\n";
 
 /* The rows one after the other, up to `count` of them. */
 static void add_alone(const fbd_sweep *sweep, size_t count, struct text *rows)
@@ -47,32 +65,36 @@ static void check_table(const char *text, const fbd_sweep_plan *plan, size_t fir
     close_table(&table);
 }
 
+static void check_sweep(const char *text, const char *const *vary, const char *outputs)
+{
+    fbd_sweep_plan plan = {
+        .vary = vary, .vary_count = vary[1] ? 2 : 1, .outputs = &outputs, .output_count = 1, .seed = 7};
+    for (size_t jobs = 1; jobs <= 3; jobs++) check_table(text, &plan, jobs - 1, jobs);
+    const fbd_options rough = {.tolerance = 1e-5, .until = NAN}, exact = {.tolerance = 1e-14, .until = NAN};
+    plan.run = &rough;
+    check_table(text, &plan, 0, 1);
+    plan.run = &exact;
+    check_table(text, &plan, 0, 2);
+}
+
 static void rows_abreast_are_those_of_single_runs(void **unused)
 {
-    static const char *const outputs[] = {"final,times,steps,rhs,b.G.x,b.G.ay,count(stick)"};
-    static const char *const sweeps[][3] = {
+    static const char *const sweeps[][2] = {
         {"theta0=uniform(-3,3):150"},
         {"theta0=0:3.14:40", "L=0.2:3:5:log"},
         {"T=uniform(0,3):60; theta0=uniform(-3,3):60; m=normal(1,0.7):60"},
         {"L=normal(0.3,0.4):50", "omega0=0,0.5,30"},
+        {"c=0:1:50"}, /* without a damper, and with one */
         {"theta0=1,2,3"},
         {"theta0=0,1e-9,0,3.141592653589793,1e-300,-0,2", "T=40,1e-6"},
     };
+    static const char *const of_double[][2] = {{"theta_1=uniform(-3,3):50", "m=0.1,1,3"},
+                                               {"theta_2=0,1,-0,3,2,2,1", "m=-1,0.2,1"}};
     (void)unused;
-    for (size_t i = 0; i < sizeof sweeps / sizeof *sweeps; i++) {
-        fbd_sweep_plan plan = {.vary = sweeps[i],
-                               .vary_count = sweeps[i][1] ? 2 : 1,
-                               .outputs = outputs,
-                               .output_count = 1,
-                               .seed = 7 + i};
-        for (size_t jobs = 1; jobs <= 3; jobs++) check_table(pendulum, &plan, jobs - 1, jobs);
-        const fbd_options rough = {.tolerance = 1e-5, .until = NAN},
-                          exact = {.tolerance = 1e-14, .until = NAN};
-        plan.run = &rough;
-        check_table(pendulum, &plan, 0, 1);
-        plan.run = &exact;
-        check_table(pendulum, &plan, 0, 2);
-    }
+    for (size_t i = 0; i < sizeof sweeps / sizeof *sweeps; i++)
+        check_sweep(pendulum, sweeps[i], "final,times,steps,rhs,b.G.x,b.G.ay,count(stick)");
+    for (size_t i = 0; i < sizeof of_double / sizeof *of_double; i++)
+        check_sweep(double_pendulum, of_double[i], "final,times,steps,rhs,b.G.x,b.G.ay");
 }
 
 /* ---- stopped */

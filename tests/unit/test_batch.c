@@ -29,7 +29,7 @@ static const unsigned seed = 1738;
 struct twins {
     fbd_model *model;
     struct run *run, *alone;
-    char text[500], told[120];
+    char text[900], told[120];
     unsigned long abreast; /* steps in lanes */
 };
 
@@ -76,7 +76,7 @@ static void check_bits(const struct twins *twins, const char *what, const void *
 static void compare(const struct twins *twins)
 {
     struct run *run = twins->run, *alone = twins->alone;
-    const size_t state = 2 * sizeof(double);
+    const size_t n = (size_t)run->model->plan.n, state = 2 * n * sizeof(double);
     CHECK(state->t);
     CHECK(state->rest);
     CHECK(step.h);
@@ -90,7 +90,7 @@ static void compare(const struct twins *twins)
     check_bits(twins, "the state", run->state->y, alone->state->y, state);
     check_bits(twins, "its copy", run->work.y, alone->work.y, state);
     check_bits(twins, "its slope", run->work.f, alone->work.f, state);
-    check_bits(twins, "the largest state", run->recent.anchor + 2, alone->recent.anchor + 2, state);
+    check_bits(twins, "the largest state", run->recent.anchor + 2 * n, alone->recent.anchor + 2 * n, state);
     const struct stepper_counts counts = switcher_counts(run->stepper),
                                 of_alone = switcher_counts(alone->stepper);
     assert_int_equal(counts.accepted, of_alone.accepted);
@@ -250,6 +250,51 @@ static void damped_pendulums_have_their_bits(void **unused)
     check_pendulums(true);
 }
 
+/* ---- double pendulums */
+
+static void add_rod(struct random_numbers *numbers, const char *name, const char *motion, char *text,
+                    size_t size)
+{
+    const size_t length = strlen(text);
+    snprintf(
+        text + length, size - length,
+        "  %s:\n    shape: rod\n    mass: %.17g\n    from: [0, 0]\n    to: [%.17g, -%.17g]\n    motion: %s\n"
+        "    initial: {theta: %.17g rad, omega: %.17g}\n    forces: [gravity%s]\n",
+        name, random_between(numbers, 0.1, 5), random_perhaps(numbers, 0.5, -1, 1),
+        random_between(numbers, 0.2, 2), motion, random_perhaps(numbers, 0.9, -3, 3),
+        random_perhaps(numbers, 0.3, -3, 3),
+        random_chance(numbers, 0.3) ? ", {applied: {value: 2, angle: 1 rad, at: right}}" : "");
+}
+
+static bool open_double(struct twins *twins, void *context)
+{
+    struct supply *supply = context;
+    struct random_numbers *numbers = &supply->numbers;
+    char text[900] = "fbd: 1\nbodies:\n";
+    if (supply->left == 0) return false;
+    supply->left--;
+    add_rod(numbers, "a", "pivot", text, sizeof text);
+    add_rod(numbers, "b", "{pivot: {on: a, at: right, point: left}}", text, sizeof text);
+    fbd_options options = FBD_OPTIONS_DEFAULT;
+    options.tolerance = pow(10, random_between(numbers, -15, -2));
+    options.until = random_between(numbers, 0.01, random_chance(numbers, 0.1) ? 100 : 10);
+    if (random_chance(numbers, 0.2)) options.method = "rk8pd";
+    open_twins(twins, text, &options);
+    return true;
+}
+
+static void double_pendulums_have_their_bits(void **unused)
+{
+    (void)unused;
+    for (int i = 0; i < width_count; i++) {
+        struct supply supply = {{seed + (unsigned)i}, 150, false, false};
+        const struct tally tally = run_all(widths[i], open_double, &supply);
+        assert_int_equal(tally.runs, 150);
+        print_message("%u lanes: %lu of %lu steps abreast\n", widths[i], tally.abreast, tally.all);
+        assert_true((double)tally.abreast > 0.8 * (double)tally.all);
+    }
+}
+
 /* Beyond SINE_MOST they are made alone. */
 static void fast_pendulums_have_their_bits(void **unused)
 {
@@ -340,6 +385,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(pendulums_have_their_bits),
         cmocka_unit_test(damped_pendulums_have_their_bits),
+        cmocka_unit_test(double_pendulums_have_their_bits),
         cmocka_unit_test(fast_pendulums_have_their_bits),
         cmocka_unit_test(others_are_refused),
         cmocka_unit_test(sines_are_sines),
