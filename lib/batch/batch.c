@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "batch/batch.h"
 
+#include <float.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -65,9 +66,11 @@ void batch_free(struct batch *batch)
 
 /* ---- what is put into lanes */
 
+/* Where numbers have more digits in registers than in memory (FLT_EVAL_METHOD), vectors have not. */
 bool batch_suits(const struct fbd_model *model)
 {
     const struct plan *plan = &model->plan;
+    if (FLT_EVAL_METHOD != 0) return false;
     if (plan->own > 0 || plan->watch_count + plan->mode_count + plan->kink_count + plan->pole_count > 0)
         return false;
     if (model->tree)
@@ -147,6 +150,9 @@ static void gather(double *to, each_lane *from, unsigned lane, size_t count)
     for (size_t c = 0; c < count; c++) to[c] = from[c][lane];
 }
 
+/* Who carries the runs is to be heard now and then, also where no stiff method is to be asked. */
+static const double most_steps = 1000;
+
 static void fill_lane(struct lanes *lanes, unsigned lane, const struct run *run, const struct lent *lent)
 {
     const size_t n = lent->pairs;
@@ -166,7 +172,7 @@ static void fill_lane(struct lanes *lanes, unsigned lane, const struct run *run,
     lanes->h[lane] = lanes->tried[lane] = run->step.h;
     lanes->rate[lane] = lanes->tried_rate[lane] = lent->rate;
     lanes->since[lane] = (double)run->grain.since;
-    lanes->steps_left[lane] = fmin(lent->steps, (double)run_steps_to_noise(run));
+    lanes->steps_left[lane] = fmin(fmin(lent->steps, most_steps), (double)run_steps_to_noise(run));
     lanes->growth[lane] = lent->growth;
     lanes->accepted[lane] = lanes->rejected[lane] = lanes->attempts[lane] = 0;
 }
