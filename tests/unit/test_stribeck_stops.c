@@ -68,11 +68,12 @@ static void blocks_turn_round(void **unused)
         struct stop s = draw(&numbers);
         s.until = time_of_stop(&s) * random_between(&numbers, 1.2, 2.5);
         char text[1000];
-        snprintf(text, sizeof text,
-                 "fbd: 1\nbodies: {b: {mass: %.17g, motion: slide, initial: {v: %.17g}, forces: [gravity, normal, "
-                 "applied: %.17g, friction: {static: %.17g, kinetic: \"%.17g + %.17g*exp(-slip/%.17g[m/s])\"}]}}\n"
-                 "simulate: {until: %.17g, tolerance: %g}\n",
-                 s.m, s.v_0, -s.F, s.mu + s.peak, s.mu, s.peak, s.v_s, s.until, s.tolerance);
+        snprintf(
+            text, sizeof text,
+            "fbd: 1\nbodies: {b: {mass: %.17g, motion: slide, initial: {v: %.17g}, forces: [gravity, normal, "
+            "applied: %.17g, friction: {static: %.17g, kinetic: \"%.17g + %.17g*exp(-slip/%.17g[m/s])\"}]}}\n"
+            "simulate: {until: %.17g, tolerance: %g}\n",
+            s.m, s.v_0, -s.F, s.mu + s.peak, s.mu, s.peak, s.v_s, s.until, s.tolerance);
         double allowed = (100 * s.tolerance + 1e-12) * s.v_0;
         struct trial trial = trial_parse(text);
         trial_start(&trial, NULL);
@@ -99,8 +100,10 @@ static void a_level_is_not_the_end_of_a_slip(void **unused)
     static const char text[] =
         "fbd: 1\nstates: {f: {rate: \"(51.93430763151241[N/m]*(0.9256634006957717[m] - b.x) - "
         "0.639379574341095[N*s/m]*b.v - f)/0.08650392579561719[s]\", initial: 0 N}}\n"
-        "bodies: {b: {mass: 1.9536774023910486, motion: slide, forces: [applied: f, gravity, normal, friction: {static: "
-        "0.24358381069554413, kinetic: \"0.17050866748688087 + 0.07307514320866326*exp(-slip/0.09207980501267628"
+        "bodies: {b: {mass: 1.9536774023910486, motion: slide, forces: [applied: f, gravity, normal, "
+        "friction: {static: "
+        "0.24358381069554413, kinetic: \"0.17050866748688087 + "
+        "0.07307514320866326*exp(-slip/0.09207980501267628"
         "[m/s])\"}]}}\n"
         "simulate: {until: 8, tolerance: %g}\n";
     (void)unused;
