@@ -224,8 +224,10 @@ INLINE wide ratio_of_pair(int n, int i, const struct measure *m, wide h, const s
     const wide level_q = level_of(m->tolerance, scale_q, q, q_motion, 4 * noise_q),
                level_v = level_of(m->tolerance, scale_v, v, v_motion, hidden);
     const wide error_q = size_of(end->error[i]), error_v = size_of(end->error[n + i]);
-    const wide by_q = select(error_q > noise_q, larger_of(ratio, error_q / level_q), ratio);
-    return select(error_v > noise_v, larger_of(by_q, error_v / level_v), by_q);
+    const wide least = (wide){0} + DBL_MIN;
+    const wide ratio_q = error_q / larger_of(level_q, least), ratio_v = error_v / larger_of(level_v, least);
+    const wide by_q = select(error_q > noise_q, larger_of(ratio, ratio_q), ratio);
+    return select(error_v > noise_v, larger_of(by_q, ratio_v), by_q);
 }
 
 /* The next step over this one, for an estimate of order 11 or 8. */

@@ -110,12 +110,10 @@ static inline double hidden_in_v(const struct weights *w, size_t i, double h, do
 /* An error that rounding of the accelerations explains, `noise`, says nothing of the step size. Counted by a
  * level that goes with h as it does, it would have the step shrink for ever: the law wants ratios below
  * safety^k. Beyond, errors count up to a level of four times the noise, so that a step that has grown out of
- * the noise is not rejected at once. Below `least` levels underflow: the far end of a bell drives what rests
- * with 1e-300 N. */
+ * the noise is not rejected at once. Levels do not underflow: the far end of a bell drives what rests with 1e-300 N. */
 static inline double raised(double ratio, double error, double error_level, double noise)
 {
-    const double least = 1e-300;
-    return fabs(error) > larger(noise, least) ? larger(ratio, fabs(error) / error_level) : ratio;
+    return fabs(error) > noise ? larger(ratio, fabs(error) / larger(error_level, DBL_MIN)) : ratio;
 }
 
 double weights_ratio(const gsl_odeiv2_control *control, double h, const double *y, const double *yerr,
