@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * What the lanes of a batch bring to sweeps over a pendulum, a damped one and a double one: the rows one after the other, beside the same rows with four
- * runs abreast and with as many as this processor has lanes for, in turn, by one thread. The texts are compared.
+ * What the lanes of a batch bring to sweeps over a pendulum, a damped one and a double one: the rows one after the other,
+ * beside the same rows with four runs abreast and with as many as this processor has lanes for, in turn, by one thread.
+ * The texts are compared.
  *
  * Usage: bench_lanes PENDULUM DAMPED DOUBLE, whose parameters theta0, c and theta_2 are varied
  */
@@ -13,23 +14,11 @@
 
 #include "batch/batch.h"
 #include "claim.h"
+#include "open_sweep.h"
 #include "study/abreast.h"
 #include "timing.h"
 
 enum { rounds = 15, ways = 3 };
-
-static fbd_sweep *open_sweep(const char *path, const char *vary, double until)
-{
-    fbd_errors *errors = fbd_errors_new();
-    fbd_options options = FBD_OPTIONS_DEFAULT;
-    options.until = until;
-    const fbd_sweep_plan plan = {.vary = &vary, .vary_count = 1, .run = &options};
-    fbd_sweep *sweep = errors ? fbd_sweep_read(path, &plan, errors) : NULL;
-    if (errors && !sweep) fbd_errors_print(errors, stderr);
-    fbd_errors_free(errors);
-    if (!sweep) exit(2);
-    return sweep;
-}
 
 /* Of each way what it needs, and its rows. */
 struct way {

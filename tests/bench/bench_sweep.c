@@ -14,6 +14,7 @@
 
 #include "claim.h"
 #include "fbd.h"
+#include "open_sweep.h"
 #include "timing.h"
 
 enum { pairs = 15 };
@@ -64,26 +65,12 @@ static double measure_alone(const char *text, size_t length, int repetitions)
     return (processor_seconds() - start) / repetitions;
 }
 
-/* `until`: of all runs, NAN for that of the file. */
-static fbd_sweep *open_sweep(const char *path, const char *vary, double until)
-{
-    fbd_errors *errors = fbd_errors_new();
-    fbd_options options = FBD_OPTIONS_DEFAULT;
-    options.until = until;
-    const fbd_sweep_plan plan = {.vary = &vary, .vary_count = 1, .run = &options};
-    fbd_sweep *sweep = errors ? fbd_sweep_read(path, &plan, errors) : NULL;
-    if (errors && !sweep) fbd_errors_print(errors, stderr);
-    fbd_errors_free(errors);
-    return sweep;
-}
-
 /* Runs of one step: what setting one up, writing its row and freeing it takes. */
 static void measure_short(const char *path, const char *vary, double until)
 {
     static double rate[pairs];
     const double enough = 200000, longest = 5;
     fbd_sweep *sweep = open_sweep(path, vary, until);
-    if (!sweep) exit(1);
     for (int i = 0; i < pairs; i++)
         rate[i] = (double)fbd_sweep_run_count(sweep) / measure(sweep, 1).processor;
     double runs = median(rate, pairs);
@@ -102,8 +89,8 @@ int main(int argc, char **argv)
 {
     static double rate[pairs], busy[pairs], gain[pairs], loss[pairs];
     gsl_set_error_handler_off();
-    fbd_sweep *sweep = argc == 5 ? open_sweep(argv[1], argv[2], NAN) : NULL;
-    if (!sweep) return 2;
+    if (argc != 5) return 2;
+    fbd_sweep *sweep = open_sweep(argv[1], argv[2], NAN);
     double runs = (double)fbd_sweep_run_count(sweep);
     measure(sweep, 2); /* to warm up */
     for (int i = 0; i < pairs; i++) {
