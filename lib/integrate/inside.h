@@ -2,7 +2,8 @@
  *
  * The inside of a step that its method can only make again, up to the time asked for: the implicit methods
  * without an interpolant of their own, and explicit ones where there are states that are no pairs. Made again for each
- * sample, an event function that is followed closely, or a ledger integrated over the step, costs hundreds of steps. So the step is made again up to
+ * sample, an event function that is followed closely, or a ledger integrated over the step, costs hundreds of
+ * steps. So the step is made again up to
  * Chebyshev points, of degree 8, then 16 and 32, until the last three coefficients of the series are below a
  * hundredth of the error that a step may have; every sample is then one of that polynomial, whichever was
  * asked for first. As in series.h it is ASSUMED that what is left out is no more than the last terms. Where

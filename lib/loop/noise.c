@@ -315,17 +315,11 @@ static double unseen_place(const struct run *run, const struct model_body *body,
     return DBL_EPSILON / run->options.tolerance * (turns(body, k) ? 1 : reach);
 }
 
-static void set_floor(struct run *run, size_t component, double floor)
-{
-    switcher_set_floor(run->stepper, component, floor);
-    run->grain.floors[component] = fmax(run->grain.floors[component], floor);
-}
-
 /* A coordinate or rate that is exactly zero has no size that an error could be compared with, and a method of
  * low order needs one (Euler's first step from rest errs by all that the body moves). What the acceleration
- * does in a thousandth of the run is small, and enough; of the time for which it lasts (end_with_forces and what follows it), for a force
- * that is switched on may be large and short, and a stiff spring turns it round. The last of a row of blocks on springs that is pulled at its other end
- * starts as a high power of the time, or by rounding, which no step follows to a share of itself: what is a
+ * does in a thousandth of the run is small, and enough; of the time for which it lasts (end_with_forces and what
+ * follows it), for a force that is switched on may be large and short, and a stiff spring turns it round. The last of a row
+ * of blocks on springs that is pulled at its other end starts as a high power of the time, or by rounding, which no step follows to a share of itself: what is a
  * billionth of the largest motion has that for its size. */
 static void set_floors(struct run *run, double tau, const double *times)
 {
@@ -341,6 +335,8 @@ static void set_floors(struct run *run, double tau, const double *times)
             bool sized = own.arm > 0 && isfinite(own.arm); /* what is driven need have no mass */
             double place = sized ? negligible * all.place / own.arm : 0;
             double speed = sized ? negligible * all.rate / own.arm : 0;
+            run->grain.nothing[position] = fmax(run->grain.nothing[position], place);
+            run->grain.nothing[rate] = fmax(run->grain.nothing[rate], speed);
             if (run->state->y[position] == 0) place = fmax(place, own.place);
             if (run->state->y[rate] == 0) speed = fmax(speed, own.rate);
             if (tree && tree->row_count > 0 && tree->meeting_count == 0 && place == 0 && speed == 0 &&
@@ -348,8 +344,8 @@ static void set_floors(struct run *run, double tau, const double *times)
                 place = unseen_place(run, body, k); /* held by a coupling, before anything acts */
                 speed = place / tau;
             }
-            set_floor(run, position, place);
-            set_floor(run, rate, speed);
+            switcher_set_floor(run->stepper, position, place);
+            switcher_set_floor(run->stepper, rate, speed);
         }
     }
 }
@@ -373,7 +369,8 @@ static void set_own_floor(struct run *run, int i, const double *times)
     size_t state = 2 * (size_t)plan->n + (size_t)i, rate = (size_t)plan->n + (size_t)i;
     double tau = times[rate], change = fabs(run->grain.along[rate]);
     if (run->state->y[state] != 0) return;
-    set_floor(run, state, tau * fabs(run->state->a[rate]) + (isfinite(change) ? tau * tau * change : 0));
+    switcher_set_floor(run->stepper, state,
+                       tau * fabs(run->state->a[rate]) + (isfinite(change) ? tau * tau * change : 0));
 }
 
 /* Roundings of its gross forces that the acceleration of a body is known to. Measured with chains of 16 to

@@ -101,7 +101,7 @@ static bool make_run(struct run *run, const struct state_start *begin)
     run->grain.accelerations = run->grain.along + plan_rates(plan);
     run->grain.turned = run->grain.accelerations + n;
     run->grain.cancelled = run->grain.turned + 2 * links;
-    run->grain.floors = run->grain.cancelled + 2 * run->model->body_count;
+    run->grain.nothing = run->grain.cancelled + 2 * run->model->body_count;
     size_t functions = 2 * run->search.moving.count, timed = 3 * run->search.timed.count;
     run->work.values = ARENA_ARRAY(memory, functions > timed ? functions : timed, double);
     run->work.kept = ARENA_ARRAY(memory, 2 * size, double);

@@ -117,9 +117,8 @@ struct grain {
     double *along;  /* plan_rates: how accelerations and the rates of states change along the motion, when the
                               rest of this was set */
     double *turned; /* twice the links of the tree */
-    double *cancelled; /* for each body a force and its moment */
-    double
-        *floors; /* plan_size: of what has been zero at a start, the size below which it is of no interest */
+    double *cancelled;          /* for each body a force and its moment */
+    double *nothing;            /* plan_size: what has been nothing beside the largest motion, at a start */
     unsigned long since, pause; /* steps; and how many may pass while it counts but hardly changes */
 };
 

@@ -133,8 +133,8 @@ static double measure(const struct run *run, double *speed)
 }
 
 /* Couplings keep coordinates at zero, or at rest, to the rounding of the places and speeds of all that they
- * join. What starts as a high power of the time is a rounding of the floors of noise.c at first. The sign of such a number
- * means nothing, as an error of it does. */
+ * join. What starts as a high power of the time is nothing beside the largest motion at first (noise.c). The sign of such a
+ * number means nothing, as an error of it does. */
 static void set_noise(struct run *run)
 {
     const double roundings = 64 * DBL_EPSILON, error = 0.1 * run->options.tolerance;
@@ -142,7 +142,7 @@ static void set_noise(struct run *run)
     size_t n = (size_t)run->model->plan.n, own = plan_size(&run->model->plan);
     for (size_t k = 0; k < run->course.count; k++) {
         size_t i = (size_t)run->course.component[k];
-        if (i < own) run->course.noise[k] = fmax(error, DBL_EPSILON) * run->grain.floors[i];
+        if (i < own) run->course.noise[k] = fmax(error, DBL_EPSILON) * run->grain.nothing[i];
     }
     if (!run->model->tree || run->model->tree->tie_count == 0) return;
     double speed, reach = measure(run, &speed);

@@ -56,36 +56,44 @@ static const double tolerances[] = {1e-6, 1e-9, 1e-11};
 enum { tolerance_count = 3 };
 static const double most = 30; /* tolerances; 15 were measured in 400 draws */
 
-static void check_cushion(struct checks *checks, const struct ball *ball, const char *law, int seed,
-                          double tolerance)
-{
-    double strikes = ball->gap / ball->speed, flight = 0.3 * strikes;
-    struct trial trial = trial_of(ball, law, -ball->gap, strikes + ball->duration + flight);
-    hard_start(&trial, &(struct hard_method){.tolerance = tolerance}, NAN);
-    char name[60];
-    snprintf(name, sizeof name, "cushion, seed %d, power %g", seed, ball->power);
-    if (hard_done(checks, &trial)) {
-        double of_place = fabs(trial_get(&trial, "b.x") + flight * ball->speed) / (ball->gap + ball->depth);
-        double of_speed = fabs(trial_get(&trial, "b.v") + ball->speed) / ball->speed;
-        hard_case(checks, &trial, name, fmax(of_place, of_speed), most * tolerance);
-    }
-    trial_close(&trial);
-}
+/* A way that ends with the speed turned round. */
+struct way {
+    const char *what, *law;
+    double start, time, end, size; /* of the place */
+};
 
-/* From the middle to the middle, some times. */
-static void check_oscillator(struct checks *checks, const struct ball *ball, int seed, double tolerance)
+static void check_way(struct checks *checks, const struct ball *ball, const struct way *way, int seed,
+                      double tolerance)
 {
-    enum { times = 5 };
-    struct trial trial = trial_of(ball, "-%.17g*sign(x)*abs(x/1[m])^%g", 0, (times + 0.4) * ball->duration);
+    struct trial trial = trial_of(ball, way->law, way->start, way->time + 0.4 * ball->duration);
     char name[60];
     hard_start(&trial, &(struct hard_method){.tolerance = tolerance}, NAN);
-    snprintf(name, sizeof name, "oscillator, seed %d, power %g", seed, ball->power);
-    trial_to(&trial, times * ball->duration);
-    double of_place = fabs(trial_get(&trial, "b.x")) / ball->depth;
-    double of_speed = fabs(fabs(trial_get(&trial, "b.v")) - ball->speed) / ball->speed;
+    snprintf(name, sizeof name, "%s, seed %d, power %g", way->what, seed, ball->power);
+    trial_to(&trial, way->time);
+    double of_place = fabs(trial_get(&trial, "b.x") - way->end) / way->size;
+    double of_speed = fabs(trial_get(&trial, "b.v") + ball->speed) / ball->speed;
     if (hard_done(checks, &trial))
         hard_case(checks, &trial, name, fmax(of_place, of_speed), most * tolerance);
     trial_close(&trial);
+}
+
+static struct way onto_cushion(const struct ball *ball, const char *law)
+{
+    double strikes = ball->gap / ball->speed, flight = 0.3 * strikes;
+    return (struct way){"cushion",
+                        law,
+                        -ball->gap,
+                        strikes + ball->duration + flight,
+                        -flight * ball->speed,
+                        ball->gap + ball->depth};
+}
+
+/* From the middle to the middle, an odd number of times. */
+static struct way to_and_fro(const struct ball *ball)
+{
+    enum { times = 5 };
+    return (struct way){"oscillator", "-%.17g*sign(x)*abs(x/1[m])^%g", 0, times * ball->duration, 0,
+                        ball->depth};
 }
 
 static void powers_of_what_a_switch_keeps_above_zero(void **unused)
@@ -96,11 +104,12 @@ static void powers_of_what_a_switch_keeps_above_zero(void **unused)
     for (int seed = first; seed < first + many; seed++) {
         struct random_numbers numbers = {(uint64_t)seed};
         struct ball ball = random_ball(&numbers);
-        for (int k = 0; k < tolerance_count; k++) {
-            check_cushion(&checks, &ball, "-%.17g*max(x/1[m], 0)^%g", seed, tolerances[k]);
-            check_cushion(&checks, &ball, "if(x > 0, -%.17g*(x/1[m])^%g, 0)", seed, tolerances[k]);
-            check_oscillator(&checks, &ball, seed, tolerances[k]);
-        }
+        const struct way ways[] = {onto_cushion(&ball, "-%.17g*max(x/1[m], 0)^%g"),
+                                   onto_cushion(&ball, "if(x > 0, -%.17g*(x/1[m])^%g, 0)"),
+                                   to_and_fro(&ball)};
+        for (int k = 0; k < tolerance_count; k++)
+            for (size_t i = 0; i < sizeof ways / sizeof *ways; i++)
+                check_way(&checks, &ball, &ways[i], seed, tolerances[k]);
     }
     checks_end(&checks);
 }
