@@ -207,7 +207,7 @@ INLINE wide amplitude_of(int n, int i, const wide *y0, const wide *y1)
     const wide q = y1[i], v = y1[n + i], a = y1[2 * n + i], a0 = y0[2 * n + i];
     const wide fast = larger_of(size_of(v), size_of(y0[n + i])), mean = (a0 + a) / 2;
     const wide square = fast * fast + mean * mean * size_of((q - y0[i]) / (a - a0));
-    return select(square >= 0, root_of(square), (wide){0} + INFINITY);
+    return select(square >= 0, larger_of(root_of(square), fast), (wide){0} + INFINITY);
 }
 
 /* Of pair i. */

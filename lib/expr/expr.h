@@ -183,6 +183,10 @@ double expr_eval_slot(const struct expr *expr, double t, const double *y, int sl
 double expr_eval_second(const struct expr *expr, double t, const double *y, int slot_a, int slot_b,
                         const int *branch, double *d_a, double *d_b, double *d_ab);
 
+/* A bound, of first order, of what rounding within the formula does to its value: (tanh(u + 3) - tanh(u - 3))/2 has
+ * 1e-16 where it is 1e-20. What has no bound there (a square root of 0) counts as none. */
+double expr_rounding(const struct expr *expr, double t, const double *y, const int *branch);
+
 /* ---- kinks */
 
 /* The number of switches; the caller keeps one int for each. */

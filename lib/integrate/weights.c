@@ -60,14 +60,15 @@ static inline double scale_of_q(const struct weights *w, size_t i, double q, dou
 /* What a rate has in the harmonic motion through the state `before` and this one: from a = -w^2 q, which
  * gives 1 / w^2 = |dq / da|, v^2 + a^2 / w^2 at any time, here with the larger v and the mean a. Without bound
  * where a does not change, and for methods of variable order, whose steps carry the errors of those before along:
- * estimates of msadams on a decaying oscillation were low by half with it (tests/unit/test_accuracy.c). */
+ * estimates of msadams on a decaying oscillation were low by half with it (tests/unit/test_accuracy.c). Squares of
+ * what a pulse has hardly moved underflow. */
 static double amplitude(const struct weights *w, const double *before, size_t i, double q, double v, double a)
 {
     if (w->law.estimate_order == 0) return INFINITY;
     const double *q0 = before, *v0 = q0 + w->pairs, *a0 = v0 + w->pairs;
     double fast = larger(fabs(v), fabs(v0[i])), mean = (a0[i] + a) / 2;
     double square = fast * fast + mean * mean * fabs((q - q0[i]) / (a - a0[i]));
-    return square >= 0 ? sqrt(square) : INFINITY;
+    return square >= 0 ? larger(sqrt(square), fast) : INFINITY;
 }
 
 static inline double scale_of_v(const struct weights *w, size_t i, double scale, double swing)

@@ -9,6 +9,7 @@
 #include "dynamics/tree_bare.h"
 #include "dynamics/tree_system.h"
 #include "loop/run.h"
+#include "loop/starts.h"
 
 /* How much the links from the ground to each have turned in all: an angle in the world is their sum, and has
  * its rounding. A force between two links has the larger one: `turned` has room for all links twice. */
@@ -104,11 +105,6 @@ static void add_jointed(const struct model_body *body, const struct tree_state *
     if (body->count > 2) gross[2] += moment;
 }
 
-static bool turns(const struct model_body *body, int k)
-{
-    return body->kind == motion_pivot || k == 2;
-}
-
 /* Add the sizes of what acts along each coordinate of a body. */
 static void add_gross_forces(struct run *run, int b, const struct instant *at, double *gross)
 {
@@ -125,7 +121,32 @@ static void add_gross_forces(struct run *run, int b, const struct instant *at, d
             for (int k = 0; k < body->count; k++) gross[k] += fabs(run->work.arrows[i].share[k]);
     }
     const double share = 1.0 / 64;
-    for (int k = 0; k < body->count; k++) gross[k] += share * run->grain.cancelled[2 * b + turns(body, k)];
+    for (int k = 0; k < body->count; k++) gross[k] += share * run->grain.cancelled[2 * b + coordinate_turns(body, k)];
+}
+
+/* ---- formulas of applied forces
+ *
+ * What rounding within a formula does to its value is no share of that: (tanh(u + 3) - tanh(u - 3))/2 is a staircase
+ * of 1e-16 before it wakes up, and a body that it finds at rest would be followed over each of its stairs. */
+
+static double rounding_of(const struct formula *formula, const struct instant *at)
+{
+    return formula->expr ? expr_rounding(formula->expr, at->t, at->y, formula_branches(formula, at)) : 0;
+}
+
+static void measure_formulas(struct run *run, const struct instant *at)
+{
+    const struct fbd_model *model = run->model;
+    memset(run->grain.formulas, 0, 2 * model->body_count * sizeof *run->grain.formulas);
+    for (size_t i = 0; i < model->load_count; i++) {
+        const struct model_load *load = &model->loads[i];
+        bool couple = load->source->kind == moment_applied;
+        double value = rounding_of(&load->value, at);
+        double force = (couple ? 0 : value) + rounding_of(&load->fx, at) + rounding_of(&load->fy, at);
+        double *own = run->grain.formulas + 2 * (size_t)load->body;
+        own[0] += force;
+        own[1] += force * vec_norm(load->point) + (couple ? value : 0);
+    }
 }
 
 /* What moves with the time and not by the integration: coordinates that are prescribed. */
@@ -142,10 +163,8 @@ static void take_driven(const struct run *run, double *dy)
     }
 }
 
-/* How fast the accelerations change: along the motion, or by the time alone, which is what its rounding does
- * to them: where no force names it, and nothing is prescribed, nothing, as steps have the size that they say.
- * `along` has plan_rates entries: the rates of states change likewise. */
-static void changes(struct run *run, const struct instant *at, bool by_time, double *along)
+/* Where no force names the time, and nothing is prescribed, nothing changes by it, as steps have the size that they say. */
+void run_changes(struct run *run, const struct instant *at, bool by_time, double *along)
 {
     const struct plan *plan = &run->model->plan;
     struct scratch scratch = state_scratch(run->state);
@@ -157,220 +176,6 @@ static void changes(struct run *run, const struct instant *at, bool by_time, dou
     if (by_time) take_driven(run, run->work.sample);
     accelerations_along(run->model, at, &flow, scratch.slots, scratch.slots_along, along);
     if (plan->own > 0) own_rates_along(run->model, at, &flow, along + plan->n);
-}
-
-/* ---- how large what starts from zero becomes */
-
-/* The acceleration of coordinate i (or the rate of a state) as it is, or as it becomes in a short time: drives start without
- * one. */
-static double starting(const struct run *run, size_t i, double tau)
-{
-    double a = run->state->a[i], later = tau * run->grain.along[i];
-    return isfinite(later) && fabs(later) > fabs(a) ? later : a;
-}
-
-static void vary(struct run *run, const struct instant *at, const double *dy, double *along)
-{
-    struct scratch scratch = state_scratch(run->state);
-    const struct direction direction = {0, dy};
-    accelerations_along(run->model, at, &direction, scratch.slots, scratch.slots_along, along);
-    if (run->model->plan.own > 0) own_rates_along(run->model, at, &direction, along + run->model->plan.n);
-}
-
-/* How long each acceleration, and rate of a state, goes on as it starts: for less than the time that is given where something
- * ends it before. */
-
-/* Accelerations, and rates of states, at another instant or place; false where there are none. */
-static bool accelerations_there(const struct run *run, double t, const double *y, double *f)
-{
-    const gsl_odeiv2_system *system = &run->system.inner;
-    return system->function(t, y, f, system->params) == GSL_SUCCESS;
-}
-
-/* Forces fade, or turn round by themselves: one of 1 kN that falls with (t + 1 us)^-2 moves 1 kg by 1e-3 m/s, and not by
- * 100 m/s in a tenth of a second. `along` is by the time alone. */
-static void end_with_forces(struct run *run, double tau, double *times)
-{
-    const double most = 0.75;
-    const size_t n = (size_t)run->model->plan.n, rates = (size_t)plan_rates(&run->model->plan);
-    double *f = run->work.sample;
-    double t = tau;
-    bool ends = !tree_is_bare(run->model);
-    while (ends && run->state->t + t > run->state->t) {
-        ends = false;
-        bool known = accelerations_there(run, run->state->t + t, run->state->y, f);
-        for (size_t i = 0; i < rates; i++) {
-            double a = starting(run, i, t);
-            if (times[i] < t || a == 0 || (known && fabs(f[n + i] - a) <= most * fabs(a))) continue;
-            times[i] = t / 2;
-            ends = true;
-        }
-        t /= 2;
-    }
-}
-
-/* Springs and dampers turn it round as soon as what it makes of places and speeds changes it by no less than itself: a
- * spring of 3e8 N/m whose end is moved by 0.4 m/s would have a block of 0.2 kg at 10 km/s in 4 ms. */
-static void end_with_springs(struct run *run, const struct instant *at, double *times)
-{
-    const struct plan *plan = &run->model->plan;
-    const size_t n = (size_t)plan->n, size = plan_size(plan), rates = (size_t)plan_rates(plan);
-    double *dy = run->work.sample, *by_place = run->work.aside, *by_speed = by_place + size;
-    memset(dy, 0, size * sizeof *dy);
-    for (size_t i = 0; i < n; i++)
-        dy[i] = times[i] * (run->state->y[n + i] + times[i] * starting(run, i, times[i]));
-    vary(run, at, dy, by_place);
-    memset(dy, 0, n * sizeof *dy);
-    for (size_t i = 0; i < rates; i++) dy[n + i] = times[i] * starting(run, i, times[i]);
-    vary(run, at, dy, by_speed);
-    for (size_t i = 0; i < rates; i++) {
-        double a = fabs(starting(run, i, times[i])), springs = sqrt(fabs(by_place[i]) / a),
-               dampers = fabs(by_speed[i]) / a;
-        double share = fmax(isfinite(springs) ? springs : 0, isfinite(dampers) ? dampers : 0);
-        times[i] /= fmax(1, share);
-    }
-}
-
-/* What starts to move as far and as fast as it does in these times. */
-static void set_off(const struct run *run, const double *times, double *y)
-{
-    const size_t n = (size_t)run->model->plan.n, rates = (size_t)plan_rates(&run->model->plan);
-    memcpy(y, run->state->y, plan_size(&run->model->plan) * sizeof *y);
-    for (size_t i = 0; i < rates; i++) {
-        double tau = times[i], gain = tau * starting(run, i, tau);
-        if (i < n) y[i] += tau * (y[n + i] + gain);
-        y[n + i] += gain;
-    }
-}
-
-/* That was the answer of straight lines. A spring that stiffens, or drag by the square of the speed, is not there yet where
- * it starts: halved until accelerations change by no more than twice themselves. */
-static void end_with_bends(struct run *run, double *times)
-{
-    enum { most_halvings = 60 };
-    const double most = 2;
-    const size_t n = (size_t)run->model->plan.n, rates = (size_t)plan_rates(&run->model->plan);
-    double *y = run->work.aside, *f = run->work.sample;
-    bool bent = true;
-    for (int halving = 0; bent && halving < most_halvings; halving++) {
-        bent = false;
-        set_off(run, times, y);
-        bool known = accelerations_there(run, run->state->t, y, f);
-        for (size_t i = 0; i < rates; i++) {
-            double a = starting(run, i, times[i]);
-            if (a == 0 || (known && fabs(f[n + i] - a) <= most * fabs(a))) continue;
-            times[i] /= 2;
-            bent = true;
-        }
-    }
-}
-
-/* What a coordinate and its rate become in a short time, and the arm that makes a length of an angle: of a body
- * that turns, the radius of gyration. */
-struct motion_size {
-    double place, rate, arm;
-};
-
-static struct motion_size motion_size(const struct run *run, const struct model_body *body, int k,
-                                      const double *times)
-{
-    int i = body->first + k;
-    double tau = times[i], v = fabs(run->state->y[i + run->model->plan.n]),
-           a = fabs(starting(run, (size_t)i, tau));
-    double arm = turns(body, k) ? 1 / sqrt(run->model->plan.inverse_inertia[i] * body->inertia.mass) : 1;
-    return (struct motion_size){v * tau + a * tau * tau, fmax(v, a * tau), arm};
-}
-
-/* The largest of all, as lengths and speeds: by what moves, or by what starts to where nothing moves yet, for near
- * singular positions accelerations are far beyond what comes of them. */
-static struct motion_size largest_motion(const struct run *run, const double *times)
-{
-    const int n = run->model->plan.n;
-    struct motion_size all = {.arm = 1};
-    bool moves = false;
-    for (int i = 0; i < n; i++) moves |= run->state->y[n + i] != 0;
-    for (size_t b = 0; b < run->model->body_count; b++) {
-        const struct model_body *body = &run->model->bodies[b];
-        for (int k = 0; k < body->count; k++) {
-            struct motion_size one = motion_size(run, body, k, times);
-            double tau = times[body->first + k];
-            double v = fabs(run->state->y[n + body->first + k]);
-            if (!isfinite(one.arm)) continue;
-            if (moves) one.place = v * tau, one.rate = v;
-            if (!moves && !(one.rate > tau * run->grain.accelerations[body->first + k]))
-                continue; /* it rests */
-            all.place = fmax(all.place, one.place * one.arm);
-            all.rate = fmax(all.rate, one.rate * one.arm);
-        }
-    }
-    return all;
-}
-
-/* Couplings bring states back to rounding of a radian, or of the scene: an error that is allowed of this is that. */
-static double unseen_place(const struct run *run, const struct model_body *body, int k)
-{
-    double reach = 0;
-    for (int i = 1; i < run->model->tree->count; i++)
-        reach = fmax(reach, vec_norm(run->state->tree->links[i].p));
-    return DBL_EPSILON / run->options.tolerance * (turns(body, k) ? 1 : reach);
-}
-
-/* A coordinate or rate that is exactly zero has no size that an error could be compared with, and a method of
- * low order needs one (Euler's first step from rest errs by all that the body moves). What the acceleration
- * does in a thousandth of the run is small, and enough; of the time for which it lasts (end_with_forces and what
- * follows it), for a force that is switched on may be large and short, and a stiff spring turns it round. The last of a row
- * of blocks on springs that is pulled at its other end starts as a high power of the time, or by rounding, which no step follows to a share of itself: what is a
- * billionth of the largest motion has that for its size. */
-static void set_floors(struct run *run, double tau, const double *times)
-{
-    const struct tree *tree = run->model->tree;
-    /* Bodies that touch rest or part by roundings of their gaps: each keeps its own size. */
-    const double negligible = tree && tree->meeting_count > 0 ? 0 : 1e-9;
-    struct motion_size all = largest_motion(run, times);
-    for (size_t b = 0; b < run->model->body_count; b++) {
-        const struct model_body *body = &run->model->bodies[b];
-        for (int k = 0; k < body->count; k++) {
-            size_t position = (size_t)body->first + (size_t)k, rate = position + (size_t)run->model->plan.n;
-            struct motion_size own = motion_size(run, body, k, times);
-            bool sized = own.arm > 0 && isfinite(own.arm); /* what is driven need have no mass */
-            double place = sized ? negligible * all.place / own.arm : 0;
-            double speed = sized ? negligible * all.rate / own.arm : 0;
-            run->grain.nothing[position] = fmax(run->grain.nothing[position], place);
-            run->grain.nothing[rate] = fmax(run->grain.nothing[rate], speed);
-            if (run->state->y[position] == 0) place = fmax(place, own.place);
-            if (run->state->y[rate] == 0) speed = fmax(speed, own.rate);
-            if (tree && tree->row_count > 0 && tree->meeting_count == 0 && place == 0 && speed == 0 &&
-                run->state->y[position] == 0) {
-                place = unseen_place(run, body, k); /* held by a coupling, before anything acts */
-                speed = place / tau;
-            }
-            switcher_set_floor(run->stepper, position, place);
-            switcher_set_floor(run->stepper, rate, speed);
-        }
-    }
-}
-
-/* Is there a number that is zero, or rounding beside the largest? */
-static bool any_is_small(const struct run *run)
-{
-    const int n = run->model->plan.n;
-    double most = 0, least = INFINITY;
-    for (int i = 0; i < 2 * n; i++) {
-        most = fmax(most, fabs(run->state->y[i]));
-        least = fmin(least, fabs(run->state->y[i]));
-    }
-    return n > 0 && least <= DBL_EPSILON * most;
-}
-
-/* Likewise a state that starts from zero. */
-static void set_own_floor(struct run *run, int i, const double *times)
-{
-    const struct plan *plan = &run->model->plan;
-    size_t state = 2 * (size_t)plan->n + (size_t)i, rate = (size_t)plan->n + (size_t)i;
-    double tau = times[rate], change = fabs(run->grain.along[rate]);
-    if (run->state->y[state] != 0) return;
-    switcher_set_floor(run->stepper, state,
-                       tau * fabs(run->state->a[rate]) + (isfinite(change) ? tau * tau * change : 0));
 }
 
 /* Roundings of its gross forces that the acceleration of a body is known to. Measured with chains of 16 to
@@ -390,9 +195,10 @@ static void set_noise(struct run *run)
     const struct plan *plan = &run->model->plan;
     struct instant here = state_instant(run->state);
     const struct instant *at = &here;
-    changes(run, at, true, run->grain.along);
+    run_changes(run, at, true, run->grain.along);
     if (run->model->tree) measure_turns(run, at);
     measure_cancelled(run, at);
+    measure_formulas(run, at);
     const double roundings[] = {roundings_of(run->model, false), roundings_of(run->model, true)};
     for (size_t b = 0; b < run->model->body_count; b++) {
         const struct model_body *body = &run->model->bodies[b];
@@ -402,8 +208,10 @@ static void set_noise(struct run *run)
             int i = body->first + k;
             double of_time = fabs(at->t * run->grain.along[i]),
                    of_sum = roundings[body->place.link > 0] * gross[k] * plan->inverse_inertia[i];
-            double noise = DBL_EPSILON * (of_sum + of_time);
+            double of_formulas = run->grain.formulas[2 * b + coordinate_turns(body, k)] * plan->inverse_inertia[i];
+            double noise = DBL_EPSILON * (of_sum + of_time) + of_formulas;
             run->grain.accelerations[i] = isfinite(noise) ? noise : 0;
+            run->grain.largest[i] = fmax(run->grain.largest[i], fabs(run->state->a[i]));
             switcher_set_noise(run->stepper, (size_t)i, run->grain.accelerations[i]);
         }
     }
@@ -411,23 +219,10 @@ static void set_noise(struct run *run)
 
 void run_set_noise(struct run *run)
 {
-    const struct plan *plan = &run->model->plan;
     set_noise(run);
     run->grain.since = 0;
     run->grain.pause = 1;
-    bool coordinates = any_is_small(run), own = false;
-    for (int i = 2 * plan->n; i < (int)plan_size(plan); i++) own |= run->state->y[i] == 0;
-    if (!coordinates && !own) return;
-    const double share = 1e-3, tau = share * run_time_to_switch(run);
-    double *times = run->work.kept;
-    for (size_t i = 0; i < plan_rates(plan); i++) times[i] = tau;
-    end_with_forces(run, tau, times); /* `along` is that of set_noise */
-    struct instant at = state_instant(run->state);
-    changes(run, &at, false, run->grain.along);
-    end_with_springs(run, &at, times);
-    end_with_bends(run, times);
-    if (coordinates) set_floors(run, tau, times);
-    for (int i = 0; i < plan->own; i++) set_own_floor(run, i, times);
+    run_set_floors(run);
 }
 
 /* Have accelerations about the noise that they had before? */
@@ -439,6 +234,29 @@ static bool is_steady(const struct run *run, const double *before)
         if (now > most * before[i] || before[i] > most * now) return false;
     }
     return true;
+}
+
+/* Does the time name a force? */
+bool run_heeds_time(const struct fbd_model *model)
+{
+    for (size_t i = 0; i < model->load_count; i++) {
+        const struct model_load *load = &model->loads[i];
+        const struct formula *formulas[] = {&load->value, &load->fx, &load->fy};
+        for (size_t k = 0; k < sizeof formulas / sizeof *formulas; k++)
+            if (formulas[k]->expr && expr_uses_time(formulas[k]->expr)) return true;
+    }
+    return false;
+}
+
+/* A pulse makes an acceleration of nothing, and its noise with it, which is not yet known there. */
+static bool has_grown(const struct run *run)
+{
+    const double most = 4;
+    const double *a = run->work.f + run->model->plan.n;
+    if (!run->grain.heeds_time) return false;
+    for (int i = 0; i < run->model->plan.n; i++)
+        if (fabs(a[i]) > most * run->grain.largest[i]) return true;
+    return false;
 }
 
 /* Steps after which it is looked at, in trees: it costs a hundredth of them. */
@@ -458,7 +276,7 @@ void run_renew_noise(struct run *run)
     const unsigned long most_between = 8;
     if (run->options.step > 0) return; /* nothing chooses by it */
     run->grain.since++;
-    bool due = run->model->tree && run->grain.since >= steps_between;
+    bool due = (run->model->tree && run->grain.since >= steps_between) || has_grown(run);
     bool counts = run->grain.since >= run->grain.pause && switcher_noise_counts(run->stepper, run->step.h);
     if (!due && !counts) return;
     double *before = run->work.aside;

@@ -87,7 +87,7 @@ static bool make_run(struct run *run, const struct state_start *begin)
     run->state = begin ? state_new_from(run->model, begin) : state_new(run->model);
     run->during = state_new(run->model);
     size_t links = run->model->tree ? (size_t)run->model->tree->count : 0;
-    size_t sizes = n + 2 * links + 2 * run->model->body_count + size;
+    size_t sizes = 2 * n + 2 * links + 4 * run->model->body_count + size;
     run->work.y = ARENA_ARRAY(memory, 5 * size + plan_rates(plan) + sizes, double);
     if (!run->state || !run->during || !run->work.y || !run_make_scans(run)) return false;
     if (run->state->tree)
@@ -99,9 +99,12 @@ static bool make_run(struct run *run, const struct state_start *begin)
     run->work.aside = run->work.sample + size;
     run->grain.along = run->work.aside + 2 * size;
     run->grain.accelerations = run->grain.along + plan_rates(plan);
-    run->grain.turned = run->grain.accelerations + n;
+    run->grain.largest = run->grain.accelerations + n;
+    run->grain.heeds_time = run_heeds_time(run->model);
+    run->grain.turned = run->grain.largest + n;
     run->grain.cancelled = run->grain.turned + 2 * links;
-    run->grain.nothing = run->grain.cancelled + 2 * run->model->body_count;
+    run->grain.formulas = run->grain.cancelled + 2 * run->model->body_count;
+    run->grain.nothing = run->grain.formulas + 2 * run->model->body_count;
     size_t functions = 2 * run->search.moving.count, timed = 3 * run->search.timed.count;
     run->work.values = ARENA_ARRAY(memory, functions > timed ? functions : timed, double);
     run->work.kept = ARENA_ARRAY(memory, 2 * size, double);

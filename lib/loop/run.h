@@ -114,10 +114,13 @@ struct event_search {
 /* What is known of the rounding of accelerations: see noise.c. */
 struct grain {
     double *accelerations; /* n: what they are known to */
+    double *largest;       /* n: the largest acceleration for which that has been found */
+    bool heeds_time;       /* run_heeds_time */
     double *along;  /* plan_rates: how accelerations and the rates of states change along the motion, when the
                               rest of this was set */
     double *turned; /* twice the links of the tree */
     double *cancelled;          /* for each body a force and its moment */
+    double *formulas;           /* likewise */
     double *nothing;            /* plan_size: what has been nothing beside the largest motion, at a start */
     unsigned long since, pause; /* steps; and how many may pass while it counts but hardly changes */
 };
@@ -345,6 +348,7 @@ void run_set_noise(struct run *run);
 /* After a step without an event: from time to time how well the accelerations are known now, as the forces in
  * joints change with the motion. */
 void run_renew_noise(struct run *run);
+bool run_heeds_time(const struct fbd_model *model);
 
 /* How many steps may be made before that has to be looked at for their number alone. */
 unsigned long run_steps_to_noise(const struct run *run);
