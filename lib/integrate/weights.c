@@ -16,7 +16,7 @@ struct weights {
     struct step_law law;
     double *scale;   /* size: running maximum of |y| and of the floors given */
     double *cap;     /* pairs: 1 rad for angles, no bound for others */
-    double *noise;   /* pairs: rounding error of a */
+    double *noise;   /* pairs, then what is no pair: rounding error of a, and of y' */
     double *floor;   /* pairs: of the rates, as given */
     double *fastest; /* what is no pair: running maximum of |y'| */
     double *before;  /* 3 pairs: q, v and a of the last accepted state, */
@@ -142,7 +142,9 @@ double weights_ratio(const gsl_odeiv2_control *control, double h, const double *
         double motion = motion_of(h, f[i]);
         double tolerance =
             by_time ? tolerance_by_time(w, w->scale[i], w->fastest[i - 2 * n], h) : w->tolerance;
-        ratio = raised(ratio, yerr[i], level(tolerance, scale_of(w, i, y[i], motion), y[i], motion, 0), 0);
+        double noise = w->noise[i - n] * fabs(h);
+        ratio = raised(ratio, yerr[i],
+                       level(tolerance, scale_of(w, i, y[i], motion), y[i], motion, 4 * noise), noise);
         probe += 0 * (y[i] + f[i] + yerr[i]);
     }
     return probe == 0 ? ratio : INFINITY;
@@ -235,6 +237,8 @@ bool weights_noise_counts(const gsl_odeiv2_control *control, double h)
         double swing = amplitude(w, w->earlier, i, q[i], v[i], a[i]);
         if (allowed > w->tolerance * scale_of_v(w, i, scale, swing)) return true;
     }
+    for (size_t i = 2 * n; i < w->size; i++)
+        if (allowed_by_noise(w, i - n, h) > w->tolerance * w->scale[i]) return true;
     return false;
 }
 
@@ -308,7 +312,9 @@ static int control_errlevel(void *state, const double y, const double dydt, cons
     size_t n = w->pairs;
     double motion = i < n ? motion_of_q(h, dydt, w->before[2 * n + i]) : motion_of(h, dydt);
     double scale = i < n ? scale_of_q(w, i, y, motion) : scale_of(w, i, y, motion);
-    double hidden = i >= n && i < 2 * n ? hidden_in_v(w, i - n, h, w->scale[i - n]) : 0;
+    double hidden = i < n       ? 0
+                    : i < 2 * n ? hidden_in_v(w, i - n, h, w->scale[i - n])
+                                : allowed_by_noise(w, i - n, h);
     *errlev = level(w->tolerance, scale, y, motion, hidden);
     if (*errlev == 0) *errlev = w->tolerance * scale_of_group(w, i);
     if (*errlev == 0) *errlev = w->tolerance;
@@ -375,14 +381,14 @@ static struct weights *weights_state(const struct layout *layout)
 {
     size_t pairs = layout->pairs, size = layout_size(layout);
     if (size == 0 || size > (SIZE_MAX - sizeof(struct weights)) / (8 * sizeof(double))) return NULL;
-    struct weights *w = zeroed(sizeof *w + (2 * size + 7 * pairs) * sizeof(double));
+    struct weights *w = zeroed(sizeof *w + (3 * size + 5 * pairs) * sizeof(double));
     if (!w) return NULL;
     w->pairs = pairs;
     w->size = size;
     w->scale = w->memory;
     w->cap = w->scale + size;
     w->noise = w->cap + pairs;
-    w->floor = w->noise + pairs;
+    w->floor = w->noise + (size - pairs);
     w->before = w->floor + pairs;
     w->earlier = w->before + 3 * pairs;
     w->fastest = w->earlier + 3 * pairs;

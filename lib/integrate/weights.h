@@ -79,7 +79,7 @@ gsl_odeiv2_control *weights_alloc(const struct layout *layout, double tolerance,
  * body that moves along x. */
 void weights_set_floor(gsl_odeiv2_control *control, size_t i, double floor);
 
-/* The acceleration of pair i is known to +-`noise` only (the difference of large forces, or a force at a late
+/* The acceleration of pair i (behind the pairs, the rate of what is none) is known to +-`noise` only (the difference of large forces, or a force at a late
  * time): an error of that size times h in v_i, and times h^2 in q_i, cannot be reduced by a smaller step and
  * is allowed. Without it a body that starts to move out of a balance of large forces would be followed, noise
  * and all, with ever smaller steps. */

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "dynamics/constraint.h"
+#include "dynamics/load_rounding.h"
 #include "dynamics/own.h"
 #include "dynamics/tree_bare.h"
 #include "dynamics/tree_system.h"
@@ -124,28 +125,16 @@ static void add_gross_forces(struct run *run, int b, const struct instant *at, d
     for (int k = 0; k < body->count; k++) gross[k] += share * run->grain.cancelled[2 * b + coordinate_turns(body, k)];
 }
 
-/* ---- formulas of applied forces
- *
- * What rounding within a formula does to its value is no share of that: (tanh(u + 3) - tanh(u - 3))/2 is a staircase
- * of 1e-16 before it wakes up, and a body that it finds at rest would be followed over each of its stairs. */
-
-static double rounding_of(const struct formula *formula, const struct instant *at)
-{
-    return formula->expr ? expr_rounding(formula->expr, at->t, at->y, formula_branches(formula, at)) : 0;
-}
-
 static void measure_formulas(struct run *run, const struct instant *at)
 {
     const struct fbd_model *model = run->model;
     memset(run->grain.formulas, 0, 2 * model->body_count * sizeof *run->grain.formulas);
     for (size_t i = 0; i < model->load_count; i++) {
         const struct model_load *load = &model->loads[i];
-        bool couple = load->source->kind == moment_applied;
-        double value = rounding_of(&load->value, at);
-        double force = (couple ? 0 : value) + rounding_of(&load->fx, at) + rounding_of(&load->fy, at);
+        const struct load_rounding of = load_rounding(load, at);
         double *own = run->grain.formulas + 2 * (size_t)load->body;
-        own[0] += force;
-        own[1] += force * vec_norm(load->point) + (couple ? value : 0);
+        own[0] += of.force;
+        own[1] += of.force * vec_norm(load->point) + of.couple;
     }
 }
 
@@ -190,6 +179,14 @@ static double roundings_of(const struct fbd_model *model, bool in_tree)
     return jointed * (1 + fmax(0, log2(links / few)));
 }
 
+/* Of an acceleration, or of the rate of a state. */
+static void take_noise(struct run *run, size_t rate, double noise)
+{
+    run->grain.accelerations[rate] = isfinite(noise) ? noise : 0;
+    run->grain.largest[rate] = fmax(run->grain.largest[rate], fabs(run->state->a[rate]));
+    switcher_set_noise(run->stepper, rate, run->grain.accelerations[rate]);
+}
+
 static void set_noise(struct run *run)
 {
     const struct plan *plan = &run->model->plan;
@@ -209,11 +206,13 @@ static void set_noise(struct run *run)
             double of_time = fabs(at->t * run->grain.along[i]),
                    of_sum = roundings[body->place.link > 0] * gross[k] * plan->inverse_inertia[i];
             double of_formulas = run->grain.formulas[2 * b + coordinate_turns(body, k)] * plan->inverse_inertia[i];
-            double noise = DBL_EPSILON * (of_sum + of_time) + of_formulas;
-            run->grain.accelerations[i] = isfinite(noise) ? noise : 0;
-            run->grain.largest[i] = fmax(run->grain.largest[i], fabs(run->state->a[i]));
-            switcher_set_noise(run->stepper, (size_t)i, run->grain.accelerations[i]);
+            take_noise(run, (size_t)i, DBL_EPSILON * (of_sum + of_time) + of_formulas);
         }
+    }
+    for (int i = 0; i < plan->own; i++) {
+        size_t rate = (size_t)(plan->n + i);
+        double of_time = DBL_EPSILON * fabs(at->t * run->grain.along[rate]);
+        take_noise(run, rate, of_time + formula_rounding(&plan->rates[i], at));
     }
 }
 
@@ -229,22 +228,27 @@ void run_set_noise(struct run *run)
 static bool is_steady(const struct run *run, const double *before)
 {
     const double most = 2;
-    for (int i = 0; i < run->model->plan.n; i++) {
+    for (size_t i = 0; i < plan_rates(&run->model->plan); i++) {
         double now = run->grain.accelerations[i];
         if (now > most * before[i] || before[i] > most * now) return false;
     }
     return true;
 }
 
-/* Does the time name a force? */
+static bool names_time(const struct formula *formula)
+{
+    return formula->expr && expr_uses_time(formula->expr);
+}
+
+/* Does the time name a force, or the rate of a state? */
 bool run_heeds_time(const struct fbd_model *model)
 {
     for (size_t i = 0; i < model->load_count; i++) {
         const struct model_load *load = &model->loads[i];
-        const struct formula *formulas[] = {&load->value, &load->fx, &load->fy};
-        for (size_t k = 0; k < sizeof formulas / sizeof *formulas; k++)
-            if (formulas[k]->expr && expr_uses_time(formulas[k]->expr)) return true;
+        if (names_time(&load->value) || names_time(&load->fx) || names_time(&load->fy)) return true;
     }
+    for (int i = 0; i < model->plan.own; i++)
+        if (names_time(&model->plan.rates[i])) return true;
     return false;
 }
 
@@ -254,7 +258,7 @@ static bool has_grown(const struct run *run)
     const double most = 4;
     const double *a = run->work.f + run->model->plan.n;
     if (!run->grain.heeds_time) return false;
-    for (int i = 0; i < run->model->plan.n; i++)
+    for (size_t i = 0; i < plan_rates(&run->model->plan); i++)
         if (fabs(a[i]) > most * run->grain.largest[i]) return true;
     return false;
 }
@@ -280,7 +284,7 @@ void run_renew_noise(struct run *run)
     bool counts = run->grain.since >= run->grain.pause && switcher_noise_counts(run->stepper, run->step.h);
     if (!due && !counts) return;
     double *before = run->work.aside;
-    memcpy(before, run->grain.accelerations, (size_t)run->model->plan.n * sizeof *before);
+    memcpy(before, run->grain.accelerations, plan_rates(&run->model->plan) * sizeof *before);
     run_evaluate(run);
     set_noise(run);
     run->grain.since = 0;

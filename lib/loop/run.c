@@ -83,12 +83,12 @@ static bool make_run(struct run *run, const struct state_start *begin)
 {
     const struct plan *plan = &run->model->plan;
     struct arena *memory = &run->memory;
-    size_t n = (size_t)plan->n, size = plan_size(plan);
+    size_t size = plan_size(plan), rates = (size_t)plan_rates(plan);
     run->state = begin ? state_new_from(run->model, begin) : state_new(run->model);
     run->during = state_new(run->model);
     size_t links = run->model->tree ? (size_t)run->model->tree->count : 0;
-    size_t sizes = 2 * n + 2 * links + 4 * run->model->body_count + size;
-    run->work.y = ARENA_ARRAY(memory, 5 * size + plan_rates(plan) + sizes, double);
+    size_t sizes = 3 * rates + 2 * links + 4 * run->model->body_count + size;
+    run->work.y = ARENA_ARRAY(memory, 5 * size + sizes, double);
     if (!run->state || !run->during || !run->work.y || !run_make_scans(run)) return false;
     if (run->state->tree)
         run->state->tree->accuracy = run->during->tree->accuracy = projected_accuracy(&run->options);
@@ -98,10 +98,10 @@ static bool make_run(struct run *run, const struct state_start *begin)
     run->work.sample = run->work.f + size;
     run->work.aside = run->work.sample + size;
     run->grain.along = run->work.aside + 2 * size;
-    run->grain.accelerations = run->grain.along + plan_rates(plan);
-    run->grain.largest = run->grain.accelerations + n;
+    run->grain.accelerations = run->grain.along + rates;
+    run->grain.largest = run->grain.accelerations + rates;
     run->grain.heeds_time = run_heeds_time(run->model);
-    run->grain.turned = run->grain.largest + n;
+    run->grain.turned = run->grain.largest + rates;
     run->grain.cancelled = run->grain.turned + 2 * links;
     run->grain.formulas = run->grain.cancelled + 2 * run->model->body_count;
     run->grain.nothing = run->grain.formulas + 2 * run->model->body_count;

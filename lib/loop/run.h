@@ -113,8 +113,8 @@ struct event_search {
 
 /* What is known of the rounding of accelerations: see noise.c. */
 struct grain {
-    double *accelerations; /* n: what they are known to */
-    double *largest;       /* n: the largest acceleration for which that has been found */
+    double *accelerations; /* plan_rates: what they, and rates of states, are known to */
+    double *largest;       /* plan_rates: the largest for which that has been found */
     bool heeds_time;       /* run_heeds_time */
     double *along;  /* plan_rates: how accelerations and the rates of states change along the motion, when the
                               rest of this was set */

@@ -14,6 +14,7 @@
 #include <float.h>
 #include <math.h>
 
+#include "dynamics/load_rounding.h"
 #include "dynamics/mass.h"
 #include "model/tree.h"
 
@@ -215,13 +216,39 @@ static struct look look_at(const struct ledger *ledger, const struct group *grou
     return look;
 }
 
+/* What rounding within formulas does to the powers of a group, at an instant. */
+static bool take_grain(struct ensemble *ensemble, const struct panel *panel, struct moment t, double *grain)
+{
+    struct fbd_state *state = ensemble_look_group(ensemble, panel->group, t, true);
+    if (!state) return false;
+    struct instant at = state_instant(state);
+    double sum = 0;
+    for (size_t i = 0; i < state->model->load_count; i++)
+        sum += load_power_rounding(state->model, i, &at);
+    *grain = fmax(*grain, sum);
+    return true;
+}
+
+/* What of its works is rounding. */
+static bool set_floor(struct ledger *ledger, struct ensemble *ensemble, struct panel *panel)
+{
+    const double rounding = 1e-14;
+    double grain = 0;
+    if (!take_grain(ensemble, panel, moment_after(panel->from, panel->length), &grain)) return false;
+    struct fbd_state *state = ensemble_look_group(ensemble, panel->group, panel->from, true);
+    if (!state || !take_grain(ensemble, panel, panel->from, &grain)) return false;
+    struct rounded rounded = rounded_at(ledger, state); /* of what rests, too */
+    panel->floor = rounding * rounded.places + DBL_EPSILON * rounded.ways * panel->length * panel->length +
+                   panel->length * grain;
+    return true;
+}
+
 /* Add the integral of power over a panel; in halves where the motion asks for less points than the powers do: of what sticks
  * on a belt, or is driven, or stands between forces that cancel, the steps know nothing of what these forces are. */
 static bool add_panel(struct ledger *ledger, struct ensemble *ensemble, struct panel panel, struct sums *sums)
 {
     enum { most_halved = 12, at_once = 3 };
-    const double share = 0.1, least_tolerance = 1e-12, most_tolerance = 1e-7, progress = 0.25,
-                 rounding = 1e-14;
+    const double share = 0.1, least_tolerance = 1e-12, most_tolerance = 1e-7, progress = 0.25;
     const struct group *group = &ensemble->groups[panel.group];
     if (!sample(ledger, ensemble, &panel)) return false;
     struct look look = look_at(ledger, group, &panel);
@@ -229,12 +256,7 @@ static bool add_panel(struct ledger *ledger, struct ensemble *ensemble, struct p
     double size = sums->lively + sums->turnover + look.turnover;
     double energy = panel.length * look.missed;
     bool more = energy > share * tolerance * size;
-    if (more && panel.halved == 0) {
-        struct fbd_state *state = ensemble_look_group(ensemble, panel.group, panel.from, true);
-        if (!state) return false;
-        struct rounded rounded = rounded_at(ledger, state); /* of what rests, too */
-        panel.floor = rounding * rounded.places + DBL_EPSILON * rounded.ways * panel.length * panel.length;
-    }
+    if (more && panel.halved == 0 && !set_floor(ledger, ensemble, &panel)) return false;
     more = more && energy > panel.floor &&
            (look.waves || panel.halved < at_once || look.missed < progress * panel.missed);
     if (more && panel.halved < most_halved) {

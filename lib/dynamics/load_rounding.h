@@ -1,0 +1,23 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * What rounding within a formula does to its value is no share of that: (tanh(u + 3) - tanh(u - 3))/2 is a staircase of 1e-16
+ * before it wakes up, and a body that it finds at rest would be followed over each of its stairs.
+ */
+#ifndef FBD_DYNAMICS_LOAD_ROUNDING_H
+#define FBD_DYNAMICS_LOAD_ROUNDING_H
+
+#include "dynamics/instant.h"
+
+/* Bounds of the rounding of the formulas of a load: of its force [N] and of a moment by itself [N m]. */
+struct load_rounding {
+    double force, couple;
+};
+struct load_rounding load_rounding(const struct model_load *load, const struct instant *at);
+
+/* That of one formula, in its own unit. */
+double formula_rounding(const struct formula *formula, const struct instant *at);
+
+/* That of the power of load `index` [W]. */
+double load_power_rounding(const struct fbd_model *model, size_t index, const struct instant *at);
+
+#endif
