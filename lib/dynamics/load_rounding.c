@@ -10,20 +10,40 @@ double formula_rounding(const struct formula *formula, const struct instant *at)
     return formula->expr ? expr_rounding(formula->expr, at->t, at->y, formula_branches(formula, at)) : 0;
 }
 
-struct load_rounding load_rounding(const struct model_load *load, const struct instant *at)
+static bool has_formulas(const struct model_load *load)
+{
+    return load->value.expr || load->fx.expr || load->fy.expr;
+}
+
+/* Of an applied force: diagram.c, applied_force. */
+static struct vec force_rounding(const struct model_load *load, struct vec rotation, const struct instant *at)
 {
     double value = formula_rounding(&load->value, at);
-    double parts = formula_rounding(&load->fx, at) + formula_rounding(&load->fy, at);
-    if (load->source->kind == moment_applied) return (struct load_rounding){parts, value};
-    return (struct load_rounding){value + parts, 0};
+    struct vec f = {formula_rounding(&load->fx, at), formula_rounding(&load->fy, at)};
+    if (!load->source->angle.expr) return vec_add(f, vec_scale(value, rotation));
+    f = vec_add(f, vec_scale(value, vec_unit(formula_value(&load->angle, at))));
+    return load->source->body_frame ? vec_turn(rotation, f) : f;
+}
+
+struct load_rounding load_rounding(const struct fbd_model *model, size_t index, const struct instant *at)
+{
+    const struct model_load *load = &model->loads[index];
+    struct load_rounding of = {{0, 0}, 0};
+    if (!has_formulas(load)) return of;
+    if (load->source->kind == moment_applied)
+        of.couple = formula_rounding(&load->value, at);
+    else
+        of.force = force_rounding(load, body_pose(&model->bodies[load->body], at).rotation, at);
+    return of;
 }
 
 double load_power_rounding(const struct fbd_model *model, size_t index, const struct instant *at)
 {
     const struct model_load *load = &model->loads[index];
-    struct load_rounding of = load_rounding(load, at);
-    if (of.force == 0 && of.couple == 0) return 0;
+    if (!has_formulas(load)) return 0;
+    const struct load_rounding of = load_rounding(model, index, at);
     const struct model_body *body = &model->bodies[load->body];
     struct pose pose = body_pose(body, at);
-    return of.force * vec_norm(point_motion(body, &pose, load->point).v) + of.couple * fabs(pose.omega);
+    double speed = vec_norm(point_motion(body, &pose, load->point).v);
+    return vec_norm(of.force) * speed + fabs(of.couple * pose.omega);
 }

@@ -8,11 +8,13 @@
 
 #include "dynamics/instant.h"
 
-/* Bounds of the rounding of the formulas of a load: of its force [N] and of a moment by itself [N m]. */
+/* The rounding of the formulas of a load: of its force [N], in its direction in the world, and of a moment by itself
+ * [N m]. Bounds, with one sign of each. */
 struct load_rounding {
-    double force, couple;
+    struct vec force;
+    double couple;
 };
-struct load_rounding load_rounding(const struct model_load *load, const struct instant *at);
+struct load_rounding load_rounding(const struct fbd_model *model, size_t index, const struct instant *at);
 
 /* That of one formula, in its own unit. */
 double formula_rounding(const struct formula *formula, const struct instant *at);

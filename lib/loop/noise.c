@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "dynamics/constraint.h"
+#include "dynamics/forces.h"
 #include "dynamics/load_rounding.h"
 #include "dynamics/own.h"
 #include "dynamics/tree_bare.h"
@@ -122,19 +123,78 @@ static void add_gross_forces(struct run *run, int b, const struct instant *at, d
             for (int k = 0; k < body->count; k++) gross[k] += fabs(run->work.arrows[i].share[k]);
     }
     const double share = 1.0 / 64;
-    for (int k = 0; k < body->count; k++) gross[k] += share * run->grain.cancelled[2 * b + coordinate_turns(body, k)];
+    for (int k = 0; k < body->count; k++)
+        gross[k] += share * run->grain.cancelled[2 * b + coordinate_turns(body, k)];
 }
 
+/* ---- formulas of applied forces (load_rounding.h) */
+
+/* What a force at a point is along the coordinates of a link that carries it. */
+static void add_along_link(const struct run *run, const struct tree_state *s, int link, struct vec point,
+                           const struct load_rounding *of, double *Q)
+{
+    const struct model_body *body = &run->model->bodies[run->model->tree->links[link].body];
+    double moment = vec_cross(vec_sub(point, s->p), of->force) + of->couple, along = vec_dot(s->e, of->force),
+           own[] = {along, vec_cross(s->e, of->force), moment};
+    if (body->kind == motion_pivot) own[0] = moment;
+    if (body->kind == motion_track) own[0] += s->turning * moment;
+    for (int k = 0; k < body->count; k++) Q[body->first + k] += own[k];
+}
+
+/* Add what the rounding of a load is along coordinates; false where it has none. */
+static bool add_rounding(const struct run *run, const struct instant *at, size_t index, double *Q)
+{
+    const struct model_load *load = &run->model->loads[index];
+    const struct load_rounding of = load_rounding(run->model, index, at);
+    const struct model_body *body = &run->model->bodies[load->body];
+    if (vec_norm(of.force) == 0 && of.couple == 0) return false;
+    const struct pose pose = body_pose(body, at);
+    const struct vec point = point_motion(body, &pose, load->point).p;
+    if (body->place.link == 0) {
+        double arm = vec_norm(vec_sub(point, pose.origin)), force = vec_norm(of.force);
+        for (int k = 0; k < body->count; k++)
+            Q[body->first + k] += coordinate_turns(body, k) ? force * arm + of.couple : force;
+    }
+    for (int link = body->place.link; link > 0;
+         link = load->in_joint ? 0 : run->model->tree->links[link].parent)
+        add_along_link(run, &at->tree->links[link], link, point, &of, Q);
+    return true;
+}
+
+/* Accelerations of jointed bodies are found once more with forces that are off by Q. */
+static void add_answer(struct run *run, const struct instant *at, const double *Q, double *noise)
+{
+    const struct tree *tree = run->model->tree;
+    double *slots = state_scratch(run->state).slots;
+    force_slots(run->model, at, slots);
+    for (int i = 0; i < run->model->plan.n; i++) slots[i] += Q[i];
+    tree_accelerations(run->model, at, slots, at->tree->a);
+    for (int link = 1; link < tree->count; link++) {
+        const struct model_body *body = &run->model->bodies[tree->links[link].body];
+        for (int i = body->first; i < body->first + body->count; i++)
+            noise[i] += fabs(at->tree->a[i] - run->state->a[i]);
+    }
+}
+
+/* What they do to each acceleration: the sum over the loads, or over a few lots of many. */
 static void measure_formulas(struct run *run, const struct instant *at)
 {
+    enum { most_lots = 8 };
     const struct fbd_model *model = run->model;
-    memset(run->grain.formulas, 0, 2 * model->body_count * sizeof *run->grain.formulas);
-    for (size_t i = 0; i < model->load_count; i++) {
-        const struct model_load *load = &model->loads[i];
-        const struct load_rounding of = load_rounding(load, at);
-        double *own = run->grain.formulas + 2 * (size_t)load->body;
-        own[0] += of.force;
-        own[1] += of.force * vec_norm(load->point) + of.couple;
+    const size_t n = (size_t)model->plan.n;
+    double *noise = run->grain.formulas, *Q = run->work.aside + plan_size(&model->plan);
+    memset(noise, 0, n * sizeof *noise);
+    for (size_t lot = 0; lot < most_lots; lot++) {
+        bool any = false;
+        memset(Q, 0, n * sizeof *Q);
+        for (size_t i = lot; i < model->load_count; i += most_lots) any |= add_rounding(run, at, i, Q);
+        if (!any) continue;
+        for (size_t b = 0; b < model->body_count; b++) {
+            const struct model_body *body = &model->bodies[b];
+            for (int i = body->first; body->place.link == 0 && i < body->first + body->count; i++)
+                noise[i] += fabs(Q[i]) * model->plan.inverse_inertia[i];
+        }
+        if (model->tree) add_answer(run, at, Q, noise);
     }
 }
 
@@ -192,10 +252,10 @@ static void set_noise(struct run *run)
     const struct plan *plan = &run->model->plan;
     struct instant here = state_instant(run->state);
     const struct instant *at = &here;
+    measure_formulas(run, at);
     run_changes(run, at, true, run->grain.along);
     if (run->model->tree) measure_turns(run, at);
     measure_cancelled(run, at);
-    measure_formulas(run, at);
     const double roundings[] = {roundings_of(run->model, false), roundings_of(run->model, true)};
     for (size_t b = 0; b < run->model->body_count; b++) {
         const struct model_body *body = &run->model->bodies[b];
@@ -205,8 +265,7 @@ static void set_noise(struct run *run)
             int i = body->first + k;
             double of_time = fabs(at->t * run->grain.along[i]),
                    of_sum = roundings[body->place.link > 0] * gross[k] * plan->inverse_inertia[i];
-            double of_formulas = run->grain.formulas[2 * b + coordinate_turns(body, k)] * plan->inverse_inertia[i];
-            take_noise(run, (size_t)i, DBL_EPSILON * (of_sum + of_time) + of_formulas);
+            take_noise(run, (size_t)i, DBL_EPSILON * (of_sum + of_time) + run->grain.formulas[i]);
         }
     }
     for (int i = 0; i < plan->own; i++) {

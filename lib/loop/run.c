@@ -87,7 +87,7 @@ static bool make_run(struct run *run, const struct state_start *begin)
     run->state = begin ? state_new_from(run->model, begin) : state_new(run->model);
     run->during = state_new(run->model);
     size_t links = run->model->tree ? (size_t)run->model->tree->count : 0;
-    size_t sizes = 3 * rates + 2 * links + 4 * run->model->body_count + size;
+    size_t sizes = 4 * rates + 2 * links + 2 * run->model->body_count + size;
     run->work.y = ARENA_ARRAY(memory, 5 * size + sizes, double);
     if (!run->state || !run->during || !run->work.y || !run_make_scans(run)) return false;
     if (run->state->tree)
@@ -104,7 +104,7 @@ static bool make_run(struct run *run, const struct state_start *begin)
     run->grain.turned = run->grain.largest + rates;
     run->grain.cancelled = run->grain.turned + 2 * links;
     run->grain.formulas = run->grain.cancelled + 2 * run->model->body_count;
-    run->grain.nothing = run->grain.formulas + 2 * run->model->body_count;
+    run->grain.nothing = run->grain.formulas + rates;
     size_t functions = 2 * run->search.moving.count, timed = 3 * run->search.timed.count;
     run->work.values = ARENA_ARRAY(memory, functions > timed ? functions : timed, double);
     run->work.kept = ARENA_ARRAY(memory, 2 * size, double);

@@ -120,7 +120,7 @@ struct grain {
                               rest of this was set */
     double *turned; /* twice the links of the tree */
     double *cancelled;          /* for each body a force and its moment */
-    double *formulas;           /* likewise */
+    double *formulas;           /* n: what rounding within formulas does to accelerations */
     double *nothing;            /* plan_size: what has been nothing beside the largest motion, at a start */
     unsigned long since, pause; /* steps; and how many may pass while it counts but hardly changes */
 };

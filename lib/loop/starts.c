@@ -130,7 +130,8 @@ static struct motion_size motion_size(const struct run *run, const struct model_
     int i = body->first + k;
     double tau = times[i], v = fabs(run->state->y[i + run->model->plan.n]),
            a = fabs(starting(run, (size_t)i, tau));
-    double arm = coordinate_turns(body, k) ? 1 / sqrt(run->model->plan.inverse_inertia[i] * body->inertia.mass) : 1;
+    double arm =
+        coordinate_turns(body, k) ? 1 / sqrt(run->model->plan.inverse_inertia[i] * body->inertia.mass) : 1;
     return (struct motion_size){v * tau + a * tau * tau, fmax(v, a * tau), arm};
 }
 
@@ -243,4 +244,3 @@ void run_set_floors(struct run *run)
     if (coordinates) set_floors(run, tau, times);
     for (int i = 0; i < plan->own; i++) set_own_floor(run, i, times);
 }
-

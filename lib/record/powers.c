@@ -223,8 +223,7 @@ static bool take_grain(struct ensemble *ensemble, const struct panel *panel, str
     if (!state) return false;
     struct instant at = state_instant(state);
     double sum = 0;
-    for (size_t i = 0; i < state->model->load_count; i++)
-        sum += load_power_rounding(state->model, i, &at);
+    for (size_t i = 0; i < state->model->load_count; i++) sum += load_power_rounding(state->model, i, &at);
     *grain = fmax(*grain, sum);
     return true;
 }
@@ -234,9 +233,12 @@ static bool set_floor(struct ledger *ledger, struct ensemble *ensemble, struct p
 {
     const double rounding = 1e-14;
     double grain = 0;
-    if (!take_grain(ensemble, panel, moment_after(panel->from, panel->length), &grain)) return false;
+    for (int k = 0; k < gauss_points; k++) {
+        struct moment t = moment_after(panel->from, panel->length / 2 * (1 + point[k]));
+        if (!take_grain(ensemble, panel, t, &grain)) return false;
+    }
     struct fbd_state *state = ensemble_look_group(ensemble, panel->group, panel->from, true);
-    if (!state || !take_grain(ensemble, panel, panel->from, &grain)) return false;
+    if (!state) return false;
     struct rounded rounded = rounded_at(ledger, state); /* of what rests, too */
     panel->floor = rounding * rounded.places + DBL_EPSILON * rounded.ways * panel->length * panel->length +
                    panel->length * grain;

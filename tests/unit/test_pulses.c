@@ -158,32 +158,91 @@ static void pulses_in_time_are_met(void **unused)
     checks_end(&checks);
 }
 
-/* From rest, where the far end of a bell drives with 1e-300 N: alone, against a damper, and at a spring. The velocity
- * after a blow of 2 at the middle of the bell; what its width changes is of the order of (width/T)^2. */
+/* What a formula of the time does to what rests: F(t) alone, against a damper, or at a spring; on a pivot; on a slide that
+ * carries a pivot at its centre of mass; as the rate of a state. All have 2 of mass or inertia, and the state has half of F. */
+enum waking { wakes_free, wakes_damped, wakes_spring, wakes_pivot, wakes_carrier, wakes_state, wakings };
+
+static struct trial waking_trial(enum waking kind, const char *value, const char *method)
+{
+    static const char *const scenes[wakings] = {
+        "bodies: {b: {mass: 2, motion: slide, forces: [applied: \"%s\"]}}",
+        "bodies: {b: {mass: 2, motion: slide, forces: [applied: \"%s\", damper: 0.4]}}",
+        "bodies: {b: {mass: 2, motion: slide, forces: [applied: \"%s\", spring: 8]}}",
+        "bodies: {b: {mass: 2, inertia: 2, motion: {pivot: {at: [0, 0]}}, moments: [applied: \"%s\"]}}",
+        "bodies: {b: {mass: 1, motion: slide, forces: [applied: \"%s\"]}, c: {mass: 1, inertia: 1, motion: "
+        "{pivot: {on: b}}}}",
+        "states: {speed: {rate: \"(%s)/2\"}}\nbodies: {b: {mass: 1, motion: slide}}",
+    };
+    char text[4 * room], whole[5 * room];
+    snprintf(text, sizeof text, scenes[kind], value);
+    snprintf(whole, sizeof whole, "fbd: 1\n%s\nsimulate: {until: 10, method: %s, tolerance: 1e-9}\n", text,
+             method);
+    return trial_parse(whole);
+}
+
+static const char *waking_speed(enum waking kind)
+{
+    return kind == wakes_pivot ? "b.omega" : kind == wakes_state ? "states.speed" : "b.v";
+}
+
+/* What follows each stair of a rounding takes hundreds of thousands. */
+static void check_steps(struct checks *checks, const struct trial *trial)
+{
+    check_that(checks, "in few steps", fbd_simulation_stats(trial->simulation).steps < 20000);
+}
+
+/* The far end of a bell drives with 1e-300 N. The velocity after a blow of 2 at the middle of the bell; what its width
+ * changes is of the order of (width/T)^2. */
 static void pulses_wake_what_rests(void **unused)
 {
-    static const char *const holds[] = {"", ", damper: 0.4", ", spring: 8"};
     (void)unused;
     struct checks checks = {0};
     struct random_numbers numbers = {20261127};
-    for (int i = 0; i < count_of(15); i++) {
+    for (int i = 0; i < count_of(150); i++) {
         struct pulse pulse = draw(&numbers);
         pulse.width = fmin(pulse.width, 1e-4);
-        pulse.bell = &bells[5 + random_bits(&numbers) % 2];
-        int hold = (int)(random_bits(&numbers) % 3);
-        char argument[200], bell[room], text[3 * room];
+        enum waking kind = (enum waking)(random_bits(&numbers) % wakings);
+        char argument[200], bell[room], value[2 * room];
         snprintf(argument, sizeof argument, "(t - %.17g[s])/%.17g[s]", pulse.at, pulse.width);
         put_in(pulse.bell, argument, bell);
-        snprintf(text, sizeof text,
-                 "fbd: 1\nbodies: {b: {mass: 2, motion: slide, forces: [applied: \"%.17g*%s\"%s]}}\n"
-                 "simulate: {until: 10, method: %s, tolerance: 1e-9}\n",
-                 2 / pulse.width / pulse.bell->integral, bell, holds[hold], pulse.method);
-        struct trial trial = trial_parse(text);
+        snprintf(value, sizeof value, "%.17g*%s", 2 / pulse.width / pulse.bell->integral, bell);
+        struct trial trial = waking_trial(kind, value, pulse.method);
         trial_run(&trial, NULL);
-        double left = 10 - pulse.at;
-        double v = hold == 0 ? 1 : hold == 1 ? exp(-0.2 * left) : cos(2 * left);
-        check_close(&checks, pulse.bell->text, trial_get(&trial, "b.v"), v,
+        double left = 10 - pulse.at - (pulse.bell == &bells[8] ? 3.5 * pulse.width : 0);
+        double v = kind == wakes_damped ? exp(-0.2 * left) : kind == wakes_spring ? cos(2 * left) : 1;
+        check_close(&checks, pulse.bell->text, trial_get(&trial, waking_speed(kind)), v,
                     known_to(&pulse) + 20 * pulse.width * pulse.width);
+        check_steps(&checks, &trial);
+        trial_close(&trial);
+    }
+    checks_end(&checks);
+}
+
+/* F = 2 from `at` on, which comes within `width`: speeds by the integrals in closed form, of u/sqrt(1 + u^2) from t = 0. */
+static void smooth_steps_wake_what_rests(void **unused)
+{
+    static const char *const steps[] = {"(1 + tanh($))/2", "1/(1 + exp(-($)))",
+                                        "(1 + ($)/sqrt(1 + ($)^2))/2"};
+    (void)unused;
+    struct checks checks = {0};
+    struct random_numbers numbers = {20261128};
+    for (int i = 0; i < count_of(100); i++) {
+        struct pulse pulse = draw(&numbers);
+        int step = (int)(random_bits(&numbers) % 3);
+        enum waking kind = (enum waking)(random_bits(&numbers) % wakings);
+        if (kind == wakes_damped || kind == wakes_spring) kind = wakes_free;
+        char argument[200], smooth[room], value[2 * room];
+        snprintf(argument, sizeof argument, "(t - %.17g[s])/%.17g[s]", pulse.at, pulse.width);
+        put_in(&(struct bell){steps[step], 0}, argument, smooth);
+        snprintf(value, sizeof value, "2*%s", smooth);
+        struct trial trial = waking_trial(kind, value, pulse.method);
+        trial_run(&trial, NULL);
+        double w = pulse.width, after = (10 - pulse.at) / w, before = pulse.at / w, v = 10 - pulse.at;
+        if (step == 0) v += w / 2 * (log1p(exp(-2 * after)) - log1p(exp(-2 * before)));
+        if (step == 1) v += w * (log1p(exp(-after)) - log1p(exp(-before)));
+        if (step == 2) v = (10 + w * (hypot(1, after) - hypot(1, before))) / 2;
+        check_close(&checks, steps[step], trial_get(&trial, waking_speed(kind)), v, 10 * known_to(&pulse));
+        check_steps(&checks, &trial);
         trial_close(&trial);
     }
     checks_end(&checks);
@@ -278,6 +337,7 @@ int main(void)
         cmocka_unit_test(integrals_are_right),
         cmocka_unit_test(pulses_in_time_are_met),
         cmocka_unit_test(pulses_wake_what_rests),
+        cmocka_unit_test(smooth_steps_wake_what_rests),
         cmocka_unit_test(pulses_in_place_are_met),
         cmocka_unit_test(pulses_along_a_beam_are_met),
         cmocka_unit_test(what_a_rope_holds_beside_a_bell_rests),
