@@ -224,10 +224,10 @@ void switcher_set_linear(struct switcher *s, const double *A, double rho)
     stepper_set_linear(s->steppers[0], A, rho);
 }
 
-void switcher_set_noise(struct switcher *s, size_t rate, double noise)
+void switcher_set_noise(struct switcher *s, size_t rate, double noise, double passing)
 {
     for (int k = 0; k < 2; k++)
-        if (s->steppers[k]) weights_set_noise(stepper_control(s->steppers[k]), rate, noise);
+        if (s->steppers[k]) weights_set_noise(stepper_control(s->steppers[k]), rate, noise, passing);
 }
 
 bool switcher_noise_counts(const struct switcher *s, double h)

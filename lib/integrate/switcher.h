@@ -52,7 +52,7 @@ void switcher_set_linear(struct switcher *switcher, const double *A, double rho)
 /* See weights_set_floor, where a floor that is not positive and finite changes nothing, and
  * weights_set_noise; for both methods. */
 void switcher_set_floor(struct switcher *switcher, size_t component, double floor);
-void switcher_set_noise(struct switcher *switcher, size_t rate, double noise);
+void switcher_set_noise(struct switcher *switcher, size_t rate, double noise, double passing);
 
 /* weights_noise_counts for the method that makes the steps. */
 bool switcher_noise_counts(const struct switcher *switcher, double h);

@@ -18,7 +18,9 @@ struct weights {
     double *cap;     /* pairs: 1 rad for angles, no bound for others */
     double *noise;   /* pairs, then what is no pair: rounding error of a, and of y' */
     double *floor;   /* pairs: of the rates, as given */
-    double *fastest; /* what is no pair: running maximum of |y'| */
+    double *passing; /* as noise: the share of it that goes with the acceleration, or with y' */
+    double *fastest; /* what is no pair: running maximum of |y'|, */
+    double *slopes;  /* and y' in the last accepted state */
     double *before;  /* 3 pairs: q, v and a of the last accepted state, */
     double *earlier; /* and of the one before it */
     double memory[];
@@ -102,19 +104,33 @@ static inline double allowed_by_noise(const struct weights *w, size_t i, double 
     return 4 * w->noise[i] * fabs(h);
 }
 
-/* What rounding of q_i, and of the acceleration, hides in v_i within a step. */
-static inline double hidden_in_v(const struct weights *w, size_t i, double h, double q)
+/* What rounding of q_i hides in v_i within a step, and `by_noise` that of the acceleration. */
+static inline double hidden_in_v(const struct weights *w, size_t i, double h, double q, double by_noise)
 {
-    return larger(DBL_EPSILON * smaller(fabs(q), w->cap[i]) / fabs(h), allowed_by_noise(w, i, h));
+    return larger(DBL_EPSILON * smaller(fabs(q), w->cap[i]) / fabs(h), by_noise);
 }
 
 /* An error that rounding of the accelerations explains, `noise`, says nothing of the step size. Counted by a
  * level that goes with h as it does, it would have the step shrink for ever: the law wants ratios below
- * safety^k. Beyond, errors count up to a level of four times the noise, so that a step that has grown out of
- * the noise is not rejected at once. Levels do not underflow: the far end of a bell drives what rests with 1e-300 N. */
-static inline double raised(double ratio, double error, double error_level, double noise)
+ * safety^k. So it counts for no more than lets the step double: one six times as long, out of the noise, errs a million
+ * times as much, and of as many tries the estimate of some is small by chance. Beyond, errors count up to a level of four
+ * times the noise, so that a step that has grown out of the noise is not rejected at once. Levels do not underflow: the far
+ * end of a bell drives what rests with 1e-300 N. */
+static inline double raised(const struct weights *w, double ratio, double error, double error_level,
+                            double noise)
 {
-    return fabs(error) > noise ? larger(ratio, fabs(error) / larger(error_level, DBL_MIN)) : ratio;
+    double own = fabs(error) / larger(error_level, DBL_MIN);
+    return larger(ratio, fabs(error) > noise ? own : smaller(own, w->law.doubles));
+}
+
+/* The noise in a step over which an acceleration goes from a0 to a1: what goes with it is over where that is. A step off the
+ * flank of a pulse is not excused by the noise there for all of the time that comes after. */
+static inline double noise_over(const struct weights *w, size_t i, double a0, double a1)
+{
+    double noise = w->noise[i], passing = w->passing[i];
+    if (passing == 0) return noise;
+    double left = (fabs(a1) + noise) / (fabs(a0) + noise);
+    return noise - passing + passing * smaller(left, 1);
 }
 
 double weights_ratio(const gsl_odeiv2_control *control, double h, const double *y, const double *yerr,
@@ -127,23 +143,23 @@ double weights_ratio(const gsl_odeiv2_control *control, double h, const double *
     for (size_t i = 0; i < n; i++) {
         double q = y[i], v = y[n + i], a = f[n + i];
         double q_motion = motion_of_q(h, v, a), v_motion = motion_of(h, a);
-        double noise_v = w->noise[i] * fabs(h), noise_q = noise_v * fabs(h);
+        double noise_v = noise_over(w, i, w->before[2 * n + i], a) * fabs(h), noise_q = noise_v * fabs(h);
         double tolerance = by_time ? tolerance_by_time(w, smaller(w->scale[i], w->cap[i]), w->scale[n + i], h)
                                    : w->tolerance;
-        ratio = raised(ratio, yerr[i],
+        ratio = raised(w, ratio, yerr[i],
                        level(tolerance, scale_of_q(w, i, q, q_motion), q, q_motion, 4 * noise_q), noise_q);
         double scale_v =
             scale_of_v(w, i, scale_of(w, n + i, v, v_motion), amplitude(w, w->before, i, q, v, a));
-        ratio = raised(ratio, yerr[n + i], level(tolerance, scale_v, v, v_motion, hidden_in_v(w, i, h, q)),
-                       noise_v);
+        ratio = raised(w, ratio, yerr[n + i],
+                       level(tolerance, scale_v, v, v_motion, hidden_in_v(w, i, h, q, 4 * noise_v)), noise_v);
         probe += 0 * (q + v + a + yerr[i] + yerr[n + i]);
     }
     for (size_t i = 2 * n; i < w->size; i++) {
         double motion = motion_of(h, f[i]);
         double tolerance =
             by_time ? tolerance_by_time(w, w->scale[i], w->fastest[i - 2 * n], h) : w->tolerance;
-        double noise = w->noise[i - n] * fabs(h);
-        ratio = raised(ratio, yerr[i],
+        double noise = noise_over(w, i - n, w->slopes[i - 2 * n], f[i]) * fabs(h);
+        ratio = raised(w, ratio, yerr[i],
                        level(tolerance, scale_of(w, i, y[i], motion), y[i], motion, 4 * noise), noise);
         probe += 0 * (y[i] + f[i] + yerr[i]);
     }
@@ -205,6 +221,7 @@ void weights_update(gsl_odeiv2_control *control, const double *y, const double *
     size_t n = w->pairs;
     for (size_t i = 2 * n; i < w->size; i++)
         w->fastest[i - 2 * n] = larger(w->fastest[i - 2 * n], fabs(f[i]));
+    memcpy(w->slopes, f + 2 * n, (w->size - 2 * n) * sizeof *f);
     double *now = w->earlier;
     w->earlier = w->before;
     w->before = now;
@@ -220,10 +237,11 @@ void weights_set_floor(gsl_odeiv2_control *control, size_t i, double floor)
     if (i >= n && i < 2 * n) w->floor[i - n] = larger(w->floor[i - n], floor);
 }
 
-void weights_set_noise(gsl_odeiv2_control *control, size_t i, double noise)
+void weights_set_noise(gsl_odeiv2_control *control, size_t i, double noise, double passing)
 {
     struct weights *w = control->state;
     w->noise[i] = noise;
+    w->passing[i] = smaller(passing, noise);
 }
 
 bool weights_noise_counts(const gsl_odeiv2_control *control, double h)
@@ -313,7 +331,7 @@ static int control_errlevel(void *state, const double y, const double dydt, cons
     double motion = i < n ? motion_of_q(h, dydt, w->before[2 * n + i]) : motion_of(h, dydt);
     double scale = i < n ? scale_of_q(w, i, y, motion) : scale_of(w, i, y, motion);
     double hidden = i < n       ? 0
-                    : i < 2 * n ? hidden_in_v(w, i - n, h, w->scale[i - n])
+                    : i < 2 * n ? hidden_in_v(w, i - n, h, w->scale[i - n], allowed_by_noise(w, i - n, h))
                                 : allowed_by_noise(w, i - n, h);
     *errlev = level(w->tolerance, scale, y, motion, hidden);
     if (*errlev == 0) *errlev = w->tolerance * scale_of_group(w, i);
@@ -374,6 +392,11 @@ struct step_law step_law_for(int estimate_order)
         law.safety = 0.7;
         law.keep_below = 2;
     }
+    /* (safety/2)^k; as numbers where every run is to have the same bits */
+    law.doubles = estimate_order == 8    ? 2.25e-4
+                  : estimate_order == 11 ? 9.65e-6
+                  : estimate_order > 0   ? pow(law.safety / 2, estimate_order)
+                                         : pow(law.safety / 2, 5);
     return law;
 }
 
@@ -381,7 +404,7 @@ static struct weights *weights_state(const struct layout *layout)
 {
     size_t pairs = layout->pairs, size = layout_size(layout);
     if (size == 0 || size > (SIZE_MAX - sizeof(struct weights)) / (8 * sizeof(double))) return NULL;
-    struct weights *w = zeroed(sizeof *w + (3 * size + 5 * pairs) * sizeof(double));
+    struct weights *w = zeroed(sizeof *w + (5 * size + 2 * pairs) * sizeof(double));
     if (!w) return NULL;
     w->pairs = pairs;
     w->size = size;
@@ -391,7 +414,9 @@ static struct weights *weights_state(const struct layout *layout)
     w->floor = w->noise + (size - pairs);
     w->before = w->floor + pairs;
     w->earlier = w->before + 3 * pairs;
-    w->fastest = w->earlier + 3 * pairs;
+    w->passing = w->earlier + 3 * pairs;
+    w->fastest = w->passing + (size - pairs);
+    w->slopes = w->fastest + (size - 2 * pairs);
     for (size_t i = 0; i < pairs; i++) w->cap[i] = layout->angle && layout->angle[i] ? 1.0 : INFINITY;
     return w;
 }

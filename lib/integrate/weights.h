@@ -63,6 +63,7 @@ struct step_law {
     double shrink;      /* smallest factor after a rejection, below safety */
     double grow;        /* largest factor */
     double keep_below;  /* after an accepted step, factors below this leave h as it is; 0: none does */
+    double doubles;     /* the ratio of error to level after which a step may double */
     int estimate_order; /* k; 0 stands for the order that the stepper reports, plus 1 */
     double by_time;     /* share of the motion's time, steps below which count errors by time; 0: none do */
 };
@@ -82,8 +83,9 @@ void weights_set_floor(gsl_odeiv2_control *control, size_t i, double floor);
 /* The acceleration of pair i (behind the pairs, the rate of what is none) is known to +-`noise` only (the difference of large forces, or a force at a late
  * time): an error of that size times h in v_i, and times h^2 in q_i, cannot be reduced by a smaller step and
  * is allowed. Without it a body that starts to move out of a balance of large forces would be followed, noise
- * and all, with ever smaller steps. */
-void weights_set_noise(gsl_odeiv2_control *control, size_t i, double noise);
+ * and all, with ever smaller steps. The part `passing` of it goes with the acceleration: it is the rounding of a force of the
+ * time. */
+void weights_set_noise(gsl_odeiv2_control *control, size_t i, double noise, double passing);
 
 /* Does that allow a rate more, in a step of size h, than the tolerance does? Then it has to be that of here:
  * a light cart whose pole passes the vertical has 1e9 times the forces, and noise, that it has a step later.

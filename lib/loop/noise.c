@@ -239,12 +239,13 @@ static double roundings_of(const struct fbd_model *model, bool in_tree)
     return jointed * (1 + fmax(0, log2(links / few)));
 }
 
-/* Of an acceleration, or of the rate of a state. */
-static void take_noise(struct run *run, size_t rate, double noise)
+/* Of an acceleration, or of the rate of a state; with `passing` besides, which goes with it. */
+static void take_noise(struct run *run, size_t rate, double noise, double passing)
 {
-    run->grain.accelerations[rate] = isfinite(noise) ? noise : 0;
+    double all = isfinite(noise + passing) ? noise + passing : 0;
+    run->grain.accelerations[rate] = all;
     run->grain.largest[rate] = fmax(run->grain.largest[rate], fabs(run->state->a[rate]));
-    switcher_set_noise(run->stepper, rate, run->grain.accelerations[rate]);
+    switcher_set_noise(run->stepper, rate, all, all > 0 ? passing : 0);
 }
 
 static void set_noise(struct run *run)
@@ -263,15 +264,16 @@ static void set_noise(struct run *run)
         add_gross_forces(run, (int)b, at, gross);
         for (int k = 0; k < body->count; k++) {
             int i = body->first + k;
-            double of_time = fabs(at->t * run->grain.along[i]),
-                   of_sum = roundings[body->place.link > 0] * gross[k] * plan->inverse_inertia[i];
-            take_noise(run, (size_t)i, DBL_EPSILON * (of_sum + of_time) + run->grain.formulas[i]);
+            double of_time = DBL_EPSILON * fabs(at->t * run->grain.along[i]),
+                   of_sum =
+                       DBL_EPSILON * roundings[body->place.link > 0] * gross[k] * plan->inverse_inertia[i];
+            take_noise(run, (size_t)i, of_sum, of_time + run->grain.formulas[i]);
         }
     }
     for (int i = 0; i < plan->own; i++) {
         size_t rate = (size_t)(plan->n + i);
         double of_time = DBL_EPSILON * fabs(at->t * run->grain.along[rate]);
-        take_noise(run, rate, of_time + formula_rounding(&plan->rates[i], at));
+        take_noise(run, rate, 0, of_time + formula_rounding(&plan->rates[i], at));
     }
 }
 

@@ -200,7 +200,7 @@ static void pulses_wake_what_rests(void **unused)
     struct random_numbers numbers = {20261127};
     for (int i = 0; i < count_of(150); i++) {
         struct pulse pulse = draw(&numbers);
-        pulse.width = fmin(pulse.width, 1e-4);
+        pulse.width = fmin(pulse.width, random_bits(&numbers) % 2 ? 1e-6 : 1e-4);
         enum waking kind = (enum waking)(random_bits(&numbers) % wakings);
         char argument[200], bell[room], value[2 * room];
         snprintf(argument, sizeof argument, "(t - %.17g[s])/%.17g[s]", pulse.at, pulse.width);
