@@ -211,8 +211,8 @@ INLINE wide amplitude_of(int n, int i, const wide *y0, const wide *y1)
 }
 
 /* Of pair i. */
-INLINE wide ratio_of_pair(enum lane_motion kind, int n, int i, const struct measure *m, wide h,
-                          const struct attempt *end, wide swing, wide ratio)
+INLINE wide ratio_of_pair(int n, int i, const struct measure *m, wide h, const struct attempt *end,
+                          wide swing, wide ratio)
 {
     const wide q = end->y[i], v = end->y[n + i], a = end->y[2 * n + i];
     const wide q_motion = size_of(h * v) + size_of(h * h * a), v_motion = size_of(h * a);
@@ -226,10 +226,8 @@ INLINE wide ratio_of_pair(enum lane_motion kind, int n, int i, const struct meas
     const wide error_q = size_of(end->error[i]), error_v = size_of(end->error[n + i]);
     const wide least = (wide){0} + DBL_MIN;
     const wide ratio_q = error_q / larger_of(level_q, least), ratio_v = error_v / larger_of(level_v, least);
-    const wide doubles = (wide){0} + (kind == swings ? 9.65e-6 : 2.25e-4);
-    const wide by_q = select(error_q > noise_q, ratio_q, smaller_of(ratio_q, doubles));
-    const wide by_v = select(error_v > noise_v, ratio_v, smaller_of(ratio_v, doubles));
-    return larger_of(larger_of(ratio, by_q), by_v);
+    const wide by_q = select(error_q > noise_q, larger_of(ratio, ratio_q), ratio);
+    return select(error_v > noise_v, larger_of(by_q, ratio_v), by_q);
 }
 
 /* The next step over this one, for an estimate of order 11 or 8. */
@@ -363,7 +361,7 @@ INLINE struct verdict judge(enum lane_motion kind, int n, const struct standing 
                             const struct attempt *end, const wide *swings_of)
 {
     wide ratio = {0};
-    for (int i = 0; i < n; i++) ratio = ratio_of_pair(kind, n, i, &s->m, h, end, swings_of[i], ratio);
+    for (int i = 0; i < n; i++) ratio = ratio_of_pair(n, i, &s->m, h, end, swings_of[i], ratio);
     struct verdict verdict = {.passes = ratio <= 1, .factor = factor_of(kind, ratio), .rate = s->tried_rate};
     verdict.odd = ~is_finite(n, end) | ~(ratio < INFINITY);
     if (kind == swings) return verdict;

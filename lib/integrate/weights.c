@@ -112,15 +112,22 @@ static inline double hidden_in_v(const struct weights *w, size_t i, double h, do
 
 /* An error that rounding of the accelerations explains, `noise`, says nothing of the step size. Counted by a
  * level that goes with h as it does, it would have the step shrink for ever: the law wants ratios below
- * safety^k. So it counts for no more than lets the step double: one six times as long, out of the noise, errs a million
- * times as much, and of as many tries the estimate of some is small by chance. Beyond, errors count up to a level of four
- * times the noise, so that a step that has grown out of the noise is not rejected at once. Levels do not underflow: the far
- * end of a bell drives what rests with 1e-300 N. */
-static inline double raised(const struct weights *w, double ratio, double error, double error_level,
-                            double noise)
+ * safety^k. Beyond, errors count up to a level of four times the noise, so that a step that has grown out of
+ * the noise is not rejected at once. Levels do not underflow: the far end of a bell drives what rests with 1e-300 N.
+ * Within the noise of a force of the time an error counts for `at_least` (or its own ratio, if less). */
+static inline double raised(double ratio, double error, double error_level, double noise, double at_least)
 {
+    bool counts = fabs(error) > noise;
+    if (!counts && at_least == 0) return ratio;
     double own = fabs(error) / larger(error_level, DBL_MIN);
-    return larger(ratio, fabs(error) > noise ? own : smaller(own, w->law.doubles));
+    return larger(ratio, counts ? own : smaller(own, at_least));
+}
+
+/* For no more than lets the step double: one six times as long, out of the noise, errs a million times as much, and of
+ * as many tries as a pulse takes the estimate of some is small by chance. */
+static inline double least_in_noise(const struct weights *w, size_t i)
+{
+    return w->passing[i] > 0 ? w->law.doubles : 0;
 }
 
 /* The noise in a step over which an acceleration goes from a0 to a1: what goes with it is over where that is. A step off the
@@ -141,17 +148,19 @@ double weights_ratio(const gsl_odeiv2_control *control, double h, const double *
     bool by_time = w->law.by_time > 0;
     double ratio = 0, probe = 0; /* zero times a sum stays zero unless a term is infinite or NaN */
     for (size_t i = 0; i < n; i++) {
-        double q = y[i], v = y[n + i], a = f[n + i];
+        double q = y[i], v = y[n + i], a = f[n + i], at_least = least_in_noise(w, i);
         double q_motion = motion_of_q(h, v, a), v_motion = motion_of(h, a);
         double noise_v = noise_over(w, i, w->before[2 * n + i], a) * fabs(h), noise_q = noise_v * fabs(h);
         double tolerance = by_time ? tolerance_by_time(w, smaller(w->scale[i], w->cap[i]), w->scale[n + i], h)
                                    : w->tolerance;
-        ratio = raised(w, ratio, yerr[i],
-                       level(tolerance, scale_of_q(w, i, q, q_motion), q, q_motion, 4 * noise_q), noise_q);
+        ratio =
+            raised(ratio, yerr[i], level(tolerance, scale_of_q(w, i, q, q_motion), q, q_motion, 4 * noise_q),
+                   noise_q, at_least);
         double scale_v =
             scale_of_v(w, i, scale_of(w, n + i, v, v_motion), amplitude(w, w->before, i, q, v, a));
-        ratio = raised(w, ratio, yerr[n + i],
-                       level(tolerance, scale_v, v, v_motion, hidden_in_v(w, i, h, q, 4 * noise_v)), noise_v);
+        ratio = raised(ratio, yerr[n + i],
+                       level(tolerance, scale_v, v, v_motion, hidden_in_v(w, i, h, q, 4 * noise_v)), noise_v,
+                       at_least);
         probe += 0 * (q + v + a + yerr[i] + yerr[n + i]);
     }
     for (size_t i = 2 * n; i < w->size; i++) {
@@ -159,8 +168,9 @@ double weights_ratio(const gsl_odeiv2_control *control, double h, const double *
         double tolerance =
             by_time ? tolerance_by_time(w, w->scale[i], w->fastest[i - 2 * n], h) : w->tolerance;
         double noise = noise_over(w, i - n, w->slopes[i - 2 * n], f[i]) * fabs(h);
-        ratio = raised(w, ratio, yerr[i],
-                       level(tolerance, scale_of(w, i, y[i], motion), y[i], motion, 4 * noise), noise);
+        ratio =
+            raised(ratio, yerr[i], level(tolerance, scale_of(w, i, y[i], motion), y[i], motion, 4 * noise),
+                   noise, least_in_noise(w, i - n));
         probe += 0 * (y[i] + f[i] + yerr[i]);
     }
     return probe == 0 ? ratio : INFINITY;
@@ -392,11 +402,7 @@ struct step_law step_law_for(int estimate_order)
         law.safety = 0.7;
         law.keep_below = 2;
     }
-    /* (safety/2)^k; as numbers where every run is to have the same bits */
-    law.doubles = estimate_order == 8    ? 2.25e-4
-                  : estimate_order == 11 ? 9.65e-6
-                  : estimate_order > 0   ? pow(law.safety / 2, estimate_order)
-                                         : pow(law.safety / 2, 5);
+    law.doubles = pow(law.safety / 2, estimate_order > 0 ? estimate_order : 5);
     return law;
 }
 
