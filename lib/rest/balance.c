@@ -110,13 +110,14 @@ static double turn_of_track(const struct fbd_state *state, const struct model_bo
 
 /* The largest that meets any of them counts, and how well directions are known where the bodies are small
  * against how far away they stand. Accelerations are sums too, of those of the bodies below and of what their
- * turning adds: a body on which nothing acts has m a = 0 to the rounding of m times these. */
+ * turning adds, at the speed there is and at the distance from them: a body on which nothing acts has m a = 0 to the
+ * rounding of m times these. */
 static struct grains joined_grain(const struct fbd_state *state, struct arrow *arrows)
 {
     const struct tree *tree = state->model->tree;
     const struct tree_work *work = state->tree;
     assert(!tree || work);
-    double force = 0, reach = 0, away = 0, mass = 0, inertia = 0, a = 0, alpha = 0, v = 0, omega = 0;
+    double force = 0, reach = 0, away = 0, mass = 0, inertia = 0, a = 0, alpha = 0, v = 0, omega = 0, d = 0;
     for (int i = 0; tree && i < tree->body_count; i++) {
         const struct model_body *body = &state->model->bodies[tree->bodies[i]];
         const struct tree_state *link = &work->links[body->place.link];
@@ -129,10 +130,11 @@ static struct grains joined_grain(const struct fbd_state *state, struct arrow *a
         a = fmax(a, vec_norm(link->A.a));
         alpha = fmax(alpha, fabs(link->A.alpha));
         v = fmax(v, vec_norm(link->v));
+        d = fmax(d, vec_norm(link->d));
         omega = fmax(omega, fmax(fabs(link->omega), turn_of_track(state, body)));
     }
     if (tree && work->shared) force = fmax(force, work->shared_size);
-    force += mass * (a + omega * v);
+    force += mass * (a + omega * v + d * (alpha + omega * omega));
     force *= grain + (reach > 0 ? 64 * DBL_EPSILON * away / reach : 0);
     double gyration = mass > 0 ? sqrt(inertia / mass) : 0;
     return (struct grains){force, force * fmax(reach, gyration) + grain * inertia * (alpha + omega * omega)};

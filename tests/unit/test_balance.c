@@ -130,6 +130,27 @@ static void what_is_not_a_number_is_off(void **unused)
     release(&subject);
 }
 
+/* Is the scene held to be out of balance where all its coordinates and rates are `beside` the start? */
+static bool raises_alarm(int scene, const char *text, double beside)
+{
+    struct reading reading = read_right(text);
+    struct subject subject = {.model = model_compile(reading.scene, reading.errors)};
+    reading.scene = NULL;
+    assert_non_null(subject.model);
+    subject.state = state_new(subject.model);
+    subject.arrows = calloc(diagram_most_arrows(subject.model), sizeof *subject.arrows);
+    assert_true(subject.state && subject.arrows);
+    for (int k = 0; k < 2 * subject.model->plan.n; k++) subject.state->y[k] += beside;
+    modes_settle(subject.state, NULL);
+    struct text lack = {0};
+    bool alarm = balance_lack(subject.state, subject.arrows, &lack);
+    if (alarm) print_error("scene %d: %s\n", scene, lack.data);
+    text_free(&lack);
+    end_reading(&reading);
+    release(&subject);
+    return alarm;
+}
+
 /* A free body on a moving one has m a = 0 as a difference of accelerations that are none: what is left is
  * their rounding, and no force of its own is there to measure that against. */
 static void free_bodies_on_moving_ones_balance(void **unused)
@@ -147,23 +168,33 @@ static void free_bodies_on_moving_ones_balance(void **unused)
     for (int i = 0; i < 40; i++) {
         char text[600];
         snprintf(text, sizeof text, scenes[i % 2], i / 2);
-        struct reading reading = read_right(text);
-        struct subject subject = {.model = model_compile(reading.scene, reading.errors)};
-        reading.scene = NULL;
-        assert_non_null(subject.model);
-        subject.state = state_new(subject.model);
-        subject.arrows = calloc(diagram_most_arrows(subject.model), sizeof *subject.arrows);
-        assert_true(subject.state && subject.arrows);
-        for (int k = 0; k < 2 * subject.model->plan.n; k++) subject.state->y[k] += 0.1 * i;
-        modes_settle(subject.state, NULL);
-        struct text lack = {0};
-        if (balance_lack(subject.state, subject.arrows, &lack)) {
-            print_error("scene %d: %s\n", i, lack.data);
-            alarms++;
-        }
-        text_free(&lack);
-        end_reading(&reading);
-        release(&subject);
+        alarms += raises_alarm(i, text, 0.1 * i);
+    }
+    assert_int_equal(alarms, 0);
+}
+
+/* A body on which nothing acts goes straight on above a table that is driven: what the table's turning adds, from
+ * its rate or from its square, is taken back by the acceleration on the table, whatever the speeds are. */
+static void nothing_acts_above_a_table(void **unused)
+{
+    (void)unused;
+    struct random_numbers numbers = {1};
+    int alarms = 0;
+    for (int i = 0; i < 300; i++) {
+        char text[600];
+        bool rests = i % 3 == 0; /* in the world */
+        double omega = i % 3 == 1 ? 0 : random_between(&numbers, -3, 3),
+               alpha = rests ? 0 : random_between(&numbers, -3, 3);
+        double x = random_between(&numbers, -1, 1), y = random_between(&numbers, -1, 1);
+        double vx = rests ? omega * y : random_between(&numbers, -2, 2),
+               vy = rests ? -omega * x : random_between(&numbers, -2, 2);
+        snprintf(text, sizeof text,
+                 "fbd: 1\nbodies:\n  table: {mass: 1, inertia: 1, motion: {pivot: {theta: \"%.17g[rad/s]*t + "
+                 "%.17g[rad/s^2]*t^2/2\"}}}\n  b: {mass: %.17g, %smotion: {%s: {on: table}}, initial: {x: %.17g, "
+                 "y: %.17g, vx: %.17g, vy: %.17g}}\n",
+                 omega, alpha, random_between(&numbers, 0.3, 3), i % 2 ? "shape: disc, radius: 0.2, " : "",
+                 i % 2 ? "planar" : "particle", x, y, vx, vy);
+        alarms += raises_alarm(i, text, 0);
     }
     assert_int_equal(alarms, 0);
 }
@@ -173,6 +204,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(random_trees_balance),
         cmocka_unit_test(free_bodies_on_moving_ones_balance),
+        cmocka_unit_test(nothing_acts_above_a_table),
         cmocka_unit_test(a_millionth_is_noticed),
         cmocka_unit_test(what_is_not_a_number_is_off),
     };
