@@ -23,6 +23,10 @@ static enum slip slip_at_rest(const struct mode *mode, const struct instant *at)
 static enum slip one_sided_at_rest(const struct fbd_state *state, int pair)
 {
     struct instant at = state_instant(state);
+    int tie = state->model->plan.modes[pair].tie;
+    /* Shapes that are apart have no row, which would be at zero. */
+    if (state->model->tree->ties[tie].kind == constraint_contact && at.tree->ties[tie].feature == no_feature)
+        return slip_plus;
     struct one_sided now = one_sided_at(state->model, &at, pair);
     return now.touches || now.excess > 0 ? stick : slip_plus;
 }

@@ -222,6 +222,56 @@ static void a_balance_is_one_of_the_branch_that_holds_there(void **unused)
     assert_true(found >= 100 && none > 0);
 }
 
+/* A body hangs from a spring above a floor or a stop that it does not touch: it rests at a - m g/k, where the floor
+ * takes no part and leaves nothing undetermined; where that is below the floor it is nowhere else than on it, or
+ * there is no answer. */
+static void nothing_is_let_down_through_a_floor(void **unused)
+{
+    (void)unused;
+    static const char *const bodies[] = {
+        "slide: {along: 90 deg, min: 0}}, initial: {x: %.17g}, forces: [gravity, spring: {stiffness: %.17g, neutral: "
+        "%.17g}]}\n",
+        "particle: {}}, initial: {y: %.17g}, forces: [gravity, spring: {stiffness: %.17g, to: [0, %.17g]}]}\n",
+        "planar: {}}, initial: {y: %.17g}, forces: [gravity, spring: {stiffness: %.17g, to: [0, %.17g]}]}\n",
+    };
+    const double r = 0.1;
+    struct random_numbers numbers = {1789};
+    int above = 0, below = 0;
+    for (int draw = 0; draw < 150; draw++) {
+        int kind = draw % 3;
+        double m = random_between(&numbers, 0.5, 2), k = random_between(&numbers, 3, 30),
+               a = random_between(&numbers, 0.5, 2), floor = kind == 2 ? r : 0, rests = a - m * 9.81 / k;
+        if (fabs(rests - floor) < 0.01) continue;
+        char body[300], text[800];
+        snprintf(body, sizeof body, bodies[kind], floor + random_between(&numbers, 0.01, 1), k, a);
+        snprintf(text, sizeof text,
+                 "fbd: 1\nground: {lines: {floor: {along: 0}}}\nbodies:\n  b: {mass: %.17g, %smotion: {%s%s", m,
+                 kind == 2 ? "shape: disc, radius: 0.1, " : "", body,
+                 kind == 0 ? "" : "contacts: [{between: [b, ground.floor]}]\n");
+        struct trial trial = trial_parse(text);
+        fbd_errors *errors = fbd_errors_new();
+        const char *name = kind == 0 ? "x" : "y";
+        if (fbd_find_equilibrium(trial.state, errors)) {
+            double is = trial_get(&trial, name);
+            if (fabs(is - fmax(rests, floor)) > place) print_message("# draw %d: %.9g\n%s", draw, is, text);
+            assert_true(fabs(is - fmax(rests, floor)) <= place);
+            fbd_statics *statics = fbd_statics_new(trial.state, errors);
+            assert_non_null(statics);
+            assert_true(fbd_statics_holds(statics));
+            assert_int_equal(fbd_statics_indeterminacy(statics), 0);
+            fbd_statics_free(statics);
+        } else {
+            assert_true(rests < floor);
+            assert_string_equal(fbd_errors_get(errors, 0).id, "does-not-fit");
+        }
+        above += rests > floor;
+        below += rests < floor;
+        fbd_errors_free(errors);
+        trial_close(&trial);
+    }
+    assert_true(above >= 30 && below >= 30);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -234,6 +284,7 @@ int main(void)
         cmocka_unit_test(a_spring_without_a_load_ends_neutral),
         cmocka_unit_test(what_has_no_place_of_rest_is_said),
         cmocka_unit_test(a_balance_is_one_of_the_branch_that_holds_there),
+        cmocka_unit_test(nothing_is_let_down_through_a_floor),
     };
     return cmocka_run_group_tests(tests, no_handler, NULL);
 }
