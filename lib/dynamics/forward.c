@@ -69,7 +69,8 @@ static void offset_variations(const struct offset_body *body, const struct insta
 
 void force_balance(const struct fbd_model *model, const struct instant *given, double *slots)
 {
-    const struct instant extended = instant_extend(model, given), *at = &extended;
+    struct instant room;
+    const struct instant *at = instant_with_places(model, given, &room);
     force_slots(model, at, slots);
     if (model->tree) tree_accelerations(model, at, slots, at->tree->a);
 }
@@ -80,14 +81,16 @@ void force_balance_of(const struct fbd_model *model, int b, const struct instant
         force_balance(model, given, slots);
         return;
     }
-    const struct instant at = instant_extend(model, given);
-    body_forces(model, b, &at, body_turn(model, b, &at), slots);
+    struct instant room;
+    const struct instant *at = instant_with_places(model, given, &room);
+    body_forces(model, b, at, body_turn(model, b, at), slots);
 }
 
 void force_balance_along(const struct fbd_model *model, const struct instant *given,
                          const struct direction *direction, const double *slots, double *slots_along)
 {
-    const struct instant extended = instant_extend(model, given), *at = &extended;
+    struct instant room;
+    const struct instant *at = instant_with_places(model, given, &room);
     const struct direction extended_along = direction_extend(model, at, direction), *along = &extended_along;
     force_slots_along(model, at, along, slots_along);
     if (model->tree)

@@ -23,8 +23,12 @@ double friction_surface_speed(const struct mode *mode, const struct instant *at,
 double friction_coefficient(const struct fbd_model *model, int pair, const struct formula *mu,
                             const struct instant *at, const struct direction *along, double *variation)
 {
-    double d_mu = 0, d_wrap, value = along ? formula_along(mu, at, along, &d_mu) : formula_value(mu, at);
     int tie = model->plan.modes[pair].tie;
+    if (tie < 0 && !mu->expr) { /* a number, in most scenes */
+        if (variation) *variation = 0;
+        return mu->constant;
+    }
+    double d_mu = 0, d_wrap, value = along ? formula_along(mu, at, along, &d_mu) : formula_value(mu, at);
     if (variation) *variation = d_mu;
     const struct constraint_form *form = tie < 0 ? NULL : &constraint_forms[model->tree->ties[tie].kind];
     if (!form || !form->wrap) return value;

@@ -76,19 +76,31 @@ void modes_drive(struct fbd_state *state)
         if (tree->ties[i].reels) resolve_drive(state, &tree->ties[i].reel);
 }
 
-/* `settling`: see sliding_project. */
-static void hold(struct fbd_state *state, bool settling)
+/* Is it another number? */
+static bool put(double *place, double x)
+{
+    bool other = *place != x;
+    *place = x;
+    return other;
+}
+
+/* Whether coordinates or their rates have changed by that. `settling`: see sliding_project. */
+static bool hold(struct fbd_state *state, bool settling)
 {
     const struct plan *plan = &state->model->plan;
     struct instant at = state_instant(state);
+    bool moved = false;
     double acceleration;
     for (int pair = 0; pair < (int)plan->mode_count; pair++) {
         const struct mode *mode = &plan->modes[pair];
-        if (mode->kind == mode_drive) state->y[mode->coordinate] = formula_value(&mode->position, &at);
+        if (mode->kind == mode_drive)
+            moved |= put(&state->y[mode->coordinate], formula_value(&mode->position, &at));
         if (state->slip[pair] == stick && mode->tie < 0)
-            state->y[plan->n + mode->coordinate] = friction_surface_speed(mode, &at, &acceleration);
+            moved |=
+                put(&state->y[plan->n + mode->coordinate], friction_surface_speed(mode, &at, &acceleration));
     }
     if (state_sliding(state)) sliding_project(state, settling);
+    return moved;
 }
 
 void modes_hold(struct fbd_state *state)
@@ -269,8 +281,7 @@ static bool settle(struct fbd_state *state, const struct decided *decided)
         if (plan->mode_count > 0) same = settle_slips(state, decided, &flow) && same;
         if (state->holds.found >= holds_none) return false;
         if (same && !first) {
-            hold(state, true);
-            state_evaluate(state);
+            if (hold(state, true) || state->tree || state_sliding(state)) state_evaluate(state);
             return state->holds.found < holds_none;
         }
         first = false;

@@ -71,6 +71,7 @@ bool tree_give_shared(struct fbd_state *state, int pair, struct decided *decided
 {
     struct arena arena = {0};
     struct rest_margin margin;
+    if (!state->tree) return false; /* bodies by themselves share nothing */
     struct scratch scratch = state_scratch(state);
     struct direction flow = tree_evaluate(state);
     struct instant at = state_instant(state);
