@@ -64,6 +64,7 @@ struct linear_pace {
     struct linear_modes *kept; /* linear_most_kept: of the matrices met last */
     struct linear_modes *now;
     size_t oldest;
+    size_t modes;                   /* ints that say which matrix it is */
     double *jacobian, *copy, *work; /* dim dim, dim dim, 3 dim */
     gsl_eigen_nonsymm_workspace *eigen;
 };
@@ -72,17 +73,20 @@ struct linear_pace {
 struct linear_modes {
     double *A; /* dim dim */
     double rho;
+    int *modes; /* those in which it was met last */
     gsl_vector_complex *eigenvalues;
 };
 
 enum { linear_most_kept = 4 };
 
-/* For systems of this dimension. False when memory is out; to be freed in any case. */
-bool linear_pace_init(struct linear_pace *pace, size_t dim);
+/* For systems of this dimension, whose matrix follows from so many ints. False when memory is out; to be freed in any case. */
+bool linear_pace_init(struct linear_pace *pace, size_t dim, size_t modes);
 void linear_pace_free(struct linear_pace *pace);
 
-/* At a start or after an event; pace->now is the matrix then, NULL when it cannot be had. */
-void linear_pace_start(struct linear_pace *pace, struct counted_system *system, double t, const double *y);
+/* At a start or after an event; pace->now is the matrix then, NULL when it cannot be had. In the same modes as before it is the
+ * same and is not asked for again; NULL: it is. */
+void linear_pace_start(struct linear_pace *pace, struct counted_system *system, double t, const double *y,
+                       const int *modes);
 
 /* The size of a step from t. */
 double linear_pace_step(const struct linear_pace *pace, double t);

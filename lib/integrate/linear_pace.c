@@ -8,17 +8,18 @@
 #include "integrate/linear.h"
 #include "integrate/stiffness.h"
 
-static bool modes_init(struct linear_modes *modes, size_t dim)
+static bool modes_init(struct linear_modes *modes, size_t dim, size_t ints)
 {
+    modes->modes = calloc(ints + 1, sizeof *modes->modes);
     modes->A = calloc(dim * dim + 1, sizeof *modes->A);
     modes->rho = NAN; /* of no matrix */
     modes->eigenvalues = gsl_vector_complex_calloc(dim);
-    return modes->A && modes->eigenvalues;
+    return modes->A && modes->modes && modes->eigenvalues;
 }
 
-bool linear_pace_init(struct linear_pace *pace, size_t dim)
+bool linear_pace_init(struct linear_pace *pace, size_t dim, size_t modes)
 {
-    *pace = (struct linear_pace){.dim = dim};
+    *pace = (struct linear_pace){.dim = dim, .modes = modes};
     pace->kept = calloc(linear_most_kept, sizeof *pace->kept);
     pace->jacobian = calloc(2 * dim * dim + 3 * dim + 1, sizeof *pace->jacobian);
     pace->eigen = gsl_eigen_nonsymm_alloc(dim);
@@ -26,7 +27,7 @@ bool linear_pace_init(struct linear_pace *pace, size_t dim)
     pace->copy = pace->jacobian + dim * dim;
     pace->work = pace->copy + dim * dim;
     for (size_t i = 0; i < linear_most_kept; i++)
-        if (!modes_init(&pace->kept[i], dim)) return false;
+        if (!modes_init(&pace->kept[i], dim, modes)) return false;
     return true;
 }
 
@@ -34,6 +35,7 @@ void linear_pace_free(struct linear_pace *pace)
 {
     for (size_t i = 0; pace->kept && i < linear_most_kept; i++) {
         free(pace->kept[i].A);
+        free(pace->kept[i].modes);
         if (pace->kept[i].eigenvalues) gsl_vector_complex_free(pace->kept[i].eigenvalues);
     }
     if (pace->eigen) gsl_eigen_nonsymm_free(pace->eigen);
@@ -48,6 +50,15 @@ static struct linear_modes *find_modes(const struct linear_pace *pace)
     for (size_t i = 0; i < linear_most_kept; i++) {
         struct linear_modes *modes = &pace->kept[i];
         if (!isnan(modes->rho) && memcmp(modes->A, pace->jacobian, size) == 0) return modes;
+    }
+    return NULL;
+}
+
+static struct linear_modes *met_in(const struct linear_pace *pace, const int *modes)
+{
+    for (size_t i = 0; modes && i < linear_most_kept; i++) {
+        struct linear_modes *kept = &pace->kept[i];
+        if (!isnan(kept->rho) && memcmp(kept->modes, modes, pace->modes * sizeof *modes) == 0) return kept;
     }
     return NULL;
 }
@@ -68,14 +79,17 @@ static struct linear_modes *make_modes(struct linear_pace *pace)
     return modes;
 }
 
-void linear_pace_start(struct linear_pace *pace, struct counted_system *system, double t, const double *y)
+void linear_pace_start(struct linear_pace *pace, struct counted_system *system, double t, const double *y,
+                       const int *modes)
 {
     double *dfdt = pace->work;
     pace->start = t;
-    pace->now = NULL;
+    pace->now = met_in(pace, modes);
+    if (pace->now) return;
     if (GSL_ODEIV_JA_EVAL(&system->gsl, t, y, pace->jacobian, dfdt) != GSL_SUCCESS) return;
     pace->now = find_modes(pace);
     if (!pace->now) pace->now = make_modes(pace);
+    if (modes) memcpy(pace->now->modes, modes, pace->modes * sizeof *modes);
 }
 
 /* The largest measure of an eigenvalue among the modes that are still there at t. */

@@ -131,7 +131,8 @@ static bool make_run(struct run *run, const struct state_start *begin)
     system.function = rates_call(run->rates, &system.params);
     counted_system_init(&run->system, &system);
     if (!make_stepper(run)) return false;
-    return run->kind != structure_linear || linear_pace_init(&run->pace, size);
+    size_t modes = (size_t)plan->branches + 2 * plan->mode_count;
+    return run->kind != structure_linear || linear_pace_init(&run->pace, size, modes);
 }
 
 static void refuse(struct run *run, struct lack *lack)
@@ -226,6 +227,15 @@ void run_evaluate(struct run *run)
     run->stale = false;
 }
 
+/* A linear system is the same in the same modes: branches, slips and pulls, one behind the other. Not so while it slides. */
+static void start_linear(struct run *run)
+{
+    const int *modes = state_sliding(run->during) ? NULL : run->during->branch;
+    linear_pace_start(&run->pace, &run->system, run->state->t, run->work.y, modes);
+    const struct linear_modes *now = run->pace.now;
+    if (now && isfinite(now->rho)) switcher_set_linear(run->stepper, now->A, now->rho);
+}
+
 /* Start the stepper at the present state. */
 static bool restart(struct run *run)
 {
@@ -246,11 +256,7 @@ static bool restart(struct run *run)
     watchers_set_rounding(&run->watchers.moving, run->during, run->search.moving.series.rounding);
     if (run->step.first == 0) run->step.first = run->step.h;
     if (structure_is_one_step(run->kind)) run->step.h = run->options.until - run->state->t;
-    if (run->kind == structure_linear) {
-        linear_pace_start(&run->pace, &run->system, run->state->t, run->work.y);
-        const struct linear_modes *modes = run->pace.now;
-        if (modes && isfinite(modes->rho)) switcher_set_linear(run->stepper, modes->A, modes->rho);
-    }
+    if (run->kind == structure_linear) start_linear(run);
     run->step.restart = false;
     return true;
 }

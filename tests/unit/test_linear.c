@@ -146,8 +146,8 @@ static void the_pace_follows_what_is_still_there(void **state)
     counted_system_init(&system, &(gsl_odeiv2_system){rhs, jacobian, 4, &o});
     struct linear_pace pace;
     double y[4] = {1, 1, 0, 0};
-    assert_true(linear_pace_init(&pace, 4));
-    linear_pace_start(&pace, &system, 5, y);
+    assert_true(linear_pace_init(&pace, 4, 0));
+    linear_pace_start(&pace, &system, 5, y, NULL);
     double early = linear_pace_step(&pace, 5), later = linear_pace_step(&pace, 45);
     double dead = linear_pace_step(&pace, 95);
     assert_true(early > 0.08 && early <= 0.2002); /* between one and two radians at 10 rad/s */
