@@ -11,7 +11,11 @@
 
 #include <string.h>
 
-enum { room = course_most_degree + 1, coarse_room = course_coarse_degree + 1 };
+enum {
+    room = course_most_degree + 1,
+    power_room = course_most_powers + 1,
+    coarse_room = course_coarse_degree + 1
+};
 
 /* In place of the highest power of a component. */
 enum { at_rest = -1, not_followed = -2 };
@@ -25,14 +29,16 @@ bool course_init(struct course *course, size_t size, const bool *used, struct ar
     size_t count = course->count;
     size_t grids =
         count > 0 ? 2 * (size_t)coarse_room * (2 * coarse_room + 1) + (size_t)room * (2 * room + 1) : 0;
-    course->component = ARENA_ARRAY(memory, 3 * count, int);
-    course->coefficients = ARENA_ARRAY(memory, (size_t)2 * room * count + 5 * count + size, double);
+    course->component = ARENA_ARRAY(memory, 3 * count + size, int);
+    course->coefficients =
+        ARENA_ARRAY(memory, (size_t)(power_room + room) * count + 5 * count + size, double);
     double *behind = arena_take(memory, grids, sizeof *behind, false);
     course->now = ARENA_ARRAY(memory, size, struct enclosure);
     if (memory->failed) return false;
     course->top = course->component + count;
     course->fresh = course->top + count;
-    course->samples = course->coefficients + room * count;
+    course->place = course->fresh + count;
+    course->samples = course->coefficients + power_room * count;
     course->doubt = course->samples + room * count;
     course->scale = course->doubt + count;
     course->floor = course->scale + count;
@@ -46,6 +52,7 @@ bool course_init(struct course *course, size_t size, const bool *used, struct ar
     }
     for (size_t i = 0, k = 0; i < size; i++) {
         course->now[i] = enclosure_everything();
+        course->place[i] = used[i] ? (int)k : -1;
         if (used[i]) course->component[k++] = (int)i;
     }
     return true;
@@ -101,8 +108,11 @@ static void prepare(struct course *course, int degree)
     }
 }
 
+/* Another piece. */
 static void choose(struct course *course, const bool *wanted)
 {
+    course->piece++;
+    course->exact = false;
     for (size_t i = 0; i < course->count; i++) course->top[i] = wanted && !wanted[i] ? not_followed : 0;
 }
 
@@ -142,7 +152,7 @@ static double set_powers_of(struct course *course, size_t i, double *series)
 {
     const double rounding = DBL_EPSILON;
     int width = course->degree + 1;
-    double *c = course->coefficients + i * room, size = 0;
+    double *c = course->coefficients + i * power_room, size = 0;
     const double *sample = course->samples + i * room, *power = course->grid->power;
     for (int k = 0; k < width; k++) size = interval_larger(fabs(sample[k]), size);
     set_series(width, course->grid->series, sample, series);
@@ -165,7 +175,7 @@ static bool rests(struct course *course, size_t i)
 {
     const double *sample = course->samples + i * room;
     course->doubt[i] = course->noise[i];
-    course->coefficients[i * room] = sample[0];
+    course->coefficients[i * power_room] = sample[0];
     course->top[i] = all_equal(course->degree, sample) ? at_rest : 0;
     return course->top[i] == at_rest;
 }
@@ -251,8 +261,9 @@ bool course_set_powers(struct course *course, double from, double to, const bool
     course->to = to;
     course->degree = 0;
     choose(course, wanted);
+    course->exact = !rough;
     for (size_t i = 0; i < course->count; i++) {
-        double *c = course->coefficients + i * room, size = 0;
+        double *c = course->coefficients + i * power_room, size = 0;
         if (course->top[i] == not_followed) continue;
         int degree = powers(context, from, to, course->component[i], c), top = at_rest;
         if (degree < 0) return false;
@@ -283,40 +294,77 @@ static struct interval around(double centre, double radius)
     return interval_widen(centre - radius, centre + radius, 1);
 }
 
+/* A stretch as the piece has it: s0 and half of its width there. */
+struct span {
+    double s0, r, radius;
+};
+
+static struct span span_of(const struct course *course, const struct stretch *stretch)
+{
+    double radius = (course->to - course->from) / 2, middle = course->from + radius;
+    return (struct span){(stretch->middle - middle) / radius, stretch_radius(stretch) / radius, radius};
+}
+
+/* Polynomial c over a span, off by `doubt` and in its slope by `steep`. */
+static struct enclosure enclose(const struct span *span, const double *c, int top, double doubt, double steep)
+{
+    double bend = 0, slope = 0, power = 1, r = span->r, b[power_room];
+    b[1] = 0;
+    shift(top, c, span->s0, b);
+    for (int k = 2; k <= top; k++) {
+        power *= r;
+        slope += k * fabs(b[k]) * power;
+        bend += fabs(b[k]) * power * r;
+    }
+    return (struct enclosure){.value = around(b[0], fabs(b[1]) * r + bend + doubt),
+                              .rate = interval_scale(1 / span->radius, around(b[1], slope + steep)),
+                              .middle = around(b[0], doubt)};
+}
+
+static struct enclosure enclose_rest(double c, double doubt)
+{
+    struct enclosure now = enclosure_point(c);
+    if (doubt > 0) now.value = now.middle = around(c, doubt);
+    return now;
+}
+
 void course_enclose(struct course *course, const struct stretch *stretch, const bool *wanted)
 {
-    double radius = (course->to - course->from) / 2, middle = course->from + radius, b[room];
-    if (!(radius > 0)) return;
-    double s0 = (stretch->middle - middle) / radius, r = stretch_radius(stretch) / radius;
+    const struct span span = span_of(course, stretch);
+    if (!(span.radius > 0)) return;
     bool other = stretch->from != course->enclosed.from || stretch->to != course->enclosed.to;
     if (other) memset(course->fresh, 0, course->count * sizeof *course->fresh);
     course->enclosed = *stretch;
     for (size_t i = 0; i < course->count; i++) {
         if (course->fresh[i] || (wanted && !wanted[i])) continue;
         course->fresh[i] = true;
-        const double *c = course->coefficients + i * room;
-        double doubt = course->doubt[i], bend = 0, slope = 0, power = 1;
+        const double *c = course->coefficients + i * power_room;
         struct enclosure *now = &course->now[course->component[i]];
         int top = course->top[i];
-        if (top == not_followed) {
+        double doubt = course->doubt[i];
+        if (top == not_followed)
             *now = enclosure_everything();
-            continue;
-        }
-        if (top == at_rest) {
-            *now = enclosure_point(c[0]);
-            if (doubt > 0) now->value = now->middle = around(c[0], doubt);
-            continue;
-        }
-        b[1] = 0;
-        shift(top, c, s0, b);
-        for (int k = 2; k <= top; k++) {
-            power *= r;
-            slope += k * fabs(b[k]) * power;
-            bend += fabs(b[k]) * power * r;
-        }
-        double steep = doubt * course->degree; /* as a difference over the spacing of samples */
-        now->value = around(b[0], fabs(b[1]) * r + bend + doubt);
-        now->rate = interval_scale(1 / radius, around(b[1], slope + steep));
-        now->middle = around(b[0], doubt);
+        else if (top == at_rest)
+            *now = enclose_rest(c[0], doubt);
+        else /* doubt as a difference over the spacing of samples */
+            *now = enclose(&span, c, top, doubt, doubt * course->degree);
     }
+}
+
+int course_top(const struct course *course, size_t place)
+{
+    int top = course->top[place];
+    return top == at_rest ? 0 : top;
+}
+
+const double *course_powers_of(const struct course *course, size_t place)
+{
+    return course->coefficients + place * power_room;
+}
+
+struct enclosure course_enclose_powers(const struct course *course, const struct stretch *stretch,
+                                       const double *c, int top, double doubt)
+{
+    const struct span span = span_of(course, stretch);
+    return enclose(&span, c, top, doubt, doubt * course->degree);
 }

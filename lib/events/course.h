@@ -18,12 +18,13 @@
 #include "base/arena.h"
 #include "expr/interval.h"
 
-enum { course_most_degree = 16, course_coarse_degree = 4 };
+/* Of a series through samples; of a first look; and of the powers that a method has. */
+enum { course_most_degree = 16, course_coarse_degree = 4, course_most_powers = 20 };
 
 /* Fill y at t; non-zero stops. */
 typedef int course_sampler(void *context, double t, double *y);
 
-/* The powers of s of a component between two times, at -1 and 1, at most course_most_degree of them. The degree; below zero
+/* The powers of s of a component between two times, at -1 and 1, at most course_most_powers of them. The degree; below zero
  * where the motion is no polynomial. */
 typedef int course_powers(void *context, double from, double to, int component, double *c);
 
@@ -39,13 +40,16 @@ enum course_grid_kind { course_grid_coarse, course_grid_simple, course_grid_full
 struct course {
     size_t size, count; /* of y; components that are followed */
     int *component;     /* count */
-    int *top;           /* count: the highest power of each, below zero where it rests or is not followed */
-    int degree;         /* of this piece */
+    int *place; /* size: of each component among those that are followed, below zero where it is not */
+    int *top;   /* count: the highest power of each, below zero where it rests or is not followed */
+    int degree; /* of this piece */
     struct course_grid grids[course_grids];
     const struct course_grid *grid;
     double from, to;       /* of the present piece */
+    unsigned long piece;   /* its number, from 1 on */
+    bool exact;            /* its polynomials are what the method has */
     double length;         /* of the last piece that could be followed; the next may be twice as long */
-    double *coefficients;  /* count x (most_degree + 1): powers of s in [-1, 1] over the piece */
+    double *coefficients;  /* count x (most_powers + 1): powers of s in [-1, 1] over the piece */
     double *doubt;         /* count: what values may be off by */
     double *noise;         /* count: the least of that, set by the caller: what the motion itself is off by */
     double *scale;         /* count: the largest size of each component since course_start */
@@ -83,5 +87,14 @@ int course_set_coarse(struct course *course, double from, double to, const bool 
 /* The components over a stretch of the present piece, in course->now: those that are wanted, everything for one that has
  * not been followed there. */
 void course_enclose(struct course *course, const struct stretch *stretch, const bool *wanted);
+
+/* The highest power of s of what is in that place, as the present piece has it, and the powers; below zero where it is not
+ * followed. */
+int course_top(const struct course *course, size_t place);
+const double *course_powers_of(const struct course *course, size_t place);
+
+/* A sum of such polynomials over a stretch of the piece, `doubt` being what it may be off by. */
+struct enclosure course_enclose_powers(const struct course *course, const struct stretch *stretch,
+                                       const double *c, int top, double doubt);
 
 #endif

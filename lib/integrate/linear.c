@@ -9,7 +9,7 @@
 
 #include "integrate/stiffness.h"
 
-enum { terms = 26, rungs = 128, works = 4 };
+enum { terms = 26, rungs = 128, works = 4, power_room = linear_most_powers + 1 };
 
 static const double series_reach = 2 + 1e-9; /* of h rho: a step of 2 / rho may be rounded up */
 static const double lowest_rung = 0.125;     /* its h rho */
@@ -21,9 +21,12 @@ struct linear {
     double rho, h;
     double *y0, *f0, *work; /* dim, dim, works dim */
     double *term;           /* terms x dim: h^(k+1) A^k f0 / (k+1)! */
-    double *A;              /* dim x dim */
-    int made;               /* rungs of the ladder for this matrix */
-    double *ladder;         /* for each, dim x dim: Phi and the exponential */
+    double *power;          /* (most powers + 1) x dim: of a piece of the step, in powers of s from -1 to 1 */
+    struct powers_piece piece;
+    int degree;     /* of that piece; below zero: none */
+    double *A;      /* dim x dim */
+    int made;       /* rungs of the ladder for this matrix */
+    double *ladder; /* for each, dim x dim: Phi and the exponential */
     double memory[];
 };
 
@@ -31,7 +34,7 @@ static void *linear_alloc(size_t dim)
 {
     const size_t most = 2 * (size_t)linear_most_pairs;
     if (dim == 0 || dim > most) return NULL;
-    size_t numbers = (2 + works + terms + dim) * dim, matrices = 2 * (size_t)rungs * dim * dim;
+    size_t numbers = (2 + works + terms + power_room + dim) * dim, matrices = 2 * (size_t)rungs * dim * dim;
     struct linear *s = malloc(sizeof *s + (numbers + matrices) * sizeof(double));
     if (!s) return NULL;
     *s = (struct linear){.dim = dim, .rho = NAN}; /* of no matrix; most scenes never climb the ladder */
@@ -39,7 +42,8 @@ static void *linear_alloc(size_t dim)
     s->f0 = s->y0 + dim;
     s->work = s->f0 + dim;
     s->term = s->work + works * dim;
-    s->A = s->term + terms * dim;
+    s->power = s->term + terms * dim;
+    s->A = s->power + power_room * dim;
     s->ladder = s->A + dim * dim;
     return s;
 }
@@ -297,6 +301,7 @@ static int linear_apply(void *state, size_t dim, double t, double h, double y[],
         return status;
     s->h = h;
     s->has_terms = false;
+    s->degree = -1;
     memcpy(s->y0, y, dim * sizeof *y);
     memset(yerr, 0, dim * sizeof *yerr);
     if (!(h * s->rho < ldexp(lowest_rung, rungs))) return GSL_FAILURE; /* beyond the ladder */
@@ -330,20 +335,43 @@ void linear_dense_eval(const gsl_odeiv2_step *step, double theta, double *y)
         leap(s, theta * s->h, y);
 }
 
+/* The series about the middle m of a piece, where the slope is f0 + A (y(m) - y0). Over half of a step h rho is 1 at most,
+ * and what is left out below 1/21! = 2e-20. The degree. */
+static inline __attribute__((always_inline)) int expand(const struct linear *s, size_t dim,
+                                                        const struct powers_piece *piece, double *c)
+{
+    const double least = 4e-18;
+    double *next = c + dim, bound = 1, h = piece->radius * s->h;
+    sum_terms(s, piece->middle, c);
+    for (size_t i = 0; i < dim; i++) s->work[i] = c[i] - s->y0[i];
+    apply_matrix(dim, s->A, s->work, next);
+    for (size_t i = 0; i < dim; i++) next[i] = h * (next[i] + s->f0[i]);
+    int degree = 1;
+    for (; degree < linear_most_powers; degree++, next += dim) {
+        double factor = h / (degree + 1), size = 0;
+        bound *= factor * s->rho;
+        if (bound < least && (size_t)degree >= dim) break;
+        apply_matrix(dim, s->A, next, next + dim);
+        for (size_t i = 0; i < dim; i++) {
+            next[dim + i] *= factor;
+            size += fabs(next[dim + i]);
+        }
+        if (size == 0) break;
+    }
+    return degree;
+}
+
 int linear_dense_powers(const gsl_odeiv2_step *step, size_t i, const struct powers_piece *piece, double *c)
 {
-    const struct linear *s = step->state;
-    const double *term = s->term + i;
-    int degree = 0;
-    if (!s->has_terms || s->used < 1 || s->used > linear_most_powers) return -1;
-    c[0] = term[(size_t)(s->used - 1) * s->dim];
-    for (int k = s->used - 2; k >= 0; k--) {
-        degree = powers_times_theta(degree, c, piece);
-        c[0] += term[(size_t)k * s->dim];
+    struct linear *s = step->state;
+    if (!s->stepped || !s->has_terms) return -1;
+    bool same = s->degree >= 0 && piece->middle == s->piece.middle && piece->radius == s->piece.radius;
+    if (!same) {
+        s->piece = *piece;
+        s->degree = s->dim == 2 ? expand(s, 2, piece, s->power) : expand(s, s->dim, piece, s->power);
     }
-    degree = powers_times_theta(degree, c, piece);
-    c[0] += s->y0[i];
-    return degree;
+    for (int k = 0; k <= s->degree; k++) c[k] = s->power[(size_t)k * s->dim + i];
+    return s->degree;
 }
 
 int linear_dense_degree(const gsl_odeiv2_step *step)

@@ -39,9 +39,9 @@ extern const gsl_odeiv2_step_type *const step_linear;
  * need not be asked for. */
 void linear_set_matrix(gsl_odeiv2_step *step, const double *A, double rho);
 
-/* As those of dop853; exact, without evaluations. Powers are had where the last step is a polynomial of no higher degree
- * than linear_most_powers; else -1: a few samples are cheaper then. */
-enum { linear_most_powers = 8 };
+/* As those of dop853; exact, without evaluations. Powers, linear_most_powers at most, are had where the last step is a
+ * series (h rho <= 2); else -1. */
+enum { linear_most_powers = 20 };
 int linear_dense_prepare(gsl_odeiv2_step *step, const gsl_odeiv2_system *sys);
 void linear_dense_eval(const gsl_odeiv2_step *step, double theta, double *y);
 int linear_dense_powers(const gsl_odeiv2_step *step, size_t i, const struct powers_piece *piece, double *c);

@@ -167,6 +167,16 @@ static int powers_of_ends(void *context, double from, double to, int component, 
     return switcher_powers_of_ends(run->stepper, moment_at(from), moment_at(to), (size_t)component, c);
 }
 
+/* By the powers that the method has, of its ends alone for a first look at what costs evaluations. False where it has none,
+ * or the motion is functions: what leads, and places. */
+static bool follow_powers(struct run *run, double from, double to, bool coarse, const bool *wanted)
+{
+    struct course *course = &run->course;
+    if (run->search.follows_places || is_led(run)) return false;
+    if (coarse && course_set_powers(course, from, to, wanted, true, powers_of_ends, run)) return true;
+    return course_set_powers(course, from, to, wanted, false, powers_of, run);
+}
+
 /* Follow the wanted components; returns the end of the piece, NAN where the motion cannot be had. */
 static double follow(struct run *run, double from, double to, bool coarse, const bool *wanted)
 {
@@ -179,11 +189,7 @@ static double follow(struct run *run, double from, double to, bool coarse, const
     }
     set_noise(run);
     coarse = coarse && degree > simple && run->options.step == 0;
-    if (negligible == 0 && !is_led(run)) {
-        struct course *course = &run->course;
-        if (coarse && course_set_powers(course, from, to, wanted, true, powers_of_ends, run)) return to;
-        if (course_set_powers(course, from, to, wanted, false, powers_of, run)) return to;
-    }
+    if (follow_powers(run, from, to, coarse, wanted)) return to;
     int status = coarse ? course_set_coarse(&run->course, from, to, wanted, sample_course, run)
                         : course_set(&run->course, from, to, wanted, degree, negligible, sample_course, run);
     return status ? NAN : run->course.to;
