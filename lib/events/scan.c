@@ -172,6 +172,33 @@ static int locate_in_group(struct scan *scan, struct proof_group *group)
     return status;
 }
 
+/* The same without samples, for what can tell its zeros; not at the very end of the search, where a sample is to say that it has
+ * passed. */
+static bool tell_in_group(struct scan *scan, const struct proof_group *group, double limit)
+{
+    const double roundings = 64;
+    double first = HUGE_VAL;
+    size_t which = 0;
+    for (size_t i = group->first; scan->zero && i < group->first + group->count; i++) {
+        double t = scan->zero(scan->context, i, group->low, group->high);
+        if (!(t < first)) continue;
+        first = t;
+        which = i;
+    }
+    if (!(first < limit - roundings * DBL_EPSILON * fabs(limit))) return false;
+    memset(scan->crossed, 0, scan->count * sizeof *scan->crossed);
+    scan->crossed[which] = true;
+    scan->t = first;
+    return true;
+}
+
+static void note_found(struct scan *scan, const struct proof_group *group, bool told, double *limit)
+{
+    *limit = scan->t;
+    scan->found_in = group;
+    scan->told = told;
+}
+
 /* The first zero of a group at or before *limit, which it becomes then: 1, else 0. Bounds that decide nothing
  * leave the group open. */
 static int search_group(struct scan *scan, struct proof_group *groups, size_t g, double from, double *limit)
@@ -186,12 +213,15 @@ static int search_group(struct scan *scan, struct proof_group *groups, size_t g,
         group->open = result == proof_unfinished;
         if (result == proof_clear) note_seen(scan, group);
         if (result != proof_found || group->low >= *limit) return 0;
+        if (groups == scan->groups && tell_in_group(scan, group, *limit)) {
+            note_found(scan, group, true, limit);
+            return 1;
+        }
         int status = locate_in_group(scan, group);
         if (status < 0) return status;
         if (status == 1 && scan->t > *limit) return 0;
         if (status == 1) {
-            *limit = scan->t;
-            scan->found_in = group;
+            note_found(scan, group, false, limit);
             return 1;
         }
         group->clear = group->low = group->high;
@@ -438,6 +468,7 @@ static int look_by_series(struct scan *scan, double from, double *limit)
 /* What has been found, and what becomes negative at the same instant. */
 static int mark_crossed(struct scan *scan, double t)
 {
+    if (scan->told) return 1;
     /* The end of the bracket that was located last, or another one. */
     bool known = scan->located && scan->points[1].t == t;
     struct scan_point *point = &scan->points[known ? 1 : 2];
@@ -462,7 +493,7 @@ int scan_interval(struct scan *scan, double from, double to)
 {
     scan->resolved = HUGE_VAL;
     scan->clear = from;
-    scan->located = false;
+    scan->located = scan->told = false;
     if (scan->count == 0) return 0;
     memcpy(scan->waits, scan->dipped, scan->count * sizeof *scan->waits);
     double limit = to;

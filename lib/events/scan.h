@@ -32,6 +32,10 @@ typedef double scan_follower(void *context, double from, double to, bool coarse)
 /* The end of the first panel of an interval for series, above `from`. */
 typedef double scan_paneller(void *context, double from, double to);
 
+/* Where function i has its zero within [low, high], at whose end it is negative, without samples; NAN where that cannot be
+ * told. */
+typedef double scan_zero(void *context, size_t i, double low, double high);
+
 /* What samples have cost so far, in right-hand sides: an interval is given up after so much of it, too. */
 typedef unsigned long scan_worker(void *context);
 
@@ -51,6 +55,7 @@ struct scan {
     struct proof_group *groups;
     size_t group_count;
     proof_enclose *enclose;
+    scan_zero *zero;       /* or NULL */
     scan_follower *follow; /* NULL: enclosures are there for all times, and searches may run ahead */
     double horizon;        /* how far ahead at most */
     bool aside;            /* this turn: only groups that are searched aside, else only the others */
@@ -62,6 +67,7 @@ struct scan {
     struct series series;
     struct proof_group *lone; /* count: each function by itself, for its series */
     const struct proof_group *found_in;
+    bool told;              /* it is what `zero` has found, and `crossed` says which */
     bool located;           /* points[1] is the end of the bracket that was located last */
     bool resumed;           /* between scan_pass_over and scan_start */
     bool *sampled, *chosen; /* count: searched by samples; located at present */

@@ -150,6 +150,7 @@ bool watchers_init(struct watchers *watchers, const struct fbd_model *model, dou
     size_t timed = watchers->timed.count, moving = watchers->moving.count;
     watchers->timed = (struct watcher_set){.watchers = ARENA_ARRAY(memory, timed + 1, struct watcher)};
     watchers->moving = (struct watcher_set){.watchers = ARENA_ARRAY(memory, moving + 1, struct watcher)};
+    watchers->affine = ARENA_ARRAY(memory, moving + 1, struct affine);
     watchers->scratch = ARENA_ARRAY(memory, 6 * margins + 1, double);
     watchers->held = ARENA_ARRAY(memory, (size_t)plan->branches + 1, bool);
     watchers->zeros = ARENA_ARRAY(memory, (size_t)plan->branches + 1, int);
@@ -232,6 +233,7 @@ void watchers_follow(struct watchers *watchers, const struct fbd_state *state)
     watchers_hold(watchers, state);
     for (size_t g = 0; g < set->group_count; g++)
         set->groups[g].idle = is_idle(state, &set->watchers[set->groups[g].first]);
+    for (size_t i = 0; i < set->count; i++) affine_find(state, &set->watchers[i], &watchers->affine[i]);
     if (!state->sliding) return;
     bool known = !state_sliding(state) || outlook_knows_shares(state);
     for (size_t g = 0; g < set->group_count; g++)

@@ -18,6 +18,7 @@
 
 #include "base/arena.h"
 #include "dynamics/modes.h"
+#include "events/affine.h"
 #include "events/proof.h"
 
 enum watcher_kind {
@@ -50,6 +51,7 @@ struct watcher_set {
 struct watchers {
     struct watcher_set timed;  /* functions of t alone */
     struct watcher_set moving; /* all others */
+    struct affine *affine;     /* of each of these what it is in the present modes */
     double *scratch;           /* margins, rates and roundings of one kink */
     struct enclosure *margins; /* the same as enclosures */
     int *armed;                /* per user event: +1 or -1, the side where it is; 0 while it sits on zero */

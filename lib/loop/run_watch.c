@@ -88,9 +88,27 @@ static void enclose_timed(void *context, size_t group, const struct stretch *str
     watchers_enclose(&run->watchers, &run->watchers.timed, group, run->during, stretch, NULL, out);
 }
 
+/* Those that are affine in the modes of the step, by their polynomials. */
+static bool enclose_affine(struct run *run, size_t group, const struct stretch *stretch,
+                           struct enclosure *out)
+{
+    const struct proof_group *those = &run->watchers.moving.groups[group];
+    struct affine *f = run->watchers.affine + those->first;
+    for (size_t i = 0; i < those->count; i++)
+        if (!affine_enclose(&f[i], &run->course, stretch, &out[i])) return false;
+    return true;
+}
+
+static double zero_of_affine(void *context, size_t i, double low, double high)
+{
+    struct run *run = context;
+    return affine_zero(&run->watchers.affine[i], &run->course, low, high);
+}
+
 static void enclose_moving(void *context, size_t group, const struct stretch *stretch, struct enclosure *out)
 {
     struct run *run = context;
+    if (enclose_affine(run, group, stretch, out)) return;
     /* What slides shares forces that other groups read. */
     const bool *wanted = state_sliding(run->during) ? NULL : run->search.reads + group * run->course.count;
     course_enclose(&run->course, stretch, wanted);
@@ -389,6 +407,7 @@ static bool use_enclosures(struct run *run)
     run->search.timed.horizon = run->options.until;
     run->search.moving.panel = end_of_panel;
     run->search.moving.work = work_so_far;
+    run->search.moving.zero = zero_of_affine;
     scan_use_enclosures(&run->search.timed, timed->groups, timed->group_count, enclose_timed, NULL);
     scan_use_enclosures(&run->search.moving, moving->groups, moving->group_count, enclose_moving,
                         follow_course);
