@@ -265,6 +265,13 @@ static bool settle_slips(struct fbd_state *state, const struct decided *decided,
     return same;
 }
 
+/* Would another pass see what the first one has seen, where that has changed nothing? What is decided follows from the state
+ * and its modes alone, but for holds that are decided together, and for what slides. */
+static bool tells_at_once(const struct fbd_state *state)
+{
+    return !state->tree && !state->sliding && state->model->plan.kink_count == 0;
+}
+
 static bool settle(struct fbd_state *state, const struct decided *decided)
 {
     enum { most_passes = 12, around = 6 };
@@ -280,7 +287,7 @@ static bool settle(struct fbd_state *state, const struct decided *decided)
         bool same = settle_branches(state, decided, &flow, pass >= around);
         if (plan->mode_count > 0) same = settle_slips(state, decided, &flow) && same;
         if (state->holds.found >= holds_none) return false;
-        if (same && !first) {
+        if (same && (!first || tells_at_once(state))) {
             if (hold(state, true) || state->tree || state_sliding(state)) state_evaluate(state);
             return state->holds.found < holds_none;
         }

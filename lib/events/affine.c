@@ -99,43 +99,67 @@ void affine_find(const struct fbd_state *state, const struct watcher *watcher, s
                 (watcher->kind == watch_stick_limit && find_stick_limit(state, watcher, f)));
 }
 
+double affine_value(const struct affine *f, const double *y, const double *dy, double *rate)
+{
+    double sum = 0;
+    *rate = 0;
+    for (int i = 0; i < f->count; i++) {
+        sum += f->terms[i].factor * y[f->terms[i].component];
+        *rate += f->terms[i].factor * dy[f->terms[i].component];
+    }
+    return f->constant + sum + f->roundings * DBL_EPSILON * (fabs(sum) + f->limit);
+}
+
 /* ---- over a piece of the course */
 
-static int power_of(const struct course *course, int component, double factor, struct affine *f)
+/* Add one component; false where it is not followed. */
+static bool add_component(const struct course *course, int component, double factor, struct affine *f)
 {
     int place = course->place[component], top = place < 0 ? -1 : course_top(course, (size_t)place);
-    if (top < 0) return top;
+    if (top < 0) return false;
     const double *c = course_powers_of(course, (size_t)place);
-    for (int k = f->top + 1; k <= top; k++) f->power[k] = 0;
-    for (int k = 0; k <= top; k++) f->power[k] += factor * c[k];
+    for (; f->top < top; f->top++) f->power[f->top + 1] = 0;
+    double bend = 0, weight = 0; /* k (k - 1) */
+    for (int k = 0; k <= top; k++) {
+        f->power[k] += factor * c[k];
+        bend += weight * fabs(c[k]);
+        weight += 2 * k;
+    }
+    f->bend += fabs(factor) * bend;
     f->doubt += fabs(factor) * course->doubt[place];
-    return top;
+    f->extent += fabs(factor) * course->extent[place];
+    return true;
+}
+
+/* Leave out highest powers, with their share of |f''|. */
+static void set_rough(struct affine *f)
+{
+    const double negligible = 1.0 / 1024;
+    f->rest = 0;
+    for (f->rough = f->top; f->rough > 1; f->rough--) {
+        double rest = f->rest + f->rough * (f->rough - 1) * fabs(f->power[f->rough]);
+        if (rest > negligible * f->bend) break;
+        f->rest = rest;
+    }
 }
 
 /* f as a polynomial of the piece. */
 static void follow(struct affine *f, const struct course *course)
 {
     const double roundings = 4;
-    double size = 0;
     f->piece = course->piece;
     f->top = 0;
     f->power[0] = f->constant;
     f->doubt = f->bend = 0;
+    f->extent = fabs(f->constant);
     for (int i = 0; i < f->count; i++) {
-        int top = power_of(course, f->terms[i].component, f->terms[i].factor, f);
-        if (top < 0) {
-            f->top = -1;
-            return;
-        }
-        if (top > f->top) f->top = top;
+        if (add_component(course, f->terms[i].component, f->terms[i].factor, f)) continue;
+        f->top = -1;
+        return;
     }
-    for (int k = 0; k <= f->top; k++) {
-        size += fabs(f->power[k]);
-        f->bend += k * (k - 1) * fabs(f->power[k]);
-    }
-    size += fabs(f->constant);
-    f->slack = f->roundings * DBL_EPSILON * (size + f->limit);
-    f->doubt += roundings * DBL_EPSILON * size;
+    f->slack = f->roundings * DBL_EPSILON * (f->extent + f->limit);
+    f->doubt += roundings * DBL_EPSILON * f->extent;
+    set_rough(f);
 }
 
 static bool is_followed(struct affine *f, const struct course *course)
@@ -145,10 +169,11 @@ static bool is_followed(struct affine *f, const struct course *course)
     return f->top >= 0;
 }
 
-static double value_at(const struct affine *f, double s, double *slope)
+/* By the powers up to `top`. */
+static double value_at(const struct affine *f, int top, double s, double *slope)
 {
-    double value = f->power[f->top], rate = 0;
-    for (int k = f->top - 1; k >= 0; k--) {
+    double value = f->power[top], rate = 0;
+    for (int k = top - 1; k >= 0; k--) {
         rate = value + s * rate;
         value = f->power[k] + s * value;
     }
@@ -157,42 +182,49 @@ static double value_at(const struct affine *f, double s, double *slope)
 }
 
 /* With |f''| <= B: |f - f(s0) - f'(s0) x| <= B x^2/2 and |f' - f'(s0)| <= B |x|. Wider than what course.c makes of all powers of a
- * series by little where they fall like those of a step of a method, and by far less work. */
+ * series by little where they fall like those of a step of a method, and by far less work. Over long stretches B is so much that
+ * the high powers do not matter. */
 bool affine_enclose(struct affine *f, const struct course *course, const struct stretch *stretch,
                     struct enclosure *out)
 {
+    const double is_long = 1.0 / 8;
     if (!is_followed(f, course)) return false;
     double radius = (course->to - course->from) / 2, middle = course->from + radius, slope;
-    double r = stretch_radius(stretch) / radius,
-           value = value_at(f, (stretch->middle - middle) / radius, &slope);
-    double reach = (fabs(slope) + f->bend * r / 2) * r + f->doubt,
-           steep = f->bend * r + f->doubt * course->degree;
+    double r = stretch_radius(stretch) / radius, s = (stretch->middle - middle) / radius;
+    bool rough = r >= is_long;
+    double value = value_at(f, rough ? f->rough : f->top, s, &slope), rest = rough ? f->rest : 0;
+    double reach = (fabs(slope) + f->bend * r / 2) * r + rest + f->doubt,
+           steep = f->bend * r + rest + f->doubt * course->degree;
     out->value = interval_widen(value - reach, value + reach + f->slack, 1);
     out->rate = interval_widen((slope - steep) / radius, (slope + steep) / radius, 2);
-    out->middle = interval_widen(value - f->doubt, value + f->doubt + f->slack, 1);
+    out->middle =
+        interval_widen(value - f->doubt, value + f->doubt + f->slack, 1); /* as wide as its rounding */
     return true;
 }
 
 /* ---- its zero */
 
-/* Newton, in a bracket that is halved where he leaves it. */
+/* Newton, in a bracket that is halved where he leaves it. A step d leaves an error of
+ * f'' d^2/(2 f'). */
 double affine_zero(struct affine *f, const struct course *course, double low, double high)
 {
     enum { most_steps = 60 };
     if (!is_followed(f, course)) return (double)NAN;
     double radius = (course->to - course->from) / 2, middle = course->from + radius, slope;
-    double a = (low - middle) / radius, b = (high - middle) / radius, s = b;
-    if (!(value_at(f, a, &slope) > 0) || !(value_at(f, b, &slope) < 0)) return (double)NAN;
+    double a = (low - middle) / radius, b = (high - middle) / radius;
+    double above = value_at(f, f->top, a, &slope), below = value_at(f, f->top, b, &slope);
+    if (!(above > 0) || !(below < 0)) return (double)NAN;
+    double s = a + (b - a) * (above / (above - below));
     for (int step = 0; step < most_steps; step++) {
-        double value = value_at(f, s, &slope), next = s - value / slope;
+        double value = value_at(f, f->top, s, &slope), d = -value / slope;
         if (value > 0)
             a = s;
         else
             b = s;
-        if (!(next > a && next < b)) next = a + (b - a) / 2;
-        bool there = fabs(next - s) <= DBL_EPSILON;
-        s = next;
-        if (there) break;
+        bool inside = s + d > a && s + d < b;
+        if (!inside) d = a + (b - a) / 2 - s;
+        s += d;
+        if (fabs(d) <= DBL_EPSILON || (inside && f->bend * d * d <= DBL_EPSILON * fabs(slope))) break;
     }
     return middle + radius * s;
 }

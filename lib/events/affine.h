@@ -29,12 +29,19 @@ struct affine {
     /* Over a piece of the course: */
     unsigned long piece; /* its number, 0: none */
     int top;             /* of the powers of s, below zero where the course does not tell */
+    int rough;           /* of those that tell enough over long stretches */
     double power[course_most_powers + 1];
-    double doubt, slack, bend; /* what |f''| is at most, d/ds */
+    double extent; /* sum of the sizes of terms */
+    double doubt, slack;
+    double bend,
+        rest; /* what |f''| is at most, with d/ds; the share of that which the rough one leaves out */
 };
 
 /* What the function of a watcher is in the modes of `state`. */
 void affine_find(const struct fbd_state *state, const struct watcher *watcher, struct affine *f);
+
+/* f and its rate at a state that changes by dy. */
+double affine_value(const struct affine *f, const double *y, const double *dy, double *rate);
 
 /* f over a stretch of the present piece of the course; false where it is not followed there. */
 bool affine_enclose(struct affine *f, const struct course *course, const struct stretch *stretch,

@@ -31,7 +31,7 @@ bool course_init(struct course *course, size_t size, const bool *used, struct ar
         count > 0 ? 2 * (size_t)coarse_room * (2 * coarse_room + 1) + (size_t)room * (2 * room + 1) : 0;
     course->component = ARENA_ARRAY(memory, 3 * count + size, int);
     course->coefficients =
-        ARENA_ARRAY(memory, (size_t)(power_room + room) * count + 5 * count + size, double);
+        ARENA_ARRAY(memory, (size_t)(power_room + room) * count + 6 * count + size, double);
     double *behind = arena_take(memory, grids, sizeof *behind, false);
     course->now = ARENA_ARRAY(memory, size, struct enclosure);
     if (memory->failed) return false;
@@ -44,7 +44,8 @@ bool course_init(struct course *course, size_t size, const bool *used, struct ar
     course->floor = course->scale + count;
     course->tail = course->floor + count;
     course->noise = course->tail + count;
-    course->y = course->noise + count;
+    course->extent = course->noise + count;
+    course->y = course->extent + count;
     for (size_t i = 0; i < course_grids; i++) {
         size_t own = i == course_grid_full ? room : coarse_room;
         course->grids[i] = (struct course_grid){0, behind, behind + own, behind + own * (own + 1)};
@@ -263,15 +264,15 @@ bool course_set_powers(struct course *course, double from, double to, const bool
     choose(course, wanted);
     course->exact = !rough;
     for (size_t i = 0; i < course->count; i++) {
-        double *c = course->coefficients + i * power_room, size = 0;
+        double *c = course->coefficients + i * power_room, bends = 0;
         if (course->top[i] == not_followed) continue;
         int degree = powers(context, from, to, course->component[i], c), top = at_rest;
         if (degree < 0) return false;
-        for (int k = 0; k <= degree; k++) size += fabs(c[k]);
-        for (int k = 1; k <= degree; k++) {
-            if (c[k] != 0 && top == at_rest) top = 0;
-            if (fabs(c[k]) > DBL_EPSILON * size) top = k; /* else left to the doubt */
-        }
+        for (int k = 1; k <= degree; k++) bends += fabs(c[k]);
+        double size = fabs(c[0]) + bends;
+        course->extent[i] = size;
+        if (bends > 0) top = degree;
+        while (top > 0 && fabs(c[top]) <= DBL_EPSILON * size) top--; /* left to the doubt */
         course->top[i] = top;
         course->doubt[i] = course->noise[i] + (top == at_rest ? 0 : rounding * size);
         if (rough && top != at_rest) course->doubt[i] += doubt_of_ends(degree, c);
@@ -294,44 +295,11 @@ static struct interval around(double centre, double radius)
     return interval_widen(centre - radius, centre + radius, 1);
 }
 
-/* A stretch as the piece has it: s0 and half of its width there. */
-struct span {
-    double s0, r, radius;
-};
-
-static struct span span_of(const struct course *course, const struct stretch *stretch)
-{
-    double radius = (course->to - course->from) / 2, middle = course->from + radius;
-    return (struct span){(stretch->middle - middle) / radius, stretch_radius(stretch) / radius, radius};
-}
-
-/* Polynomial c over a span, off by `doubt` and in its slope by `steep`. */
-static struct enclosure enclose(const struct span *span, const double *c, int top, double doubt, double steep)
-{
-    double bend = 0, slope = 0, power = 1, r = span->r, b[power_room];
-    b[1] = 0;
-    shift(top, c, span->s0, b);
-    for (int k = 2; k <= top; k++) {
-        power *= r;
-        slope += k * fabs(b[k]) * power;
-        bend += fabs(b[k]) * power * r;
-    }
-    return (struct enclosure){.value = around(b[0], fabs(b[1]) * r + bend + doubt),
-                              .rate = interval_scale(1 / span->radius, around(b[1], slope + steep)),
-                              .middle = around(b[0], doubt)};
-}
-
-static struct enclosure enclose_rest(double c, double doubt)
-{
-    struct enclosure now = enclosure_point(c);
-    if (doubt > 0) now.value = now.middle = around(c, doubt);
-    return now;
-}
-
 void course_enclose(struct course *course, const struct stretch *stretch, const bool *wanted)
 {
-    const struct span span = span_of(course, stretch);
-    if (!(span.radius > 0)) return;
+    double radius = (course->to - course->from) / 2, middle = course->from + radius, b[power_room];
+    if (!(radius > 0)) return;
+    double s0 = (stretch->middle - middle) / radius, r = stretch_radius(stretch) / radius;
     bool other = stretch->from != course->enclosed.from || stretch->to != course->enclosed.to;
     if (other) memset(course->fresh, 0, course->count * sizeof *course->fresh);
     course->enclosed = *stretch;
@@ -339,15 +307,29 @@ void course_enclose(struct course *course, const struct stretch *stretch, const 
         if (course->fresh[i] || (wanted && !wanted[i])) continue;
         course->fresh[i] = true;
         const double *c = course->coefficients + i * power_room;
+        double doubt = course->doubt[i], bend = 0, slope = 0, power = 1;
         struct enclosure *now = &course->now[course->component[i]];
         int top = course->top[i];
-        double doubt = course->doubt[i];
-        if (top == not_followed)
+        if (top == not_followed) {
             *now = enclosure_everything();
-        else if (top == at_rest)
-            *now = enclose_rest(c[0], doubt);
-        else /* doubt as a difference over the spacing of samples */
-            *now = enclose(&span, c, top, doubt, doubt * course->degree);
+            continue;
+        }
+        if (top == at_rest) {
+            *now = enclosure_point(c[0]);
+            if (doubt > 0) now->value = now->middle = around(c[0], doubt);
+            continue;
+        }
+        b[1] = 0;
+        shift(top, c, s0, b);
+        for (int k = 2; k <= top; k++) {
+            power *= r;
+            slope += k * fabs(b[k]) * power;
+            bend += fabs(b[k]) * power * r;
+        }
+        double steep = doubt * course->degree; /* as a difference over the spacing of samples */
+        now->value = around(b[0], fabs(b[1]) * r + bend + doubt);
+        now->rate = interval_scale(1 / radius, around(b[1], slope + steep));
+        now->middle = around(b[0], doubt);
     }
 }
 
@@ -360,11 +342,4 @@ int course_top(const struct course *course, size_t place)
 const double *course_powers_of(const struct course *course, size_t place)
 {
     return course->coefficients + place * power_room;
-}
-
-struct enclosure course_enclose_powers(const struct course *course, const struct stretch *stretch,
-                                       const double *c, int top, double doubt)
-{
-    const struct span span = span_of(course, stretch);
-    return enclose(&span, c, top, doubt, doubt * course->degree);
 }

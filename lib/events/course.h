@@ -51,6 +51,7 @@ struct course {
     double length;         /* of the last piece that could be followed; the next may be twice as long */
     double *coefficients;  /* count x (most_powers + 1): powers of s in [-1, 1] over the piece */
     double *doubt;         /* count: what values may be off by */
+    double *extent;        /* count: sum of the sizes of the powers that a method has */
     double *noise;         /* count: the least of that, set by the caller: what the motion itself is off by */
     double *scale;         /* count: the largest size of each component since course_start */
     double *floor;         /* count: the share of its size below which the terms of a component are noise */
@@ -92,9 +93,5 @@ void course_enclose(struct course *course, const struct stretch *stretch, const 
  * followed. */
 int course_top(const struct course *course, size_t place);
 const double *course_powers_of(const struct course *course, size_t place);
-
-/* A sum of such polynomials over a stretch of the piece, `doubt` being what it may be off by. */
-struct enclosure course_enclose_powers(const struct course *course, const struct stretch *stretch,
-                                       const double *c, int top, double doubt);
 
 #endif

@@ -53,16 +53,6 @@ bool scan_init(struct scan *scan, size_t count, scan_sampler *sample, void *cont
     return true;
 }
 
-void scan_use_enclosures(struct scan *scan, struct proof_group *groups, size_t count, proof_enclose *enclose,
-                         scan_follower *follow)
-{
-    if (scan->count == 0) return;
-    scan->enclose = enclose;
-    scan->groups = groups;
-    scan->group_count = count;
-    scan->follow = follow;
-}
-
 /* ---- looking */
 
 static int take_sample(struct scan *scan, struct scan_point *point, double t)

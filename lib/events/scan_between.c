@@ -1,10 +1,20 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * What a scan remembers between its intervals.
+ * What a scan is given, and what it remembers between its intervals.
  */
 #include <math.h>
 
 #include "events/scan.h"
+
+void scan_use_enclosures(struct scan *scan, struct proof_group *groups, size_t count, proof_enclose *enclose,
+                         scan_follower *follow)
+{
+    if (scan->count == 0) return;
+    scan->enclose = enclose;
+    scan->groups = groups;
+    scan->group_count = count;
+    scan->follow = follow;
+}
 
 void scan_forget(struct scan *scan)
 {

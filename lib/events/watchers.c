@@ -227,13 +227,43 @@ static bool is_idle(const struct fbd_state *state, const struct watcher *watcher
     return watcher->kind == watch_stick_limit && state->slip[watcher->index] != stick;
 }
 
+static void follow_affine(struct watchers *watchers, const struct fbd_state *state)
+{
+    const struct watcher_set *set = &watchers->moving;
+    watchers->any_affine = false;
+    watchers->all_affine = true;
+    for (size_t g = 0; g < set->group_count; g++) {
+        const struct proof_group *group = &set->groups[g];
+        for (size_t i = group->first; !group->idle && i < group->first + group->count; i++) {
+            affine_find(state, &set->watchers[i], &watchers->affine[i]);
+            watchers->any_affine |= watchers->affine[i].known;
+            watchers->all_affine &= watchers->affine[i].known;
+        }
+    }
+}
+
+bool watchers_evaluate_affine(const struct watchers *watchers, const double *y, const double *dy,
+                              double *values, double *rates)
+{
+    const struct watcher_set *set = &watchers->moving;
+    for (size_t g = 0; watchers->all_affine && g < set->group_count; g++) {
+        const struct proof_group *group = &set->groups[g];
+        for (size_t i = group->first; i < group->first + group->count; i++) {
+            values[i] = HUGE_VAL;
+            rates[i] = 0;
+            if (!group->idle) values[i] = affine_value(&watchers->affine[i], y, dy, &rates[i]);
+        }
+    }
+    return watchers->all_affine;
+}
+
 void watchers_follow(struct watchers *watchers, const struct fbd_state *state)
 {
     struct watcher_set *set = &watchers->moving;
     watchers_hold(watchers, state);
     for (size_t g = 0; g < set->group_count; g++)
         set->groups[g].idle = is_idle(state, &set->watchers[set->groups[g].first]);
-    for (size_t i = 0; i < set->count; i++) affine_find(state, &set->watchers[i], &watchers->affine[i]);
+    follow_affine(watchers, state);
     if (!state->sliding) return;
     bool known = !state_sliding(state) || outlook_knows_shares(state);
     for (size_t g = 0; g < set->group_count; g++)

@@ -49,23 +49,24 @@ struct watcher_set {
 };
 
 struct watchers {
-    struct watcher_set timed;  /* functions of t alone */
-    struct watcher_set moving; /* all others */
-    struct affine *affine;     /* of each of these what it is in the present modes */
-    double *scratch;           /* margins, rates and roundings of one kink */
-    struct enclosure *margins; /* the same as enclosures */
-    int *armed;                /* per user event: +1 or -1, the side where it is; 0 while it sits on zero */
-    double *fired;             /* per user event: when it happened last; NAN: it has not */
-    bool *asleep;              /* per meeting: it is too far apart to be looked at in this step; or NULL */
-    double *deep;              /* per meeting: how deep it was left open; or NULL */
-    double width;              /* of the bands of user events, relative to the largest size */
-    bool *held;                /* per branch: a stick holds the switch at zero; it is not watched */
-    int *zeros;                /* scratch for that: places where it is zero */
-    double *place;             /* such a place, and as many zeros */
-    double *fast, *quiet;      /* per pair that drives alone make slip: its largest speed; 0, or where a step
+    struct watcher_set timed;    /* functions of t alone */
+    struct watcher_set moving;   /* all others */
+    struct affine *affine;       /* of each of these what it is in the present modes */
+    bool any_affine, all_affine; /* are there some, and are all that can happen */
+    double *scratch;             /* margins, rates and roundings of one kink */
+    struct enclosure *margins;   /* the same as enclosures */
+    int *armed;                  /* per user event: +1 or -1, the side where it is; 0 while it sits on zero */
+    double *fired;               /* per user event: when it happened last; NAN: it has not */
+    bool *asleep;                /* per meeting: it is too far apart to be looked at in this step; or NULL */
+    double *deep;                /* per meeting: how deep it was left open; or NULL */
+    double width;                /* of the bands of user events, relative to the largest size */
+    bool *held;                  /* per branch: a stick holds the switch at zero; it is not watched */
+    int *zeros;                  /* scratch for that: places where it is zero */
+    double *place;               /* such a place, and as many zeros */
+    double *fast, *quiet; /* per pair that drives alone make slip: its largest speed; 0, or where a step
                                   starts with next to none how fast it may seem to turn back. Of what is one-sided:
                                   how far beyond it was left open */
-    double *most, *band; /* per user event: largest size of the difference; 0, or where a step starts in the
+    double *most, *band;  /* per user event: largest size of the difference; 0, or where a step starts in the
                             band its half width */
 };
 
@@ -79,6 +80,11 @@ bool watchers_init(struct watchers *watchers, const struct fbd_model *model, dou
 void watchers_evaluate(const struct watchers *watchers, const struct watcher_set *set,
                        struct fbd_state *state, struct moment t, const double *y, double *values,
                        double *rates);
+
+/* The same for all that moves, at a state whose rates of change dy are those of the modes that are followed. False where not all
+ * of it is affine. */
+bool watchers_evaluate_affine(const struct watchers *watchers, const double *y, const double *dy,
+                              double *values, double *rates);
 
 /* The same for functions of t alone, with how near to zero each counts as zero. */
 void watchers_evaluate_timed(const struct watchers *watchers, struct fbd_state *state, struct moment t,

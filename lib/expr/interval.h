@@ -154,7 +154,7 @@ static inline struct stretch stretch_between(double from, double to)
 
 static inline double stretch_radius(const struct stretch *stretch)
 {
-    return fmax(stretch->to - stretch->middle, stretch->middle - stretch->from);
+    return interval_larger(stretch->to - stretch->middle, stretch->middle - stretch->from);
 }
 
 static inline struct enclosure enclosure_point(double x)

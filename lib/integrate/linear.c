@@ -13,6 +13,7 @@ enum { terms = 26, rungs = 128, works = 4, power_room = linear_most_powers + 1 }
 
 static const double series_reach = 2 + 1e-9; /* of h rho: a step of 2 / rho may be rounded up */
 static const double lowest_rung = 0.125;     /* its h rho */
+static const double least_term = 4e-18;
 
 struct linear {
     size_t dim;
@@ -170,17 +171,17 @@ static void need_rung(struct linear *s, int rung)
 
 /* ---- steps */
 
-/* The terms of the series for the present step, as many as count: the norm of the weights says nothing of
- * what is no longer there after dim - 1 products. */
-static inline __attribute__((always_inline)) void make_terms(struct linear *s, size_t dim)
+/* The terms h^k A^(k-1) f/k! of the series of a step, of which the first, h f, is there: as many as count, `most` at most; the
+ * norm of the weights says nothing of what is no longer there after dim - 1 products. Their number. */
+static int continue_series(const struct linear *s, double h, int most, double *term)
 {
-    const double least = 4e-18;
-    double *term = s->term, bound = 1;
-    for (size_t i = 0; i < dim; i++) term[i] = s->h * s->f0[i];
-    for (s->used = 1; s->used < terms; s->used++, term += dim) {
-        double factor = s->h / (s->used + 1), size = 0;
+    size_t dim = s->dim;
+    double bound = 1;
+    int used = 1;
+    for (; used < most; used++, term += dim) {
+        double factor = h / (used + 1), size = 0;
         bound *= factor * s->rho;
-        if (bound < least && (size_t)s->used >= dim) break;
+        if (bound < least_term && (size_t)used >= dim) break;
         apply_matrix(dim, s->A, term, term + dim);
         for (size_t i = 0; i < dim; i++) {
             term[dim + i] *= factor;
@@ -188,15 +189,39 @@ static inline __attribute__((always_inline)) void make_terms(struct linear *s, s
         }
         if (size == 0) break;
     }
-    s->has_terms = true;
+    return used;
+}
+
+/* The same for one body, whose numbers stay in registers. */
+static int continue_series_of_pair(const struct linear *s, double h, int most, double *term)
+{
+    const double a = s->A[0], b = s->A[1], c = s->A[2], d = s->A[3], rho = s->rho;
+    double x = term[0], y = term[1], bound = 1;
+    int used = 1;
+    for (; used < most; used++) {
+        double factor = h / (used + 1), first = (a * x + b * y) * factor;
+        bound *= factor * rho;
+        if (bound < least_term && used >= 2) break;
+        y = (c * x + d * y) * factor;
+        x = first;
+        term += 2;
+        term[0] = x;
+        term[1] = y;
+        if (x == 0 && y == 0) break;
+    }
+    return used;
+}
+
+static int make_series(const struct linear *s, double h, int most, const double *f, double *term)
+{
+    for (size_t i = 0; i < s->dim; i++) term[i] = h * f[i];
+    return (s->dim == 2 ? continue_series_of_pair : continue_series)(s, h, most, term);
 }
 
 static void set_terms(struct linear *s)
 {
-    if (s->dim == 2)
-        make_terms(s, 2); /* see apply_matrix */
-    else
-        make_terms(s, s->dim);
+    s->used = make_series(s, s->h, terms, s->f0, s->term);
+    s->has_terms = true;
 }
 
 static void sum_terms(const struct linear *s, double theta, double *y)
@@ -337,28 +362,14 @@ void linear_dense_eval(const gsl_odeiv2_step *step, double theta, double *y)
 
 /* The series about the middle m of a piece, where the slope is f0 + A (y(m) - y0). Over half of a step h rho is 1 at most,
  * and what is left out below 1/21! = 2e-20. The degree. */
-static inline __attribute__((always_inline)) int expand(const struct linear *s, size_t dim,
-                                                        const struct powers_piece *piece, double *c)
+static int expand(const struct linear *s, const struct powers_piece *piece, double *c)
 {
-    const double least = 4e-18;
-    double *next = c + dim, bound = 1, h = piece->radius * s->h;
+    double *f = s->work;
     sum_terms(s, piece->middle, c);
-    for (size_t i = 0; i < dim; i++) s->work[i] = c[i] - s->y0[i];
-    apply_matrix(dim, s->A, s->work, next);
-    for (size_t i = 0; i < dim; i++) next[i] = h * (next[i] + s->f0[i]);
-    int degree = 1;
-    for (; degree < linear_most_powers; degree++, next += dim) {
-        double factor = h / (degree + 1), size = 0;
-        bound *= factor * s->rho;
-        if (bound < least && (size_t)degree >= dim) break;
-        apply_matrix(dim, s->A, next, next + dim);
-        for (size_t i = 0; i < dim; i++) {
-            next[dim + i] *= factor;
-            size += fabs(next[dim + i]);
-        }
-        if (size == 0) break;
-    }
-    return degree;
+    for (size_t i = 0; i < s->dim; i++) c[s->dim + i] = c[i] - s->y0[i];
+    apply_matrix(s->dim, s->A, c + s->dim, f);
+    for (size_t i = 0; i < s->dim; i++) f[i] += s->f0[i];
+    return make_series(s, piece->radius * s->h, linear_most_powers, f, c + s->dim);
 }
 
 int linear_dense_powers(const gsl_odeiv2_step *step, size_t i, const struct powers_piece *piece, double *c)
@@ -368,7 +379,7 @@ int linear_dense_powers(const gsl_odeiv2_step *step, size_t i, const struct powe
     bool same = s->degree >= 0 && piece->middle == s->piece.middle && piece->radius == s->piece.radius;
     if (!same) {
         s->piece = *piece;
-        s->degree = s->dim == 2 ? expand(s, 2, piece, s->power) : expand(s, s->dim, piece, s->power);
+        s->degree = expand(s, piece, s->power);
     }
     for (int k = 0; k <= s->degree; k++) c[k] = s->power[(size_t)k * s->dim + i];
     return s->degree;

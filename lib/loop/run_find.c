@@ -34,6 +34,15 @@ static bool end_at(struct run *run, double t)
     return true;
 }
 
+/* The functions at the state that end_at has left. */
+static void evaluate_at(struct run *run, double t)
+{
+    double *values = run->work.values, *rates = values + run->search.moving.count;
+    if (watchers_evaluate_affine(&run->watchers, run->work.y, run->work.f, values, rates)) return;
+    watchers_evaluate(&run->watchers, &run->watchers.moving, run->during, moment_at(t), run->work.y, values,
+                      rates);
+}
+
 /* Go back to the event that the scan has found and improve its time: the partial step has the full accuracy
  * of the method, the dense output may have less. Newton on the function that reaches zero first; y and f are
  * left at the result, which is at *t + *move, the move being of the size of a rounding where it has
@@ -45,8 +54,7 @@ static bool polish(struct run *run, double step_end, double *t, double *move)
     const struct scan *scan = &run->search.moving;
     for (int step = 0;; step++) {
         if (!end_at(run, *t)) return false;
-        watchers_evaluate(&run->watchers, &run->watchers.moving, run->during, moment_at(*t), run->work.y,
-                          run->work.values, run->work.values + scan->count);
+        evaluate_at(run, *t);
         *move = HUGE_VAL;
         for (size_t i = 0; i < scan->count; i++)
             if (scan->crossed[i]) *move = fmin(*move, time_left(run, i));
@@ -86,11 +94,10 @@ static bool goes_down(const struct run *run, double t, double end)
  * On return y and f are those at t again. */
 static bool is_down_at_end(struct run *run, double t, double end)
 {
-    double *values = run->work.values, *rates = values + run->search.moving.count;
+    const double *values = run->work.values;
     bool down = false;
     if (!end_at(run, end)) return true;
-    watchers_evaluate(&run->watchers, &run->watchers.moving, run->during, moment_at(end), run->work.y, values,
-                      rates);
+    evaluate_at(run, end);
     for (size_t i = 0; i < run->search.moving.count; i++)
         down |= run->search.moving.crossed[i] && values[i] < 0;
     return end_at(run, t) && down;

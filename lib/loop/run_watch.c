@@ -95,7 +95,7 @@ static bool enclose_affine(struct run *run, size_t group, const struct stretch *
     const struct proof_group *those = &run->watchers.moving.groups[group];
     struct affine *f = run->watchers.affine + those->first;
     for (size_t i = 0; i < those->count; i++)
-        if (!affine_enclose(&f[i], &run->course, stretch, &out[i])) return false;
+        if (!f[i].known || !affine_enclose(&f[i], &run->course, stretch, &out[i])) return false;
     return true;
 }
 
@@ -108,7 +108,8 @@ static double zero_of_affine(void *context, size_t i, double low, double high)
 static void enclose_moving(void *context, size_t group, const struct stretch *stretch, struct enclosure *out)
 {
     struct run *run = context;
-    if (enclose_affine(run, group, stretch, out)) return;
+    bool affine = run->course.exact && run->watchers.any_affine;
+    if (affine && enclose_affine(run, group, stretch, out)) return;
     /* What slides shares forces that other groups read. */
     const bool *wanted = state_sliding(run->during) ? NULL : run->search.reads + group * run->course.count;
     course_enclose(&run->course, stretch, wanted);
@@ -206,7 +207,7 @@ static double follow(struct run *run, double from, double to, bool coarse, const
         degree = course_most_degree;
     }
     set_noise(run);
-    coarse = coarse && degree > simple && run->options.step == 0;
+    coarse = coarse && degree > simple && run->options.step == 0 && !structure_is_exact(run->kind);
     if (follow_powers(run, from, to, coarse, wanted)) return to;
     int status = coarse ? course_set_coarse(&run->course, from, to, wanted, sample_course, run)
                         : course_set(&run->course, from, to, wanted, degree, negligible, sample_course, run);
