@@ -64,7 +64,9 @@ struct linear_pace {
     struct linear_modes *kept; /* linear_most_kept: of the matrices met last */
     struct linear_modes *now;
     size_t oldest;
-    size_t modes;                   /* ints that say which matrix it is */
+    size_t modes;            /* ints that say which matrix it is */
+    struct linear_key *keys; /* linear_most_keys */
+    size_t oldest_key;
     double *jacobian, *copy, *work; /* dim dim, dim dim, 3 dim */
     gsl_eigen_nonsymm_workspace *eigen;
 };
@@ -73,11 +75,16 @@ struct linear_pace {
 struct linear_modes {
     double *A; /* dim dim */
     double rho;
-    int *modes; /* those in which it was met last */
     gsl_vector_complex *eigenvalues;
 };
 
-enum { linear_most_kept = 4 };
+/* Modes that have been met, and the matrix there; NULL: none yet. A block slips both ways with one. */
+struct linear_key {
+    int *modes;
+    struct linear_modes *of;
+};
+
+enum { linear_most_kept = 4, linear_most_keys = 16 };
 
 /* For systems of this dimension, whose matrix follows from so many ints. False when memory is out; to be freed in any case. */
 bool linear_pace_init(struct linear_pace *pace, size_t dim, size_t modes);

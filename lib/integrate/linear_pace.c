@@ -8,26 +8,28 @@
 #include "integrate/linear.h"
 #include "integrate/stiffness.h"
 
-static bool modes_init(struct linear_modes *modes, size_t dim, size_t ints)
+static bool modes_init(struct linear_modes *modes, size_t dim)
 {
-    modes->modes = calloc(ints + 1, sizeof *modes->modes);
     modes->A = calloc(dim * dim + 1, sizeof *modes->A);
     modes->rho = NAN; /* of no matrix */
     modes->eigenvalues = gsl_vector_complex_calloc(dim);
-    return modes->A && modes->modes && modes->eigenvalues;
+    return modes->A && modes->eigenvalues;
 }
 
 bool linear_pace_init(struct linear_pace *pace, size_t dim, size_t modes)
 {
     *pace = (struct linear_pace){.dim = dim, .modes = modes};
     pace->kept = calloc(linear_most_kept, sizeof *pace->kept);
+    pace->keys = calloc(linear_most_keys, sizeof *pace->keys + modes * sizeof(int));
     pace->jacobian = calloc(2 * dim * dim + 3 * dim + 1, sizeof *pace->jacobian);
     pace->eigen = gsl_eigen_nonsymm_alloc(dim);
-    if (!pace->kept || !pace->jacobian || !pace->eigen) return false;
+    if (!pace->kept || !pace->keys || !pace->jacobian || !pace->eigen) return false;
     pace->copy = pace->jacobian + dim * dim;
     pace->work = pace->copy + dim * dim;
     for (size_t i = 0; i < linear_most_kept; i++)
-        if (!modes_init(&pace->kept[i], dim, modes)) return false;
+        if (!modes_init(&pace->kept[i], dim)) return false;
+    int *behind = (int *)(pace->keys + linear_most_keys);
+    for (size_t i = 0; i < linear_most_keys; i++) pace->keys[i].modes = behind + i * modes;
     return true;
 }
 
@@ -35,11 +37,11 @@ void linear_pace_free(struct linear_pace *pace)
 {
     for (size_t i = 0; pace->kept && i < linear_most_kept; i++) {
         free(pace->kept[i].A);
-        free(pace->kept[i].modes);
         if (pace->kept[i].eigenvalues) gsl_vector_complex_free(pace->kept[i].eigenvalues);
     }
     if (pace->eigen) gsl_eigen_nonsymm_free(pace->eigen);
     free(pace->kept);
+    free(pace->keys);
     free(pace->jacobian);
     *pace = (struct linear_pace){0};
 }
@@ -56,11 +58,25 @@ static struct linear_modes *find_modes(const struct linear_pace *pace)
 
 static struct linear_modes *met_in(const struct linear_pace *pace, const int *modes)
 {
-    for (size_t i = 0; modes && i < linear_most_kept; i++) {
-        struct linear_modes *kept = &pace->kept[i];
-        if (!isnan(kept->rho) && memcmp(kept->modes, modes, pace->modes * sizeof *modes) == 0) return kept;
+    for (size_t i = 0; modes && i < linear_most_keys; i++) {
+        const struct linear_key *key = &pace->keys[i];
+        if (key->of && memcmp(key->modes, modes, pace->modes * sizeof *modes) == 0) return key->of;
     }
     return NULL;
+}
+
+static void remember(struct linear_pace *pace, const int *modes)
+{
+    struct linear_key *key = &pace->keys[pace->oldest_key];
+    pace->oldest_key = (pace->oldest_key + 1) % linear_most_keys;
+    memcpy(key->modes, modes, pace->modes * sizeof *modes);
+    key->of = pace->now;
+}
+
+static void forget(struct linear_pace *pace, const struct linear_modes *modes)
+{
+    for (size_t i = 0; i < linear_most_keys; i++)
+        if (pace->keys[i].of == modes) pace->keys[i].of = NULL;
 }
 
 /* Analyse pace->jacobian, in place of the matrix that was analysed first. */
@@ -69,6 +85,7 @@ static struct linear_modes *make_modes(struct linear_pace *pace)
     struct linear_modes *modes = &pace->kept[pace->oldest];
     size_t dim = pace->dim, size = dim * dim * sizeof *pace->jacobian;
     pace->oldest = (pace->oldest + 1) % linear_most_kept;
+    forget(pace, modes);
     memcpy(modes->A, pace->jacobian, size);
     memcpy(pace->copy, pace->jacobian, size);
     modes->rho = stiffness_rate(dim, modes->A, pace->work);
@@ -89,7 +106,7 @@ void linear_pace_start(struct linear_pace *pace, struct counted_system *system, 
     if (GSL_ODEIV_JA_EVAL(&system->gsl, t, y, pace->jacobian, dfdt) != GSL_SUCCESS) return;
     pace->now = find_modes(pace);
     if (!pace->now) pace->now = make_modes(pace);
-    if (modes) memcpy(pace->now->modes, modes, pace->modes * sizeof *modes);
+    if (modes) remember(pace, modes);
 }
 
 /* The largest measure of an eigenvalue among the modes that are still there at t. */
