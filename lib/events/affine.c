@@ -147,7 +147,10 @@ static void set_rough(struct affine *f)
 static void follow(struct affine *f, const struct course *course)
 {
     const double roundings = 4;
+    double radius = (course->to - course->from) / 2;
     f->piece = course->piece;
+    f->middle = course->from + radius;
+    f->per = 1 / radius;
     f->top = 0;
     f->power[0] = f->constant;
     f->doubt = f->bend = 0;
@@ -189,14 +192,13 @@ bool affine_enclose(struct affine *f, const struct course *course, const struct 
 {
     const double is_long = 1.0 / 8;
     if (!is_followed(f, course)) return false;
-    double radius = (course->to - course->from) / 2, middle = course->from + radius, slope;
-    double r = stretch_radius(stretch) / radius, s = (stretch->middle - middle) / radius;
+    double r = stretch_radius(stretch) * f->per, s = (stretch->middle - f->middle) * f->per, slope;
     bool rough = r >= is_long;
     double value = value_at(f, rough ? f->rough : f->top, s, &slope), rest = rough ? f->rest : 0;
     double reach = (fabs(slope) + f->bend * r / 2) * r + rest + f->doubt,
            steep = f->bend * r + rest + f->doubt * course->degree;
     out->value = interval_widen(value - reach, value + reach + f->slack, 1);
-    out->rate = interval_widen((slope - steep) / radius, (slope + steep) / radius, 2);
+    out->rate = interval_widen((slope - steep) * f->per, (slope + steep) * f->per, 3);
     out->middle =
         interval_widen(value - f->doubt, value + f->doubt + f->slack, 1); /* as wide as its rounding */
     return true;
@@ -210,8 +212,7 @@ double affine_zero(struct affine *f, const struct course *course, double low, do
 {
     enum { most_steps = 60 };
     if (!is_followed(f, course)) return (double)NAN;
-    double radius = (course->to - course->from) / 2, middle = course->from + radius, slope;
-    double a = (low - middle) / radius, b = (high - middle) / radius;
+    double a = (low - f->middle) * f->per, b = (high - f->middle) * f->per, slope;
     double above = value_at(f, f->top, a, &slope), below = value_at(f, f->top, b, &slope);
     if (!(above > 0) || !(below < 0)) return (double)NAN;
     double s = a + (b - a) * (above / (above - below));
@@ -221,10 +222,9 @@ double affine_zero(struct affine *f, const struct course *course, double low, do
             a = s;
         else
             b = s;
-        bool inside = s + d > a && s + d < b;
-        if (!inside) d = a + (b - a) / 2 - s;
-        s += d;
-        if (fabs(d) <= DBL_EPSILON || (inside && f->bend * d * d <= DBL_EPSILON * fabs(slope))) break;
+        bool there = f->bend * d * d <= DBL_EPSILON * fabs(slope) || b - a <= DBL_EPSILON;
+        if (there) return f->middle + (s + d) / f->per;
+        s = s + d > a && s + d < b ? s + d : a + (b - a) / 2;
     }
-    return middle + radius * s;
+    return f->middle + s / f->per;
 }

@@ -28,6 +28,7 @@ struct affine {
     } terms[affine_most_terms];
     /* Over a piece of the course: */
     unsigned long piece; /* its number, 0: none */
+    double middle, per;  /* s = (t - middle) per */
     int top;             /* of the powers of s, below zero where the course does not tell */
     int rough;           /* of those that tell enough over long stretches */
     double power[course_most_powers + 1];
