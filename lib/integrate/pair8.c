@@ -10,6 +10,7 @@
 
 #include "base/zeroed.h"
 #include "integrate/dop853_table.h"
+#include "integrate/pair8_sums.h"
 #include "integrate/rk8pd_table.h"
 
 enum { dense_terms = 8 };
@@ -36,8 +37,6 @@ struct pair8 {
     bool prepared;      /* so does the dense output */
     double v[];
 };
-
-#define INLINE static inline __attribute__((always_inline))
 
 /* Both pairs have their stages from the same of those before, so their sums are written once. */
 struct tableau {
@@ -103,90 +102,52 @@ INLINE int evaluate(struct pair8 *s, const struct tableau *tableau, size_t n, in
     return GSL_ODEIV_FN_EVAL(sys, s->t + tableau->c[i] * s->h, argument, vector_of(s, n, i));
 }
 
-/* Sums are written out: a loop over the coefficients takes a tenth more time for the step of a pendulum.
- *
- * `volatile` keeps compilers from using vector instructions. Vectors of two would be filled from what the
- * right-hand side has just stored number by number, and a wide load must wait for narrow stores to leave
- * the processor's store buffer: in the systems of two numbers that most scenes are, the step takes 40 %
- * more time (gcc -O3, clang -O2). In a system of twenty the vectors would save a tenth of the sums, which
- * are little beside its right-hand side. */
-INLINE int stages_2_to_7(struct pair8 *s, const struct tableau *tableau, size_t n, const double *y,
-                         const gsl_odeiv2_system *sys)
+/* u = y + h sum a_ij k_j, the argument of stage i of the row `row`; `rest`, where there is one, belongs to y. */
+INLINE void set_argument(struct pair8 *s, size_t n, const double *row, int i, const double *y,
+                         const double *rest)
 {
-    const double(*a)[dop853_stages + 1] = tableau->a;
-    const double *k1 = vector_of(s, n, 1), *k2 = vector_of(s, n, 2), *k3 = vector_of(s, n, 3);
-    const double *k4 = vector_of(s, n, 4), *k5 = vector_of(s, n, 5), *k6 = vector_of(s, n, 6);
-    const double *r = vector_of(s, n, v_rest);
-    volatile double *u = vector_of(s, n, v_argument);
-    double h = s->h;
-    int status;
-    for (size_t i = 0; i < n; i++) u[i] = y[i] + (r[i] + h * (a[2][1] * k1[i]));
-    if ((status = evaluate(s, tableau, n, 2, sys))) return status;
-    for (size_t i = 0; i < n; i++) u[i] = y[i] + (r[i] + h * (a[3][1] * k1[i] + a[3][2] * k2[i]));
-    if ((status = evaluate(s, tableau, n, 3, sys))) return status;
-    for (size_t i = 0; i < n; i++) u[i] = y[i] + (r[i] + h * (a[4][1] * k1[i] + a[4][3] * k3[i]));
-    if ((status = evaluate(s, tableau, n, 4, sys))) return status;
-    for (size_t i = 0; i < n; i++)
-        u[i] = y[i] + (r[i] + h * (a[5][1] * k1[i] + a[5][3] * k3[i] + a[5][4] * k4[i]));
-    if ((status = evaluate(s, tableau, n, 5, sys))) return status;
-    for (size_t i = 0; i < n; i++)
-        u[i] = y[i] + (r[i] + h * (a[6][1] * k1[i] + a[6][4] * k4[i] + a[6][5] * k5[i]));
-    if ((status = evaluate(s, tableau, n, 6, sys))) return status;
-    for (size_t i = 0; i < n; i++)
-        u[i] = y[i] + (r[i] + h * (a[7][1] * k1[i] + a[7][4] * k4[i] + a[7][5] * k5[i] + a[7][6] * k6[i]));
-    return evaluate(s, tableau, n, 7, sys);
+    const double *k = vector_of(s, n, 1), h = s->h;
+    double *u = vector_of(s, n, v_argument);
+    size_t c = 0;
+    for (; c + 1 < n; c += 2) {
+        two rise = h * sum_of_two(row, i, k + c, n);
+        store_two(u + c, load_two(y + c) + (rest ? load_two(rest + c) + rise : rise));
+    }
+    if (c == n) return;
+    double rise = h * sum_of_one(row, i, k + c, n);
+    u[c] = y[c] + (rest ? rest[c] + rise : rise);
 }
 
-INLINE int stages_8_to_12(struct pair8 *s, const struct tableau *tableau, size_t n, const double *y,
+INLINE int stage(struct pair8 *s, const struct tableau *tableau, size_t n, int i, const double *y,
+                 const gsl_odeiv2_system *sys)
+{
+    set_argument(s, n, tableau->a[i], i, y, vector_of(s, n, v_rest));
+    return evaluate(s, tableau, n, i, sys);
+}
+
+/* Stage by stage: a loop takes a tenth more time for the step of a pendulum. */
+INLINE int stages_2_to_12(struct pair8 *s, const struct tableau *tableau, size_t n, const double *y,
                           const gsl_odeiv2_system *sys)
 {
-    const double(*a)[dop853_stages + 1] = tableau->a;
-    const double *k1 = vector_of(s, n, 1), *k4 = vector_of(s, n, 4), *k5 = vector_of(s, n, 5);
-    const double *k6 = vector_of(s, n, 6), *k7 = vector_of(s, n, 7), *k8 = vector_of(s, n, 8);
-    const double *k9 = vector_of(s, n, 9), *k10 = vector_of(s, n, 10), *k11 = vector_of(s, n, 11);
-    const double *r = vector_of(s, n, v_rest);
-    volatile double *u = vector_of(s, n, v_argument);
-    double h = s->h;
-    int status;
-    for (size_t i = 0; i < n; i++)
-        u[i] = y[i] + (r[i] + h * (a[8][1] * k1[i] + a[8][4] * k4[i] + a[8][5] * k5[i] + a[8][6] * k6[i] +
-                                   a[8][7] * k7[i]));
-    if ((status = evaluate(s, tableau, n, 8, sys))) return status;
-    for (size_t i = 0; i < n; i++)
-        u[i] = y[i] + (r[i] + h * (a[9][1] * k1[i] + a[9][4] * k4[i] + a[9][5] * k5[i] + a[9][6] * k6[i] +
-                                   a[9][7] * k7[i] + a[9][8] * k8[i]));
-    if ((status = evaluate(s, tableau, n, 9, sys))) return status;
-    for (size_t i = 0; i < n; i++)
-        u[i] = y[i] + (r[i] + h * (a[10][1] * k1[i] + a[10][4] * k4[i] + a[10][5] * k5[i] + a[10][6] * k6[i] +
-                                   a[10][7] * k7[i] + a[10][8] * k8[i] + a[10][9] * k9[i]));
-    if ((status = evaluate(s, tableau, n, 10, sys))) return status;
-    for (size_t i = 0; i < n; i++)
-        u[i] =
-            y[i] + (r[i] + h * (a[11][1] * k1[i] + a[11][4] * k4[i] + a[11][5] * k5[i] + a[11][6] * k6[i] +
-                                a[11][7] * k7[i] + a[11][8] * k8[i] + a[11][9] * k9[i] + a[11][10] * k10[i]));
-    if ((status = evaluate(s, tableau, n, 11, sys))) return status;
-    for (size_t i = 0; i < n; i++)
-        u[i] = y[i] + (r[i] + h * (a[12][1] * k1[i] + a[12][4] * k4[i] + a[12][5] * k5[i] + a[12][6] * k6[i] +
-                                   a[12][7] * k7[i] + a[12][8] * k8[i] + a[12][9] * k9[i] +
-                                   a[12][10] * k10[i] + a[12][11] * k11[i]));
-    return evaluate(s, tableau, n, 12, sys);
+    int status = stage(s, tableau, n, 2, y, sys);
+    if (status == GSL_SUCCESS) status = stage(s, tableau, n, 3, y, sys);
+    if (status == GSL_SUCCESS) status = stage(s, tableau, n, 4, y, sys);
+    if (status == GSL_SUCCESS) status = stage(s, tableau, n, 5, y, sys);
+    if (status == GSL_SUCCESS) status = stage(s, tableau, n, 6, y, sys);
+    if (status == GSL_SUCCESS) status = stage(s, tableau, n, 7, y, sys);
+    if (status == GSL_SUCCESS) status = stage(s, tableau, n, 8, y, sys);
+    if (status == GSL_SUCCESS) status = stage(s, tableau, n, 9, y, sys);
+    if (status == GSL_SUCCESS) status = stage(s, tableau, n, 10, y, sys);
+    if (status == GSL_SUCCESS) status = stage(s, tableau, n, 11, y, sys);
+    return status == GSL_SUCCESS ? stage(s, tableau, n, 12, y, sys) : status;
 }
 
 /* Of rk8pd; its row has no stage 12. */
 INLINE int stage_13(struct pair8 *s, const struct tableau *tableau, size_t n, const double *y,
                     const gsl_odeiv2_system *sys)
 {
-    const double *a = tableau->a[13];
-    const double *k1 = vector_of(s, n, 1), *k4 = vector_of(s, n, 4), *k5 = vector_of(s, n, 5);
-    const double *k6 = vector_of(s, n, 6), *k7 = vector_of(s, n, 7), *k8 = vector_of(s, n, 8);
-    const double *k9 = vector_of(s, n, 9), *k10 = vector_of(s, n, 10), *k11 = vector_of(s, n, 11);
-    const double *r = vector_of(s, n, v_rest);
-    double *u = vector_of(s, n, v_argument), h = s->h;
-    for (size_t i = 0; i < n; i++)
-        ((volatile double *)u)[i] =
-            y[i] + (r[i] + h * (a[1] * k1[i] + a[4] * k4[i] + a[5] * k5[i] + a[6] * k6[i] + a[7] * k7[i] +
-                                a[8] * k8[i] + a[9] * k9[i] + a[10] * k10[i] + a[11] * k11[i]));
-    return GSL_ODEIV_FN_EVAL(sys, s->t + h, u, vector_of(s, n, v_stage_13));
+    set_argument(s, n, tableau->a[13], 13, y, vector_of(s, n, v_rest));
+    return GSL_ODEIV_FN_EVAL(sys, s->t + s->h, vector_of(s, n, v_argument), vector_of(s, n, v_stage_13));
 }
 
 /* The error estimate of dop853 from its two parts. The test is `!= 0`, so that a NaN stays one for the
@@ -205,37 +166,41 @@ static inline double lost(double a, double b, double sum)
     return (a - a_part) + (b - b_part);
 }
 
+/* The sums of the step, to y1, to yerr and, of dop853, to r1. Stage 13 of rk8pd is the last of all. */
+INLINE void set_sums(struct pair8 *s, const struct tableau *tableau, size_t n, double *yerr)
+{
+    const double *k = vector_of(s, n, 1), *more = vector_of(s, n, v_stage_13);
+    const double *b = tableau->b, *e = tableau->e;
+    double *y1 = vector_of(s, n, v_end), *r1 = vector_of(s, n, v_rest_end);
+    size_t c = 0;
+    for (; c + 1 < n; c += 2) {
+        two rise = sum_of_two(b, 13, k + c, n), error = sum_of_two(e, 13, k + c, n);
+        if (tableau->more) {
+            rise += b[13] * load_young(more + c);
+            error += e[13] * load_young(more + c);
+        }
+        store_two(y1 + c, rise);
+        store_two(yerr + c, error);
+        if (tableau->low) store_two(r1 + c, sum_of_two(tableau->low, 13, k + c, n));
+    }
+    if (c == n) return;
+    y1[c] = sum_of_one(b, 13, k + c, n) + (tableau->more ? b[13] * more[c] : 0);
+    yerr[c] = sum_of_one(e, 13, k + c, n) + (tableau->more ? e[13] * more[c] : 0);
+    if (tableau->low) r1[c] = sum_of_one(tableau->low, 13, k + c, n);
+}
+
 /* y1 and its error. False if y1 is not finite: zero times a sum is zero unless an infinity or a NaN is
  * among its terms. */
 INLINE bool finish(struct pair8 *s, const struct tableau *tableau, size_t n, const double *restrict y,
                    double *restrict yerr)
 {
     const double *restrict r = vector_of(s, n, v_rest);
-    double *restrict r1 = vector_of(s, n, v_rest_end);
-    const double *b = tableau->b, *p = tableau->e, *q = tableau->low;
-    const double *restrict k1 = vector_of(s, n, 1), *restrict k6 = vector_of(s, n, 6),
-                           *restrict k7 = vector_of(s, n, 7);
-    const double *restrict k8 = vector_of(s, n, 8), *restrict k9 = vector_of(s, n, 9),
-                           *restrict k10 = vector_of(s, n, 10);
-    const double *restrict k11 = vector_of(s, n, 11), *restrict k12 = vector_of(s, n, 12);
-    const double *restrict more = vector_of(s, n, v_stage_13);
-    double *restrict y1 = vector_of(s, n, v_end), h = s->h, probe = 0;
+    double *restrict r1 = vector_of(s, n, v_rest_end), *restrict y1 = vector_of(s, n, v_end);
+    double h = s->h, probe = 0;
+    set_sums(s, tableau, n, yerr);
     for (size_t i = 0; i < n; i++) {
-        double sum = b[1] * k1[i] + b[6] * k6[i] + b[7] * k7[i] + b[8] * k8[i] + b[9] * k9[i] +
-                     b[10] * k10[i] + b[11] * k11[i] + b[12] * k12[i];
-        double e = p[1] * k1[i] + p[6] * k6[i] + p[7] * k7[i] + p[8] * k8[i] + p[9] * k9[i] + p[10] * k10[i] +
-                   p[11] * k11[i] + p[12] * k12[i];
-        if (tableau->more) {
-            sum += b[13] * more[i];
-            e += p[13] * more[i];
-        }
-        yerr[i] = h * e;
-        if (q) {
-            double low = q[1] * k1[i] + q[6] * k6[i] + q[7] * k7[i] + q[8] * k8[i] + q[9] * k9[i] +
-                         q[10] * k10[i] + q[11] * k11[i] + q[12] * k12[i];
-            yerr[i] = estimate(h * e, h * low);
-        }
-        double rise = r[i] + h * sum;
+        yerr[i] = tableau->low ? estimate(h * yerr[i], h * r1[i]) : h * yerr[i];
+        double rise = r[i] + h * y1[i];
         y1[i] = y[i] + rise;
         r1[i] = lost(y[i], rise, y1[i]);
         probe += 0 * y1[i];
@@ -246,8 +211,7 @@ INLINE bool finish(struct pair8 *s, const struct tableau *tableau, size_t n, con
 INLINE int stages(struct pair8 *s, const struct tableau *tableau, size_t n, const double *y, double *yerr,
                   const gsl_odeiv2_system *sys)
 {
-    int status = stages_2_to_7(s, tableau, n, y, sys);
-    if (status == GSL_SUCCESS) status = stages_8_to_12(s, tableau, n, y, sys);
+    int status = stages_2_to_12(s, tableau, n, y, sys);
     if (status == GSL_SUCCESS && tableau->more) status = stage_13(s, tableau, n, y, sys);
     if (status != GSL_SUCCESS) return status;
     return finish(s, tableau, n, y, yerr) ? GSL_SUCCESS : GSL_FAILURE;
@@ -318,43 +282,17 @@ static int rk8pd_apply(void *state, size_t n, double t, double h, double y[], do
     return apply(state, &rk8pd, n, t, h, y, yerr, dydt_in, dydt_out, sys);
 }
 
-/* The arguments of the stages that dense output alone needs, written out as those of the step: every step with something
- * to watch makes them. */
+/* The stages that dense output alone needs; their arguments have no rest. Every step with something to watch makes them. */
 INLINE int dense_stages(struct pair8 *s, size_t n, const gsl_odeiv2_system *sys)
 {
-    const double(*a)[dop853_stages + 1] = dop853_a;
-    const double *k1 = vector_of(s, n, 1), *k6 = vector_of(s, n, 6), *k7 = vector_of(s, n, 7),
-                 *k8 = vector_of(s, n, 8);
-    const double *k9 = vector_of(s, n, 9), *k10 = vector_of(s, n, 10), *k11 = vector_of(s, n, 11),
-                 *k12 = vector_of(s, n, 12);
-    const double *k13 = vector_of(s, n, 13), *k14 = vector_of(s, n, 14), *k15 = vector_of(s, n, 15),
-                 *y0 = vector_of(s, n, v_start);
-    volatile double *u = vector_of(s, n, v_argument);
-    double h = s->h;
+    const double *y0 = vector_of(s, n, v_start);
     int status;
-    for (size_t i = 0; i < n; i++)
-        u[i] =
-            y0[i] + h * (a[14][1] * k1[i] + a[14][7] * k7[i] + a[14][8] * k8[i] + a[14][9] * k9[i] +
-                         a[14][10] * k10[i] + a[14][11] * k11[i] + a[14][12] * k12[i] + a[14][13] * k13[i]);
+    set_argument(s, n, dop853_a[14], 14, y0, NULL);
     if ((status = evaluate(s, &dop853, n, 14, sys))) return status;
-    for (size_t i = 0; i < n; i++)
-        u[i] =
-            y0[i] + h * (a[15][1] * k1[i] + a[15][6] * k6[i] + a[15][7] * k7[i] + a[15][8] * k8[i] +
-                         a[15][11] * k11[i] + a[15][12] * k12[i] + a[15][13] * k13[i] + a[15][14] * k14[i]);
+    set_argument(s, n, dop853_a[15], 15, y0, NULL);
     if ((status = evaluate(s, &dop853, n, 15, sys))) return status;
-    for (size_t i = 0; i < n; i++)
-        u[i] = y0[i] + h * (a[16][1] * k1[i] + a[16][6] * k6[i] + a[16][7] * k7[i] + a[16][8] * k8[i] +
-                            a[16][9] * k9[i] + a[16][13] * k13[i] + a[16][14] * k14[i] + a[16][15] * k15[i]);
+    set_argument(s, n, dop853_a[16], 16, y0, NULL);
     return evaluate(s, &dop853, n, 16, sys);
-}
-
-/* h times the sum with a row d, for the component whose first stage is k; stages are n apart. */
-INLINE double high_term(double h, const double *d, const double *k, size_t n)
-{
-    const double *k6 = k + 5 * n;
-    return h * (d[1] * k[0] + d[6] * k6[0] + d[7] * k6[n] + d[8] * k6[2 * n] + d[9] * k6[3 * n] +
-                d[10] * k6[4 * n] + d[11] * k6[5 * n] + d[12] * k6[6 * n] + d[13] * k6[7 * n] +
-                d[14] * k6[8 * n] + d[15] * k6[9 * n] + d[16] * k6[10 * n]);
 }
 
 /* The polynomial of dop853_dense_eval from its end values and end slopes, and from the rows d (HNW I,
@@ -371,7 +309,7 @@ INLINE void set_polynomial(struct pair8 *s, size_t n)
         c[n + i] = rise;
         c[2 * n + i] = bend;
         c[3 * n + i] = rise - s->h * k13[i] - bend;
-        for (size_t m = 0; m < 4; m++) c[(4 + m) * n + i] = high_term(s->h, dop853_d[m], k1 + i, n);
+        for (size_t m = 0; m < 4; m++) c[(4 + m) * n + i] = s->h * sum_of_one(dop853_d[m], 17, k1 + i, n);
     }
 }
 
