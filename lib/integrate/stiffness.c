@@ -48,10 +48,15 @@ void stiffness_forget(struct stiffness *s)
  * to be followed. As the rate is that of what differs between two stages, attempts are not left out for ever. */
 bool stiffness_due(struct stiffness *s, double h_rate)
 {
+    enum { most_waits = 4 };
     const double slow = 0.5;
     if (s->wait > 0) s->wait--;
     if (s->wait > 0) return false;
-    if (!s->implicit && s->dear > 1 && h_rate < slow && ++s->calm < waits(s, longest_interval)) return false;
+    bool calm = !s->implicit && h_rate<slow, large = s->dear> 1;
+    if (calm && ++s->calm < (large ? waits(s, longest_interval) : most_waits)) {
+        if (!large) s->wait = s->interval;
+        return false;
+    }
     s->calm = 0;
     return true;
 }

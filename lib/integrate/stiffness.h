@@ -33,7 +33,7 @@
  * attempts grow alike.
  *
  * The functions are pure bookkeeping; making the attempt is up to the caller. Its cost is that of one in 64
- * steps where nothing changes.
+ * steps where nothing changes, and of one in 256 where nothing looks stiff.
  */
 #ifndef FBD_INTEGRATE_STIFFNESS_H
 #define FBD_INTEGRATE_STIFFNESS_H
@@ -46,7 +46,7 @@ struct stiffness {
     int interval;  /* accepted steps from the last attempt to the next one */
     int wait;      /* ... and what is left of them */
     int votes;     /* answers in a row for the other method */
-    int calm;      /* steps in a row in which an attempt was due and nothing looked stiff */
+    int calm;      /* how often in a row an attempt was due and nothing looked stiff */
     double dear;   /* how much dearer a step of the implicit method is than in a small system, >= 1 */
 };
 
@@ -58,8 +58,8 @@ void stiffness_start(struct stiffness *stiffness, size_t coordinates);
 void stiffness_forget(struct stiffness *stiffness);
 
 /* Count an accepted step; true when the other method is to attempt it now. `h_rate` is the size of the step times the
- * fastest rate that the explicit method has seen in it: in a large system, where an attempt costs as much as many steps,
- * it is put off while that is far from stiff. */
+ * fastest rate that the explicit method has seen in it: while that is far from stiff an attempt is put off. In a small
+ * system, for three more waits. In a large one, where it costs as much as many steps, for more steps, each of which asks again. */
 bool stiffness_due(struct stiffness *stiffness, double h_rate);
 
 /* The size of the step that the other method attempts, for one of the step that has been made. */
