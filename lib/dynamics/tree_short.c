@@ -22,14 +22,6 @@ static inline double moment_of_forces(const struct tree_link *link, struct vec t
     return link->sine * turn.y + link->cosine * turn.x;
 }
 
-/* vec_unit, by the library's own sines. */
-static inline struct vec unit(double angle)
-{
-    struct vec u;
-    cosine_and_sine(angle, &u.x, &u.y);
-    return vec_without_rounding(u);
-}
-
 static inline double square(double x)
 {
     return x * x;
@@ -54,7 +46,7 @@ struct tree_pole tree_pole_of(const struct tree_link *links)
 void tree_pole(const struct tree_pole *pole, double force, double moment, const double *y, const double *v,
                double *a)
 {
-    struct vec turn = vec_unit(pole->along + y[pole->q]);
+    struct vec turn = unit_by_sine(pole->along + y[pole->q]);
     double C = pole->Q * turn.x - pole->P * turn.y, X = pole->P * turn.x + pole->Q * turn.y, D = pole->D;
     double u = D * (moment + pole->sine * turn.y + pole->cosine * turn.x);
     double own = (force + pole->force + square(v[pole->q]) * X - C * u) / (pole->mass + D * X * X);
@@ -68,7 +60,7 @@ void tree_two_pivots(const struct tree_link *links, const struct tree_bare *s, c
     const struct tree_link *first = &links[0], *last = &links[1];
     int q0 = first->coordinate, q1 = last->coordinate;
     double angle = first->along + y[q0];
-    struct vec turn0 = unit(angle), turn1 = unit(angle + last->along + y[q1]);
+    struct vec turn0 = unit_by_sine(angle), turn1 = unit_by_sine(angle + last->along + y[q1]);
     struct vec d = vec_turn(turn0, last->at), h = vec_turn(turn1, last->moment);
     double C = vec_dot(d, h), X = vec_cross(d, h), D = last->inverse_I_O;
     double u = D * (s[1].g + moment_of_forces(last, turn1) - square(v[q0]) * X);
@@ -86,8 +78,8 @@ void tree_three_pivots(const struct tree_link *links, const struct tree_bare *s,
     const struct tree_link *first = &links[0], *second = &links[1], *last = &links[2];
     int q0 = first->coordinate, q1 = second->coordinate, q2 = last->coordinate;
     double angle0 = first->along + y[q0], angle1 = angle0 + second->along + y[q1];
-    struct vec turn0 = vec_unit(angle0), turn1 = vec_unit(angle1);
-    struct vec turn2 = vec_unit(angle1 + last->along + y[q2]);
+    struct vec turn0 = unit_by_sine(angle0), turn1 = unit_by_sine(angle1);
+    struct vec turn2 = unit_by_sine(angle1 + last->along + y[q2]);
     double w0 = v[q0], w1 = w0 + v[q1], w2 = w1 + v[q2];
     double z0 = w0 * w0, z1 = w1 * w1, z2 = w2 * w2;
     struct vec d0 = vec_turn(turn0, second->at), d1 = vec_turn(turn1, last->at);
