@@ -47,6 +47,14 @@ bool state_project(struct fbd_state *state, bool assemble);
  * they have hardly any, and making them fit would throw the state about by more than it is off. */
 void state_return(struct fbd_state *state);
 
+/* The same, and what was and is left; the links stand where the state is then. */
+struct closing {
+    struct misfit off, left;
+    double energy[2]; /* kinetic, of jointed bodies, before and after */
+};
+
+struct closing state_close(struct fbd_state *state);
+
 /* The same for y[2n] within a step, in the modes of the instant. */
 void return_to_constraints(const struct fbd_model *model, const struct instant *at, double *y);
 

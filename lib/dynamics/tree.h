@@ -154,6 +154,9 @@ double tree_more(const struct model_body *body, const struct instant *at);
 /* Kinematics alone: where the links are, how they move, and what of them there is. */
 void tree_move(const struct fbd_model *model, const struct instant *at);
 
+/* The same for a tree of pivots and slides, whose links that turn are known to be turned so. */
+void tree_move_turned(const struct fbd_model *model, const struct instant *at, const struct vec *turns);
+
 /* ---- parts, for the files of the tree */
 
 /* The variation of where the links are and how they move (tree_motion.c). */

@@ -57,8 +57,22 @@ void tree_loop_forces(const struct tree_loop *loop, const struct instant *at, co
 bool tree_loop_rates(const struct tree_loop *loop, const double *f, const double *y, const double *v,
                      double *a);
 
+/* What the pin is off by, and how fast, and the kinetic energy of the links. */
+struct tree_loop_sight {
+    struct vec off, rate;
+    double energy;
+};
+
+struct tree_loop_closing {
+    struct tree_loop_sight before, after;
+    struct vec turn[4]; /* of the links of the tree that turn, after */
+};
+
 /* Bring y[6] back to the pin, positions and then velocities, with the least change in the sense of the mass matrix, as
  * return_to_constraints does (tree_loop_return.c). False where that has to: y is as it was. */
 bool tree_loop_return(const struct tree_loop *loop, double *y);
+
+/* The same, and what was and is to be seen there. */
+bool tree_loop_close(const struct tree_loop *loop, double *y, struct tree_loop_closing *closing);
 
 #endif

@@ -8,9 +8,12 @@
 
 #include "dynamics/tree_loop.h"
 
-/* The loop at y: its vectors, the motion N that is free with K = M N, and what the pin is off by. */
+/* The loop at y: its vectors, the inertia that two links share, the motion N that is free with K = M N, and what the pin is
+ * off by. */
 struct look {
-    struct vec b[3], gap;
+    double angle[3];
+    struct vec turn[3], b[3], gap;
+    double c01, c02, c12;
     double N[3], K[3], norm, inertia;
 };
 
@@ -19,32 +22,61 @@ static bool goes_on(const struct tree_loop *loop, int i)
     return i == 1 || (i == 2 && loop->chain);
 }
 
-static struct look look_at(const struct tree_loop *loop, const double *y)
+/* The direction at an angle that is next to one looked at before: by the series of sine and cosine, exact to rounding. */
+static struct vec turned_on(struct vec turn, double by)
 {
-    struct look at = {.gap = loop->gap};
-    struct vec S[3];
+    double half = by * by / 2;
+    return vec_without_rounding(
+        (struct vec){turn.x - (half * turn.x + by * turn.y), turn.y - (half * turn.y - by * turn.x)});
+}
+
+/* `at` is the loop elsewhere, or nothing is known of it yet. */
+static void turn_links(const struct tree_loop *loop, const double *y, bool known, struct look *at)
+{
+    const double near = 5e-6;
     double angle = 0;
     for (int i = 0; i < 3; i++) {
         const struct tree_loop_link *link = &loop->links[i];
         angle = goes_on(loop, i) ? angle + link->along : link->along;
         if (link->turns) angle += y[link->coordinate];
-        struct vec turn = link->turns ? vec_unit(angle) : (struct vec){1, 0};
-        at.b[i] = vec_turn(turn, link->b);
-        S[i] = vec_turn(turn, link->S);
-        struct vec way = link->turns ? at.b[i] : vec_scale(y[link->coordinate], vec_perp(at.b[i]));
-        at.gap = vec_add(at.gap, vec_scale(link->inverse_unit, way));
+        double by = angle - at->angle[i];
+        if (!link->turns)
+            at->turn[i] = (struct vec){1, 0};
+        else if (known && fabs(by) <= near)
+            at->turn[i] = turned_on(at->turn[i], by);
+        else
+            at->turn[i] = vec_unit(angle);
+        at->angle[i] = angle;
     }
-    double c01 = vec_dot(at.b[0], S[1]), c02 = loop->chain ? vec_dot(at.b[0], S[2]) : 0,
-           c12 = loop->chain ? vec_dot(at.b[1], S[2]) : 0;
-    for (int i = 0; i < 3; i++) at.N[i] = vec_cross(at.b[(i + 1) % 3], at.b[(i + 2) % 3]);
-    at.K[0] = at.N[0] + c01 * at.N[1] + c02 * at.N[2];
-    at.K[1] = c01 * at.N[0] + at.N[1] + c12 * at.N[2];
-    at.K[2] = c02 * at.N[0] + c12 * at.N[1] + at.N[2];
+}
+
+/* Once the links are turned. */
+static void set_free_motion(const struct tree_loop *loop, const struct vec *S, struct look *at)
+{
+    at->c01 = vec_dot(at->b[0], S[1]);
+    at->c02 = loop->chain ? vec_dot(at->b[0], S[2]) : 0;
+    at->c12 = loop->chain ? vec_dot(at->b[1], S[2]) : 0;
+    for (int i = 0; i < 3; i++) at->N[i] = vec_cross(at->b[(i + 1) % 3], at->b[(i + 2) % 3]);
+    at->K[0] = at->N[0] + at->c01 * at->N[1] + at->c02 * at->N[2];
+    at->K[1] = at->c01 * at->N[0] + at->N[1] + at->c12 * at->N[2];
+    at->K[2] = at->c02 * at->N[0] + at->c12 * at->N[1] + at->N[2];
+    at->norm = at->N[0] * at->N[0] + at->N[1] * at->N[1] + at->N[2] * at->N[2];
+    at->inertia = at->N[0] * at->K[0] + at->N[1] * at->K[1] + at->N[2] * at->K[2];
+}
+
+static void look_at(const struct tree_loop *loop, const double *y, bool known, struct look *at)
+{
+    struct vec S[3];
+    turn_links(loop, y, known, at);
+    at->gap = loop->gap;
     for (int i = 0; i < 3; i++) {
-        at.norm += at.N[i] * at.N[i];
-        at.inertia += at.N[i] * at.K[i];
+        const struct tree_loop_link *link = &loop->links[i];
+        at->b[i] = vec_turn(at->turn[i], link->b);
+        S[i] = vec_turn(at->turn[i], link->S);
+        struct vec way = link->turns ? at->b[i] : vec_scale(y[link->coordinate], vec_perp(at->b[i]));
+        at->gap = vec_add(at->gap, vec_scale(link->inverse_unit, way));
     }
-    return at;
+    set_free_motion(loop, S, at);
 }
 
 /* Add to x, coordinates or rates, what moves the point of the pin by -off. */
@@ -66,16 +98,29 @@ static void mend(const struct tree_loop *loop, const struct look *at, struct vec
     }
 }
 
-static struct vec rate_of(const struct tree_loop *loop, const struct look *at, const double *v)
+/* How the links move in the world, in their units. */
+static void set_motion(const struct tree_loop *loop, const double *v, double *u)
 {
-    struct vec rate = {0, 0};
     double w = 0;
     for (int i = 0; i < 3; i++) {
         const struct tree_loop_link *link = &loop->links[i];
         w = goes_on(loop, i) && link[-1].turns ? w + v[link->coordinate] : v[link->coordinate];
-        rate = vec_add(rate, vec_scale(link->inverse_unit * w, vec_perp(at->b[i])));
+        u[i] = link->inverse_unit * w;
     }
-    return rate;
+}
+
+static struct vec rate_of(const struct look *at, const double *u)
+{
+    struct vec sum =
+        vec_add(vec_scale(u[0], at->b[0]), vec_add(vec_scale(u[1], at->b[1]), vec_scale(u[2], at->b[2])));
+    return vec_perp(sum);
+}
+
+static struct tree_loop_sight sight(const struct look *at, const double *u)
+{
+    double own = u[0] * u[0] + u[1] * u[1] + u[2] * u[2];
+    double shared = at->c01 * u[0] * u[1] + at->c02 * u[0] * u[2] + at->c12 * u[1] * u[2];
+    return (struct tree_loop_sight){at->gap, rate_of(at, u), own / 2 + shared};
 }
 
 static double largest(struct vec a)
@@ -83,7 +128,7 @@ static double largest(struct vec a)
     return fmax(fabs(a.x), fabs(a.y));
 }
 
-/* To rounding, which is where it gets no less. */
+/* To rounding, which is where it gets no less. `at` is the loop at q, before and after. */
 static bool close_gap(const struct tree_loop *loop, double *q, struct look *at)
 {
     enum { most = 8 };
@@ -92,25 +137,37 @@ static bool close_gap(const struct tree_loop *loop, double *q, struct look *at)
     for (int i = 0; i < 3; i++)
         if (!loop->links[i].turns) size += fabs(q[loop->links[i].coordinate]);
     for (int k = 0; k < most; k++) {
-        *at = look_at(loop, q);
         double off = largest(at->gap);
         if (!(at->norm > loop->least && at->inertia > 1e-2 * at->norm && off <= far)) return false;
         if (off <= 16 * DBL_EPSILON * size || off > 0.9 * before) return off <= 1e3 * DBL_EPSILON * size;
         mend(loop, at, at->gap, q);
         before = off;
+        look_at(loop, q, true, at);
     }
     return false;
 }
 
-bool tree_loop_return(const struct tree_loop *loop, double *y)
+bool tree_loop_close(const struct tree_loop *loop, double *y, struct tree_loop_closing *closing)
 {
-    double before[3];
-    struct look at;
-    memcpy(before, y, sizeof before);
+    double start[3], u[3];
+    struct look at = {.norm = 0};
+    memcpy(start, y, sizeof start);
+    look_at(loop, y, false, &at);
+    set_motion(loop, y + 3, u);
+    closing->before = sight(&at, u);
     if (!close_gap(loop, y, &at)) {
-        memcpy(y, before, sizeof before);
+        memcpy(y, start, sizeof start);
         return false;
     }
-    mend(loop, &at, rate_of(loop, &at, y + 3), y + 3);
+    mend(loop, &at, rate_of(&at, u), y + 3);
+    set_motion(loop, y + 3, u);
+    closing->after = sight(&at, u);
+    for (int i = 1; i < 4; i++) closing->turn[i] = at.turn[loop->of[i] - loop->links];
     return true;
+}
+
+bool tree_loop_return(const struct tree_loop *loop, double *y)
+{
+    struct tree_loop_closing closing;
+    return tree_loop_close(loop, y, &closing);
 }

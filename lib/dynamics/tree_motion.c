@@ -61,8 +61,8 @@ static void move_free(const struct tree_link *link, const struct tree_state *par
     s->v = vec_turn(s->e, rate);
 }
 
-static inline __attribute__((always_inline)) void move_all(const struct fbd_model *model,
-                                                           const struct instant *at, bool curved)
+static inline __attribute__((always_inline)) void
+move_all(const struct fbd_model *model, const struct instant *at, bool curved, const struct vec *turns)
 {
     const struct tree *tree = model->tree;
     int n = model->plan.n;
@@ -76,7 +76,7 @@ static inline __attribute__((always_inline)) void move_all(const struct fbd_mode
         if (link->kind == motion_pivot) {
             s->angle = parent->angle + link->along + joint.q[0];
             s->omega = parent->omega + joint.v[0];
-            s->turn = vec_unit(s->angle);
+            s->turn = turns ? turns[i] : vec_unit(s->angle);
             s->d = vec_turn(parent->turn, link->at);
             s->v = (struct vec){0, 0};
         } else if (link->kind == motion_slide) {
@@ -95,10 +95,15 @@ static inline __attribute__((always_inline)) void move_all(const struct fbd_mode
 void tree_move(const struct fbd_model *model, const struct instant *at)
 {
     if (model->tree->curved)
-        move_all(model, at, true);
+        move_all(model, at, true, NULL);
     else
-        move_all(model, at, false);
+        move_all(model, at, false, NULL);
     if (model->tree->bulk_count > 0) tree_weigh(model->tree, at);
+}
+
+void tree_move_turned(const struct fbd_model *model, const struct instant *at, const struct vec *turns)
+{
+    move_all(model, at, false, turns);
 }
 
 /* d(R a) = dangle k x R a. */

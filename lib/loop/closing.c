@@ -7,7 +7,6 @@
 #include <math.h>
 #include <string.h>
 
-#include "dynamics/energy.h"
 #include "dynamics/modes.h"
 #include "dynamics/project.h"
 #include "dynamics/tree_driven.h"
@@ -181,23 +180,19 @@ static bool overlong_rope(struct run *run, double most)
     return false;
 }
 
-/* Bring the end of the step back, and note what that took; returns what is still left. `energy` is that of the motion
- * before and after. */
-static struct misfit bring_back(struct run *run, struct misfit *misfit, double energy[2])
+/* Bring the end of the step back, and note what that took. */
+static struct closing bring_back(struct run *run)
 {
     struct drift *drift = &run->drift;
-    *misfit = state_misfit(run->state);
-    energy[0] = standing_kinetic_energy(run->state);
-    if (misfit->row >= 0 && (!drift->worst || misfit->position > drift->position))
-        drift->worst = tie_row_name(run->model->tree, misfit->row);
-    drift->position = fmax(drift->position, misfit->position);
-    drift->velocity = fmax(drift->velocity, misfit->velocity);
-    state_return(run->state);
-    struct misfit left = state_misfit(run->state);
-    energy[1] = standing_kinetic_energy(run->state);
-    drift->left_position = fmax(drift->left_position, left.position);
-    drift->left_velocity = fmax(drift->left_velocity, left.velocity);
-    return left;
+    struct closing closing = state_close(run->state);
+    const struct misfit *off = &closing.off, *left = &closing.left;
+    if (off->row >= 0 && (!drift->worst || off->position > drift->position))
+        drift->worst = tie_row_name(run->model->tree, off->row);
+    drift->position = fmax(drift->position, off->position);
+    drift->velocity = fmax(drift->velocity, off->velocity);
+    drift->left_position = fmax(drift->left_position, left->position);
+    drift->left_velocity = fmax(drift->left_velocity, left->velocity);
+    return closing;
 }
 
 /* In a structure at rest error control sees nothing but rounding, and steps grow without end. What rounding
@@ -246,11 +241,10 @@ static void fail_singular(struct run *run, const struct misfit *misfit)
 void run_close_step(struct run *run)
 {
     if (!has_ties(run)) return;
-    struct misfit misfit;
     run->projected = true;
-    double energy[2];
-    struct misfit left = bring_back(run, &misfit, energy);
-    const double before = energy[0], after = energy[1];
+    const struct closing closing = bring_back(run);
+    const struct misfit misfit = closing.off, left = closing.left;
+    const double before = closing.energy[0], after = closing.energy[1];
     constraints_follow(run->model, run->state->tree);
     run->liveliest = fmax(run->liveliest, fmax(before, after));
     double reach = measure(run);

@@ -1,0 +1,48 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * The end of a step back on the constraints, with what that takes: every step with couplings asks, so that a loop of three
+ * links says all of it by the way (tree_loop_return.c).
+ */
+#include "dynamics/energy.h"
+#include "dynamics/project.h"
+#include "dynamics/tree.h"
+
+static struct closing close_any(struct fbd_state *state)
+{
+    struct closing closing;
+    closing.off = state_misfit(state);
+    closing.energy[0] = standing_kinetic_energy(state);
+    state_return(state);
+    closing.left = state_misfit(state);
+    closing.energy[1] = standing_kinetic_energy(state);
+    return closing;
+}
+
+static double component(struct vec a, int row)
+{
+    return row == 0 ? fabs(a.x) : fabs(a.y);
+}
+
+/* Of the two rows of the pin, along x and y. */
+static struct misfit misfit_of(const struct tree_loop_sight *sight)
+{
+    int row = fabs(sight->off.y) > fabs(sight->off.x),
+        velocity_row = fabs(sight->rate.y) > fabs(sight->rate.x);
+    struct misfit misfit = {component(sight->off, row), component(sight->rate, velocity_row), row,
+                            velocity_row};
+    if (misfit.position == 0) misfit.row = -1;
+    if (misfit.velocity == 0) misfit.velocity_row = -1;
+    return misfit;
+}
+
+struct closing state_close(struct fbd_state *state)
+{
+    struct tree_loop_closing seen;
+    if (!state->tree->is_loop || !tree_loop_close(&state->tree->loop, state->y, &seen))
+        return close_any(state);
+    const struct instant at = state_instant(state);
+    tree_move_turned(state->model, &at, seen.turn);
+    return (struct closing){misfit_of(&seen.before),
+                            misfit_of(&seen.after),
+                            {seen.before.energy, seen.after.energy}};
+}
