@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "dynamics/tree_bare.h"
 
+#include "base/sine_two.h"
 #include "dynamics/tree.h"
 #include "dynamics/tree_short.h"
 
@@ -45,16 +46,19 @@ struct course {
     struct vec turn, a;
 };
 
-/* All sines and cosines first: numbers that stand in registers do not outlive a call. */
+/* All sines and cosines first: numbers that stand in registers do not outlive a call. Those of two links at a time. */
 static void turn_links(const struct tree_link *links, int count, const double *y, struct tree_bare *s)
 {
     bool turns = links->kind == motion_pivot;
     double angle = turns ? links->along + y[links->coordinate] : links->along;
-    s->turn = turns ? vec_unit(angle) : links->tilt;
-    for (int i = 1; i < count; i++) {
-        angle = angle + links[i].along + y[links[i].coordinate];
-        s[i].turn = vec_unit(angle);
+    int i = 1;
+    s->turn = turns ? unit_by_sine(angle) : links->tilt;
+    for (; i + 1 < count; i += 2) {
+        double first = angle + links[i].along + y[links[i].coordinate];
+        angle = first + links[i + 1].along + y[links[i + 1].coordinate];
+        units_by_sine(first, angle, &s[i].turn, &s[i + 1].turn);
     }
+    if (i < count) s[i].turn = unit_by_sine(angle + links[i].along + y[links[i].coordinate]);
 }
 
 static inline struct course set_out_from_ground(const struct tree_link *link, double v, struct tree_bare *s)

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "dynamics/tree_loop.h"
 
-#include "base/sine.h"
+#include "base/sine_two.h"
 #include "dynamics/tree_bare.h"
 
 /* ---- constants */
@@ -225,8 +225,12 @@ INLINE bool solve(const struct tree_loop *loop, bool chain, bool turns0, bool tu
     int q0 = l[0].coordinate, q1 = l[1].coordinate, q2 = l[2].coordinate;
     double angle0 = turns0 ? l[0].along + y[q0] : l[0].along, angle1 = angle0 + l[1].along + y[q1];
     double angle2 = (chain ? angle1 + l[2].along : l[2].along) + (turns2 ? y[q2] : 0);
-    struct vec t0 = turns0 ? unit_by_sine(angle0) : l[0].b, t1 = unit_by_sine(angle1),
-               t2 = turns2 ? unit_by_sine(angle2) : t0;
+    struct vec t0 = l[0].b, t1, t2;
+    if (turns0)
+        units_by_sine(angle0, angle1, &t0, &t1);
+    else
+        t1 = unit_by_sine(angle1);
+    t2 = turns2 ? unit_by_sine(angle2) : t0;
     double w0 = turns0 ? v[q0] : 0, w1 = w0 + v[q1], w2 = turns2 ? (chain ? w1 + v[q2] : v[q2]) : 0;
     double z0 = turns0 ? w0 * w0 * l[0].inverse_unit : 0, z1 = w1 * w1 * l[1].inverse_unit,
            z2 = turns2 ? w2 * w2 * l[2].inverse_unit : 0;

@@ -6,6 +6,7 @@
 #include <float.h>
 #include <string.h>
 
+#include "base/sine.h"
 #include "dynamics/tree_loop.h"
 
 /* The loop at y: its vectors, the inertia that two links share, the motion N that is free with K = M N, and what the pin is
@@ -45,7 +46,7 @@ static void turn_links(const struct tree_loop *loop, const double *y, bool known
         else if (known && fabs(by) <= near)
             at->turn[i] = turned_on(at->turn[i], by);
         else
-            at->turn[i] = vec_unit(angle);
+            at->turn[i] = unit_by_sine(angle);
         at->angle[i] = angle;
     }
 }

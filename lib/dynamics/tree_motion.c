@@ -9,6 +9,7 @@
  *
  * e is given in the frame of the parent's link: a body that is welded into it at an angle has other axes.
  */
+#include "base/sine.h"
 #include "dynamics/tree.h"
 
 /* For the joint's own coordinates. */
@@ -55,7 +56,7 @@ static void move_free(const struct tree_link *link, const struct tree_state *par
     struct vec own = {joint.q[0], joint.q[1]}, rate = {joint.v[0], joint.v[1]};
     s->angle = parent->angle + link->along + (turns ? joint.q[2] : 0);
     s->omega = parent->omega + (turns ? joint.v[2] : 0);
-    s->turn = vec_unit(s->angle);
+    s->turn = unit_by_sine(s->angle);
     s->e = vec_turn(parent->turn, link->e);
     s->d = vec_turn(parent->turn, vec_add(link->at, vec_turn(link->e, own)));
     s->v = vec_turn(s->e, rate);
@@ -76,7 +77,7 @@ move_all(const struct fbd_model *model, const struct instant *at, bool curved, c
         if (link->kind == motion_pivot) {
             s->angle = parent->angle + link->along + joint.q[0];
             s->omega = parent->omega + joint.v[0];
-            s->turn = turns ? turns[i] : vec_unit(s->angle);
+            s->turn = turns ? turns[i] : unit_by_sine(s->angle);
             s->d = vec_turn(parent->turn, link->at);
             s->v = (struct vec){0, 0};
         } else if (link->kind == motion_slide) {

@@ -8,6 +8,7 @@
  *
  * and the bias has no angular acceleration. The results are those of the general sweeps.
  */
+#include "base/sine.h"
 #include "dynamics/tree.h"
 
 /* A link: tree_move and tree_bias in one. */
@@ -15,7 +16,7 @@ static void set_out(const struct tree_link *link, const struct tree_state *paren
                     struct tree_state *s, struct tree_rhs *x)
 {
     double w = parent->omega, angle = parent->angle + link->along + q, omega = w + v;
-    struct vec turn = vec_unit(angle), d = vec_turn(parent->turn, link->at);
+    struct vec turn = unit_by_sine(angle), d = vec_turn(parent->turn, link->at);
     struct vec mr = vec_turn(turn, link->moment), c = vec_scale(omega * omega, mr);
     struct vec a = vec_sub(parent->A.a, vec_scale(w * w, d));
     s->angle = angle;

@@ -15,7 +15,7 @@
  */
 #include "dynamics/tree_short.h"
 
-#include "base/sine.h"
+#include "base/sine_two.h"
 
 static inline double moment_of_forces(const struct tree_link *link, struct vec turn)
 {
@@ -60,7 +60,8 @@ void tree_two_pivots(const struct tree_link *links, const struct tree_bare *s, c
     const struct tree_link *first = &links[0], *last = &links[1];
     int q0 = first->coordinate, q1 = last->coordinate;
     double angle = first->along + y[q0];
-    struct vec turn0 = unit_by_sine(angle), turn1 = unit_by_sine(angle + last->along + y[q1]);
+    struct vec turn0, turn1;
+    units_by_sine(angle, angle + last->along + y[q1], &turn0, &turn1);
     struct vec d = vec_turn(turn0, last->at), h = vec_turn(turn1, last->moment);
     double C = vec_dot(d, h), X = vec_cross(d, h), D = last->inverse_I_O;
     double u = D * (s[1].g + moment_of_forces(last, turn1) - square(v[q0]) * X);
@@ -78,7 +79,8 @@ void tree_three_pivots(const struct tree_link *links, const struct tree_bare *s,
     const struct tree_link *first = &links[0], *second = &links[1], *last = &links[2];
     int q0 = first->coordinate, q1 = second->coordinate, q2 = last->coordinate;
     double angle0 = first->along + y[q0], angle1 = angle0 + second->along + y[q1];
-    struct vec turn0 = unit_by_sine(angle0), turn1 = unit_by_sine(angle1);
+    struct vec turn0, turn1;
+    units_by_sine(angle0, angle1, &turn0, &turn1);
     struct vec turn2 = unit_by_sine(angle1 + last->along + y[q2]);
     double w0 = v[q0], w1 = w0 + v[q1], w2 = w1 + v[q2];
     double z0 = w0 * w0, z1 = w1 * w1, z2 = w2 * w2;
@@ -95,8 +97,8 @@ void tree_three_pivots(const struct tree_link *links, const struct tree_bare *s,
                      vec_cross(d0, vec_add(second->force, last->force)) + z1 * X + z2 * X0 - C0 * u;
     double J01 = vec_dot(d0, m1) + across * vec_dot(d0, d1) + D * X0 * X1;
     double J00 = first->I_O + (second->mass + across) * vec_dot(second->at, second->at) + D * X0 * X0;
-    double E = 1 / (second->I_O + across * beyond + D * X1 * X1);
-    double alpha0 = (moment0 - J01 * E * moment1) / (J00 - J01 * J01 * E);
+    double J11 = second->I_O + across * beyond + D * X1 * X1, E = 1 / J11;
+    double alpha0 = (moment0 * J11 - J01 * moment1) / (J00 * J11 - J01 * J01); /* which does not wait for E */
     double alpha1 = E * (moment1 - J01 * alpha0);
     a[q0] = alpha0;
     a[q1] = alpha1 - alpha0;

@@ -98,11 +98,11 @@ static void measure_link(const struct mechanisms *mechanisms, const struct fbd_s
     const struct tree_state *s = &state->tree->links[link];
     const struct coordinate *coordinates = state->model->scene->coordinates;
     struct mechanism *mechanism = mechanism_of(mechanisms, link);
-    mechanism->speed = fmax(mechanism->speed, vec_norm(s->v) + fabs(s->omega) * mechanism->arm);
+    mechanism->speed = larger(mechanism->speed, vec_norm(s->v) + fabs(s->omega) * mechanism->arm);
     int end = joint->coordinate + joint_freedom(joint->kind);
     for (int i = joint->coordinate; i < end; i++) {
         double moved = fabs(state->y[i] - mechanisms->start[i]);
-        mechanism->way = fmax(mechanism->way, coordinates[i].angle ? moved * mechanism->arm : moved);
+        mechanism->way = larger(mechanism->way, coordinates[i].angle ? moved * mechanism->arm : moved);
     }
 }
 

@@ -3,32 +3,17 @@
  * The sums over stages of pair8.c, two components at a time and one at a time, in one order. Coefficients are constants where
  * these stand, so that those which are zero leave no trace.
  *
- * Every processor has vectors of two, and each of their halves is rounded as a number is. But a wide load waits until what
- * was stored number by number has left the processor's store buffer, and so right-hand sides store: with all stages loaded
+ * A wide load waits until what was stored number by number has left the processor's store buffer, and so right-hand sides store: with all stages loaded
  * wide the step of a system of two numbers takes 40 % more time. Only the last stage is that young.
  */
 #ifndef FBD_INTEGRATE_PAIR8_SUMS_H
 #define FBD_INTEGRATE_PAIR8_SUMS_H
 
 #include <stddef.h>
-#include <string.h>
+
+#include "base/two.h"
 
 #define INLINE static inline __attribute__((always_inline))
-
-/* Two components. */
-typedef double two __attribute__((vector_size(2 * sizeof(double))));
-
-INLINE two load_two(const double *from)
-{
-    two both;
-    memcpy(&both, from, sizeof both);
-    return both;
-}
-
-INLINE void store_two(double *to, two both)
-{
-    memcpy(to, &both, sizeof both);
-}
 
 /* As what has just been stored is loaded: number by number, which `volatile` makes compilers do. */
 INLINE two load_young(const double *from)

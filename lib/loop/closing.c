@@ -124,20 +124,20 @@ static double measure(struct run *run)
     double reach = 0, speed = 0;
     for (int i = 1; i < tree->count; i++) {
         const struct tree_state *s = &run->state->tree->links[i];
-        reach = fmax(reach, vec_norm(s->p));
-        speed = fmax(speed, vec_norm(s->v));
+        reach = larger(reach, vec_norm(s->p));
+        speed = larger(speed, vec_norm(s->v));
     }
     for (int k = 0; k < tree->tie_count; k++)
         for (int j = 0; j < tree->ties[k].end_count; j++) {
             const struct tie_end *end = &tree->ties[k].end[j];
             const struct tree_state *s = &run->state->tree->links[end->link];
             double arm = end->radius + vec_norm(end->point);
-            reach = fmax(reach, vec_norm(s->p) + arm);
-            speed = fmax(speed, vec_norm(s->v) + fabs(s->omega) * arm);
+            reach = larger(reach, vec_norm(s->p) + arm);
+            speed = larger(speed, vec_norm(s->v) + fabs(s->omega) * arm);
         }
     /* An angle has a stop also where nothing has a length, as of a wheel about its centre. */
     for (int i = 0; i < tree->meeting_count; i++)
-        if (tree->meetings[i].stop != 0) reach = fmax(reach, tree->meetings[i].reach);
+        if (tree->meetings[i].stop != 0) reach = larger(reach, tree->meetings[i].reach);
     run->drift.reach = fmax(run->drift.reach, reach);
     run->drift.speed = fmax(run->drift.speed, speed);
     return reach;

@@ -304,7 +304,7 @@ static void accept(struct run *run, struct moment t)
     size_t size = plan_size(&run->model->plan);
     double *most = run->recent.anchor + size;
     if (is_beyond_numbers(run, t.t)) return;
-    for (size_t i = 0; i < size; i++) most[i] = fmax(most[i], fabs(run->state->y[i]));
+    for (size_t i = 0; i < size; i++) most[i] = larger(most[i], fabs(run->state->y[i]));
     state_set_moment(run->state, t);
     memcpy(run->state->y, run->work.y, size * sizeof *run->work.y);
     if (run->plain) return;
