@@ -50,12 +50,13 @@ static inline struct vec vec_perp(struct vec a)
     return (struct vec){-a.y, a.x};
 }
 
-/* sqrt(x^2 + y^2), by hypot only where the squares would overflow or lose digits. */
+/* sqrt(x^2 + y^2), by hypot only where the squares would overflow or lose digits; what rests has neither. */
 static inline double vec_norm(struct vec a)
 {
     const double least = 1e-280, most = 1e280;
     double square = a.x * a.x + a.y * a.y;
-    return square > least && square < most ? sqrt(square) : hypot(a.x, a.y);
+    if (square > least && square < most) return sqrt(square);
+    return a.x == 0 && a.y == 0 ? 0 : hypot(a.x, a.y);
 }
 
 /* Cosine and sine of `angle` [rad]. */

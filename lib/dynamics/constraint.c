@@ -207,6 +207,15 @@ void constraints_follow(const struct fbd_model *model, struct tree_work *work)
     }
 }
 
+bool couplings_go_on(const struct tree *tree)
+{
+    for (int i = 0; i < tree->tie_count; i++) {
+        enum constraint_kind kind = tree->ties[i].kind;
+        if (kind != constraint_pin && kind != constraint_rod && kind != constraint_gear) return false;
+    }
+    return true;
+}
+
 /* ---- bodies that roll or rub */
 
 void tie_set_feature(const struct fbd_model *model, struct tree_work *work, int index, int feature)

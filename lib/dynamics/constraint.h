@@ -78,6 +78,9 @@ void ties_keep(struct fbd_state *state, const struct fbd_state *from);
  * than half a turn before it is noted again. */
 void constraints_follow(const struct fbd_model *model, struct tree_work *work);
 
+/* Are all couplings such as have no end: no rope that gets slack or is unwound, no slot that is left, no surface? */
+bool couplings_go_on(const struct tree *tree);
+
 /* The points that follow curves have been moved by a projection: where they are on them now. What winds has its place
  * from the motion alone. */
 void slots_follow(const struct fbd_model *model, struct tree_work *work);

@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "dynamics/constraint.h"
 #include "dynamics/finite.h"
 #include "dynamics/project.h"
 #include "loop/cross.h"
@@ -123,8 +124,10 @@ static bool make_run(struct run *run, const struct state_start *begin)
     const struct tree *tree = run->model->tree;
     bool meets = tree && tree->meeting_count > 0, couples = tree && tree->tie_count > 0;
     run->lazy = !meets && !asks_forces(run);
-    run->plain = run->lazy && plan->mode_count == 0 && !couples &&
-                 run->watchers.timed.count + run->watchers.moving.count == 0;
+    bool quiet =
+        run->lazy && plan->mode_count == 0 && run->watchers.timed.count + run->watchers.moving.count == 0;
+    run->plain = quiet && !couples;
+    run->undisturbed = quiet && (!couples || couplings_go_on(tree));
     run->rates = rates_new(run->during, rates_by_rows);
     if (!run->rates) return false;
     gsl_odeiv2_system system = {.jacobian = jacobian, .dimension = size};
@@ -425,7 +428,7 @@ static bool make_step(struct run *run, struct turn *turn)
 static bool find_events(struct run *run, struct turn *turn)
 {
     turn->moving = false;
-    if (run->plain) return true;
+    if (run->undisturbed) return true;
     run_watch_slots(run, &turn->t);
     int found = run->end.outcome == FBD_GOING ? run_find_event(run, &turn->t) : 0;
     if (found < 0) {

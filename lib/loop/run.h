@@ -162,9 +162,10 @@ struct run {
     struct fbd_state *during; /* modes of the last step; its scratch serves samples within it */
     struct stride step;
     struct ending end;
-    bool lazy;  /* no step asks for the forces of `state` at its end */
-    bool plain; /* nor can anything cut a step or bring it back: no events and couplings */
-    bool stale; /* they have not been found for its time */
+    bool lazy;        /* no step asks for the forces of `state` at its end */
+    bool plain;       /* nor can anything cut a step or bring it back: no events and couplings */
+    bool undisturbed; /* nor cut it: no events, and couplings that have no end */
+    bool stale;       /* they have not been found for its time */
 
     struct counted_system system;
     struct rates *rates; /* in the modes of `during` */
