@@ -145,7 +145,7 @@ static const char slips[] =
 static void errors_between_two_samples_are_seen(void **unused)
 {
     static const double tolerances[] = {1e-4, 1e-6, 1e-8, 1e-10};
-    const int scenes = draws_of(30);
+    const int scenes = draws_of(80);
     (void)unused;
     struct random_numbers numbers = {11};
     struct ratio_table table = {.verbose = true};
@@ -160,7 +160,7 @@ static void errors_between_two_samples_are_seen(void **unused)
     printf("# between samples, global error: %lu low, %lu good, %lu high\n", global->low, global->good,
            global->high);
     if (!thorough()) return;
-    assert_true(ratio_determined(global) >= 60);
+    assert_true(ratio_determined(global) >= 120);
     assert_true(ratio_determined_share(global) >= 0.95);
 }
 
