@@ -56,7 +56,7 @@ static inline double vec_norm(struct vec a)
     const double least = 1e-280, most = 1e280;
     double square = a.x * a.x + a.y * a.y;
     if (square > least && square < most) return sqrt(square);
-    return a.x == 0 && a.y == 0 ? 0 : hypot(a.x, a.y);
+    return a.x != 0 || a.y != 0 ? hypot(a.x, a.y) : 0;
 }
 
 /* Cosine and sine of `angle` [rad]. */

@@ -296,23 +296,6 @@ static bool is_steady(const struct run *run, const double *before)
     return true;
 }
 
-static bool names_time(const struct formula *formula)
-{
-    return formula->expr && expr_uses_time(formula->expr);
-}
-
-/* Does the time name a force, or the rate of a state? */
-bool run_heeds_time(const struct fbd_model *model)
-{
-    for (size_t i = 0; i < model->load_count; i++) {
-        const struct model_load *load = &model->loads[i];
-        if (names_time(&load->value) || names_time(&load->fx) || names_time(&load->fy)) return true;
-    }
-    for (int i = 0; i < model->plan.own; i++)
-        if (names_time(&model->plan.rates[i])) return true;
-    return false;
-}
-
 /* A pulse makes an acceleration of nothing, and its noise with it, which is not yet known there. */
 static bool has_grown(const struct run *run)
 {
@@ -352,4 +335,48 @@ void run_renew_noise(struct run *run)
     run->grain.pause = !is_steady(run, before)               ? 1
                        : 2 * run->grain.pause < most_between ? 2 * run->grain.pause
                                                              : most_between;
+}
+
+/* ---- where it stands */
+
+static size_t links_of(const struct fbd_model *model)
+{
+    return model->tree ? (size_t)model->tree->count : 0;
+}
+
+size_t run_grain_size(const struct fbd_model *model)
+{
+    return 4 * plan_rates(&model->plan) + 2 * links_of(model) + 2 * model->body_count +
+           plan_size(&model->plan);
+}
+
+static bool names_time(const struct formula *formula)
+{
+    return formula->expr && expr_uses_time(formula->expr);
+}
+
+/* Does the time name a force, or the rate of a state? */
+static bool heeds_time(const struct fbd_model *model)
+{
+    for (size_t i = 0; i < model->load_count; i++) {
+        const struct model_load *load = &model->loads[i];
+        if (names_time(&load->value) || names_time(&load->fx) || names_time(&load->fy)) return true;
+    }
+    for (int i = 0; i < model->plan.own; i++)
+        if (names_time(&model->plan.rates[i])) return true;
+    return false;
+}
+
+void run_grain_init(struct run *run, double *memory)
+{
+    const size_t rates = plan_rates(&run->model->plan);
+    struct grain *grain = &run->grain;
+    grain->along = memory;
+    grain->accelerations = grain->along + rates;
+    grain->largest = grain->accelerations + rates;
+    grain->formulas = grain->largest + rates;
+    grain->turned = grain->formulas + rates;
+    grain->cancelled = grain->turned + 2 * links_of(run->model);
+    grain->nothing = grain->cancelled + 2 * run->model->body_count;
+    grain->heeds_time = heeds_time(run->model);
 }

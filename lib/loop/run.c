@@ -84,12 +84,10 @@ static bool make_run(struct run *run, const struct state_start *begin)
 {
     const struct plan *plan = &run->model->plan;
     struct arena *memory = &run->memory;
-    size_t size = plan_size(plan), rates = (size_t)plan_rates(plan);
+    size_t size = plan_size(plan);
     run->state = begin ? state_new_from(run->model, begin) : state_new(run->model);
     run->during = state_new(run->model);
-    size_t links = run->model->tree ? (size_t)run->model->tree->count : 0;
-    size_t sizes = 4 * rates + 2 * links + 2 * run->model->body_count + size;
-    run->work.y = ARENA_ARRAY(memory, 5 * size + sizes, double);
+    run->work.y = ARENA_ARRAY(memory, 5 * size + run_grain_size(run->model), double);
     if (!run->state || !run->during || !run->work.y || !run_make_scans(run)) return false;
     if (run->state->tree)
         run->state->tree->accuracy = run->during->tree->accuracy = projected_accuracy(&run->options);
@@ -98,14 +96,7 @@ static bool make_run(struct run *run, const struct state_start *begin)
     run->work.f = run->work.y + size;
     run->work.sample = run->work.f + size;
     run->work.aside = run->work.sample + size;
-    run->grain.along = run->work.aside + 2 * size;
-    run->grain.accelerations = run->grain.along + rates;
-    run->grain.largest = run->grain.accelerations + rates;
-    run->grain.heeds_time = run_heeds_time(run->model);
-    run->grain.turned = run->grain.largest + rates;
-    run->grain.cancelled = run->grain.turned + 2 * links;
-    run->grain.formulas = run->grain.cancelled + 2 * run->model->body_count;
-    run->grain.nothing = run->grain.formulas + rates;
+    run_grain_init(run, run->work.aside + 2 * size);
     size_t functions = 2 * run->search.moving.count, timed = 3 * run->search.timed.count;
     run->work.values = ARENA_ARRAY(memory, functions > timed ? functions : timed, double);
     run->work.kept = ARENA_ARRAY(memory, 2 * size, double);

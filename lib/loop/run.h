@@ -115,7 +115,7 @@ struct event_search {
 struct grain {
     double *accelerations; /* plan_rates: what they, and rates of states, are known to */
     double *largest;       /* plan_rates: the largest for which that has been found */
-    bool heeds_time;       /* run_heeds_time */
+    bool heeds_time;       /* a force, or the rate of a state, names the time */
     double *along;  /* plan_rates: how accelerations and the rates of states change along the motion, when the
                               rest of this was set */
     double *turned; /* twice the links of the tree */
@@ -349,7 +349,10 @@ void run_set_noise(struct run *run);
 /* After a step without an event: from time to time how well the accelerations are known now, as the forces in
  * joints change with the motion. */
 void run_renew_noise(struct run *run);
-bool run_heeds_time(const struct fbd_model *model);
+
+/* What run->grain asks for, and how it is put there: numbers. */
+size_t run_grain_size(const struct fbd_model *model);
+void run_grain_init(struct run *run, double *memory);
 
 /* How many steps may be made before that has to be looked at for their number alone. */
 unsigned long run_steps_to_noise(const struct run *run);
