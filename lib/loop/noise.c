@@ -135,10 +135,10 @@ static void add_along_link(const struct run *run, const struct tree_state *s, in
 {
     const struct model_body *body = &run->model->bodies[run->model->tree->links[link].body];
     double moment = vec_cross(vec_sub(point, s->p), of->force) + of->couple, along = vec_dot(s->e, of->force),
-           own[] = {along, vec_cross(s->e, of->force), moment};
+           own[most_coordinates_of_a_body] = {along, vec_cross(s->e, of->force), moment};
     if (body->kind == motion_pivot) own[0] = moment;
     if (body->kind == motion_track) own[0] += s->turning * moment;
-    for (int k = 0; k < body->count; k++) Q[body->first + k] += own[k];
+    for (int k = 0; k < body->count && k < most_coordinates_of_a_body; k++) Q[body->first + k] += own[k];
 }
 
 /* Add what the rounding of a load is along coordinates; false where it has none. */
@@ -271,7 +271,7 @@ static void set_noise(struct run *run)
         }
     }
     for (int i = 0; i < plan->own; i++) {
-        size_t rate = (size_t)(plan->n + i);
+        size_t rate = (size_t)plan->n + (size_t)i;
         double of_time = DBL_EPSILON * fabs(at->t * run->grain.along[rate]);
         take_noise(run, rate, 0, of_time + formula_rounding(&plan->rates[i], at));
     }

@@ -188,12 +188,13 @@ static void nothing_acts_above_a_table(void **unused)
         double x = random_between(&numbers, -1, 1), y = random_between(&numbers, -1, 1);
         double vx = rests ? omega * y : random_between(&numbers, -2, 2),
                vy = rests ? -omega * x : random_between(&numbers, -2, 2);
-        snprintf(text, sizeof text,
-                 "fbd: 1\nbodies:\n  table: {mass: 1, inertia: 1, motion: {pivot: {theta: \"%.17g[rad/s]*t + "
-                 "%.17g[rad/s^2]*t^2/2\"}}}\n  b: {mass: %.17g, %smotion: {%s: {on: table}}, initial: {x: %.17g, "
-                 "y: %.17g, vx: %.17g, vy: %.17g}}\n",
-                 omega, alpha, random_between(&numbers, 0.3, 3), i % 2 ? "shape: disc, radius: 0.2, " : "",
-                 i % 2 ? "planar" : "particle", x, y, vx, vy);
+        snprintf(
+            text, sizeof text,
+            "fbd: 1\nbodies:\n  table: {mass: 1, inertia: 1, motion: {pivot: {theta: \"%.17g[rad/s]*t + "
+            "%.17g[rad/s^2]*t^2/2\"}}}\n  b: {mass: %.17g, %smotion: {%s: {on: table}}, initial: {x: %.17g, "
+            "y: %.17g, vx: %.17g, vy: %.17g}}\n",
+            omega, alpha, random_between(&numbers, 0.3, 3), i % 2 ? "shape: disc, radius: 0.2, " : "",
+            i % 2 ? "planar" : "particle", x, y, vx, vy);
         alarms += raises_alarm(i, text, 0);
     }
     assert_int_equal(alarms, 0);
@@ -202,10 +203,8 @@ static void nothing_acts_above_a_table(void **unused)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(random_trees_balance),
-        cmocka_unit_test(free_bodies_on_moving_ones_balance),
-        cmocka_unit_test(nothing_acts_above_a_table),
-        cmocka_unit_test(a_millionth_is_noticed),
+        cmocka_unit_test(random_trees_balance),        cmocka_unit_test(free_bodies_on_moving_ones_balance),
+        cmocka_unit_test(nothing_acts_above_a_table),  cmocka_unit_test(a_millionth_is_noticed),
         cmocka_unit_test(what_is_not_a_number_is_off),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -229,9 +229,11 @@ static void nothing_is_let_down_through_a_floor(void **unused)
 {
     (void)unused;
     static const char *const bodies[] = {
-        "slide: {along: 90 deg, min: 0}}, initial: {x: %.17g}, forces: [gravity, spring: {stiffness: %.17g, neutral: "
+        "slide: {along: 90 deg, min: 0}}, initial: {x: %.17g}, forces: [gravity, spring: {stiffness: %.17g, "
+        "neutral: "
         "%.17g}]}\n",
-        "particle: {}}, initial: {y: %.17g}, forces: [gravity, spring: {stiffness: %.17g, to: [0, %.17g]}]}\n",
+        "particle: {}}, initial: {y: %.17g}, forces: [gravity, spring: {stiffness: %.17g, to: [0, "
+        "%.17g]}]}\n",
         "planar: {}}, initial: {y: %.17g}, forces: [gravity, spring: {stiffness: %.17g, to: [0, %.17g]}]}\n",
     };
     const double r = 0.1;
@@ -245,8 +247,8 @@ static void nothing_is_let_down_through_a_floor(void **unused)
         char body[300], text[800];
         snprintf(body, sizeof body, bodies[kind], floor + random_between(&numbers, 0.01, 1), k, a);
         snprintf(text, sizeof text,
-                 "fbd: 1\nground: {lines: {floor: {along: 0}}}\nbodies:\n  b: {mass: %.17g, %smotion: {%s%s", m,
-                 kind == 2 ? "shape: disc, radius: 0.1, " : "", body,
+                 "fbd: 1\nground: {lines: {floor: {along: 0}}}\nbodies:\n  b: {mass: %.17g, %smotion: {%s%s",
+                 m, kind == 2 ? "shape: disc, radius: 0.1, " : "", body,
                  kind == 0 ? "" : "contacts: [{between: [b, ground.floor]}]\n");
         struct trial trial = trial_parse(text);
         fbd_errors *errors = fbd_errors_new();
