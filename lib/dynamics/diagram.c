@@ -197,6 +197,21 @@ struct arrow load_arrow(const struct fbd_model *model, int index, const struct i
     return arrow;
 }
 
+/* ---- works */
+
+static int account_of(const struct fbd_model *model, int b, const struct arrow *arrow)
+{
+    return arrow->load >= 0 ? arrow->load : rope_load(model, b, arrow);
+}
+
+int diagram_account(const struct fbd_model *model, int b, const struct arrow *arrows, size_t i)
+{
+    int load = account_of(model, b, &arrows[i]);
+    for (size_t before = 0; load >= 0 && before < i; before++)
+        if (account_of(model, b, &arrows[before]) == load) return -1;
+    return load;
+}
+
 /* ---- shares and reactions */
 
 bool arrow_is_of_joint(const struct fbd_model *model, int b, const struct arrow *arrow)

@@ -87,6 +87,13 @@ struct vec mass_center_acceleration(const struct model_body *body, const struct 
 /* The moment of an arrow about a point. */
 double arrow_moment(const struct arrow *arrow, struct vec about);
 
+/* The load whose work is told with arrow i of body b, or -1. The first of those that share a load has it. A rope does no
+ * work in all, so that its force is a reaction; but it takes energy where it becomes taut with a jerk. */
+int diagram_account(const struct fbd_model *model, int b, const struct arrow *arrows, size_t i);
+
+/* The load of the rope whose force on body b the arrow is, or -1 (tree_diagram.c). */
+int rope_load(const struct fbd_model *model, int b, const struct arrow *arrow);
+
 /* Does it follow from the others, as what a surface, a joint or a rope gives? */
 bool arrow_is_reaction(const struct fbd_model *model, const struct arrow *arrow);
 

@@ -161,6 +161,18 @@ static size_t fill_ties(const struct fbd_model *model, int b, const struct insta
     return count;
 }
 
+/* Names of ends belong to one end each. */
+int rope_load(const struct fbd_model *model, int b, const struct arrow *arrow)
+{
+    for (int i = 0; model->tree && i < model->tree->tie_count; i++) {
+        const struct tie *tie = &model->tree->ties[i];
+        if (tie->kind != constraint_rope) continue;
+        for (int k = 0; k < tie->end_count; k++)
+            if (tie->end[k].body == b && tie->end[k].name[0] == arrow->name) return tie->load;
+    }
+    return -1;
+}
+
 /* ---- reactions */
 
 /* What the force across a slide is, and the couple about its point, given all that its joint passes on. The

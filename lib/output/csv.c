@@ -34,6 +34,13 @@ static void header(struct csv *csv, const char *a, const char *b, const char *pa
     }
 }
 
+/* The load whose work stands in a column of arrow i, or -1: each in one column of all, so that they add up. */
+static int work_column(const struct csv *csv, int b, size_t i)
+{
+    int load = diagram_account(csv->model, b, csv->arrows, i);
+    return load >= 0 && csv->model->loads[load].body == b ? load : -1;
+}
+
 static void diagram_headers(struct csv *csv, int b, const struct fbd_state *start)
 {
     const struct fbd_model *model = csv->model;
@@ -46,7 +53,7 @@ static void diagram_headers(struct csv *csv, int b, const struct fbd_state *star
         size_t columns = force_columns(model, b, &csv->arrows[i], csv->recording->components, parts);
         for (size_t k = 0; k < columns; k++)
             header(csv, body->name, name, force_part_name(parts[k]), force_part_unit(model, b, parts[k]));
-        if (i < (size_t)body->load_count) header(csv, body->name, name, "work", energy_unit(model));
+        if (work_column(csv, b, i) >= 0) header(csv, body->name, name, "work", energy_unit(model));
     }
     if (body->carried >= 0) header(csv, body->name, "mass", "work", energy_unit(model));
 }
@@ -132,7 +139,8 @@ static void diagram_values(struct csv *csv, int b, const struct fbd_state *state
         for (size_t k = 0; k < columns; k++)
             value(csv, force_part_value(model, b, &at, &csv->arrows[i], parts[k]),
                   force_part_value(model, b, &other_at, &others[i], parts[k]));
-        if (i < (size_t)body->load_count) work_value(csv, (size_t)csv->arrows[i].load, state);
+        int load = work_column(csv, b, i);
+        if (load >= 0) work_value(csv, (size_t)load, state);
     }
     if (body->carried >= 0) work_value(csv, (size_t)body->carried, state);
 }

@@ -221,10 +221,10 @@ static struct vec moment_center(const struct model_body *body, const struct fbd_
     return body->kind == motion_pivot ? pose.origin : point_motion(body, &pose, body->inertia.G).p;
 }
 
-/* `other` is the same arrow of the companion. */
+/* `other` is the same arrow of the companion; the work is that of load `account`. */
 static void write_force_error(struct text *text, struct bars *bars, const struct model_body *body,
                               const struct arrow *arrow, const struct arrow *other, double moment,
-                              double work)
+                              int account, double work)
 {
     double other_moment = arrow_moment(other, moment_center(body, bars->state));
     text_add(text, ", \"error\": {");
@@ -232,7 +232,7 @@ static void write_force_error(struct text *text, struct bars *bars, const struct
     member(text, "fy", bars_difference(bars, arrow->force.y, other->force.y), false);
     member(text, "moment", bars_difference(bars, moment, other_moment), false);
     member(text, "power", bars_difference(bars, arrow->power, other->power), false);
-    member(text, "work", arrow->load >= 0 ? bars_work(bars, (size_t)arrow->load, work) : 0, true);
+    member(text, "work", account >= 0 ? bars_work(bars, (size_t)account, work) : 0, true);
     text_add(text, "}");
 }
 
@@ -250,7 +250,8 @@ static void write_body_forces(struct text *text, fbd_result *result, struct fbd_
     for (size_t i = 0; i < count; i++) {
         const struct arrow *arrow = &ledger->arrows[i];
         double moment = arrow_moment(arrow, about);
-        double work = arrow->load >= 0 ? ledger_work(ledger, state, (size_t)arrow->load, ledger->work) : 0;
+        int account = diagram_account(model, b, ledger->arrows, i);
+        double work = account >= 0 ? ledger_work(ledger, state, (size_t)account, ledger->work) : 0;
         text_add(text, i ? ",\n      " : "\n      ");
         text_json_key(text, arrow->name);
         text_add(text, "{");
@@ -264,7 +265,7 @@ static void write_body_forces(struct text *text, fbd_result *result, struct fbd_
         member(text, "power", arrow->power, false);
         member(text, "work", work, true);
         write_friction(text, state, b, arrow);
-        if (bars) write_force_error(text, bars, body, arrow, &others[i], moment, work);
+        if (bars) write_force_error(text, bars, body, arrow, &others[i], moment, account, work);
         text_add(text, "}");
     }
     if (body->carried >= 0) {

@@ -180,9 +180,9 @@ static void write_work(const struct page *page, const struct fbd_state *state, s
     text_printf(text, " %s\n", energy_unit(ledger->model));
 }
 
-/* `other`: the same arrow of the companion, or `arrow`. */
+/* `other`: the same arrow of the companion, or `arrow`; `account`: the load whose work it tells, or -1. */
 static void write_force(const struct page *page, const struct fbd_state *state, const struct arrow *arrow,
-                        const struct arrow *other)
+                        const struct arrow *other, int account)
 {
     struct text *text = page->text;
     struct ledger *ledger = &page->result->ledger;
@@ -203,11 +203,11 @@ static void write_force(const struct page *page, const struct fbd_state *state, 
         force(page, arrow->couple, other->couple);
         text_printf(text, " %s", moment_unit(model));
     }
-    if (arrow->load < 0) {
+    if (account < 0) {
         text_add(text, "\n");
         return;
     }
-    write_work(page, state, (size_t)arrow->load);
+    write_work(page, state, (size_t)account);
 }
 
 /* No force, but the energy that mass brings or takes. */
@@ -231,7 +231,9 @@ static void write_forces(const struct page *page)
         text_printf(text, "  %s\n", model->bodies[b].name);
         size_t count = diagram_fill(model, (int)b, &at, state->a, state->slots, ledger->arrows);
         const struct arrow *others = page->bars ? bars_diagram(page->bars, (int)b) : ledger->arrows;
-        for (size_t i = 0; i < count; i++) write_force(page, state, &ledger->arrows[i], &others[i]);
+        for (size_t i = 0; i < count; i++)
+            write_force(page, state, &ledger->arrows[i], &others[i],
+                        diagram_account(model, (int)b, ledger->arrows, i));
         if (model->bodies[b].carried >= 0) write_carried(page, state, &model->bodies[b]);
     }
 }
