@@ -17,6 +17,7 @@
 #include "numeric/lu.h"
 #include "rest/balance.h"
 #include "rest/independent.h"
+#include "rest/ropes.h"
 #include "rest/start.h"
 
 struct resting {
@@ -27,6 +28,7 @@ struct resting {
     double zero;   /* an acceleration that is none, beside those of the start */
     double *start; /* unknowns: where the search began */
     double *scale; /* unknowns: what makes the rates of states as large as accelerations */
+    int *slip;     /* of the modes: what held there */
     double *Q;     /* n: generalized forces without those of couplings, which do no work along a step */
     double *slots, *lambda; /* of rest_forces; lambda is zero */
     struct arrow *arrows;   /* scratch of balance_size */
@@ -245,32 +247,54 @@ static double first_h(const struct newton *newton)
     return most > 0 ? 1 / most : 1;
 }
 
-static bool let_down(struct resting *balance, struct newton *newton)
+/* From where the state is, or the place nearest to it that its ropes allow; returns the imbalance there. */
+static double begin_down(struct resting *balance, struct newton *newton, double *h)
 {
-    enum { most_steps = 2000 };
+    take_coordinates(balance, newton->q);
+    forces(newton->q, balance, newton->f);
+    take_coordinates(balance, newton->q);
+    both(newton->q, balance, newton->f, newton->J);
+    *h = first_h(newton);
+    return imbalance(newton->f);
+}
+
+/* One step, and the h of the next one; false when there is none that goes down. */
+static bool step_down(struct resting *balance, struct newton *newton, double *h)
+{
     const double shortest = 1e-300, longest = 1e300; /* a step that is infinite is never halved */
     take_coordinates(balance, newton->q);
     both(newton->q, balance, newton->f, newton->J);
-    double zero = balance->zero, before = imbalance(newton->f);
-    double h = first_h(newton);
-    for (int step = 0; step < most_steps && before > zero; step++) {
-        take_coordinates(balance, newton->q);
-        both(newton->q, balance, newton->f, newton->J);
-        struct instant at = state_instant(balance->state);
-        rest_forces(balance->state->model, &at, balance->lambda, true, balance->slots, balance->Q);
-        double most = stride(balance, newton, h);
-        while (!(most <= 1) && h > shortest) {
-            h /= 4;
-            most = stride(balance, newton, h);
+    struct instant at = state_instant(balance->state);
+    rest_forces(balance->state->model, &at, balance->lambda, true, balance->slots, balance->Q);
+    double most = stride(balance, newton, *h);
+    while (!(most <= 1) && *h > shortest) {
+        *h /= 4;
+        most = stride(balance, newton, *h);
+    }
+    if (!(most <= 1)) return false;
+    for (size_t i = 0; i < newton->n; i++)
+        gsl_vector_set(newton->q, i, gsl_vector_get(newton->q, i) + newton->d[i]);
+    forces(newton->q, balance, newton->f);
+    *h = fmin(*h * fmin(4, 0.6 / most), longest);
+    return true;
+}
+
+static bool let_down(struct resting *balance, struct newton *newton)
+{
+    enum { most_steps = 2000 };
+    double h, zero = balance->zero, before = begin_down(balance, newton, &h);
+    for (int step = 0; step < most_steps; step++) {
+        bool there = before <= zero, began = false;
+        if (!there) {
+            if (!step_down(balance, newton, &h)) return false;
+            began = ropes_take_up(balance->state);
+            double after = imbalance(newton->f);
+            there =
+                !began && after <= 1e4 * zero && after >= before; /* rounding keeps it from getting better */
+            before = after;
         }
-        if (!(most <= 1)) return false;
-        for (size_t i = 0; i < newton->n; i++)
-            gsl_vector_set(newton->q, i, gsl_vector_get(newton->q, i) + newton->d[i]);
-        forces(newton->q, balance, newton->f);
-        double after = imbalance(newton->f);
-        if (after <= 1e4 * zero && after >= before) return true; /* rounding keeps it from getting better */
-        h = fmin(h * fmin(4, 0.6 / most), longest);
-        before = after;
+        if (there && !ropes_let_go(balance->state)) return true;
+        if (there || began) before = begin_down(balance, newton, &h);
     }
     return before <= 1e4 * zero;
 }
@@ -350,7 +374,7 @@ static int search(struct resting *balance)
     if (made) keep_place(state, origin);
     for (int trial = 0; made && trial < most_trials; trial++) {
         set_start(q, state->model, origin, trial);
-        if (!find_balance_from(balance, q, solver)) continue;
+        if (!find_balance_from(balance, q, solver) || ropes_are_too_long(state)) continue;
         keep_place(state, there);
         double distance = distance_between(there, origin, n);
         /* Of two that rounding tells apart the first one stays. */
@@ -403,6 +427,7 @@ static void balance_free(struct resting *balance)
     free(balance->work);
     free(balance->share);
     free(balance->start);
+    free(balance->slip);
     free(balance->arrows);
 }
 
@@ -418,22 +443,26 @@ static int balance_new(struct resting *balance, struct fbd_state *state)
                                 .work = calloc(size * size + size + 1, sizeof(double)),
                                 .share = tied ? calloc(n * n + 1, sizeof(double)) : NULL,
                                 .start = calloc(2 * unknowns + n + slots + rows + 1, sizeof(double)),
+                                .slip = calloc(state->model->plan.mode_count + 1, sizeof(int)),
                                 .arrows = calloc(diagram_most_arrows(state->model), sizeof *balance->arrows)};
-    if (!balance->work || !balance->start || !balance->arrows || (tied && !balance->share)) return -1;
+    if (!balance->work || !balance->start || !balance->slip || !balance->arrows || (tied && !balance->share))
+        return -1;
     balance->scale = balance->start + unknowns;
     balance->Q = balance->scale + unknowns;
     balance->slots = balance->Q + n;
     balance->lambda = balance->slots + slots;
     keep_place(state, balance->start);
+    memcpy(balance->slip, state->slip, state->model->plan.mode_count * sizeof *balance->slip);
     return measure(balance);
 }
 
-int equilibrium_search(struct fbd_state *state)
+/* Back to where the search began, and to what held there. */
+static void go_back(struct resting *balance)
 {
-    struct resting balance;
-    int made = balance_new(&balance, state), found = made > 0 ? search(&balance) : made;
-    balance_free(&balance);
-    return found;
+    struct fbd_state *state = balance->state;
+    put_place(state, balance->start);
+    memcpy(state->slip, balance->slip, state->model->plan.mode_count * sizeof *balance->slip);
+    state_evaluate(state);
 }
 
 /* Where it comes to rest; where forces without a potential drive it round and round, the nearest balance. 1
@@ -447,11 +476,21 @@ int equilibrium_settle(struct fbd_state *state)
     bool downhill = state->model->plan.own == 0; /* states have no energy to go down with */
     int found = made > 0 ? downhill && let_down(&balance, &newton) && arrived(&balance, &newton) : made;
     if (made > 0 && found == 0) {
-        put_place(state, balance.start);
+        go_back(&balance);
         found = search(&balance);
         if (found > 0) found = arrived(&balance, &newton);
     }
     newton_free(&newton);
     balance_free(&balance);
     return found;
+}
+
+/* Where slack ropes end the ways to all that would balance without them, they are let down into these. */
+int equilibrium_search(struct fbd_state *state)
+{
+    struct resting balance;
+    int made = balance_new(&balance, state), found = made > 0 ? search(&balance) : made;
+    if (made > 0 && found == 0) go_back(&balance);
+    balance_free(&balance);
+    return found == 0 && ropes_are_slack(state) ? equilibrium_settle(state) : found;
 }

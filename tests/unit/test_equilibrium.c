@@ -15,6 +15,7 @@
 
 #include "random_numbers.h"
 #include "rest_checks.h"
+#include "thorough.h"
 
 static const double place = 1e-9;
 
@@ -274,6 +275,123 @@ static void nothing_is_let_down_through_a_floor(void **unused)
     assert_true(above >= 30 && below >= 30);
 }
 
+/* ---- ropes that are slack at the start */
+
+/* A bob that a spring of no length draws to C, with its weight: V = k |r - P|^2/2, P below C. Its rope leads from A over
+ * the bob to B, which may be A: it can be where |r - A| + |r - B| <= L. */
+struct reach {
+    double A[2], B[2], C[2], start[2], L, m, k;
+};
+
+static double way_by(const struct reach *reach, double x, double y)
+{
+    return hypot(x - reach->A[0], y - reach->A[1]) + hypot(x - reach->B[0], y - reach->B[1]);
+}
+
+static struct reach draw_reach(struct random_numbers *numbers, bool two)
+{
+    struct reach reach = {.m = random_between(numbers, 0.3, 3), .k = random_between(numbers, 2, 40)};
+    for (int i = 0; i < 2; i++) {
+        reach.A[i] = random_between(numbers, -1, 1);
+        reach.B[i] = two ? random_between(numbers, -1, 1) : reach.A[i];
+        reach.C[i] = random_between(numbers, -3, 3);
+        reach.start[i] = random_between(numbers, -1.5, 1.5);
+    }
+    reach.L = way_by(&reach, reach.start[0], reach.start[1]) * random_between(numbers, 1.01, 1.6);
+    return reach;
+}
+
+/* Where it rests: P within reach, else the point nearest to it on the ellipse about A and B, by its angle there: by eye
+ * from all around, then by thirds. */
+static void rest_within(const struct reach *reach, double rest[2])
+{
+    double P[2] = {reach->C[0], reach->C[1] - reach->m * g / reach->k};
+    double dx = (reach->B[0] - reach->A[0]) / 2, dy = (reach->B[1] - reach->A[1]) / 2, c = hypot(dx, dy);
+    double e[2] = {c > 0 ? dx / c : 1, c > 0 ? dy / c : 0}, a = reach->L / 2, b = sqrt(a * a - c * c);
+    memcpy(rest, P, sizeof P);
+    if (way_by(reach, P[0], P[1]) <= reach->L) return;
+    double px = (P[0] - reach->A[0] - dx) * e[0] + (P[1] - reach->A[1] - dy) * e[1],
+           py = -(P[0] - reach->A[0] - dx) * e[1] + (P[1] - reach->A[1] - dy) * e[0], at = 0,
+           width = pi / 180;
+    for (int i = 0; i < 360; i++)
+        if (hypot(a * cos(i * width) - px, b * sin(i * width) - py) <
+            hypot(a * cos(at) - px, b * sin(at) - py))
+            at = i * width;
+    /* The slope of the square of the distance passes zero there. */
+    double low = at - width, high = at + width;
+    for (int i = 0; i < 100; i++) {
+        double s = (low + high) / 2;
+        bool before = -a * sin(s) * (a * cos(s) - px) + b * cos(s) * (b * sin(s) - py) < 0;
+        *(before ? &low : &high) = s;
+    }
+    rest[0] = reach->A[0] + dx + a * cos(low) * e[0] - b * sin(low) * e[1];
+    rest[1] = reach->A[1] + dy + a * cos(low) * e[1] + b * sin(low) * e[0];
+}
+
+static void write_reach(const struct reach *reach, bool two, char text[1000])
+{
+    snprintf(text, 1000,
+             "fbd: 1\nground: {points: {A: [%.17g, %.17g], B: [%.17g, %.17g], C: [%.17g, %.17g]}}\nbodies:\n"
+             "  b: {mass: %.17g, motion: particle, initial: {x: %.17g, y: %.17g}, forces: [gravity, spring: "
+             "{stiffness: "
+             "%.17g, to: C}]}\ncouplings: [rope: {name: cord, through: [ground.A, b%s], length: %.17g}]\n",
+             reach->A[0], reach->A[1], reach->B[0], reach->B[1], reach->C[0], reach->C[1], reach->m,
+             reach->start[0], reach->start[1], reach->k, two ? ", ground.B" : "",
+             two ? reach->L : reach->L / 2);
+}
+
+static void check_place(struct checks *checks, const struct trial *trial, const double rest[2])
+{
+    check_close(checks, "x", trial_get(trial, "b.x"), rest[0], 10 * place);
+    check_close(checks, "y", trial_get(trial, "b.y"), rest[1], 10 * place);
+}
+
+/* Whether its rope becomes taut on the way down or not. */
+static void a_slack_rope_holds_where_it_becomes_taut(void **unused)
+{
+    (void)unused;
+    struct checks checks = {0};
+    const int draws = number_of("FBD_SLACK", draws_of(100)), first = number_of("FBD_SLACK_SEED", 1);
+    for (int i = first; i < first + draws; i++) {
+        struct random_numbers numbers = {(uint64_t)i};
+        bool two = i % 2;
+        struct reach reach = draw_reach(&numbers, two);
+        char text[1000];
+        double rest[2];
+        size_t failed = checks.failed;
+        write_reach(&reach, two, text);
+        rest_within(&reach, rest);
+        struct trial down = trial_parse(text), linear = trial_parse(text);
+        fbd_linearization *found = fbd_linearize(linear.state, NULL);
+        if (check_that(&checks, "is linearized", found != NULL)) check_place(&checks, &linear, rest);
+        fbd_linearization_free(found);
+        let_down(&down);
+        check_place(&checks, &down, rest);
+        check_rests(&checks, &down);
+        if (checks.failed > failed) print_message("# seed %d\n%s", i, text);
+        trial_close(&down);
+        trial_close(&linear);
+    }
+    checks_end(&checks);
+}
+
+/* Nothing but its weight, straight below the end of its rope: the scene of a weight that hangs. */
+static void a_weight_falls_to_the_end_of_its_rope(void **unused)
+{
+    (void)unused;
+    struct checks checks = {0};
+    struct trial trial = trial_parse(
+        "fbd: 1\nground: {points: {A: [0, 1]}}\nbodies:\n"
+        "  b: {mass: 1, motion: particle, initial: {y: 0.5}, forces: [gravity, drag: {linear: 4}]}\n"
+        "couplings: [rope: {through: [ground.A, b], length: 2}]\n");
+    let_down(&trial);
+    check_close(&checks, "x", trial_get(&trial, "b.x"), 0, place);
+    check_close(&checks, "y", trial_get(&trial, "b.y"), -1, place);
+    check_rests(&checks, &trial);
+    trial_close(&trial);
+    checks_end(&checks);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -287,6 +405,8 @@ int main(void)
         cmocka_unit_test(what_has_no_place_of_rest_is_said),
         cmocka_unit_test(a_balance_is_one_of_the_branch_that_holds_there),
         cmocka_unit_test(nothing_is_let_down_through_a_floor),
+        cmocka_unit_test(a_slack_rope_holds_where_it_becomes_taut),
+        cmocka_unit_test(a_weight_falls_to_the_end_of_its_rope),
     };
     return cmocka_run_group_tests(tests, no_handler, NULL);
 }
