@@ -4,6 +4,7 @@
 #include <float.h>
 #include <string.h>
 
+#include "dynamics/contact.h"
 #include "dynamics/tree_system.h"
 
 /* What is projected: y is that of the instant. */
@@ -363,6 +364,15 @@ void state_find_ways(struct fbd_state *state, double *ways)
     state_evaluate(state);
 }
 
+/* Is what is left a rounding? What touches near the origin has that of the size of its contact. */
+static bool is_home(const struct place *place, const struct misfit *left)
+{
+    const struct tree *tree = place->model->tree;
+    int meeting = left->row < 0 ? -1 : tree->ties[tree->tie_of_row[left->row]].meeting;
+    double touching = meeting < 0 ? 0 : meeting_rounding(place->model, place->at.tree, meeting);
+    return left->position <= 1e3 * fmax(rounding(place), touching);
+}
+
 /* `before`: room for n. */
 static bool bring_home(struct fbd_state *state, const struct place *place, double *before)
 {
@@ -388,7 +398,7 @@ static bool bring_home(struct fbd_state *state, const struct place *place, doubl
         if (misfit.position <= 64 * rounding(place) || share < 1e-4) break;
         share /= 4;
     }
-    return misfit.position <= 1e3 * rounding(place);
+    return is_home(place, &misfit);
 }
 
 /* Friction that sticks has no place of its own: with it a body that stands by 1e-11 m in its neighbour would have to turn by

@@ -5,6 +5,7 @@
 
 #include "dynamics/absolute.h"
 #include "dynamics/constraint.h"
+#include "dynamics/contact.h"
 #include "dynamics/friction.h"
 #include "dynamics/modes.h"
 #include "dynamics/tree_system.h"
@@ -22,13 +23,17 @@ static enum slip slip_at_rest(const struct mode *mode, const struct instant *at)
 
 static enum slip one_sided_at_rest(const struct fbd_state *state, int pair)
 {
+    const struct fbd_model *model = state->model;
     struct instant at = state_instant(state);
-    int tie = state->model->plan.modes[pair].tie;
+    const int index = model->plan.modes[pair].tie;
+    const struct tie *tie = &model->tree->ties[index];
+    const bool contact = tie->kind == constraint_contact;
     /* Shapes that are apart have no row, which would be at zero. */
-    if (state->model->tree->ties[tie].kind == constraint_contact && at.tree->ties[tie].feature == no_feature)
-        return slip_plus;
-    struct one_sided now = one_sided_at(state->model, &at, pair);
-    return now.touches || now.excess > 0 ? stick : slip_plus;
+    if (contact && at.tree->ties[index].feature == no_feature) return slip_plus;
+    struct one_sided now = one_sided_at(model, &at, pair);
+    /* What rests at the origin is near it by the size of the scene alone. */
+    bool near = contact && fabs(now.excess) <= meeting_near(model, at.tree, tie->meeting);
+    return now.touches || now.excess > 0 || near ? stick : slip_plus;
 }
 
 static void stop(struct fbd_state *state)

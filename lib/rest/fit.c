@@ -88,7 +88,8 @@ static void find_size(const struct fbd_state *state, const struct tie *tie, stru
 }
 
 /* What position row j is measured against: the trees, the arms at which they are joined, the length of a rod
- * or rope. Points alone that are to be one have no size; the digits of their places are all there is. */
+ * or rope. Points alone that are to be one have no size; the digits of their places are all there is, and where they touch
+ * what the contact is measured against. */
 static double length_of(const struct fbd_state *state, const struct tie *tie, int j, const struct size *size)
 {
     const struct row *row = &state->tree->rows[j];
@@ -96,7 +97,9 @@ static double length_of(const struct fbd_state *state, const struct tie *tie, in
     for (int k = 0; k < row->port_count; k++)
         if (row->ports[k].link > 0) length = fmax(length, vec_norm(row->ports[k].arm));
     if (tie->law->length) length = fmax(length, fabs(state->tree->ties[tie - state->model->tree->ties].zero));
-    return length > 0 ? length : size->place;
+    if (length > 0) return length;
+    return tie->meeting >= 0 ? fmax(size->place, state->model->tree->meetings[tie->meeting].reach)
+                             : size->place;
 }
 
 /* The rows that are off the most, in position and in velocity. A slack rope may be too short, not too long.

@@ -10,7 +10,9 @@
 
 #include <cmocka.h>
 
+#include "random_numbers.h"
 #include "rest_checks.h"
+#include "thorough.h"
 
 /* ---- determinate */
 
@@ -266,6 +268,43 @@ static void a_beam_between_two_pins_is_determined_across_it(void **unused)
     checks_end(&checks);
 }
 
+/* A particle that has come to rest on a floor through the origin by random times: at 0 but for something between 1e-15 and
+ * 1e-300 m, on either side. A spring lifts a part of its weight. */
+static void what_rests_at_the_origin_rests_whatever_it_is_off_by(void **unused)
+{
+    (void)unused;
+    struct checks checks = {0};
+    const int draws = number_of("FBD_ORIGIN", draws_of(60)), first = number_of("FBD_ORIGIN_SEED", 1);
+    for (int i = first; i < first + draws; i++) {
+        struct random_numbers numbers = {(uint64_t)i};
+        double m = random_between(&numbers, 0.3, 3), a = random_between(&numbers, 0.2, 1),
+               k = random_between(&numbers, 0.1, 0.8) * m * g / a, until = random_between(&numbers, 5, 80);
+        char text[600];
+        snprintf(text, sizeof text,
+                 "fbd: 1\nground: {points: {A: [0, %.17g]}, lines: {floor: {along: 0}}}\nbodies:\n  b: "
+                 "{mass: %.17g, "
+                 "motion: particle, initial: {y: %.17g}, forces: [gravity, drag: {linear: %.17g}, spring: "
+                 "{stiffness: "
+                 "%.17g, to: A}]}\ncontacts: [{name: c, between: [b, ground.floor], restitution: "
+                 "%.17g}]\nsimulate: "
+                 "{until: 90}\n",
+                 a, m, random_between(&numbers, 0.05, 1), random_between(&numbers, 1, 8), k,
+                 random_perhaps(&numbers, 0.5, 0, 0.4));
+        struct trial trial = trial_parse(text);
+        trial_start(&trial, NULL);
+        trial_to(&trial, until);
+        fbd_errors *errors = fbd_errors_new();
+        struct rest rest = {trial, errors, fbd_statics_new(trial.state, errors)};
+        if (!rest.statics) print_message("# seed %d, y = %g: %s\n", i, trial_get(&trial, "b.y"), text);
+        if (check_that(&checks, "is answered", rest.statics != NULL)) {
+            check_holds(&checks, &rest, 0);
+            check_arrow(&checks, &rest, "b", "c.normal", 0, m * g - k * a);
+        }
+        rest_close(&rest);
+    }
+    checks_end(&checks);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -280,6 +319,7 @@ int main(void)
         cmocka_unit_test(three_supports_share_by_least_squares),
         cmocka_unit_test(what_is_least_does_not_depend_on_the_tree),
         cmocka_unit_test(a_beam_between_two_pins_is_determined_across_it),
+        cmocka_unit_test(what_rests_at_the_origin_rests_whatever_it_is_off_by),
     };
     return cmocka_run_group_tests(tests, no_handler, NULL);
 }
