@@ -24,6 +24,9 @@ int equilibrium_search(struct fbd_state *state);
  * rates to be brought to zero, the nearest balance. 1 found, 0 none, -1 out of memory. */
 int equilibrium_settle(struct fbd_state *state);
 
+/* What messages call the place. */
+static const char place_found[] = "the place found, where contacts are as at the start,";
+
 /* The size that accelerations have at a place where nothing balances: what zero is measured against. */
 double equilibrium_size(const struct fbd_state *state);
 

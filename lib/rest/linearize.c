@@ -398,7 +398,7 @@ const char *linearization_name(const struct fbd_linearization *linear, size_t i)
 static bool is_finite(const struct fbd_linearization *linear, struct fbd_state *state, fbd_errors *errors)
 {
     size_t size = linear->size;
-    if (!start_question(state, true, errors)) return false;
+    if (!start_question(state, true, place_found, errors)) return false;
     for (size_t i = 0; i < size * size; i++) {
         if (isfinite(linear->A[i])) continue;
         size_t row = i / size, f = linear->count;
@@ -441,7 +441,7 @@ static fbd_linearization *linearize(fbd_state *state, fbd_errors *errors)
     if (model->plan.mode_count > 0 || is_tied(model)) /* modes of rest */
         memset(state->y + n, 0, n * sizeof *state->y);
     bool settled = modes_settle(state, NULL);
-    if (!start_question(state, settled, errors) || refuse_driven(state, errors) ||
+    if (!start_question(state, settled, "the start", errors) || refuse_driven(state, errors) ||
         refuse_sticking(state, errors) || equilibrium_refuse_states(state, errors))
         return NULL;
     fbd_linearization *linear = linearization_new(model);

@@ -151,11 +151,12 @@ static bool find_equilibrium(fbd_state *state, fbd_errors *errors)
         return false;
     }
     if (equilibrium_refuse_states(state, errors)) return false;
-    if (!start_question(state, false, errors)) return false; /* wherever it starts, it is let down */
+    if (!start_question(state, false, "the start", errors))
+        return false; /* wherever it starts, it is let down */
     int found = equilibrium_settle(state);
     if (state->holds.found == holds_no_memory) found = -1;
     state->settled = false;
-    if (found > 0 && !start_question(state, true, errors)) return false;
+    if (found > 0 && !start_question(state, true, place_found, errors)) return false;
     if (found > 0 && equilibrium_holds(state)) return true;
     if (found > 0) equilibrium_refuse(errors);
     if (found < 0) diag_out_of_memory(errors);

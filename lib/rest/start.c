@@ -255,11 +255,11 @@ bool start_ready(struct fbd_state *state, struct fbd_state *other, const char *w
            is_free_to_move(state, other, lack) && is_balanced(state, lack);
 }
 
-bool start_question(struct fbd_state *state, bool modes, fbd_errors *errors)
+bool start_question(struct fbd_state *state, bool modes, const char *what, fbd_errors *errors)
 {
     struct lack lack = {0};
     struct fbd_state *other = state_new(state->model);
-    bool fine = other && start_fits(state, other, modes, "the start", &lack);
+    bool fine = other && start_fits(state, other, modes, what, &lack);
     if (fine) {
         state_evaluate(state);
         fine = start_finite(state, &lack);

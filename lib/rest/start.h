@@ -33,9 +33,9 @@ bool start_check(struct fbd_state *state, const char *what, fbd_errors *errors);
 /* Is every number of the evaluated state finite? */
 bool start_finite(const struct fbd_state *state, struct lack *lack);
 
-/* For a question about rest: does the state fit, and is every number of it finite? Else a note in `errors`.
+/* For a question about rest: does the state, `what`, fit, and is every number of it finite? Else a note in `errors`.
  */
-bool start_question(struct fbd_state *state, bool modes, fbd_errors *errors);
+bool start_question(struct fbd_state *state, bool modes, const char *what, fbd_errors *errors);
 
 /* Say that the normal force N of a contact would have to pull. */
 void start_contact_words(const struct fbd_model *model, const struct contact *contact, double t, double N,

@@ -15,7 +15,7 @@
 
 static bool fits(struct fbd_state *state, fbd_errors *errors)
 {
-    if (!start_question(state, true, errors)) return false;
+    if (!start_question(state, true, "the start", errors)) return false;
     if (state_project(state, false)) return true;
     diag_add(errors, FBD_ERROR, "does-not-fit", (struct pos){0, 0}, NULL,
              "the start fits its couplings to six digits, and no state near it fits better");

@@ -266,6 +266,7 @@ static void nothing_is_let_down_through_a_floor(void **unused)
         } else {
             assert_true(rests < floor);
             assert_string_equal(fbd_errors_get(errors, 0).id, "does-not-fit");
+            assert_non_null(strstr(fbd_errors_get(errors, 0).message, "the place found, "));
         }
         above += rests > floor;
         below += rests < floor;
