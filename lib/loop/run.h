@@ -108,6 +108,7 @@ struct event_search {
     bool paced, paced_by_motion; /* sampled functions may change as fast as formulas do, of the motion too */
     bool follows_places;         /* the course has places in the world */
     bool leads;                  /* there are drives or surfaces that may lead (run_lead) */
+    bool leads_speeds;           /* drives say what their speeds are, too: guides turn by them */
     bool wakes; /* there are levels of what wakes up with the motion (expr_switch_is_silent) */
 };
 

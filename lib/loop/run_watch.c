@@ -54,7 +54,8 @@ void run_lead(const struct run *run, double t, double *y)
         if (!drives && !leads(run, i)) continue;
         struct instant at = state_instant_at(run->during, t, y);
         if (drives) y[mode->coordinate] = formula_value(&mode->position, &at);
-        if (leads(run, i)) y[plan->n + mode->coordinate] = friction_surface_speed(mode, &at, &acceleration);
+        if ((drives && run->search.leads_speeds) || leads(run, i))
+            y[plan->n + mode->coordinate] = friction_surface_speed(mode, &at, &acceleration);
     }
 }
 
@@ -428,6 +429,16 @@ static bool any_wakes(const struct run *run)
     return false;
 }
 
+/* Does a guide with friction turn, whose normal force goes with the speeds of what is driven? Once it has turned on one side of
+ * zero it may not be found on the other. Gaps know places. */
+static bool any_turns(const struct run *run)
+{
+    const struct watcher_set *set = &run->watchers.moving;
+    for (size_t i = 0; i < set->count; i++)
+        if (set->watchers[i].kind == watch_normal_turns) return true;
+    return false;
+}
+
 bool run_make_scans(struct run *run)
 {
     double tolerance = run->options.tolerance;
@@ -437,6 +448,7 @@ bool run_make_scans(struct run *run)
     if (!scan_init(&run->search.timed, timed->count, sample_timed, run, &run->memory)) return false;
     if (!scan_init(&run->search.moving, moving->count, sample_moving, run, &run->memory)) return false;
     run->search.wakes = any_wakes(run);
+    run->search.leads_speeds = any_turns(run);
     for (size_t i = 0; i < run->model->plan.mode_count; i++) {
         const struct mode *mode = &run->model->plan.modes[i];
         run->search.leads |= mode->kind == mode_drive || mode->surface_speed.expr;
