@@ -4,8 +4,10 @@
  * method looks for nothing but the interpolant that events are searched by. Then the interpolant goes astray over all of
  * the step, and with it the search for the pulse. It does not obey the equations any more, by far: the slopes that it has
  * are not those that they give. Implicit methods are not asked: between fast components their interpolants need not.
+ * (But those of bounces: falls_at_once.)
  */
 #include <gsl/gsl_errno.h>
+#include <math.h>
 #include <string.h>
 
 #include "loop/run.h"
@@ -48,11 +50,47 @@ static bool obeys(const struct run *run, double h, const double *slope, const do
     return true;
 }
 
+/* The moving functions at the start of the step, or a share of it further. */
+static bool look_at_functions(struct run *run, double share, double h)
+{
+    double *y = run->work.kept;
+    const double t = run->step.from + share * h;
+    if (share == 0)
+        memcpy(y, run->state->y, plan_size(&run->model->plan) * sizeof *y);
+    else if (switcher_dense(run->stepper, moment_at(t), y) != GSL_SUCCESS)
+        return false;
+    watchers_evaluate(&run->watchers, &run->watchers.moving, run->during, moment_at(t), y, run->work.values,
+                      run->work.values + run->watchers.moving.count);
+    return true;
+}
+
+/* The first step of a method that knows no more than ends of steps is a line, with the speed that it comes to. What has just
+ * bounced goes through its floor at once, where that is beyond the top of its flight: a flight less high than an error
+ * of the step. */
+static bool falls_at_once(struct run *run, double h)
+{
+    const double share = 1.0 / 16;
+    const struct watcher_set *set = &run->watchers.moving;
+    const double *values = run->work.values, *rates = values + set->count;
+    bool *below = run->work.crossed, any = false;
+    if (!look_at_functions(run, share, h)) return false;
+    for (size_t i = 0; i < set->count; i++)
+        any |= below[i] = set->watchers[i].kind == watch_gap && values[i] < 0;
+    if (!any || !look_at_functions(run, 0, h)) return false;
+    for (size_t i = 0; i < set->count; i++)
+        if (below[i] && rates[i] * share * h > fabs(values[i])) return true;
+    return false;
+}
+
 bool run_step_is_torn(struct run *run, struct moment end)
 {
     const double shares[] = {0.31, 0.72};
     size_t n = (size_t)run->model->plan.n, size = plan_size(&run->model->plan);
     double h = moment_since(end, run_start(run)), *slope = run->work.aside, *f = slope + size;
+    const struct method *method = run->options.method;
+    bool meets = run->model->tree && run->model->tree->meeting_count > 0;
+    bool by_ends = method->multistep && method->implicit && run->options.step == 0;
+    if (by_ends && meets && falls_at_once(run, h)) return true;
     bool asked = run->search.wakes && run->options.step == 0 && !structure_is_exact(run->kind);
     if (!asked || switcher_made_implicitly(run->stepper)) return false;
     for (size_t k = 0; k < sizeof shares / sizeof *shares; k++) {
