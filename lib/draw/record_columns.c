@@ -129,7 +129,7 @@ static void define_arrow(struct record *record, int b, size_t index, struct reco
         for (int k = 0; k < body->count; k++)
             define(record, record_term, b, name_of(record, body, arrow->name, ".term"), "");
     }
-    if (index < (size_t)body->load_count)
+    if (diagram_work_column(record->model, b, record->arrows, index) >= 0)
         arrow->work = define(record, record_work, b, name_of(record, body, arrow->name, ".work"),
                              energy_unit(record->model));
 }
@@ -223,8 +223,8 @@ static double *fill_arrow(struct record *record, double *out, int b, const struc
     *out++ = arrow->couple;
     if (has_term(model, b, arrow))
         for (int k = 0; k < body->count; k++) *out++ = equation_term(body, arrow, k, G);
-    if (index < (size_t)body->load_count)
-        *out++ = energies ? ledger_work(record->ledger, state, (size_t)arrow->load, record->work) : NAN;
+    int load = diagram_work_column(model, b, record->arrows, index);
+    if (load >= 0) *out++ = energies ? ledger_work(record->ledger, state, (size_t)load, record->work) : NAN;
     return out;
 }
 

@@ -328,3 +328,9 @@ size_t diagram_fill(const struct fbd_model *model, int index, const struct insta
     }
     return count;
 }
+
+int diagram_work_column(const struct fbd_model *model, int b, const struct arrow *arrows, size_t i)
+{
+    int load = diagram_account(model, b, arrows, i);
+    return load >= 0 && model->loads[load].body == b ? load : -1;
+}

@@ -91,6 +91,9 @@ double arrow_moment(const struct arrow *arrow, struct vec about);
  * work in all, so that its force is a reaction; but it takes energy where it becomes taut with a jerk. */
 int diagram_account(const struct fbd_model *model, int b, const struct arrow *arrows, size_t i);
 
+/* That which stands in a column with arrow i, or -1: each in one column of all bodies', so that they add up. */
+int diagram_work_column(const struct fbd_model *model, int b, const struct arrow *arrows, size_t i);
+
 /* The load of the rope whose force on body b the arrow is, or -1 (tree_diagram.c). */
 int rope_load(const struct fbd_model *model, int b, const struct arrow *arrow);
 

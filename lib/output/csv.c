@@ -34,13 +34,6 @@ static void header(struct csv *csv, const char *a, const char *b, const char *pa
     }
 }
 
-/* The load whose work stands in a column of arrow i, or -1: each in one column of all, so that they add up. */
-static int work_column(const struct csv *csv, int b, size_t i)
-{
-    int load = diagram_account(csv->model, b, csv->arrows, i);
-    return load >= 0 && csv->model->loads[load].body == b ? load : -1;
-}
-
 static void diagram_headers(struct csv *csv, int b, const struct fbd_state *start)
 {
     const struct fbd_model *model = csv->model;
@@ -53,7 +46,8 @@ static void diagram_headers(struct csv *csv, int b, const struct fbd_state *star
         size_t columns = force_columns(model, b, &csv->arrows[i], csv->recording->components, parts);
         for (size_t k = 0; k < columns; k++)
             header(csv, body->name, name, force_part_name(parts[k]), force_part_unit(model, b, parts[k]));
-        if (work_column(csv, b, i) >= 0) header(csv, body->name, name, "work", energy_unit(model));
+        if (diagram_work_column(model, b, csv->arrows, i) >= 0)
+            header(csv, body->name, name, "work", energy_unit(model));
     }
     if (body->carried >= 0) header(csv, body->name, "mass", "work", energy_unit(model));
 }
@@ -139,7 +133,7 @@ static void diagram_values(struct csv *csv, int b, const struct fbd_state *state
         for (size_t k = 0; k < columns; k++)
             value(csv, force_part_value(model, b, &at, &csv->arrows[i], parts[k]),
                   force_part_value(model, b, &other_at, &others[i], parts[k]));
-        int load = work_column(csv, b, i);
+        int load = diagram_work_column(model, b, csv->arrows, i);
         if (load >= 0) work_value(csv, (size_t)load, state);
     }
     if (body->carried >= 0) work_value(csv, (size_t)body->carried, state);

@@ -230,11 +230,10 @@ static void nothing_is_let_down_through_a_floor(void **unused)
 {
     (void)unused;
     static const char *const bodies[] = {
-        "slide: {along: 90 deg, min: 0}}, initial: {x: %.17g}, forces: [gravity, spring: {stiffness: %.17g, "
-        "neutral: "
-        "%.17g}]}\n",
-        "particle: {}}, initial: {y: %.17g}, forces: [gravity, spring: {stiffness: %.17g, to: [0, "
-        "%.17g]}]}\n",
+        ("slide: {along: 90 deg, min: 0}}, initial: {x: %.17g}, forces: [gravity, spring: {stiffness: %.17g, "
+         "neutral: %.17g}]}\n"),
+        ("particle: {}}, initial: {y: %.17g}, forces: [gravity, spring: {stiffness: %.17g, to: [0, "
+         "%.17g]}]}\n"),
         "planar: {}}, initial: {y: %.17g}, forces: [gravity, spring: {stiffness: %.17g, to: [0, %.17g]}]}\n",
     };
     const double r = 0.1;

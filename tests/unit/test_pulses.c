@@ -169,8 +169,8 @@ static struct trial waking_trial(enum waking kind, const char *value, const char
         "bodies: {b: {mass: 2, motion: slide, forces: [applied: \"%s\", damper: 0.4]}}",
         "bodies: {b: {mass: 2, motion: slide, forces: [applied: \"%s\", spring: 8]}}",
         "bodies: {b: {mass: 2, inertia: 2, motion: {pivot: {at: [0, 0]}}, moments: [applied: \"%s\"]}}",
-        "bodies: {b: {mass: 1, motion: slide, forces: [applied: \"%s\"]}, c: {mass: 1, inertia: 1, motion: "
-        "{pivot: {on: b}}}}",
+        ("bodies: {b: {mass: 1, motion: slide, forces: [applied: \"%s\"]}, c: {mass: 1, inertia: 1, motion: "
+         "{pivot: {on: b}}}}"),
         "states: {speed: {rate: \"(%s)/2\"}}\nbodies: {b: {mass: 1, motion: slide}}",
     };
     char text[4 * room], whole[5 * room];
