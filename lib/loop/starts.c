@@ -14,12 +14,13 @@
 #include "dynamics/tree_system.h"
 #include "loop/run.h"
 
-/* The acceleration of coordinate i (or the rate of a state) as it is, or as it becomes in a short time: drives start without
- * one. */
+/* The acceleration of coordinate i (or the rate of a state) at this instant, or its change within a short time where that is
+ * larger: drives start without an acceleration. A change within the round-off level of the acceleration is none. */
 static double starting(const struct run *run, size_t i, double tau)
 {
     double a = run->state->a[i], later = tau * run->grain.along[i];
-    return isfinite(later) && fabs(later) > fabs(a) ? later : a;
+    bool changes = isfinite(later) && fabs(later) > fmax(fabs(a), run->grain.accelerations[i]);
+    return changes ? later : a;
 }
 
 static void vary(struct run *run, const struct instant *at, const double *dy, double *along)
