@@ -125,10 +125,15 @@ static void step_aside(const struct panel *panel, struct panel_arrow *arrow)
     }
 }
 
+const char *panel_symbol(const struct panel *panel, const struct panel_arrow *arrow)
+{
+    return (arrow->radius > 0 ? panel->moments : panel->symbols)[arrow->source - panel->arrows];
+}
+
 static const char *label_of(struct panel *panel, const struct panel_arrow *arrow, const char *name,
                             const char *unit)
 {
-    if (panel->symbols && !arrow->component) return panel->symbols[arrow->source - panel->arrows];
+    if (panel->symbols && !arrow->component) return panel_symbol(panel, arrow);
     return arena_printf(panel->arena, "%s %.4g %s", name, arrow->value, unit);
 }
 

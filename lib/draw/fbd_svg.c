@@ -45,7 +45,7 @@ struct sheet {
     struct arena arena;
     struct fbd_state *state;
     const fbd_drawing *drawing;
-    const char *const *const *symbols; /* or NULL */
+    const struct force_symbol *const *symbols; /* or NULL */
     struct panel *panels;
     size_t count;
     struct text text;
@@ -71,10 +71,15 @@ static bool start_panel(struct sheet *sheet, struct panel *panel, size_t body)
     panel->arrow_count = diagram_fill(model, (int)body, &panel->at, state->a, state->slots, panel->arrows);
     if (!sheet->symbols) return true;
     const char **printed = ARENA_ARRAY(&sheet->arena, panel->arrow_count + 1, const char *);
-    for (size_t i = 0; printed && i < panel->arrow_count; i++)
-        if (!(printed[i] = symbol_printed(sheet->symbols[body][i], &sheet->arena))) return false;
+    const char **moments = ARENA_ARRAY(&sheet->arena, panel->arrow_count + 1, const char *);
+    for (size_t i = 0; printed && moments && i < panel->arrow_count; i++) {
+        const struct force_symbol *symbol = &sheet->symbols[body][i];
+        if (!(printed[i] = symbol_printed(symbol_now(symbol), &sheet->arena))) return false;
+        moments[i] = symbol->moment ? printed[i] : arena_printf(&sheet->arena, "M(%s)", printed[i]);
+    }
     panel->symbols = printed;
-    return printed != NULL;
+    panel->moments = moments;
+    return printed && moments;
 }
 
 /* The largest of all bodies, also of those that are not drawn: a part of a scene has the scale of the whole, and a
@@ -139,7 +144,7 @@ static void note_answers(const struct panel *panel, struct text *notes)
     for (size_t i = 0; i < panel->drawn_count; i++) {
         const struct panel_arrow *arrow = &panel->drawn[i];
         if (arrow->component) continue;
-        const char *symbol = panel->symbols[arrow->source - panel->arrows];
+        const char *symbol = panel_symbol(panel, arrow);
         const char *unit = arrow->radius > 0 ? moment_unit(panel->model) : force_unit(panel->model);
         bool named = strcmp(symbol, arrow->source->name) != 0;
         text_printf(notes, "%s = %.4g %s%s%s\n", symbol, arrow->value, printed_unit(unit), named ? ", " : "",

@@ -47,7 +47,8 @@ struct panel {
         largest; /* largest: of all bodies of the scene, beside which rounding is nothing */
     const fbd_drawing *drawing;
     struct plate plate;
-    const char *const *symbols; /* of the arrows, when they are asked for */
+    const char *const *symbols; /* of the arrows, when they are asked for, */
+    const char *const *moments; /* and of the couples that go with them: M(R) of a force R */
 
     struct vec middle;  /* of the body, in the world: the origin of the paper */
     double millimetres; /* on paper per unit of length of the scene */
@@ -78,6 +79,9 @@ void panel_body(struct panel *panel);
 /* Ground, slide or pivot, axes and angles: beneath the body. */
 void panel_fixtures(struct panel *panel);
 bool panel_fixtures_in_front(const struct panel *panel);
+
+/* What an arrow, or arc, is called in symbols. */
+const char *panel_symbol(const struct panel *panel, const struct panel_arrow *arrow);
 
 /* Lay the arrows out, then write them with their labels, after labelling_solve. */
 void panel_arrows(struct panel *panel);

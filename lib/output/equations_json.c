@@ -55,7 +55,7 @@ static void write_states(struct text *text, const struct fbd_state *state)
 static void write_term(struct text *text, struct fbd_state *state, const struct equation *equation, size_t i)
 {
     char remark[term_remark_size];
-    equation_remark(state, equation, i, remark);
+    if (!equation_remark(state, equation, i, remark)) text->failed = true;
     text_add(text, i ? ",\n       {" : "\n       {");
     text_json_words(text, "name", equation->public.terms[i].name, ", ");
     text_json_member(text, "value", equation->public.terms[i].value, remark[0] ? ", " : "}");

@@ -6,6 +6,7 @@
 
 #include "dynamics/friction.h"
 #include "output/equations.h"
+#include "output/laws.h"
 #include "output/terms.h"
 
 enum { value_column = 22, unit_column = 40, remark_column = 48 };
@@ -41,7 +42,7 @@ static void write_terms(struct text *text, struct fbd_state *state, const struct
     const fbd_equation *e = &equation->public;
     for (size_t i = 0; i < e->term_count; i++) {
         char remark[term_remark_size];
-        equation_remark(state, equation, i, remark);
+        if (!equation_remark(state, equation, i, remark)) text->failed = true;
         if (e->terms[i].value == 0 && !remark[0] &&
             !body_lists(state->model, equation->body, equation->loads[i]))
             continue;

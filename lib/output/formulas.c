@@ -4,7 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "output/terms.h"
+#include "output/laws.h"
 
 bool formulas_begin(struct formulas *formulas, struct fbd_state *state)
 {
@@ -27,51 +27,34 @@ static const char *slope_of(struct formulas *formulas, const struct model_body *
     const struct scene *scene = formulas->state->model->scene;
     double slope = atan2(body->e.y, body->e.x);
     for (size_t i = 0; i < scene->parameter_count; i++)
-        if (fabs(scene->parameters[i].value - slope) < 1e-12) return scene->parameters[i].name;
-    return arena_printf(&formulas->arena, "%.4g deg", slope * 180 / 3.141592653589793);
+        if (dim_equal(scene->parameters[i].dim, DIM_NONE) && !scene->parameters[i].input &&
+            fabs(scene->parameters[i].value - slope) < 1e-12)
+            return scene->parameters[i].name;
+    return arena_printf(&formulas->arena, "%.9g deg", slope * 180 / 3.141592653589793);
 }
 
-/* `text` with each word `word` replaced. */
-static const char *replaced(struct arena *arena, const char *text, const char *word, const char *by)
-{
-    const char *at = text ? strstr(text, word) : NULL;
-    if (!at) return text;
-    if (!by) return NULL;
-    return arena_printf(arena, "%.*s%s%s", (int)(at - text), text, by, at + strlen(word));
-}
-
-/* Is the remark beside a term a formula, and not words about it? */
-static bool is_formula(const char *remark)
-{
-    static const char *const words[] = {"across", "along the", "toward", "drag",
-                                        "r_OG",   "holds",     "slips",  "through"};
-    if (!remark[0]) return false;
-    for (size_t i = 0; i < sizeof words / sizeof *words; i++)
-        if (strstr(remark, words[i])) return false;
-    return true;
-}
-
-/* The law of a term of the equation, with its sign, or NULL. */
+/* The law of a term of the equation where it says more than its symbol, or "". */
 static const char *law_of(struct formulas *formulas, const struct equation *equation, size_t term)
 {
     const int load = equation->loads[term];
-    if (load < 0) return NULL;
     const struct fbd_model *model = formulas->state->model;
-    const struct model_body *body = &model->bodies[equation->body];
-    const struct load *source = model->loads[load].source;
-    char remark[term_remark_size];
-    bool plain = source->kind == load_gravity || source->kind == load_spring || source->kind == load_damper ||
-                 source->kind == load_drag || source->kind == moment_spring || source->kind == moment_damper;
-    if (!plain || body->parent != ground_body || model->loads[load].linked) return NULL;
-    equation_remark(formulas->state, equation, term, remark);
-    if (!is_formula(remark)) return NULL;
-    const char *law = arena_text(&formulas->arena, remark, strlen(remark));
-    if (!law || source->kind != load_gravity) return law;
-    const char *slope = slope_of(formulas, body),
-               *mass = symbol_of_mass(model, equation->body, &formulas->arena);
-    law = slope ? replaced(&formulas->arena, law, "along", slope) : NULL;
-    return law && mass ? replaced(&formulas->arena, law, "m g", arena_printf(&formulas->arena, "%s g", mass))
-                       : law;
+    switch (load < 0 ? load_gravity : model->loads[load].source->kind) {
+    case load_gravity: /* and what has no load */
+    case load_spring:
+    case load_damper:
+    case load_drag:
+    case moment_spring:
+    case moment_damper: break;
+    default: return "";
+    }
+    struct law_names names = {symbol_of_mass(model, equation->body, &formulas->arena),
+                              slope_of(formulas, &model->bodies[equation->body])};
+    struct text law = {0};
+    if (names.mass && names.along) law_write(&law, model, equation, term, &names);
+    const char *kept = law.data ? arena_text(&formulas->arena, law.data, law.length) : "";
+    formulas->arena.failed |= law.failed;
+    text_free(&law);
+    return kept;
 }
 
 /* ---- terms */
@@ -84,91 +67,86 @@ static int arrow_of(const struct arrow *arrows, size_t count, const char *name)
     return -1;
 }
 
-/* Does the force stand in the diagram of an earlier body already, opposite? What a joint passes on belongs to the body
- * that moves in it ("rod.pin" is the opposite of the rod's `pin`). A rope may turn a corner: its ends are not opposite. */
-static bool is_opposite(const struct formulas *formulas, int body, const struct arrow *arrow,
-                        const char *symbol, struct arrow *room)
-{
-    if (symbol[0] == 'T') return false;
-    if (symbol[0] == 'R' || symbol[0] == 'N') {
-        const char *own = formulas->state->model->bodies[body].reaction;
-        if (strchr(arrow->name, '.')) return true;
-        if ((own && strcmp(arrow->name, own) == 0) || arrow->load >= 0) return false;
-    }
-    const struct fbd_state *state = formulas->state;
-    struct instant at = state_instant(state);
-    for (int b = 0; b < body; b++) {
-        size_t count = diagram_fill(state->model, b, &at, state->a, state->slots, room);
-        for (size_t i = 0; i < count; i++)
-            if (strcmp(formulas->symbols[b][i], symbol) == 0) return true;
-    }
-    return false;
-}
-
 static bool is_of_moments(const struct equation *equation)
 {
     return equation->public.inertia_name[0] == 'I';
 }
 
-/* The equation of a slide's own coordinate: a force along it is whole there at all times. */
-static bool is_along_a_line(const struct formulas *formulas, const struct equation *equation)
+/* Does the force act along the line of the slide at all times? Those that are functions of its coordinate, friction
+ * among them. */
+static bool stays_along(const struct formulas *formulas, const struct equation *equation,
+                        const struct arrow *arrow)
 {
-    return !equation->cut_free && formulas->state->model->bodies[equation->body].kind == motion_slide;
+    const struct fbd_model *model = formulas->state->model;
+    if (equation->cut_free || model->bodies[equation->body].kind != motion_slide || arrow->load < 0)
+        return false;
+    const struct model_load *load = &model->loads[arrow->load];
+    if (load->body != equation->body || load->linked) return false;
+    switch (load->source->kind) {
+    case load_friction:
+    case load_drive:
+    case load_spring:
+    case load_damper:
+    case load_potential: return true;
+    case load_applied: return !load->source->angle.expr && !load->source->fx.expr && !load->source->fy.expr;
+    default: return false;
+    }
 }
 
-/* A force by its symbol: whole where the equation has the whole of it, else its component or its moment. */
-static const char *term_by_symbol(struct formulas *formulas, const struct equation *equation,
-                                  const struct arrow *arrow, const char *symbol, double value)
+/* Does a moment have a share in the equation of forces, along a curve? */
+static bool turns_along(const struct formulas *formulas, const struct equation *equation)
 {
-    double size = vec_norm(arrow->force);
-    const char *sign = value < 0 ? "-" : "";
-    if (is_of_moments(equation)) {
-        const char *point =
-            equation->public.inertia_name[strlen(equation->public.inertia_name) - 1] == 'O' ? "O" : "G";
-        if (size == 0) return arena_printf(&formulas->arena, "%s%s", sign, symbol);
-        return arena_printf(&formulas->arena, "M_%s(%s)", point, symbol);
-    }
-    /* a reaction of a pin has components by itself; what is whole now need not be so at another time */
-    const struct model_load *load = arrow->load >= 0 ? &formulas->state->model->loads[arrow->load] : NULL;
-    bool weight = load && load->source->kind == load_gravity;
-    if (formulas->general && load && load->source->kind == load_applied)
-        sign = ""; /* its value has the sign */
-    if (fabs(fabs(value) - size) <= 1e-9 * size && symbol[0] != 'R' &&
-        (!formulas->general || weight || is_along_a_line(formulas, equation)))
-        return arena_printf(&formulas->arena, "%s%s", sign, symbol);
-    const char *axis = equation->part == 1 ? "y" : "x";
+    const struct model_body *body = &formulas->state->model->bodies[equation->body];
+    return !equation->cut_free && body->kind == motion_track && body->source->motion.turns;
+}
+
+/* The component or moment of a force that an equation has: R_1x, M_G(R_1); of what turns along a curve its generalized
+ * force. */
+static const char *part_by_symbol(struct formulas *formulas, const struct equation *equation,
+                                  const char *symbol)
+{
+    const enum motion_kind kind = formulas->state->model->bodies[equation->body].kind;
+    const bool track = !equation->cut_free && kind == motion_track;
+    const char *axis = track                 ? "s"
+                       : equation->part == 1 ? "y"
+                                             : "x",
+               *inertia = equation->public.inertia_name;
+    if (is_of_moments(equation))
+        return arena_printf(&formulas->arena, "M_%c(%s)", inertia[strlen(inertia) - 1], symbol);
+    if (turns_along(formulas, equation)) return arena_printf(&formulas->arena, "Q_s(%s)", symbol);
     if (strchr(symbol, ' ')) return arena_printf(&formulas->arena, "(%s)_%s", symbol, axis);
     return arena_printf(&formulas->arena, strchr(symbol, '_') ? "%s%s" : "%s_%s", symbol, axis);
 }
 
-/* Friction in general: its symbol where it holds, numbered as its surface's normal force is. */
-static const char *friction_symbol(struct formulas *formulas, const char *symbol)
+/* A force by its symbol. At one state a symbol that stands by itself is the size of its arrow, and has the sign of the
+ * term; in general it is the component along the line of the slide, or a moment counter-clockwise. */
+static const char *term_by_symbol(struct formulas *formulas, const struct equation *equation,
+                                  const struct arrow *arrow, const struct force_symbol *symbol, double value)
 {
-    const char *N = strncmp(symbol, "mu_k N", strlen("mu_k N")) == 0 ? symbol + strlen("mu_k N") : NULL;
-    return N ? arena_printf(&formulas->arena, "f%s", N) : symbol;
+    const bool general = formulas->general, moments = is_of_moments(equation);
+    const char *text = general ? symbol->text : symbol_now(symbol), *minus = symbol->opposite ? "-" : "";
+    const double size = vec_norm(arrow->force), whole = moments ? fabs(arrow->couple) : size;
+    const bool bare = moments   ? symbol->moment
+                      : general ? stays_along(formulas, equation, arrow)
+                                : fabs(fabs(value) - whole) <= 1e-9 * whole;
+    if (!bare)
+        text = part_by_symbol(formulas, equation, text);
+    else if (!general)
+        minus = value < 0 ? "-" : "";
+    return text ? arena_printf(&formulas->arena, "%s%s", minus, text) : NULL;
 }
 
 static const char *term_of(struct formulas *formulas, const struct equation *equation, size_t index,
-                           struct arrow *arrows, size_t count)
+                           const struct arrow *arrows, size_t count)
 {
     const fbd_term *term = &equation->public.terms[index];
+    const char *law = law_of(formulas, equation, index);
+    if (!law || law[0]) return law;
     int k = arrow_of(arrows, count, term->name);
     if (k < 0) return arena_printf(&formulas->arena, "(%s)", term->name);
-    const char *law = law_of(formulas, equation, index);
-    if (law) return law;
-    const char *symbol = formulas->symbols[equation->body][k];
-    bool rubs = formulas->general && arrows[k].load >= 0 &&
-                formulas->state->model->loads[arrows[k].load].source->kind == load_friction;
-    if (rubs && is_along_a_line(formulas, equation)) return friction_symbol(formulas, symbol);
-    if (rubs) symbol = friction_symbol(formulas, symbol);
-    const char *text = !symbol ? NULL : term_by_symbol(formulas, equation, &arrows[k], symbol, term->value);
-    struct arrow *room =
-        ARENA_ARRAY(&formulas->arena, diagram_most_arrows(formulas->state->model), struct arrow);
-    if (!text || !room) return NULL;
-    bool signed_already = text[0] == '-' || text == symbol || strcmp(text, symbol) == 0;
-    if (!signed_already && is_opposite(formulas, equation->body, &arrows[k], symbol, room))
-        return arena_printf(&formulas->arena, "-%s", text);
-    return text;
+    const struct force_symbol *symbol = &formulas->symbols[equation->body][k];
+    if (symbol->moment && !is_of_moments(equation) && !turns_along(formulas, equation)) return "";
+    return term_by_symbol(formulas, equation, &arrows[k], symbol, term->value);
 }
 
 const char *formula_right(struct formulas *formulas, const struct equation *equation)
@@ -199,7 +177,7 @@ const char *formula_term(struct formulas *formulas, const struct equation *equat
     if (!arrows) return NULL;
     size_t count = diagram_fill(state->model, equation->body, &at, state->a, state->slots, arrows);
     for (size_t i = 0; i < equation->public.term_count; i++)
-        if (strcmp(equation->public.terms[i].name, name) == 0 && arrow_of(arrows, count, name) >= 0)
+        if (strcmp(equation->public.terms[i].name, name) == 0)
             return term_of(formulas, equation, i, arrows, count);
     return "";
 }

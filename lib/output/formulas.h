@@ -3,10 +3,11 @@
  * Formulas: an assembled equation in the symbols of the scene (symbols.h), as one writes it by hand,
  * "m v_dot = -m g sin(phi) - mu_k N + push".
  *
- * A term that is a law of a textbook stands as that law; an angle of a slide that a parameter of the file has the value
- * of is called by that parameter. What is none keeps its symbol, with the axis where the equation has only its
- * component: R_1x. Of a force and its opposite the one on the body that comes second has the minus sign. What is zero
- * at the state is left out.
+ * A term that is a law of a textbook stands as that law (laws.h); an angle of a slide that a parameter of the file has the
+ * value of is called by that parameter. What is none keeps its symbol, with the axis where the equation has a component of
+ * it, R_1x, in its own x and y; M_G(R_1) is its moment. There a symbol stands for one vector, and where the body feels the
+ * opposite it has a minus sign. By itself a symbol is the length of its arrow, and its sign is that of the term. What is
+ * zero at the state is left out.
  */
 #ifndef FBD_OUTPUT_FORMULAS_H
 #define FBD_OUTPUT_FORMULAS_H
@@ -17,7 +18,7 @@
 struct formulas {
     struct arena arena;
     struct fbd_state *state;
-    const char *const *const *symbols;
+    const struct force_symbol *const *symbols;
     bool general; /* for every time of a run, not for this state alone */
 };
 
@@ -29,8 +30,9 @@ void formulas_end(struct formulas *formulas);
 const char *formula_right(struct formulas *formulas, const struct equation *equation);
 const char *formula_left(struct formulas *formulas, const struct equation *equation);
 
-/* One term, by its name, as it stands at every time: with its sign, friction as `f` whether it slips or holds, and
- * reactions by their components. NULL when memory is out; "" for a term that is no force. */
+/* One term, by its name, as it stands at every time: friction as `f` whether it slips or holds, reactions by their
+ * components; a force that stays on the line of the slide is its component along x by its symbol alone, as a moment is
+ * counter-clockwise. NULL when memory is out; "" for a moment in an equation of forces. */
 const char *formula_term(struct formulas *formulas, const struct equation *equation, const char *name);
 
 #endif

@@ -11,9 +11,13 @@
 /* One force of the scene, whichever diagram it stands in. */
 struct force_key {
     const char *letter;
-    enum key_of { of_load, of_tie, of_joint } of;
+    enum key_of { of_load, of_tie, of_corner, of_joint } of;
     int index;
+    int owner;   /* the body on which it acts as its symbol says; no_body: at each end */
+    bool moment; /* at all times */
 };
+
+enum { no_body = -1 };
 
 struct naming {
     const struct fbd_state *state;
@@ -24,6 +28,39 @@ struct naming {
 
 /* ---- which force it is */
 
+/* The strand that part `part` of end k is of: a drum between two strands has a part of each, their far ends are of one. */
+static int strand_of(const struct tie *tie, int k, int part)
+{
+    return !tie->law->strands ? 0 : tie->end[k].name[1] ? part : k / 2;
+}
+
+/* The pulls of a rope at its ends are not opposite where it turns corners. */
+static int owner_of_tie(const struct tie *tie, int strand)
+{
+    int owner = no_body;
+    if (tie->law->way && !tie->law->strands && tie->end_count > 2) return no_body;
+    for (int k = 0; k < tie->end_count; k++)
+        for (int part = 0; part < 2; part++) {
+            const int body = tie->end[k].body;
+            if (body < 0 || !tie->end[k].name[part] || strand_of(tie, k, part) != strand) continue;
+            if (owner == no_body || body < owner) owner = body;
+        }
+    return owner;
+}
+
+/* Where a rope goes round a point of the body: what it does there is the sum of two pulls. */
+static bool is_corner(const struct tie *tie, int k)
+{
+    return tie->law->way && !tie->law->strands && k > 0 && k + 1 < tie->end_count;
+}
+
+/* The stop of a pivot. */
+static bool stops_turning(const struct fbd_model *model, const struct tie *tie)
+{
+    return tie->kind == constraint_contact && tie->source->contact.stop != 0 &&
+           model->bodies[tie->end[0].body].kind == motion_pivot;
+}
+
 static bool key_of_tie(const struct fbd_model *model, int b, const char *name, struct force_key *key)
 {
     for (int i = 0; model->tree && i < model->tree->tie_count; i++) {
@@ -32,19 +69,47 @@ static bool key_of_tie(const struct fbd_model *model, int b, const char *name, s
             for (int part = 0; part < 2; part++) {
                 const char *own = tie->end[k].name[part];
                 if (tie->end[k].body != b || !own || strcmp(own, name) != 0) continue;
-                /* a drum between two strands tells them by their parts, their far ends are one each */
-                int strand = !tie->law->strands ? 0 : tie->end[k].name[1] ? part : k / 2;
-                *key = (struct force_key){tie->law->letters[part], of_tie, 2 * i + strand};
+                const int strand = strand_of(tie, k, part);
+                const bool moment = stops_turning(model, tie);
+                if (is_corner(tie, k)) {
+                    *key = (struct force_key){"F", of_corner, most_constraint_ends * i + k, b, false};
+                    return true;
+                }
+                *key = (struct force_key){.letter = moment ? "M" : tie->law->letters[part],
+                                          .of = of_tie,
+                                          .index = 2 * i + strand,
+                                          .owner = owner_of_tie(tie, strand),
+                                          .moment = moment};
                 return true;
             }
     }
     return false;
 }
 
-static const char *letter_of_load(const struct model_load *load)
+/* A normal force stands for what a slide without one calls its guide. */
+static struct force_key key_of_load(const struct fbd_model *model, int index)
 {
-    const char *letter = load_law(load->source)->letter;
-    return letter ? letter : load->source->name;
+    const struct model_load *load = &model->loads[index];
+    const struct law *law = load_law(load->source);
+    struct force_key key = {law->letter ? law->letter : load->source->name, of_load, index, load->body,
+                            false};
+    switch (load->source->kind) {
+    case load_normal:
+        key.of = of_joint;
+        key.index = load->body;
+        break;
+    case load_drive: key.moment = model->bodies[load->body].kind == motion_pivot; break;
+    case moment_applied:
+    case moment_spring:
+    case moment_damper:
+    case moment_friction:
+    case moment_potential: key.moment = true; break;
+    default: break;
+    }
+    if (load->source->kind == load_drive && key.moment) key.letter = "M";
+    if (index >= (int)model->listed_count && load->linked && load->partner >= 0 && load->partner < key.owner)
+        key.owner = load->partner;
+    return key;
 }
 
 /* The reaction of the body's own joint, or the opposite of that of a body that it carries ("rod.pin"). */
@@ -52,24 +117,20 @@ static struct force_key key_of_joint(const struct fbd_model *model, int b, const
 {
     int joint = b;
     for (size_t c = 0; c < model->body_count; c++) {
-        size_t length = strlen(model->bodies[c].name);
-        if (model->bodies[c].parent == b && strncmp(name, model->bodies[c].name, length) == 0 &&
-            name[length] == '.')
+        const struct model_body *child = &model->bodies[c];
+        if (child->parent == b && child->reaction_on_parent && strcmp(name, child->reaction_on_parent) == 0)
             joint = (int)c;
     }
-    bool slides = model->bodies[joint].kind == motion_slide || model->bodies[joint].kind == motion_track;
-    return (struct force_key){slides ? "N" : "R", of_joint, joint};
+    const enum motion_kind kind = model->bodies[joint].kind;
+    const bool slides = kind == motion_slide || kind == motion_track, moment = kind == motion_particle;
+    return (struct force_key){moment ? "M" : slides ? "N" : "R", of_joint, joint, joint, moment};
 }
 
 static struct force_key key_of(const struct fbd_model *model, int b, const struct arrow *arrow)
 {
     struct force_key key;
     if (key_of_tie(model, b, arrow->name, &key)) return key;
-    if (arrow->load < 0) return key_of_joint(model, b, arrow->name);
-    const struct model_load *load = &model->loads[arrow->load];
-    bool joint = load->source->kind == load_normal; /* what a slide without one calls its guide */
-    return (struct force_key){letter_of_load(load), joint ? of_joint : of_load,
-                              joint ? load->body : arrow->load};
+    return arrow->load < 0 ? key_of_joint(model, b, arrow->name) : key_of_load(model, arrow->load);
 }
 
 static bool is_same(const struct force_key *a, const struct force_key *b)
@@ -108,32 +169,55 @@ static const char *slipping(struct naming *naming, const struct model_load *load
 {
     const struct fbd_model *model = naming->state->model;
     const struct model_body *body = &model->bodies[load->body];
-    if (load->source->kind != load_friction || body->friction < 0 ||
+    const bool turns = body->kind == motion_track && body->source->motion.turns; /* N is not all across it */
+    if (load->source->kind != load_friction || body->friction < 0 || turns ||
         naming->state->slip[body->friction] == stick)
         return NULL;
     for (size_t i = 0; i < model->load_count; i++)
         if (model->loads[i].body == load->body && model->loads[i].source->kind == load_normal) {
-            struct force_key normal = {"N", of_joint, load->body};
+            struct force_key normal = key_of_load(model, (int)i);
             return arena_printf(naming->arena, "mu_k %s", numbered(naming, &normal));
         }
     return NULL;
 }
 
-static const char *name_of(struct naming *naming, int b, const struct arrow *arrow)
+/* What the file calls by a name of its own keeps it, unless two bodies have that name. */
+static bool is_named_once(const struct naming *naming, const struct force_key *key,
+                          const struct model_load *load)
 {
-    const struct fbd_model *model = naming->state->model;
-    struct force_key key = key_of(model, b, arrow);
-    if (strcmp(key.letter, "m g") == 0)
-        return arena_printf(naming->arena, "%s g", symbol_of_mass(model, b, naming->arena));
-    const char *law =
-        arrow->load >= 0 && key.of != of_tie ? slipping(naming, &model->loads[arrow->load]) : NULL;
-    if (law) return law;
-    bool own = arrow->load >= 0 && (model->loads[arrow->load].source->kind == load_applied ||
-                                    model->loads[arrow->load].source->kind == moment_applied);
-    return own ? key.letter : numbered(naming, &key);
+    const struct model_load *loads = naming->state->model->loads;
+    if (key->of != of_load || load_law(load->source)->letter) return false;
+    for (size_t i = 0; i < naming->count; i++) {
+        const struct force_key *other = &naming->keys[i];
+        if (other->of == of_load && other->index != key->index &&
+            !load_law(loads[other->index].source)->letter && strcmp(other->letter, key->letter) == 0)
+            return false;
+    }
+    return true;
 }
 
-const char *const *const *symbols_of_forces(const struct fbd_state *state, struct arena *arena)
+static struct force_symbol symbol_of(struct naming *naming, int b, const struct arrow *arrow)
+{
+    const struct fbd_model *model = naming->state->model;
+    const struct model_load *load = arrow->load >= 0 ? &model->loads[arrow->load] : NULL;
+    const struct force_key key = key_of(model, b, arrow);
+    struct force_symbol symbol = {.moment = key.moment, .opposite = key.owner >= 0 && key.owner != b};
+    if (load && key.of == of_load && load->source->kind == load_gravity)
+        symbol.text = arena_printf(naming->arena, "%s g", symbol_of_mass(model, b, naming->arena));
+    else if (load && is_named_once(naming, &key, load))
+        symbol.text = key.letter;
+    else
+        symbol.text = numbered(naming, &key);
+    if (load && key.of == of_load) symbol.slipping = slipping(naming, load);
+    return symbol;
+}
+
+const char *symbol_now(const struct force_symbol *symbol)
+{
+    return symbol->slipping ? symbol->slipping : symbol->text;
+}
+
+const struct force_symbol *const *symbols_of_forces(const struct fbd_state *state, struct arena *arena)
 {
     const struct fbd_model *model = state->model;
     struct instant at = state_instant(state);
@@ -142,22 +226,22 @@ const char *const *const *symbols_of_forces(const struct fbd_state *state, struc
     for (size_t b = 0; b < model->body_count; b++) room += diagram_arrows(model, (int)b);
     naming.keys = ARENA_ARRAY(arena, room, struct force_key);
     struct arrow *arrows = ARENA_ARRAY(arena, diagram_most_arrows(model), struct arrow);
-    const char ***symbols = ARENA_ARRAY(arena, model->body_count, const char **);
+    struct force_symbol **symbols = ARENA_ARRAY(arena, model->body_count, struct force_symbol *);
     if (!naming.keys || !arrows || !symbols) return NULL;
     for (int named = 0; named < 2; named++) /* all are known before any is numbered */
         for (size_t b = 0; b < model->body_count; b++) {
             size_t count = diagram_fill(model, (int)b, &at, state->a, state->slots, arrows);
-            if (named) symbols[b] = ARENA_ARRAY(arena, count + 1, const char *);
+            if (named) symbols[b] = ARENA_ARRAY(arena, count + 1, struct force_symbol);
             if (named && !symbols[b]) return NULL;
             for (size_t i = 0; i < count; i++) {
                 struct force_key key = key_of(model, (int)b, &arrows[i]);
                 if (!named)
                     take(&naming, &key);
-                else if (!(symbols[b][i] = name_of(&naming, (int)b, &arrows[i])))
-                    return NULL;
+                else
+                    symbols[b][i] = symbol_of(&naming, (int)b, &arrows[i]);
             }
         }
-    return (const char *const *const *)symbols;
+    return arena->failed ? NULL : (const struct force_symbol *const *)symbols;
 }
 
 /* ---- as it is printed */

@@ -2,9 +2,11 @@
  *
  * Symbols: the letters that a textbook gives to the forces of a scene: m g, N, mu_k N, T_1, R_2.
  *
- * A force and its opposite on another body have one symbol. Letters that stand for several forces are numbered in
- * the order of the bodies; so are masses where there are several bodies. What the file calls by a name of its own
- * (an applied force) keeps that name.
+ * A force and its opposite on another body have one symbol. It stands for the force on the body whose joint or list it is
+ * in, of a coupling for that on the first of its bodies. A rope that turns corners has one symbol for its pulls, and `F` for
+ * what it does where it goes round a point of a body. Letters that stand for several forces are numbered in the order of
+ * the bodies; so are masses where there are several bodies. What the file calls by a name of its own (an applied force)
+ * keeps that name.
  *
  * Written plainly: factors apart by blanks, an index behind `_`, Greek letters by name.
  */
@@ -16,8 +18,18 @@
 #include "dynamics/diagram.h"
 #include "dynamics/state.h"
 
+struct force_symbol {
+    const char *text;     /* N, T_1, m g */
+    const char *slipping; /* mu_k N, while that is what it is; else NULL */
+    bool moment;          /* it is a moment at all times, and no force */
+    bool opposite;        /* the arrow is minus that for which it stands */
+};
+
 /* The symbols of each body's arrows, in the order of diagram_fill: symbols[body][arrow]. NULL when memory is out. */
-const char *const *const *symbols_of_forces(const struct fbd_state *state, struct arena *arena);
+const struct force_symbol *const *symbols_of_forces(const struct fbd_state *state, struct arena *arena);
+
+/* As a diagram of this state has it. */
+const char *symbol_now(const struct force_symbol *symbol);
 
 /* The mass of a body: "m", "m_2". */
 const char *symbol_of_mass(const struct fbd_model *model, int body, struct arena *arena);

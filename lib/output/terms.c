@@ -5,6 +5,7 @@
 
 #include "base/format.h"
 #include "dynamics/diagram.h"
+#include "output/laws.h"
 
 /* A surface that is no guide cannot pull; less than the rounding of the weight is nothing. */
 static bool normal_is_lost(const struct fbd_state *state, const struct model_body *body)
@@ -27,12 +28,19 @@ static void normal_remark(const struct fbd_state *state, const struct model_body
         snprintf(remark, term_remark_size, "acts across the guide");
 }
 
+static const char *friction_limit(const struct mode *mode, bool kinetic)
+{
+    if (mode->normal_slot < 0) return kinetic ? "M_k" : "M_s";
+    if (mode->two_sided) return kinetic ? "mu_k |N|" : "mu_s |N|";
+    return kinetic ? "mu_k N" : "mu_s N";
+}
+
 /* The speed on the surface where the law goes with it. */
 static void slip_remark(const struct fbd_state *state, int pair, char *remark)
 {
     const struct fbd_model *model = state->model;
-    bool bearing = model->plan.modes[pair].normal_slot < 0;
-    const char *law = bearing ? "M_k" : "mu_k N", *sign = state->slip[pair] > 0 ? "-" : "+";
+    const char *law = friction_limit(&model->plan.modes[pair], true),
+               *sign = state->slip[pair] > 0 ? "-" : "+";
     const double *places = state->y + plan_size(&model->plan) + hand_slots;
     for (size_t k = 0; k < model->absolute_count; k++) {
         if (model->absolutes[k].kind != absolute_slip || model->absolutes[k].pair != pair) continue;
@@ -48,81 +56,84 @@ static void friction_remark(struct fbd_state *state, int b, char *remark)
     struct instant at = state_instant(state);
     state_balance_of(state, b, state->scratch);
     struct friction_values now = friction_at(state->model, body->friction, &at, state->scratch);
-    bool bearing = state->model->plan.modes[body->friction].normal_slot < 0;
     bool kinetic = now.limit_kinetic > now.limit_static; /* warned of by the reader */
     if (state->slip[body->friction] == stick)
-        format_into(remark, term_remark_size, "sticks: whatever holds, up to %s_%c%s = %.9g",
-                    bearing ? "M" : "mu", kinetic ? 'k' : 's', bearing ? "" : " N", now.limit);
+        format_into(remark, term_remark_size, "sticks: whatever holds, up to %s = %.9g",
+                    friction_limit(&state->model->plan.modes[body->friction], kinetic), now.limit);
     else
         slip_remark(state, body->friction, remark);
 }
 
-/* Gravity on a pivot whose zero angle hangs straight down is the m g L sin(theta) of every textbook. */
-static const char *gravity_remark(const struct fbd_model *model, const struct model_body *body, int part)
+/* ---- the remark */
+
+/* Where its law is not one of these symbols, or zero. */
+static const char *gravity_words(const struct model_body *body, int part)
 {
-    struct vec g = model->scene->gravity;
-    const bool on_ground = body->parent == ground_body;
-    if (g.x != 0) return "m g";
     switch (body->kind) {
-    case motion_slide:
-        if (!on_ground) return "m g along x";
-        return body->e.y == 0 ? "acts across" : body->e.x == 0 ? "m g" : "-m g sin(along)";
-    case motion_pivot:
-        if (body->L == 0) return "through the axis";
-        if (!on_ground) return "r_OG x m g";
-        if (body->arm.x == 0) return body->arm.y < 0 ? "-m g L sin(theta)" : "m g L sin(theta)";
-        return body->arm.y == 0 && body->arm.x > 0 ? "-m g L cos(theta)" : "r_OG x m g";
-    case motion_particle:
-    case motion_planar:
-    case motion_weld: break;
+    case motion_slide: return body->parent == ground_body ? "acts across" : "m g along x";
+    case motion_pivot: return "through the axis";
     case motion_track: return "m g along the track";
+    default: return part < 2 && body->parent != ground_body ? "m g along the axis" : "";
     }
-    return part == 1 ? "-m g" : "";
 }
 
-static const char *plain_remark(const struct model_load *load, bool turns)
+static const char *listed_words(const struct model_load *load, const struct model_body *body, int part)
 {
-    const struct law *law = load_law(load->source);
-    if (law->remark) return law->remark(load->source, load->linked, turns);
-    return law->formula ? law->formula : "";
+    const struct load *source = load->source;
+    if (source->kind == load_gravity) return gravity_words(body, part);
+    if (load->linked) return load_law(source)->between;
+    if (source->kind == load_drag)
+        return load_has_wind(source) ? "drag at its point, in the wind" : "drag at its point";
+    return "";
 }
 
-bool body_lists(const struct fbd_model *model, int body, int load)
-{
-    const struct model_body *b = &model->bodies[body];
-    return load >= b->first_load && load < b->first_load + b->load_count;
-}
-
-static void listed_remark(struct fbd_state *state, int b, const struct model_load *load, int part,
-                          char *remark)
+static void listed_remark(struct fbd_state *state, const struct equation *equation, size_t term,
+                          char remark[static term_remark_size])
 {
     const struct fbd_model *model = state->model;
-    const struct model_body *body = &model->bodies[b];
+    const struct model_load *load = &model->loads[equation->loads[term]];
+    const struct model_body *body = &model->bodies[equation->body];
     switch (load->source->kind) {
     case load_normal: normal_remark(state, body, remark); return;
-    case load_friction:
-    case moment_friction: friction_remark(state, b, remark); return;
-    case load_gravity: snprintf(remark, term_remark_size, "%s", gravity_remark(model, body, part)); return;
-    default:
-        if (load->source->toward)
-            snprintf(remark, term_remark_size, "toward %s", load->source->toward);
-        else
-            snprintf(remark, term_remark_size, "%s",
-                     plain_remark(load, body->kind == motion_pivot || body->kind == motion_planar));
+    case moment_friction:
+        if (body->kind != motion_pivot && equation->part < 2) return;
+        friction_remark(state, equation->body, remark);
+        return;
+    case load_friction: friction_remark(state, equation->body, remark); return;
+    default: break;
     }
+    if (load->source->toward)
+        format_into(remark, term_remark_size, "toward %s", load->source->toward);
+    else if (!remark[0])
+        format_into(remark, term_remark_size, "%s", listed_words(load, body, equation->part));
 }
 
-void equation_remark(struct fbd_state *state, const struct equation *equation, size_t term,
+static bool write_law(const struct fbd_model *model, const struct equation *equation, size_t term,
+                      char remark[static term_remark_size])
+{
+    static const struct law_names names = {"m", "along"};
+    struct text law = {0};
+    law_write(&law, model, equation, term, &names);
+    const bool written = !law.failed;
+    if (written && law.data) format_into(remark, term_remark_size, "%s", law.data);
+    text_free(&law);
+    return written;
+}
+
+bool equation_remark(struct fbd_state *state, const struct equation *equation, size_t term,
                      char remark[static term_remark_size])
 {
     const struct fbd_model *model = state->model;
     int index = equation->loads[term];
     remark[0] = '\0';
-    if (equation->cut_free || index < 0) return;
+    if (equation->cut_free) return true;
+    if (!write_law(model, equation, term, remark)) return false;
+    if (index < 0) return true;
     if (body_lists(model, equation->body, index))
-        listed_remark(state, equation->body, &model->loads[index], equation->part, remark);
-    else if (index >= (int)model->listed_count)
-        snprintf(remark, term_remark_size, "%s", plain_remark(&model->loads[index], true));
+        listed_remark(state, equation, term, remark);
+    else if (index >= (int)model->listed_count && model->loads[index].linked)
+        format_into(remark, term_remark_size, "%s", load_law(model->loads[index].source)->between);
+    return true;
 }
 
 const char *term_mode(const struct fbd_state *state, int body)

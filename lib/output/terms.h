@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * What a term is, in a few symbols: the remark beside its value.
+ * What a term is, by its law (laws.h) or in a few words: the remark beside its value.
  */
 #ifndef FBD_OUTPUT_TERMS_H
 #define FBD_OUTPUT_TERMS_H
@@ -10,12 +10,9 @@
 enum { term_remark_size = 160 };
 
 /* Remark for a term of an equation: "-m g sin(along)", "N = 16.99 N acts across", "slips: -mu_k N", ...; empty
- * for what is there by another body's list, and where the body is cut free. */
-void equation_remark(struct fbd_state *state, const struct equation *equation, size_t term,
+ * for what is there by another body's list, and where the body is cut free. False when memory is out. */
+bool equation_remark(struct fbd_state *state, const struct equation *equation, size_t term,
                      char remark[static term_remark_size]);
-
-/* Is it one of the loads that the body itself lists? */
-bool body_lists(const struct fbd_model *model, int body, int load);
 
 /* "sticks" or "slips" for a body with dry friction, else "". */
 const char *term_mode(const struct fbd_state *state, int body);

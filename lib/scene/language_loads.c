@@ -206,32 +206,6 @@ static const struct field potential_fields[] = {
 static const struct group potential_group =
     LOAD_GROUP("`potential`", "V", potential_fields, "a force f = -dV/dx");
 
-/* ---- what the rows say in words */
-
-static const char *spring_remark(const struct load *load, bool between, bool turns)
-{
-    (void)load;
-    (void)turns;
-    return between ? "k (l - l0) toward its end" : "-k (x - x0)";
-}
-
-static const char *damper_remark(const struct load *load, bool between, bool turns)
-{
-    (void)load;
-    (void)turns;
-    return between ? "-c l' along its line" : "-c v";
-}
-
-static const char *drag_remark(const struct load *load, bool between, bool turns)
-{
-    static const char *const still[] = {"-c v", "-k |v| v", "-(c + k |v|) v"};
-    static const char *const wind[] = {"-c (v - w)", "-k |v - w| (v - w)", "-(c + k |v - w|) (v - w)"};
-    (void)between;
-    if (turns) return load_has_wind(load) ? "drag at its point, in the wind" : "drag at its point";
-    int form = load->quadratic == 0 ? 0 : load->linear == 0 ? 1 : 2;
-    return load_has_wind(load) ? wind[form] : still[form];
-}
-
 /* ---- across a slide */
 
 static bool weight_across(const struct load *load, struct vec gravity, double along)
@@ -290,25 +264,25 @@ static const struct kind forces[] = {
     {"spring", load_spring, &spring_group, on_all, NULL,
      LAW(.effect = "spring", .written_as_c = true, .drawing = "spring", .letter = "F",
          .place = acts_in_joint_without_end, .rate = rate_never, .finish = link_finish,
-         .remark = spring_remark, .across = link_across)},
+         .formula = "-k (# - #0)", .between = "k (l - l0) toward its end", .across = link_across)},
     {"damper", load_damper, &damper_group, on_all, NULL,
      LAW(.effect = "damper", .written_as_c = true, .drawing = "damper", .letter = "D", .work = dissipates,
-         .place = acts_in_joint_without_end, .rate = rate_always, .finish = link_finish,
-         .remark = damper_remark, .across = link_across)},
+         .place = acts_in_joint_without_end, .rate = rate_always, .finish = link_finish, .formula = "-c @",
+         .between = "-c l' along its line", .across = link_across)},
     {"drag", load_drag, &drag_group, on_all, NULL,
      LAW(.effect = "drag", .written_as_c = true, .drawing = "damper", .letter = "D", .rate = rate_always,
-         .finish = drag_finish, .remark = drag_remark, .across = drag_across)},
+         .finish = drag_finish, .across = drag_across)},
     {"potential", load_potential, &potential_group, on_moving, "list it where the coordinates are",
      LAW(.effect = "potential", .written_as_c = true, .drawing = "potential", .letter = "F",
-         .place = acts_in_joint, .finish = potential_finish, .formula = "-dV/dx")},
+         .place = acts_in_joint, .finish = potential_finish, .formula = "-dV/d#")},
     {"thrust", load_applied, &thrust_group, on_all, NULL,
      LAW(.effect = "thrust", .drawing = "applied", .rate = rate_always, .finish = thrust_finish,
-         .work = "not conservative: it comes with the mass that does", .formula = "u dm/dt",
+         .work = "not conservative: it comes with the mass that does", .formula = "u_$ dm/dt",
          .across = applied_across)},
     {"power", load_applied, &power_group, on_slide | on_track,
      "a drive of given power goes along a slide; under `moments` it turns a pivot",
      LAW(.effect = "constant power", .written_as_c = true, .drawing = "applied", .finish = power_finish,
-         .formula = "P/v", .singular = "which is P/v and infinite at rest (give it an initial velocity)")},
+         .formula = "P/@", .singular = "which is P/v and infinite at rest (give it an initial velocity)")},
 };
 
 const struct kinds force_kinds = {"force", FIELDS(forces)};
@@ -363,19 +337,19 @@ static const struct kind moments[] = {
     {"spring", moment_spring, &moment_spring_group, on_turning, NO_TURNING,
      LAW(.effect = "spring (moment)", .written_as_c = true, .drawing = "spring", .letter = "M",
          .place = acts_in_joint, .rate = rate_never, .finish = moment_spring_finish,
-         .formula = "-k (theta - theta0)")},
+         .formula = "-k (# - #0)")},
     {"damper", moment_damper, &moment_damper_group, on_turning, NO_TURNING,
      LAW(.effect = "damper (moment)", .written_as_c = true, .drawing = "damper", .letter = "M",
-         .work = dissipates, .place = acts_in_joint, .rate = rate_always, .formula = "-c omega")},
+         .work = dissipates, .place = acts_in_joint, .rate = rate_always, .formula = "-c @")},
     {"friction", moment_friction, &moment_friction_group, on_turning, NO_TURNING,
      LAW(.effect = "bearing friction", .written_as_c = true, .drawing = "friction", .letter = "M",
          .work = opposes, .place = acts_in_joint, .follows = true, .finish = friction_finish)},
     {"potential", moment_potential, &moment_potential_group, on_turning, NO_TURNING,
      LAW(.effect = "potential (moment)", .written_as_c = true, .drawing = "potential", .letter = "M",
-         .place = acts_in_joint, .finish = potential_finish, .formula = "-dV/dtheta")},
+         .place = acts_in_joint, .finish = potential_finish, .formula = "-dV/d#")},
     {"power", moment_applied, &power_group, on_pivot, "a drive of given power turns a pivot",
      LAW(.effect = "constant power", .written_as_c = true, .drawing = "applied", .finish = power_finish,
-         .formula = "P/omega",
+         .formula = "P/@",
          .singular = "which is P/omega and infinite at rest (give it an initial velocity)")},
 };
 

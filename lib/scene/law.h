@@ -35,9 +35,10 @@ struct law {
     /* What is more than one key at a time, and what follows from the keys; or NULL. */
     bool (*finish)(struct entry *entry);
 
-    /* Its formula in a few symbols: always, or as `remark` has it; `between` two points, on a body that `turns`. */
+    /* Along the coordinate that it acts on, in a few symbols, `#` for the coordinate, `@` for its rate and `$` for the
+     * letter of the axis; and where it acts `between` two points. NULL: none, or one that depends on its keys. */
     const char *formula;
-    const char *(*remark)(const struct load *load, bool between, bool turns);
+    const char *between;
 
     /* Can it act across a slide in the direction `along`? NULL: no. */
     bool (*across)(const struct load *load, struct vec gravity, double along);

@@ -1,0 +1,590 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Is every symbolic line of a scene true? Each term in symbols is read back and evaluated by numbers, and held against
+the number beside it.
+
+What a symbol means is in docs/output.md. At one state: N_1 alone is the length of the arrow that the drawing labels so,
+N_1x a component of the vector N_1, M_G(N_1) its moment, and the vector is the one on the body whose joint or list it is
+in, or on the first body of a coupling. On the page, at all times: F alone is the component along the line of the slide,
+M alone a moment counter-clockwise.
+"""
+import math
+import re
+import xml.etree.ElementTree as ElementTree
+from collections import Counter
+
+import yaml
+
+from formula import FORCE, Unbound, evaluate, from_latex, pieces, printed
+
+LAWS = {"gravity", "spring", "damper", "drag"}
+LAW = re.compile(r"m(_[0-9]+)? (g\b|g_[xy]|\(|g ).*|[kc] .*|\(c \+ k .*")
+WORDS = re.compile(r"acts across(?: the guide)?|through the axis|m g along (?:x|the axis|the track)|toward .*|drag at its point.*|"
+                   r"k \(l - l0\) toward its end|-c l' along its line")
+NORMAL = re.compile(r"acts across: N = (\S+)(?: \(contact is lost.*\))?")
+STICKS = re.compile(r"sticks: whatever holds, up to (.*) = (\S+)")
+SLIPS = re.compile(r"slips: (\S.*?)(?: at slip = \S+)?")
+
+
+def near(got, want, scale, what):
+    assert abs(got - want) <= 2e-6 * (scale + abs(want)) + 1e-9, f"{what} is {got:.9g}, and the term {want:.9g}"
+
+
+def cross(a, b):
+    return a[0] * b[1] - a[1] * b[0]
+
+
+class Entry:
+    """A force or moment of the file, by the name of its arrow."""
+
+    def __init__(self, entry, moment):
+        self.kind, keys = (entry, {}) if isinstance(entry, str) else next(iter(entry.items()))
+        self.keys = keys if isinstance(keys, dict) else {None: keys}
+        self.name = self.keys.get("name", self.kind)
+        self.moment = moment
+
+    def get(self, *names):
+        """The first key of these that is there; the value of a short form."""
+        return next((self.keys[name] for name in (*names, None) if name in self.keys), None)
+
+
+class Scene:
+    """What the file says."""
+
+    def __init__(self, text, model):
+        self.model = model
+        self.file = yaml.load(text, yaml.BaseLoader)
+        self.bodies = list(self.file["bodies"])
+        self.entries = {b: {} for b in self.bodies}
+        for b, body in self.file["bodies"].items():
+            for list_name in ("forces", "moments"):
+                for entry in body.get(list_name) or []:
+                    entry = Entry(entry, list_name == "moments")
+                    self.entries[b][entry.name] = entry
+        self.parents = {b: self.parent_of(body.get("motion")) for b, body in self.file["bodies"].items()}
+
+    @staticmethod
+    def parent_of(motion):
+        keys = next(iter(motion.values())) if isinstance(motion, dict) else None
+        return keys.get("on") if isinstance(keys, dict) else None
+
+    def number(self, text, unit):
+        """Of a value of the file; None where it is more than a number."""
+        if isinstance(text, dict):
+            text = text.get("value", text.get("coefficient"))
+        for _ in range(3):
+            if not isinstance(text, str) or text not in self.file.get("parameters", {}):
+                break
+            text = self.file["parameters"][text]
+            text = text["value"] if isinstance(text, dict) else text
+        try:
+            return None if text is None else self.model.quantity(text, unit)
+        except Exception:  # an expression
+            return None
+
+    def kind(self, b):
+        motion = self.file["bodies"][b].get("motion", "")
+        return motion if isinstance(motion, str) else next(iter(motion))
+
+    def turns_along(self, b):
+        motion = self.file["bodies"][b]["motion"]
+        return self.kind(b) == "track" and str(motion["track"].get("turn", "true")) == "true"
+
+    def along(self, b):
+        """The angle of a slide on the ground, where the file says it."""
+        motion = self.file["bodies"][b]["motion"]
+        keys = motion["slide"] if isinstance(motion, dict) else {}
+        if not isinstance(keys, dict) or "line" in keys or "from" in keys:
+            return None
+        return self.number(keys["along"], "rad") if "along" in keys else 0
+
+    def constants(self, b, name):
+        """The numbers of one entry, by the letters of its law."""
+        entry = self.entries[b].get(name)
+        if not entry:
+            return {}
+        number = lambda unit, *keys: self.number(entry.get(*keys), unit)  # noqa: E731
+        if entry.kind == "spring":
+            unit = "N*m" if entry.moment else "N/m"
+            rest = number("rad" if entry.moment else "m", "neutral") if "neutral" in entry.keys else 0
+            return {"k": number(unit, "stiffness"), **dict.fromkeys(("x0", "s0", "theta0"), rest)}
+        if entry.kind == "damper":
+            return {"c": number("N*m*s" if entry.moment else "N*s/m", "coefficient")}
+        if entry.kind == "drag":
+            wind = entry.keys.get("wind")
+            return {"c": number("N*s/m", "linear"), "k": number("N*s^2/m^2", "quadratic"),
+                    "w": wind and self.vector(wind)}
+        if entry.kind == "friction":
+            unit = "N*m" if entry.moment else "1"
+            return {letter + index: number(unit, key) for letter in ("mu_", "M_")
+                    for index, key in (("s", "static"), ("k", "kinetic"))}
+        if entry.kind == "thrust":
+            return {"exhaust": number("m/s", "exhaust"), "thrust_angle": number("rad", "angle"),
+                    "dm": self.mass_rate(b)}
+        if entry.kind == "power":
+            return {"P": number("W", "P", "value")}
+        return {}
+
+    def mass_rate(self, b):
+        """Of a mass `3[kg] - 0.2[kg/s]*t`."""
+        found = re.fullmatch(r"([0-9.]+)\[kg\] - ([0-9.]+)\[kg/s\]\*t", str(self.file["bodies"][b].get("mass")))
+        return -float(found[2]) if found else None
+
+    def slope(self, b, name, coordinate, values):
+        """dV/dq of a potential that is a polynomial of pure numbers, by a central difference."""
+        text = str(self.entries[b][name].get("V")).replace("^", "**")
+        if not re.fullmatch(r"[xys0-9.*+\- ()]+", text):
+            return None
+        h = 1e-5
+        at = lambda step: eval(text, {"__builtins__": {}},  # noqa: E731  pylint: disable=eval-used
+                               {**{q: values[q] for q in "xys" if q in values}, coordinate: values[coordinate] + step})
+        return (at(h) - at(-h)) / (2 * h)
+
+    def vector(self, pair):
+        found = tuple(self.number(text, "m/s") for text in pair)
+        return None if None in found else found
+
+
+class Arrow:
+    """A force with its point, and a couple."""
+
+    def __init__(self, force, point, couple):
+        self.force, self.point, self.couple = force, point, couple
+
+    def moment(self, about):
+        return self.couple + cross((self.point[0] - about[0], self.point[1] - about[1]), self.force)
+
+
+class Place:
+    """All numbers of one state: arrows by body and name, coordinates and rates, masses."""
+
+    def __init__(self, scene):
+        self.scene = scene
+        self.arrows, self.values, self.mass, self.axis, self.center = {}, {}, {}, {}, {}
+        self.accelerations = {}  # of G, and the angular one
+        self.moments = {}        # of arrows about the axis of a pivot, else about G, as the diagram has them
+
+    def weight(self, b):
+        name = next((e.name for e in self.scene.entries[b].values() if e.kind == "gravity"), None)
+        return self.arrows.get((b, name))
+
+    def law_values(self, b, name):
+        """Everything that the law of a term may name."""
+        scene = self.scene
+        values = {n.split(".", 1)[1]: v for n, v in self.values.items() if n.startswith(b + ".")}
+        values.update(scene.constants(b, name))
+        weight = self.weight(b)
+        if weight and self.mass.get(b):
+            m = self.mass[b]
+            g = (weight.force[0] / m, weight.force[1] / m)
+            O, G = self.center.get((b, "O")), weight.point
+            values.update({"m": m, f"m_{scene.bodies.index(b) + 1}": m, "g": math.hypot(*g), "g_x": g[0], "g_y": g[1]})
+            if O:
+                values.update({"r_x": G[0] - O[0], "r_y": G[1] - O[1], "L": math.hypot(G[0] - O[0], G[1] - O[1])})
+        kind = scene.kind(b)
+        if kind == "slide":
+            values["along"] = scene.along(b)
+            values.update({p: scene.number(p, "rad") for p in scene.file.get("parameters", {})
+                           if p not in values and scene.number(p, "rad") is not None})
+        e = self.axis.get(b)
+        if "vx" in values:
+            v = (values["vx"], values["vy"])
+            values["v"] = v
+        elif kind == "slide" and e and values.get("w"):
+            values["v"] = (values["v"] * e[0], values["v"] * e[1])
+        if name == "moving axis":  # a_O less what goes along OG, which has no moment: a_G - alpha k x r
+            if (b, "G") not in self.center:
+                raise Unbound("G")
+            G, O, (a, alpha) = self.center[b, "G"], self.center[b, "O"], self.accelerations[b]
+            r = (G[0] - O[0], G[1] - O[1])
+            values.update({"m": self.mass[b], f"m_{scene.bodies.index(b) + 1}": self.mass[b], "r_x": r[0], "r_y": r[1],
+                           "a_Ox": a[0] + alpha * r[1], "a_Oy": a[1] - alpha * r[0]})
+        values["component"] = lambda vector, axis: (
+            vector[0] * e[0] + vector[1] * e[1] if kind == "slide" else vector["xy".index(axis)])
+        if scene.entries[b].get(name) and scene.entries[b][name].kind == "potential":
+            values.update({f"dV/d{q}": scene.slope(b, name, q, values) for q in "xys" if q in values})
+        if values.get("dm") is not None:
+            angle, c = values["thrust_angle"], values["exhaust"]
+            u = (-c * math.cos(angle), -c * math.sin(angle)) if angle is not None else None
+            values["dm/dt"] = values["dm"]
+            if c is not None:
+                values["u_x"] = -c if u is None else u[0] * e[0] + u[1] * e[1]
+                values["u_y"] = None if u is None else u[1]
+        return values
+
+
+class Equation:
+    def __init__(self, b, part, cut_free, about, terms):
+        self.body, self.part, self.cut_free, self.about, self.terms = b, part, cut_free, about, terms
+
+
+class Judge:
+    """Collects what is claimed of the symbols of one scene at one place, or on its page."""
+
+    def __init__(self, scene, general):
+        self.scene, self.general = scene, general
+        self.counts = Counter()
+        self.uses = {}    # symbol: {(body, arrow): sign of the vector on this body}
+        self.kinds = {}   # symbol: is it a moment?
+        self.seen = {}    # symbol: the bodies that it stands on
+
+    def component(self, place, equation, arrow, text_axis):
+        b = equation.body
+        if equation.cut_free:
+            return arrow.force["xy".index(text_axis)]
+        e = place.axis.get(b)
+        if not e:
+            raise Unbound("axis")
+        wanted = "s" if self.scene.kind(b) == "track" else "xy"[equation.part]
+        assert text_axis == wanted, f"axis {text_axis} in the equation along {wanted}"
+        return e[0] * arrow.force[0] + e[1] * arrow.force[1] if text_axis != "y" else cross(e, arrow.force)
+
+    def symbol(self, place, equation, name, sign, piece, value, label):
+        """A term by the symbol of its force: its value, and what the symbol stands for."""
+        match = FORCE.fullmatch(piece)
+        assert match, f"no symbol: {piece}"
+        arrow, b = place.arrows[equation.body, name], equation.body
+        if match["moment"]:
+            symbol = match["of"]
+            assert match["moment"] == ("Q_s" if equation.about is None else f"M_{equation.about}"), piece
+            if equation.about is None:  # a force's, or a moment's
+                self.counts["not judged: Q_s"] += 1
+                return None
+            self.use(symbol, b, name, sign, False)
+            if (b, equation.about) in place.center:
+                return arrow.moment(place.center[b, equation.about])
+            if (b, equation.about, name) in place.moments:
+                return place.moments[b, equation.about, name]
+            self.counts[f"not judged: {equation.about} is not known"] += 1
+            return None
+        if match["vector"]:
+            symbol, axis = match["vector"], match["along"]
+        elif label and piece == label or not label and not re.search(r"_?[xys]$", piece):
+            symbol, axis = piece, None
+        elif re.fullmatch(r".*_[0-9a-z]*[xys]", piece):
+            axis = piece[-1]
+            symbol = piece[:-2] if piece[-2] == "_" else piece[:-1]
+        else:
+            symbol, axis = piece, None
+        if symbol.startswith("mu_k "):
+            self.is_product(place, b, name, symbol)
+        if label:
+            assert symbol == label, f"the drawing calls it {label}, the equation {piece}"
+        if axis:
+            self.use(symbol, b, name, sign, False)
+            return self.component(place, equation, arrow, axis)
+        self.seen.setdefault(symbol, set()).add(b)
+        moment = equation.about is not None
+        size = arrow.couple if moment else math.hypot(*arrow.force)
+        if moment:
+            assert math.hypot(*arrow.force) == 0, f"{piece} is a force, not a moment"
+        if not self.general:
+            self.kinds[symbol] = moment
+            return sign * abs(size)
+        self.use(symbol, b, name, sign, moment)
+        return size if moment else self.component(place, equation, arrow, "x")
+
+    def is_product(self, place, b, name, symbol):
+        """Friction that slips is mu_k N of the body's own surface."""
+        owner, _, own = name.rpartition(".")
+        owner = owner or b
+        normal = next(e for e in self.scene.entries[owner].values() if e.kind == "normal")
+        mu = self.scene.constants(owner, own)["mu_k"]
+        if mu is not None:
+            N = math.hypot(*place.arrows[owner, normal.name].force)
+            near(mu * N, math.hypot(*place.arrows[b, name].force), N, symbol)
+
+    def use(self, symbol, b, name, sign, moment):
+        self.seen.setdefault(symbol, set()).add(b)
+        known = self.uses.setdefault(symbol, {}).setdefault((b, name), sign)
+        assert known == sign, f"{symbol} has both signs for {name} on {b}"
+        assert self.kinds.setdefault(symbol, moment) == moment, f"{symbol} is a force and a moment"
+
+    def term(self, place, equation, name, sign, piece, value, label, scale):
+        """Hold one term against its number."""
+        if piece in (f"({name})", ""):
+            self.counts["by its name"] += 1
+            return
+        entry = self.scene.entries[equation.body].get(name)
+        by_law = name == "moving axis" or entry and entry.kind in LAWS and LAW.fullmatch(piece)
+        try:
+            if by_law:
+                got = sign * evaluate(piece, place.law_values(equation.body, name))
+            else:
+                got = self.symbol(place, equation, name, sign, piece, value, label)
+        except Unbound as unbound:
+            self.counts[f"not judged: {unbound}"] += 1
+            return
+        if got is None:
+            return
+        self.counts["laws" if by_law else "symbols"] += 1
+        near(got, value, scale, f"{'-' if sign < 0 else ''}{piece} of {name} on {equation.body}")
+
+    def finish(self, place):
+        """A symbol is one vector: its uses on all bodies agree, and on the body that it is said of it has no sign."""
+        scene = self.scene
+        for symbol, uses in self.uses.items():
+            forces = {}
+            for (b, name), sign in uses.items():
+                arrow = place.arrows[b, name]
+                forces[b, name] = tuple(sign * x for x in (*arrow.force, arrow.couple))
+            bodies = sorted(self.seen[symbol], key=scene.bodies.index)
+            corners = symbol[0] == "T" and all(sign > 0 for sign in uses.values())
+            values = list(forces.values())
+            scale = max(math.hypot(*a.force) + abs(a.couple) for a in place.arrows.values())
+            for v in values[1:] if not corners else []:
+                same = all(abs(x - y) <= 1e-6 * scale + 1e-9 for x, y in zip(v[:2], values[0][:2]))
+                assert same, f"{symbol} is {values[0]} on one body and {v} on another: {list(uses)}"
+            if corners:
+                sizes = [math.hypot(*v[:2]) for v in values]
+                assert max(sizes) - min(sizes) <= 1e-6 * scale + 1e-9, f"{symbol} has two sizes: {sizes}"
+            owner = bodies[0]
+            for b, name in uses:
+                child = name.split(".")[0]
+                if child in scene.parents and scene.parents[child] == b and child in bodies:
+                    owner = child
+            if not corners:
+                signs = {sign for (b, _), sign in uses.items() if b == owner}
+                lone = len(bodies) == 1 and any("." in name for _, name in uses)
+                assert signs <= {1} or lone, f"{symbol} has a minus sign on {owner}"
+        for symbol, moment in self.kinds.items():
+            letter = re.sub(r"_[0-9]+$", "", symbol)
+            named = any(letter == e.name for entries in scene.entries.values() for e in entries.values())
+            assert named or (letter == "M") == moment, f"{symbol} for a {'moment' if moment else 'force'}"
+
+
+# ---- one state
+
+def labels_of(svg):
+    """{(body, arrow): label of its force, or of its couple}, as they are drawn."""
+    found = {}
+    for node in ElementTree.fromstring(svg).iter("{http://www.w3.org/2000/svg}g"):
+        if not node.get("class", "").startswith("arrow"):
+            continue
+        title = node.find("{http://www.w3.org/2000/svg}title").text
+        name, b = re.match(r"(\S+) on (\S+):", title).groups()
+        text = [t.text for t in node.iter("{http://www.w3.org/2000/svg}text") if t.get("class") == "label"]
+        if text:
+            found.setdefault((b, name), []).append(text[0])
+    return found
+
+
+def axis_by_fit(equations, forces, b):
+    """The direction of x of a body, from what all forces do along it: (e_x, e_y), where that tells it."""
+    rows = [(forces[b][t["name"]]["fx"], forces[b][t["name"]]["fy"], t["value"]) for e in equations
+            if e["body"] == b and not e["coordinate"].startswith("G.") and e["inertia"]["name"] == "m"
+            and e["coordinate"] != "y" for t in e["terms"] if t["name"] in forces[b]]
+    xx, xy, yy = (sum(r[i] * r[j] for r in rows) for i, j in ((0, 0), (0, 1), (1, 1)))
+    px, py = (sum(r[i] * r[2] for r in rows) for i in (0, 1))
+    det = xx * yy - xy * xy
+    if det > 1e-9 * (xx + yy) ** 2:
+        return ((yy * px - xy * py) / det, (xx * py - xy * px) / det)
+    return None
+
+
+def place_of(scene, found):
+    place = Place(scene)
+    place.values = found["coordinates"]
+    equations, forces = found["equations"], found["forces"]
+    for b, arrows in forces.items():
+        for name, a in arrows.items():
+            place.arrows[b, name] = Arrow((a["fx"], a["fy"]), (a["x"], a["y"]), a["couple"])
+            place.moments[b, "O" if scene.kind(b) == "pivot" else "G", name] = a["moment"]
+        place.center.update(centers(scene, b, arrows))
+        kind = scene.kind(b)
+        if kind == "slide" and not scene.parents[b] and scene.along(b) is not None:
+            place.axis[b] = (math.cos(scene.along(b)), math.sin(scene.along(b)))
+        elif kind in ("particle", "planar") and not scene.parents[b]:
+            place.axis[b] = (1, 0)
+        else:
+            place.axis[b] = axis_by_fit(equations, forces, b)
+    for e in equations:
+        a = place.accelerations.setdefault(e["body"], ([0, 0], 0))
+        if e["coordinate"] == "G.x":
+            place.mass[e["body"]] = e["inertia"]["value"]
+        if e["coordinate"] in ("G.x", "G.y"):
+            a[0]["xy".index(e["coordinate"][-1])] = e["acceleration"]["value"]
+        if e["coordinate"] == "G.angle":
+            place.accelerations[e["body"]] = (a[0], e["acceleration"]["value"])
+    return place
+
+
+def centers(scene, b, arrows):
+    """The axis O, where the force of a pin acts, and G, where the weight does."""
+    found = {}
+    for name, a in arrows.items():
+        if name == "pin" and scene.kind(b) == "pivot":
+            found[b, "O"] = (a["x"], a["y"])
+        if scene.entries[b].get(name) and scene.entries[b][name].kind == "gravity":
+            found[b, "G"] = (a["x"], a["y"])
+    return found
+
+
+def judge_state(scene, model):
+    """Report, JSON, LaTeX and drawing of a state. Returns (counts)."""
+    found = model.equations()
+    place, judge = place_of(scene, found), Judge(scene, False)
+    labels = labels_of(model.svg())
+    lines = {}
+    for name, left, right in re.findall(r"^% (\S+)\n\\begin\{align\*\}\n(.*?) &= (.*?) \\\\$", model.latex(), re.MULTILINE):
+        lines[name] = (from_latex(left), from_latex(right))
+    report = model.report()
+    for e in found["equations"]:
+        b, coordinate = e["body"], e["coordinate"]
+        cut_free = coordinate.startswith("G.")
+        turns = e["inertia"]["name"] != "m"
+        part = {"x": 0, "y": 1, "s": 0}.get(coordinate.rsplit(".", maxsplit=1)[-1], 2 if turns else 0)
+        about = e["inertia"]["name"][-1] if turns else None
+        equation = Equation(b, part, cut_free, about, e["terms"])
+        scale = max((abs(t["value"]) for t in e["terms"]), default=0)
+        for term in e["terms"]:
+            if term.get("remark"):
+                remark(judge, place, equation, term)
+                assert re.search(rf"^    {re.escape(term['name'])} .* {re.escape(term['remark'])}$", report, re.MULTILINE), \
+                    f"the report has another remark than {term['remark']}"
+        line = lines.get(f"{b}.{coordinate}")
+        if not line:
+            assert e["inertia"]["value"] == 0, f"{b}.{coordinate} has no line"
+            continue
+        left, right = line
+        mass = "m" if len(scene.bodies) == 1 else f"m_{scene.bodies.index(b) + 1}"
+        wanted = f"{e['inertia']['name'] if turns else mass} {e['acceleration']['name']}"
+        assert left == wanted, f"{left!r} for {wanted!r}"
+        terms, parts = [t for t in e["terms"] if t["value"] != 0], pieces(right)
+        assert len(terms) == len(parts), f"{len(terms)} terms and {right}"
+        for term, (sign, piece) in zip(terms, parts):
+            label = label_for(labels, b, term["name"], piece)
+            judge.term(place, equation, term["name"], sign, piece, term["value"], label, scale)
+            judge.counts["lines"] += 1
+    judge.finish(place)
+    for (b, name), texts in labels.items():
+        arrow = place.arrows[b, name]
+        if len(texts) > 1:
+            assert texts[1] == f"M({texts[0]})", texts
+        elif arrow.couple != 0 and math.hypot(*arrow.force) == 0:
+            named = name in texts[0] or texts[0].startswith("M")
+            assert named, f"a moment is labelled {texts[0]}"
+    return judge.counts
+
+
+def label_for(labels, b, name, piece):
+    """The symbol of the arrow as the drawing labels it, in the writing of the equation; None where it is not drawn, or the
+    piece has another one."""
+    drawn = labels.get((b, name))
+    if not drawn:
+        return None
+    match = FORCE.fullmatch(piece)
+    candidates = [piece]
+    if match:
+        candidates += [match["of"], match["vector"]]
+    candidates += [re.sub(r"_?[xys]$", "", piece)]
+    wanted = re.sub(r"^M\((.*)\)$", r"\1", drawn[0])
+    for candidate in candidates:
+        if candidate and printed(candidate) == wanted:
+            return candidate
+    return f"\"{wanted}\""
+
+
+def remark(judge, place, equation, term):
+    """Beside a term of the report: words, or a formula that is true."""
+    text, name, value, scale = term["remark"], term["name"], term["value"], abs(term["value"])
+    b = equation.body
+    normal, sticks, slips = NORMAL.fullmatch(text), STICKS.fullmatch(text), SLIPS.fullmatch(text)
+    if WORDS.fullmatch(text):
+        judge.counts["words"] += 1
+        if text in ("through the axis", "acts across"):
+            near(0, value, 1, text)
+        return
+    surface = next((place.arrows[b, e.name] for e in judge.scene.entries[b].values() if e.kind == "normal"), None)
+    try:
+        values = place.law_values(b, name)
+        if surface:
+            values["N"] = math.hypot(*surface.force)
+        if normal:
+            across = abs(float(normal[1]))  # the force of a curve that turns its body is not all across it
+            if judge.scene.turns_along(b):
+                assert across <= values["N"] * (1 + 1e-6)
+            else:
+                near(across, values["N"], values["N"], text)
+            values["N"] = across
+        elif sticks:
+            if not judge.scene.turns_along(b):
+                near(evaluate(sticks[1], values), float(sticks[2]), 1, text)
+            assert abs(value) <= float(sticks[2]) * (1 + 1e-6) + 1e-9, f"{text} for {value}"
+        elif slips and judge.scene.turns_along(b):
+            assert (slips[1][0] == "-") == (value < 0), text
+        else:
+            near(evaluate(slips[1] if slips else text, values), value, scale, f"{text} of {name} on {b}")
+        judge.counts["remarks"] += 1
+    except Unbound as unbound:
+        judge.counts[f"not judged: {unbound} in a remark"] += 1
+
+
+# ---- the page
+
+def place_on_page(scene, page, row):
+    place = Place(scene)
+    cell = lambda index: page.cell(index, row)  # noqa: E731
+    found = {b["name"]: b for b in page.data["bodies"]}
+    for b, body in found.items():
+        for index in (*body["coordinates"], *body["rates"]):
+            place.values[page.data["columns"][index]["n"]] = cell(index)
+        frame, parent = [cell(i) for i in body["frame"]], body["parent"]
+        for arrow in body["arrows"]:
+            x = [cell(index) for index in arrow["arrow"]]
+            place.arrows[b, arrow["name"]] = Arrow(tuple(x[:2]), moved(frame, x[2:4]), x[4])
+        angle = cell(page.data["bodies"][parent]["frame"][2]) if parent >= 0 else 0
+        if body["motion"] == "slide":
+            e = body["line"]["along"]
+            place.axis[b] = turned(e, angle)
+        elif body["motion"] in ("particle", "planar"):
+            place.axis[b] = turned((1, 0), angle)
+        elif body["motion"] == "track" and parent < 0:
+            v, velocity = cell(body["rates"][0]), [cell(i) for i in body["velocity"]]
+            place.axis[b] = (velocity[0] / v, velocity[1] / v) if abs(v) > 1e-3 else None
+        place.center[b, "G"] = moved(frame, body["G"])
+        if body["motion"] == "pivot":
+            place.center[b, "O"] = tuple(frame[:2])
+        for e in body["equations"]:
+            a = place.accelerations.setdefault(b, ([0, 0], 0))
+            if e["name"].endswith((".G.x", ".G.y")):
+                a[0]["xy".index(e["name"][-1])] = cell(e["acceleration"])
+            if e["name"].endswith(".G.angle"):
+                place.accelerations[b] = (a[0], cell(e["acceleration"]))
+            if e["inertia"] == "m":
+                place.mass[b] = e["value"] * (cell(e["mass"]) / e["massAtStart"] if "mass" in e else 1)
+    return place
+
+
+def turned(v, angle):
+    c, s = math.cos(angle), math.sin(angle)
+    return (c * v[0] - s * v[1], s * v[0] + c * v[1])
+
+
+def moved(frame, point):
+    return tuple(p + q for p, q in zip(frame, turned(point, frame[2])))
+
+
+def judge_page(scene, page, rows):
+    counts = Counter()
+    for row in rows:
+        place, judge = place_on_page(scene, page, row), Judge(scene, True)
+        for body in page.data["bodies"]:
+            b = body["name"]
+            for e in body["equations"]:
+                name = e["name"].rsplit(".", maxsplit=1)[-1]
+                turns = e["inertia"] != "m"
+                part = {"x": 0, "y": 1, "s": 0}.get(name, 2 if turns else 0)
+                cut_free = ".G." in e["name"]
+                equation = Equation(b, part, cut_free, e["inertia"][-1] if turns else None, e["terms"])
+                values = [page.cell(column, row) for _, column, _ in e["terms"]]
+                scale = 1 + max(map(abs, values), default=0)
+                for (term, _, symbol), value in zip(e["terms"], values):
+                    if not symbol:
+                        whole = any(symbol for _, _, symbol in e["terms"])
+                        assert not whole or term == "turning along" or value == 0, f"{term} of {e['name']} has no symbol"
+                        continue
+                    sign, piece = pieces(symbol)[0]
+                    judge.term(place, equation, term, sign, piece, value, None, scale)
+        judge.finish(place)
+        counts.update({f"page {k}": n for k, n in judge.counts.items()})
+    return counts
