@@ -175,3 +175,10 @@ struct kind check_pure(struct parser *p, const struct operand *a, const char *fu
     note(p, "wrong-dimension", a->at, hint, message);
     return failed_kind(p);
 }
+
+bool check_is_bare_angle(const struct operand *a)
+{
+    const double turn = 6.2831853071795864769;
+    bool bare = a->place == place_constant && a->kind.free && !a->pi;
+    return bare && fabs(a->value) > turn * (1 + 1e-9);
+}

@@ -140,6 +140,15 @@ static bool unit_goes_wrong(const struct parser *p, const char *text, size_t len
            !function_exists(text + name, end - name);
 }
 
+/* Inside braces a comma ends the text, also one between arguments: then a parenthesis stays open. */
+static bool is_torn(const struct parser *p)
+{
+    int open = 0;
+    for (size_t i = 0; i < p->lexer.length; i++)
+        open += (p->lexer.text[i] == '(') - (p->lexer.text[i] == ')');
+    return open != 0;
+}
+
 void explain_name_after_number(struct parser *p, struct token number)
 {
     const char *text = p->lexer.text + p->token.start, *digits = p->lexer.text + number.start;
@@ -162,7 +171,11 @@ void explain_name_after_number(struct parser *p, struct token number)
     }
     if (used) {
         const char *hint = diag_hint(p->errors, "write `%.*s[%.*s]`", figures, digits, (int)used, text);
-        if (known)
+        if (p->want->in_braces && !is_torn(p))
+            hint = diag_hint(p->errors, "inside braces in quotes: write `\"%.*s%.*s[%.*s]%.*s\"`",
+                             (int)number.start, p->lexer.text, figures, digits, (int)used, text,
+                             (int)(length - used), text + used);
+        else if (known)
             hint = diag_hint(p->errors, "write `%.*s[%.*s]`, or `%.*s*%.*s` for a product", figures, digits,
                              (int)used, text, figures, digits, name, text);
         diag_add(p->errors, FBD_ERROR, "unit-needs-brackets", p->token.at, hint,

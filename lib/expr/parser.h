@@ -83,6 +83,9 @@ struct kind check_root(struct parser *parser, const struct operand *a, int degre
 /* An argument of `function` that must be a pure number or may adapt. */
 struct kind check_pure(struct parser *parser, const struct operand *a, const char *function);
 
+/* A bare number beyond one turn, as `30` for `30 deg`. */
+bool check_is_bare_angle(const struct operand *a);
+
 /* Number or condition; false with an error when it is the other one. */
 bool check_number(struct parser *parser, const struct operand *a);
 bool check_condition(struct parser *parser, const struct operand *a);
