@@ -85,8 +85,8 @@ static const char *misplaced(fbd_errors *errors, const struct group *group, cons
     return NULL;
 }
 
-/* What textbooks and other programs call keys. */
-static const char *const usual_keys[][2] = {
+/* What textbooks and other programs call keys, and what there is to say of those that mean something else. */
+static const char *const usual_keys[][3] = {
     {"mu_s", "static"},
     {"mu_k", "kinetic"},
     {"mu_d", "kinetic"},
@@ -121,13 +121,13 @@ static const char *const usual_keys[][2] = {
     {"max", "to"},
     {"start", "from"},
     {"end", "to"},
-    {"weight", "mass"},
+    {"weight", "mass", "the key is `mass`, which is the weight divided by g: `mass: \"20[N]/g\"`"},
     {"m", "mass"},
     {"r", "radius"},
     {"R", "radius"},
-    {"diameter", "radius"},
+    {"diameter", "radius", "the key is `radius`: half of the diameter"},
     {"I", "inertia"},
-    {"position", "center"},
+    {"position", "center", "where it starts belongs to the motion: `initial: {x: ..., y: ...}`"},
     {"position", "x"},
     {"v0", "v"},
     {"x0", "x"},
@@ -156,6 +156,7 @@ static const char *translated(fbd_errors *errors, const struct group *group, con
         size_t offset;
         const struct field *field =
             strcmp(word, usual_keys[i][0]) == 0 ? find_field(group, usual_keys[i][1], &offset) : NULL;
+        if (field && usual_keys[i][2]) return usual_keys[i][2];
         if (field) return diag_hint(errors, "the key is `%s`: %s", field->key, field->doc);
     }
     return NULL;
