@@ -81,12 +81,13 @@ static bool read_number(struct span span, struct operand *whole)
 
 /* ---- a quantity of the wrong dimension */
 
-/* Is a text right where this expression stands? */
-static bool would_do(const struct parser *p, const char *text)
+bool compile_would_do(const struct parser *p, const char *text)
 {
     struct arena scratch = {0};
+    struct expr_want want = *p->want;
+    want.in_braces = false; /* what is shown is in quotes there */
     fbd_errors *errors = fbd_errors_new();
-    bool right = errors && expr_compile(&scratch, text, p->lexer.start, p->scope, p->want, errors) != NULL;
+    bool right = errors && expr_compile(&scratch, text, p->lexer.start, p->scope, &want, errors) != NULL;
     if (!errors || errors->out_of_memory || scratch.failed) diag_out_of_memory(p->errors);
     fbd_errors_free(errors);
     arena_free(&scratch);
@@ -132,7 +133,7 @@ static const char *hint_of_name(const struct parser *p, const struct quantity *q
             const char *variable = diag_hint(p->errors, "%.*s%s%s%s%c%.*s", (int)q->number.length,
                                              q->number.text, *own ? "[" : "", own, *own ? "]" : "",
                                              over ? '/' : '*', (int)(q->unit.length - at), unit + at);
-            if (known && variable && would_do(p, variable))
+            if (known && variable && compile_would_do(p, variable))
                 return diag_hint(p->errors, "`%.*s` is a unit here; for the variable write `%s`",
                                  (int)(end - at), unit + at, variable);
         }
@@ -264,6 +265,8 @@ static struct expr *compile_span(struct arena *arena, struct span span, const st
         expr = build_finish(&builder, arena, &whole);
         if (!expr) diag_out_of_memory(errors);
         if (expr && !want->any_dim && !want->condition) expr->dim = want->dim;
+        if (expr) expr->angle = whole.angle;
+        if (expr) expr->bare_angle = check_is_bare_angle(&whole);
     }
     build_free(&builder);
     return expr;
@@ -318,6 +321,8 @@ static bool match_sides(struct expr *left, struct expr *right, struct pos at, en
 {
     if (left->bare && !right->bare) left->dim = right->dim;
     if (right->bare && !left->bare) right->dim = left->dim;
+    if ((left->angle && right->bare_angle) || (right->angle && left->bare_angle))
+        check_note_bare_angle(errors, at, expr_value(left->angle ? right : left));
     if (left->bare || right->bare || dim_equal(left->dim, right->dim)) return true;
     struct phrase a = check_phrase(left->dim, units), b = check_phrase(right->dim, units);
     diag_add(errors, FBD_ERROR, "wrong-dimension", at, "both sides must have the same dimension",

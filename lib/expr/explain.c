@@ -195,7 +195,7 @@ void explain_name_after_number(struct parser *p, struct token number)
     if (used) {
         const char *hint = diag_hint(p->errors, "write `%.*s[%.*s]`", figures, digits, (int)used, text);
         const char *whole = p->want->in_braces && !is_torn(p) ? with_brackets(p) : NULL;
-        if (whole)
+        if (whole && compile_would_do(p, whole))
             hint = diag_hint(p->errors, "inside braces in quotes: write `\"%s\"`", whole);
         else if (known)
             hint = diag_hint(p->errors, "write `%.*s[%.*s]`, or `%.*s*%.*s` for a product", figures, digits,

@@ -80,9 +80,12 @@ bool presses_note(struct reader *reader)
         bool pressed = !normal || joined[b];
         for (size_t i = 0; !pressed && i < body->load_count; i++)
             pressed = acts_across(scene, &body->loads[i], start_angle(scene, (int)b));
+        bool weighs = false;
+        for (size_t i = 0; i < body->load_count; i++) weighs |= body->loads[i].kind == load_gravity;
         if (!pressed)
             diag_add(reader->errors, FBD_WARNING, "nothing-presses", normal->at,
-                     "list what does, as `gravity`; what is not listed does not exist",
+                     weighs ? "gravity acts along this line; list what acts across it"
+                            : "list what does, as `gravity`; what is not listed does not exist",
                      "nothing presses `%s` on its surface: `%s` is zero, and so is friction", body->name,
                      normal->name);
     }
