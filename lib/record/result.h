@@ -34,8 +34,8 @@ struct fbd_result {
     struct fbd_state *start; /* the state at the start */
     struct record *record;   /* for the page and for plots (draw/record.h), NULL without */
     struct event_states event_states;
-    struct numbers numbers;  /* the rows as numbers; empty without */
-    bool degrees;            /* angles are shown in degrees */
+    struct numbers numbers; /* the rows as numbers; empty without */
+    bool degrees;           /* angles are shown in degrees */
 };
 
 /* Find the errors of the times of the events, with error bars. False when memory is out. */
