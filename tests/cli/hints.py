@@ -82,7 +82,7 @@ def main():
                         followed += 1
     if not sys.argv[1:]:
         with claim("there are such hints"):
-            assert followed > 40 // SHARE
+            assert followed > 20 // SHARE
     finish()
 
 
