@@ -56,16 +56,17 @@ static char *read_stream(FILE *stream, size_t *length, const char **why)
     return NULL;
 }
 
-/* Does a path name what is open already, as `<(...)` of a shell does? Such a pipe has its writer. */
-static bool is_open_already(const char *path)
+/* The number of what is open already under a path, as of `<(...)` in a shell; -1 for any other path. */
+static int number_of(const char *path)
 {
     static const char *const folders[] = {"/dev/fd/", "/proc/self/fd/"};
     for (size_t i = 0; i < sizeof folders / sizeof *folders; i++) {
-        size_t length = strlen(folders[i]);
-        if (strncmp(path, folders[i], length) != 0) continue;
-        return path[length] && path[length + strspn(path + length, "0123456789")] == '\0';
+        const char *digits = path + strlen(folders[i]);
+        if (strncmp(path, folders[i], strlen(folders[i])) != 0) continue;
+        bool number = *digits && strlen(digits) < 9 && digits[strspn(digits, "0123456789")] == '\0';
+        return number ? atoi(digits) : -1;
     }
-    return strcmp(path, "/dev/stdin") == 0;
+    return strcmp(path, "/dev/stdin") == 0 ? 0 : -1;
 }
 
 /* A plain file. Opening a pipe by its name would wait for a writer, and reading a device might never end. */
@@ -86,11 +87,14 @@ static FILE *open_plain(const char *path, const char **why)
     return stream;
 }
 
+/* What is open is not opened again: a pipe whose writer has ended would wait for another. */
 static FILE *open_stream(const char *path, const char **why)
 {
-    if (!is_open_already(path)) return open_plain(path, why);
-    FILE *stream = fopen(path, "rb");
+    int number = number_of(path), copy = number < 0 ? -1 : dup(number);
+    if (number < 0) return open_plain(path, why);
+    FILE *stream = copy < 0 ? NULL : fdopen(copy, "rb");
     if (!stream) *why = errno == ENOMEM ? NULL : strerror(errno);
+    if (!stream && copy >= 0) close(copy);
     return stream;
 }
 
