@@ -103,6 +103,7 @@ static bool observe(void *context, struct ensemble *ensemble, size_t group)
     /* A group that is alone, in a run that stops for nothing, has no other to wait for. */
     bool alone = ensemble->count == 1 && going->whole;
     tell_progress(going, alone ? ensemble->groups[group].run->state->t : ensemble->t);
+    if (!event_states_note(&result->event_states, ensemble, group)) return false;
     if (result->ledger.works) ledger_note(&result->ledger, &ensemble->groups[group]);
     if (!result->ledger.any || !ledger_integrates(&result->ledger, &ensemble->groups[group])) return true;
     double before = processor_seconds(); /* a call of the system: not for every step of a thousand groups */
@@ -114,6 +115,7 @@ static bool observe(void *context, struct ensemble *ensemble, size_t group)
 static void observe_again(void *context, struct ensemble *ensemble, size_t group)
 {
     struct going *going = context;
+    event_states_restart(&going->result->event_states, group);
     if (going->result->ledger.any) ledger_restart(&going->result->ledger, ensemble, group);
 }
 
@@ -262,6 +264,7 @@ void fbd_result_free(fbd_result *result)
     free(result->record);
     ledger_free(&result->ledger);
     numbers_free(&result->numbers);
+    event_states_free(&result->event_states);
     state_free(result->start);
     free(result);
 }

@@ -7,7 +7,8 @@
 
 #include "fbd.h"
 
-/* The whole of a file ("-" is standard input), with a zero behind it, to be freed with free(); NULL with a note `cannot-read`. */
+/* The whole of a plain file, of standard input ("-") or of what is open already (/dev/fd/3), with a zero behind it, to be
+ * freed with free(); NULL with a note `cannot-read`. */
 char *file_text(const char *path, size_t *length, fbd_errors *errors);
 
 /* The same of a text that the caller keeps; NULL, and noted, when memory is out. */

@@ -7,6 +7,7 @@
 
 #include "emit/bodies.h"
 #include "emit/live.h"
+#include "scene/start_angle.h"
 
 static const char *number_of(struct emitter *emitter, const struct part *part, const char *owner,
                              const char *key, double value, struct dim dim)
@@ -204,23 +205,44 @@ static void many_parts(struct emitter *emitter, const char *body, int b)
     }
 }
 
+/* How the frame of what carries a slide is turned at the start, by the angles of slides that may be set. */
+static const char *carrier_angle(struct emitter *emitter, const struct fbd_model *model, int carrier)
+{
+    double turned = start_angle(model->scene, carrier);
+    const char *text = "";
+    for (int b = carrier; b != ground_body; b = model->bodies[b].parent) {
+        if (model->bodies[b].kind != motion_slide) continue;
+        turned -= model->bodies[b].source->motion.along;
+        text = emit_printf(emitter, " + c->%s.along%s", emitter->body[b], text);
+    }
+    return emit_printf(emitter, "%s%s", emit_number(emitter, turned), text);
+}
+
 static void slide(struct emitter *emitter, const struct model_body *body, const char *name)
 {
     struct text *out = &emitter->derive;
     const struct motion *motion = &body->source->motion;
     const char *along = emit_parameter(emitter, emit_join(emitter, name, "along"), motion->along,
                                        (struct emit_origin){motion->at, "along", DIM_NONE, -1});
-    enum normal_side side = side_up;
-    for (size_t i = 0; i < body->source->load_count; i++)
-        if (body->source->loads[i].kind == load_normal) side = body->source->loads[i].side;
     text_printf(out, "    c->%s.along = %s;\n", name, along);
     text_printf(out, "    c->%s.e = vec_unit(c->%s.along); /* along the slide, and across it */\n", name,
                 name);
-    text_printf(out,
-                side == side_up      ? "    c->%s.n = vec_upward(vec_perp(c->%s.e));\n"
-                : side == side_right ? "    c->%s.n = vec_scale(-1, vec_perp(c->%s.e));\n"
-                                     : "    c->%s.n = vec_perp(c->%s.e);\n",
-                name, name);
+}
+
+/* The side that its surface pushes to, when the directions of all slides are there. */
+static void side_of_slide(struct emitter *emitter, const struct model_body *body, const char *name)
+{
+    struct text *out = &emitter->derive;
+    enum normal_side side = side_up;
+    for (size_t i = 0; i < body->source->load_count; i++)
+        if (body->source->loads[i].kind == load_normal) side = body->source->loads[i].side;
+    text_printf(out, "    c->%s.n = ", name);
+    if (side == side_up)
+        text_printf(out, "vec_upward(vec_perp(c->%s.e), %s);\n", name,
+                    carrier_angle(emitter, emitter->model, body->parent));
+    else
+        text_printf(out, side == side_right ? "vec_scale(-1, vec_perp(c->%s.e));\n" : "vec_perp(c->%s.e);\n",
+                    name);
 }
 
 void emit_inertias(struct emitter *emitter)
@@ -246,4 +268,7 @@ void emit_inertias(struct emitter *emitter)
                     "    c->%s.I_O = c->%s.I_G + c->%s.mass*vec_square(vec_sub(c->%s.G, c->%s.pin));\n", name,
                     name, name, name, name);
     }
+    for (size_t b = 0; b < model->body_count; b++)
+        if (model->bodies[b].kind == motion_slide)
+            side_of_slide(emitter, &model->bodies[b], emitter->body[b]);
 }

@@ -29,6 +29,7 @@ struct operand {
     struct pos at;        /* where to point when it does not fit */
     struct pos broken;    /* a constant part of it that is not finite; line and column 0 when all is well */
     bool is_broken;
+    bool angle; /* a variable alone that is an angle */
 };
 
 struct builder {

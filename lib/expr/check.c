@@ -175,3 +175,19 @@ struct kind check_pure(struct parser *p, const struct operand *a, const char *fu
     note(p, "wrong-dimension", a->at, hint, message);
     return failed_kind(p);
 }
+
+bool check_is_bare_angle(const struct operand *a)
+{
+    const double turn = 6.2831853071795864769;
+    bool bare = a->place == place_constant && a->kind.free && !a->pi;
+    return bare && fabs(a->value) > turn * (1 + 1e-9);
+}
+
+void check_note_bare_angle(fbd_errors *errors, struct pos at, double value)
+{
+    diag_add(errors, FBD_WARNING, "bare-angle", at,
+             diag_hint(errors,
+                       "a bare angle is in rad; degrees are `%.6g[deg]`, and radians may be `%.6g[rad]`",
+                       value, value),
+             "an angle is compared with %.6g rad, which is more than one turn", value);
+}

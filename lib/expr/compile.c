@@ -81,24 +81,61 @@ static bool read_number(struct span span, struct operand *whole)
 
 /* ---- a quantity of the wrong dimension */
 
-/* `4 N*t` is 4 newton times tonnes; who means the variable t writes `4[N]*t`. NULL when no name of the unit
- * is also a name of the scope. */
-static const char *hint_of_name(const struct quantity *q, const struct scope *scope, fbd_errors *errors)
+bool compile_would_do(const struct parser *p, const char *text)
 {
+    struct arena scratch = {0};
+    struct expr_want want = *p->want;
+    want.in_braces = false; /* what is shown is in quotes there */
+    fbd_errors *errors = fbd_errors_new();
+    bool right = errors && expr_compile(&scratch, text, p->lexer.start, p->scope, &want, errors) != NULL;
+    if (!errors || errors->out_of_memory || scratch.failed) diag_out_of_memory(p->errors);
+    fbd_errors_free(errors);
+    arena_free(&scratch);
+    return right;
+}
+
+/* The unit before a name that makes the whole what is wanted: its own, where that does, or none, since the bare number
+ * before a variable takes any dimension. False for a constant alone of another dimension. */
+static bool unit_before(const struct parser *p, const struct quantity *q, size_t before, size_t name,
+                        size_t end, bool over, char *text, size_t size)
+{
+    struct unit own = {.dim = DIM_NONE};
+    const char *copy = arena_text(&p->builder->scratch, q->unit.text + name, end - name);
+    if (!copy || (before && !unit_parse(q->unit.text, before, p->scope->units, NULL, q->unit.at, &own)))
+        return false;
+    struct symbol symbol = p->scope->lookup(p->scope->context, copy, q->unit.at);
+    if (symbol.kind != symbol_constant && symbol.kind != symbol_variable) return false;
+    const struct dim wanted = over ? dim_times(p->want->dim, symbol.dim) : dim_over(p->want->dim, symbol.dim);
+    bool fits = symbol.free || dim_equal(own.dim, wanted) || (!before && symbol.kind == symbol_variable);
+    if (fits || end < q->unit.length)
+        snprintf(text, size, "%.*s", (int)before, q->unit.text);
+    else
+        unit_name(wanted, p->scope->units, text, size);
+    return fits || before > 0;
+}
+
+/* `4 N*t` is 4 newton times tonnes; who means the variable t writes `4[N/s]*t`. NULL when no name of the unit
+ * is also a name of the scope, or when that would not do. */
+static const char *hint_of_name(const struct parser *p, const struct quantity *q)
+{
+    char own[96] = "";
     const char *unit = q->unit.text;
     for (size_t at = 0; at < q->unit.length;) {
         size_t end = at;
         while (end < q->unit.length && is_letter(unit[end])) end++;
-        if (end > at && explain_is_known(scope, unit + at, end - at)) {
+        if (end > at && explain_is_known(p->scope, unit + at, end - at)) {
             size_t before = at;
             while (before && is_blank(unit[before - 1])) before--;
             bool over = before && unit[before - 1] == '/';
             if (before && (over || unit[before - 1] == '*' || unit[before - 1] == '.')) before--;
             while (before && is_blank(unit[before - 1])) before--;
-            return diag_hint(errors, "`%.*s` is a unit here; for the variable write `%.*s%s%.*s%s%c%.*s`",
-                             (int)(end - at), unit + at, (int)q->number.length, q->number.text,
-                             before ? "[" : "", (int)before, unit, before ? "]" : "", over ? '/' : '*',
-                             (int)(q->unit.length - at), unit + at);
+            bool known = unit_before(p, q, before, at, end, over, own, sizeof own);
+            const char *variable = diag_hint(p->errors, "%.*s%s%s%s%c%.*s", (int)q->number.length,
+                                             q->number.text, *own ? "[" : "", own, *own ? "]" : "",
+                                             over ? '/' : '*', (int)(q->unit.length - at), unit + at);
+            if (known && variable && compile_would_do(p, variable))
+                return diag_hint(p->errors, "`%.*s` is a unit here; for the variable write `%s`",
+                                 (int)(end - at), unit + at, variable);
         }
         at = end > at ? end : at + 1;
     }
@@ -130,7 +167,7 @@ static const char *hint_of_want(struct parser *p, const struct operand *got, con
     char text[160];
     const struct expr_want *want = p->want;
     const char *hint = q ? hint_of_division(q, want, p->errors) : NULL;
-    if (!hint && q) hint = hint_of_name(q, p->scope, p->errors);
+    if (!hint && q) hint = hint_of_name(p, q);
     if (hint) return hint;
     if (q && q->unit.length == 1 && q->unit.text[0] == 'g' && dim_equal(want->dim, DIM_ACCELERATION))
         return "`g` is the gram; standard gravity is 9.80665 m/s^2";
@@ -146,7 +183,11 @@ static const char *hint_of_want(struct parser *p, const struct operand *got, con
     }
     unit_examples(want->dim, text, sizeof text);
     if (!text[0]) return NULL;
-    return diag_hint(p->errors, "units of %s: %s", unit_quantity(want->dim), text);
+    if (!q) return diag_hint(p->errors, "units of %s: %s", unit_quantity(want->dim), text);
+    char unit[64];
+    unit_name(want->dim, p->scope->units, unit, sizeof unit);
+    return diag_hint(p->errors, "units of %s: %s, as in `%.*s %s`", unit_quantity(want->dim), text,
+                     (int)q->number.length, q->number.text, unit);
 }
 
 /* ---- does it fit? */
@@ -164,9 +205,7 @@ static bool check_dimension(struct parser *p, const struct operand *got, const s
 
 static void warn_of_angle(struct parser *p, const struct operand *got, const struct quantity *quantity)
 {
-    const double turn = 6.2831853071795864769;
-    bool bare = got->place == place_constant && got->kind.free && !got->pi;
-    if (p->want->angle && bare && fabs(got->value) > turn * (1 + 1e-9))
+    if (p->want->angle && check_is_bare_angle(got))
         diag_add(p->errors, FBD_WARNING, "bare-angle", got->at,
                  "a bare angle is in rad; degrees are `30 deg`", "`%s` is more than one turn",
                  p->want->what ? p->want->what : "this angle");
@@ -226,6 +265,8 @@ static struct expr *compile_span(struct arena *arena, struct span span, const st
         expr = build_finish(&builder, arena, &whole);
         if (!expr) diag_out_of_memory(errors);
         if (expr && !want->any_dim && !want->condition) expr->dim = want->dim;
+        if (expr) expr->angle = whole.angle;
+        if (expr) expr->bare_angle = check_is_bare_angle(&whole);
     }
     build_free(&builder);
     return expr;
@@ -280,6 +321,8 @@ static bool match_sides(struct expr *left, struct expr *right, struct pos at, en
 {
     if (left->bare && !right->bare) left->dim = right->dim;
     if (right->bare && !left->bare) right->dim = left->dim;
+    if ((left->angle && right->bare_angle) || (right->angle && left->bare_angle))
+        check_note_bare_angle(errors, at, expr_value(left->angle ? right : left));
     if (left->bare || right->bare || dim_equal(left->dim, right->dim)) return true;
     struct phrase a = check_phrase(left->dim, units), b = check_phrase(right->dim, units);
     diag_add(errors, FBD_ERROR, "wrong-dimension", at, "both sides must have the same dimension",

@@ -6,6 +6,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "expr/number.h"
 #include "expr/parser.h"
 #include "expr/unit_table.h"
 
@@ -140,6 +141,37 @@ static bool unit_goes_wrong(const struct parser *p, const char *text, size_t len
            !function_exists(text + name, end - name);
 }
 
+/* The whole text with all its units in brackets; NULL for a long one. */
+static const char *with_brackets(struct parser *p)
+{
+    const char *text = p->lexer.text;
+    const char *result = "";
+    enum { longest_shown = 200 };
+    size_t length = p->lexer.length, from = 0;
+    if (length > longest_shown) return NULL;
+    for (size_t at = 0; at < length && result;) {
+        bool word = at > 0 && (is_letter(text[at - 1]) || is_digit(text[at - 1]));
+        size_t digits = word ? 0 : number_length(text + at, length - at),
+               unit = skip_blanks(text, length, at + digits);
+        size_t used = digits ? unit_length(text + unit, length - unit) : 0;
+        at += digits ? digits : 1;
+        if (used == 0) continue;
+        result = diag_hint(p->errors, "%s%.*s[%.*s]", result, (int)(at - from), text + from, (int)used,
+                           text + unit);
+        from = at = unit + used;
+    }
+    return result ? diag_hint(p->errors, "%s%.*s", result, (int)(length - from), text + from) : NULL;
+}
+
+/* Inside braces a comma ends the text, also one between arguments: then a parenthesis stays open. */
+static bool is_torn(const struct parser *p)
+{
+    int open = 0;
+    for (size_t i = 0; i < p->lexer.length; i++)
+        open += (p->lexer.text[i] == '(') - (p->lexer.text[i] == ')');
+    return open != 0;
+}
+
 void explain_name_after_number(struct parser *p, struct token number)
 {
     const char *text = p->lexer.text + p->token.start, *digits = p->lexer.text + number.start;
@@ -162,7 +194,10 @@ void explain_name_after_number(struct parser *p, struct token number)
     }
     if (used) {
         const char *hint = diag_hint(p->errors, "write `%.*s[%.*s]`", figures, digits, (int)used, text);
-        if (known)
+        const char *whole = p->want->in_braces && !is_torn(p) ? with_brackets(p) : NULL;
+        if (whole && compile_would_do(p, whole))
+            hint = diag_hint(p->errors, "inside braces in quotes: write `\"%s\"`", whole);
+        else if (known)
             hint = diag_hint(p->errors, "write `%.*s[%.*s]`, or `%.*s*%.*s` for a product", figures, digits,
                              (int)used, text, figures, digits, name, text);
         diag_add(p->errors, FBD_ERROR, "unit-needs-brackets", p->token.at, hint,

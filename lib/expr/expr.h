@@ -61,6 +61,7 @@ struct symbol {
     } kind; /* failed: a note was given already */
     struct dim dim;
     bool free;           /* a number given as a bare one: takes any dimension */
+    bool angle;          /* it is an angle: a bare number compared with it is in rad */
     double value;        /* of a constant */
     int slot;            /* of a variable: 0 is t, k >= 1 is y[k - 1] */
     const char *because; /* it is none, in messages: "is the time"; NULL for "changes with the motion" */
@@ -93,10 +94,11 @@ struct scope {
 /* What the caller expects. */
 struct expr_want {
     struct dim dim;
-    bool any_dim;     /* take any dimension (it is reported by expr_dim) */
-    bool constant;    /* variables are an error (id `not-constant`) */
-    bool angle;       /* warn about a bare number beyond one turn, as `30` for `30 deg` (id `bare-angle`) */
-    bool condition;   /* a truth value is wanted (for if); otherwise a truth value is an error */
+    bool any_dim;   /* take any dimension (it is reported by expr_dim) */
+    bool constant;  /* variables are an error (id `not-constant`) */
+    bool angle;     /* warn about a bare number beyond one turn, as `30` for `30 deg` (id `bare-angle`) */
+    bool in_braces; /* the text stands in braces without quotes: what a hint puts into its place has quotes */
+    bool condition; /* a truth value is wanted (for if); otherwise a truth value is an error */
     const char *what; /* for messages: "mass", "friction.static" */
 };
 

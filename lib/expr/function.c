@@ -271,12 +271,26 @@ static struct kind same_arguments(struct parser *p, const struct function *funct
     return common.kind;
 }
 
+static void warn_of_degrees(struct parser *p, const struct function *function, const struct operand *argument)
+{
+    bool angle = function->op == op_sin || function->op == op_cos || function->op == op_tan;
+    if (!angle || !check_is_bare_angle(argument)) return;
+    diag_add(p->errors, FBD_WARNING, "bare-angle", argument->at,
+             diag_hint(p->errors,
+                       "a bare angle is in rad; degrees are `%.6g[deg]`, and as a value `%.6g deg`",
+                       argument->value, argument->value),
+             "`%s` is taken of %.6g rad, which is more than one turn", function->name, argument->value);
+}
+
 static struct kind kind_of_call(struct parser *p, const struct function *function, const struct operand *args,
                                 int count)
 {
     struct kind kind, pure = {0};
     switch (function->rule) {
-    case rule_pure: pure.failed = check_pure(p, &args[0], function->name).failed; return pure;
+    case rule_pure:
+        pure.failed = check_pure(p, &args[0], function->name).failed;
+        warn_of_degrees(p, function, &args[0]);
+        return pure;
     case rule_rounded: return check_pure(p, &args[0], function->name);
     case rule_root_2: return check_root(p, &args[0], 2);
     case rule_root_3: return check_root(p, &args[0], 3);

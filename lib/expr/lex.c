@@ -67,10 +67,26 @@ static const struct foreign foreigners[] = {
     {"]", "a unit is written `[N]`, right after its number"},
 };
 
+/* A micro sign in `5 µs`, which else is the letter. */
+static bool is_micro(const struct lexer *lexer)
+{
+    const char *rest = lexer->text + lexer->offset;
+    size_t left = lexer->length - lexer->offset, before = lexer->offset;
+    if (left < 3 || (memcmp(rest, "µ", 2) != 0 && memcmp(rest, "μ", 2) != 0)) return false;
+    while (before > 0 && lexer->text[before - 1] == ' ') before--;
+    bool number = before > 0 && lexer->text[before - 1] >= '0' && lexer->text[before - 1] <= '9';
+    return number && ((rest[2] >= 'a' && rest[2] <= 'z') || (rest[2] >= 'A' && rest[2] <= 'Z'));
+}
+
 static bool refuse_character(const struct lexer *lexer)
 {
     const char *rest = lexer->text + lexer->offset;
     size_t left = lexer->length - lexer->offset;
+    if (is_micro(lexer)) {
+        diag_add(lexer->errors, FBD_ERROR, "expression-syntax", lexer->at, "micro is written `u`, as in `us`",
+                 "`%.2s` cannot be used here", rest);
+        return false;
+    }
     for (size_t i = 0; i < sizeof foreigners / sizeof foreigners[0]; i++) {
         size_t size = strlen(foreigners[i].text);
         if (size > left || memcmp(rest, foreigners[i].text, size) != 0) continue;

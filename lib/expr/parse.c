@@ -96,11 +96,14 @@ static struct operand parse_symbol(struct parser *p, struct token name)
     if (!text) return parse_failed(p, name.at);
     struct symbol symbol = p->scope->lookup(p->scope->context, text, name.at);
     struct kind kind = {.dim = symbol.dim, .free = symbol.free};
+    struct operand variable;
     switch (symbol.kind) {
     case symbol_constant: return build_constant(symbol.value, kind, name.at);
     case symbol_variable:
         if (p->want->constant) return not_constant(p, name, symbol.because);
-        return build_variable(symbol.slot, kind, name.at);
+        variable = build_variable(symbol.slot, kind, name.at);
+        variable.angle = symbol.angle;
+        return variable;
     case symbol_unknown: explain_unknown_name(p, name); return parse_failed(p, name.at);
     default: return parse_failed(p, name.at);
     }
@@ -227,6 +230,8 @@ static struct operand parse_comparison(struct parser *p)
     parse_advance(p);
     struct operand right = parse_sum(p);
     struct kind kind = check_same(p, at, "compare", &left, "with", &right);
+    if ((left.angle && check_is_bare_angle(&right)) || (right.angle && check_is_bare_angle(&left)))
+        check_note_bare_angle(p->errors, at, left.angle ? right.value : left.value);
     if (comparison(p->token.kind, &again))
         parse_stop(p, "expression-syntax", p->token.at, "write `a < b and b < c`",
                    "comparisons cannot be chained");

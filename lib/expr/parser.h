@@ -48,6 +48,11 @@ struct operand parse_failed(struct parser *parser, struct pos at);
 bool parse_enter(struct parser *parser);
 void parse_leave(struct parser *parser);
 
+/* ---- compile.c */
+
+/* Is a text right where this expression stands? */
+bool compile_would_do(const struct parser *parser, const char *text);
+
 /* ---- function.c */
 
 /* True when `name[0..length)` is a function. */
@@ -82,6 +87,12 @@ struct kind check_root(struct parser *parser, const struct operand *a, int degre
 
 /* An argument of `function` that must be a pure number or may adapt. */
 struct kind check_pure(struct parser *parser, const struct operand *a, const char *function);
+
+/* A bare number beyond one turn, as `30` for `30 deg`. */
+bool check_is_bare_angle(const struct operand *a);
+
+/* Warn of one that an angle is compared with. */
+void check_note_bare_angle(fbd_errors *errors, struct pos at, double value);
 
 /* Number or condition; false with an error when it is the other one. */
 bool check_number(struct parser *parser, const struct operand *a);

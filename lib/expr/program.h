@@ -122,6 +122,7 @@ struct expr {
 
     struct dim dim;
     bool bare;
+    bool angle, bare_angle; /* an angle alone; a bare number beyond one turn (check_is_bare_angle) */
 };
 
 /* ---- the formulas of the operations, in ops.c and slopes.c */

@@ -312,6 +312,13 @@ static void scatter_coordinates(const struct fbd_model *whole, const struct grou
     }
 }
 
+bool ensemble_group_coordinates(struct ensemble *ensemble, size_t group, struct moment t, double *y)
+{
+    if (!ensemble_look_group(ensemble, group, t, false)) return false;
+    scatter_coordinates(ensemble->model, &ensemble->groups[group], y);
+    return true;
+}
+
 /* What a group slides on, with the kinks of the whole and surfaces of its own. */
 static void scatter_slides(const struct group *group, const struct fbd_state *part, struct fbd_state *state)
 {

@@ -105,6 +105,10 @@ bool ensemble_has_reached(const struct ensemble *ensemble, double t);
  * an event at its very time. False when it cannot be had. */
 bool ensemble_look(struct ensemble *ensemble, double t, struct fbd_state *state);
 
+/* Coordinates and rates of one group at t, within its last step, in their places among those of the whole. False when
+ * they cannot be had. */
+bool ensemble_group_coordinates(struct ensemble *ensemble, size_t group, struct moment t, double *y);
+
 /* The same, but at the very time of an event with the modes before it. */
 bool ensemble_look_before(struct ensemble *ensemble, double t, struct fbd_state *state);
 

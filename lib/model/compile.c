@@ -3,6 +3,8 @@
 
 #include <stdlib.h>
 
+#include "scene/start_angle.h"
+
 struct formula formula_constant(double value)
 {
     return (struct formula){.constant = value};
@@ -39,23 +41,25 @@ struct formula builder_rate(struct builder *builder, const struct value *value, 
 
 /* ---- bodies */
 
-/* The side that its surface pushes to. */
-static void set_side(struct model_body *body)
+/* The side that its surface pushes to: up in the world, as the body starts. */
+static void set_side(struct model_body *body, const struct scene *scene)
 {
+    const struct vec turn = vec_unit(start_angle(scene, body->source->motion.parent));
     enum normal_side side = side_up;
     for (size_t i = 0; i < body->source->load_count; i++)
         if (body->source->loads[i].kind == load_normal) side = body->source->loads[i].side;
     const double upright = 1e-12; /* on a vertical line no side is up: left of +x it is */
-    if (side == side_right || (side == side_up && body->n.y < -upright)) body->n = vec_scale(-1, body->n);
+    double up = vec_turn(turn, body->n).y;
+    if (side == side_right || (side == side_up && up < -upright)) body->n = vec_scale(-1, body->n);
 }
 
-static void set_slide(struct model_body *body)
+static void set_slide(struct model_body *body, const struct scene *scene)
 {
     const struct motion *motion = &body->source->motion;
     body->e = vec_unit(motion->along);
     body->n = vec_perp(body->e);
     body->origin = motion->through;
-    set_side(body);
+    set_side(body, scene);
 }
 
 static void check_inertia(const struct model_body *body, fbd_errors *errors)
@@ -104,10 +108,10 @@ static void set_body(struct model_body *body, const struct body *source, const s
                                 .arrow_count = (int)source->load_count + 1,
                                 .friction = -1};
     body->inertia = inertia_of_parts(source->parts, source->part_count, motion->point);
-    if (motion->kind == motion_slide) set_slide(body);
+    if (motion->kind == motion_slide) set_slide(body, scene);
     if (motion->kind == motion_track) {
         track_set_body(scene, body);
-        set_side(body);
+        set_side(body, scene);
     }
     if (motion->kind == motion_pivot) {
         body->origin = motion->through;

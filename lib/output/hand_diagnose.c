@@ -192,9 +192,10 @@ static bool inertia_is_right(const struct hand_check *check, int slip)
 
 void hand_diagnose(const struct hand_check *check, int slip, struct text *text)
 {
-    bool found = !inertia_is_right(check, slip) && blame_inertia(check, slip, text);
-    if (!found) found = blame_term(check, slip, text);
-    if (!found) found = hand_match(check, slip, text);
+    /* An equation for N is one across the line: the terms, which act along it, say nothing of it. */
+    bool across = check->part < 0 && check->says & 1U << hand_N;
+    bool found = !across && !inertia_is_right(check, slip) && blame_inertia(check, slip, text);
+    if (!found && !across) found = blame_term(check, slip, text) || hand_match(check, slip, text);
     if (!found) text_add(text, "  no single term explains the difference\n");
     show_worst(check, slip, text);
 }

@@ -30,7 +30,56 @@ static void plus_minus(const struct page *page, double error)
         text_add(page->text, " ± ?");
 }
 
+/* A coordinate, rate or state of the file as `name = value unit`; `error` may be NULL. */
+static void write_value(const struct page *page, const struct fbd_model *model, size_t component,
+                        const char *name, double value, const double *error)
+{
+    const struct shown shown = shown_component(model, component, page->result->degrees);
+    text_printf(page->text, "%s = ", name);
+    text_number(page->text, value / shown.size, digits);
+    if (error) plus_minus(page, *error / shown.size);
+    text_printf(page->text, "%s%s", unit_word(shown.unit)[0] ? " " : "", unit_word(shown.unit));
+}
+
 /* ---- events; switches of expressions are counted, not listed, when there are many */
+
+/* Mark the bodies whose motion a condition names. */
+static void mark_named(const struct fbd_model *model, const struct formula *formula, bool *named)
+{
+    const int *slots, size = (int)plan_size(&model->plan), n = model->plan.n;
+    size_t count = formula->expr ? expr_variables(formula->expr, &slots) : 0;
+    for (size_t i = 0; i < count; i++) {
+        int k = slots[i] - 1, absolute = k - size - hand_slots;
+        if (k < 2 * n) named[model->scene->coordinates[k % n].body] = true;
+        if (absolute >= 0) named[model->absolutes[absolute].body] = true;
+    }
+}
+
+/* Where the bodies are that the condition of an event of the file names. */
+static void write_event_state(const struct page *page, const struct run_event *event)
+{
+    const struct fbd_model *model = page->result->simulation->ensemble->model;
+    const double *y = event_states_find(&page->result->event_states, event);
+    bool *named = y ? calloc(model->body_count, sizeof *named) : NULL;
+    if (!named) return;
+    mark_named(model, &model->plan.watches[event->watch].left, named);
+    mark_named(model, &model->plan.watches[event->watch].right, named);
+    for (size_t b = 0; b < model->body_count; b++) {
+        const struct model_body *body = &model->bodies[b];
+        if (!named[b]) continue;
+        text_printf(page->text, "      %s", body->name);
+        for (int k = 0; k < 2 * body->count; k++) {
+            const int i = body->first + k % body->count;
+            const bool rate = k >= body->count;
+            const struct coordinate *c = &model->scene->coordinates[i];
+            size_t component = (size_t)(rate ? i + model->plan.n : i);
+            text_add(page->text, k ? ", " : ": ");
+            write_value(page, model, component, rate ? c->rate_name : c->name, y[component], NULL);
+        }
+        text_add(page->text, "\n");
+    }
+    free(named);
+}
 
 void report_event(const struct page *page, size_t index)
 {
@@ -52,6 +101,7 @@ void report_event(const struct page *page, size_t index)
     text_add(text, fbd_event_kind_name(event->kind));
     text_pad(text, from + 28);
     text_printf(text, "%s\n", detail);
+    if (event->kind == FBD_EVENT_USER) write_event_state(page, event);
 }
 
 static void write_events(const struct page *page)
@@ -105,16 +155,12 @@ static void write_mass(const struct page *page, const struct model_body *body, c
     text_printf(page->text, " %s", state->model->scene->units == unit_si ? "kg" : "slug");
 }
 
-/* An entry of y as `name = value unit`. */
+/* An entry of y, with its error bar. */
 static void write_component(const struct page *page, const struct fbd_state *state, size_t component,
                             const char *name)
 {
-    const struct shown shown = shown_component(state->model, component, page->result->degrees);
-    struct text *text = page->text;
-    text_printf(text, "%s = ", name);
-    text_number(text, state->y[component] / shown.size, digits);
-    if (page->bars) plus_minus(page, bars_component(page->bars, state, component) / shown.size);
-    text_printf(text, "%s%s", unit_word(shown.unit)[0] ? " " : "", unit_word(shown.unit));
+    double error = page->bars ? bars_component(page->bars, state, component) : 0;
+    write_value(page, state->model, component, name, state->y[component], &error);
 }
 
 void report_body_state(const struct page *page, struct fbd_state *state, size_t b)

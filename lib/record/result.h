@@ -7,6 +7,7 @@
 
 #include "base/text.h"
 #include "record/bars.h"
+#include "record/event_states.h"
 #include "record/ledger.h"
 #include "record/numbers.h"
 
@@ -32,8 +33,9 @@ struct fbd_result {
     double ledger_seconds;   /* processor time of its integrals */
     struct fbd_state *start; /* the state at the start */
     struct record *record;   /* for the page and for plots (draw/record.h), NULL without */
-    struct numbers numbers;  /* the rows as numbers; empty without */
-    bool degrees;            /* angles are shown in degrees */
+    struct event_states event_states;
+    struct numbers numbers; /* the rows as numbers; empty without */
+    bool degrees;           /* angles are shown in degrees */
 };
 
 /* Find the errors of the times of the events, with error bars. False when memory is out. */

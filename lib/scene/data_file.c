@@ -145,6 +145,21 @@ static bool has_number(char separator, struct span line)
     return false;
 }
 
+/* Are all rows from `line` on numbers? What stands in a file that is no table is not shown: whoever wrote the model may
+ * have no right to read it. */
+static bool is_table(struct data_reader reader, struct span line)
+{
+    struct span cell;
+    double value;
+    do {
+        struct span row = trim(line);
+        if (row.length > 0 && row.text[0] == '#') continue;
+        while (row.length > 0 && next_cell(reader.separator, &row, &cell))
+            if (cell.length > 0 && !read_number(reader.separator, cell, &value)) return false;
+    } while (next_line(&reader, &line));
+    return true;
+}
+
 static struct pos place_of(const struct data_reader *reader, struct span line, const char *at)
 {
     return glyph_pos(line.text, (size_t)(at - line.text), (struct pos){reader->line, 1});
@@ -155,6 +170,8 @@ static struct pos place_of(const struct data_reader *reader, struct span line, c
 struct titles {
     struct span cells[most_columns];
     size_t count;
+    struct data_reader reader; /* behind them, and the line that it has read last */
+    struct span row;
 };
 
 /* Between blanks a unit is a cell of its own, and belongs to the name before it. */
@@ -202,8 +219,9 @@ static void note_no_column(const struct titles *titles, const char *path, const 
         const char *name = diag_hint(errors, "%.*s", (int)titles->cells[i].length, titles->cells[i].text);
         if (name && *name) names[count++] = name;
     }
-    const char *hint = count ? diag_nearest(errors, wanted, names, count)
-                             : "the file names no columns: give their number, `x: 1`, `y: 2`";
+    const char *hint = count && is_table(titles->reader, titles->row)
+                           ? diag_nearest(errors, wanted, names, count)
+                           : "columns have numbers, too: `x: 1`, `y: 2`";
     diag_add(errors, FBD_ERROR, "unknown-column", at, hint, "`%s` has no column `%.80s`", path, wanted);
 }
 
@@ -252,18 +270,15 @@ static bool is_unit(struct span cell)
 static void read_cell(struct data_reader *reader, struct span line, struct span cell, size_t column,
                       double *value)
 {
-    enum { most_shown = 40 };
     if (read_number(reader->separator, cell, value)) return;
     struct pos at = place_of(reader, line, cell.text);
-    const char *hint = memchr(cell.text, ',', cell.length) ? "a decimal point is written `.`" : NULL;
+    const char *hint = memchr(cell.text, ',', cell.length) ? "a decimal point is written `.`"
+                                                           : "numbers are written as `0.5` and `-2e3`";
     if (reader->line == reader->first && is_unit(cell))
         hint = "units stand behind the names of the columns: `t [s]`";
-    if (cell.length == 0)
-        complain(reader, at, NULL, diag_hint(reader->errors, "column %zu is empty here", column + 1));
-    else
-        complain(reader, at, hint,
-                 diag_hint(reader->errors, "column %zu must hold a number, not `%.*s`", column + 1,
-                           (int)(cell.length < most_shown ? cell.length : most_shown), cell.text));
+    complain(reader, at, cell.length > 0 ? hint : NULL,
+             diag_hint(reader->errors, "column %zu %s", column + 1,
+                       cell.length > 0 ? "must hold a number" : "is empty here"));
 }
 
 /* More cells than the first row has, as where a decimal comma parts a number: what they mean is open. */
@@ -417,6 +432,8 @@ static bool read_text(struct data_reader *reader, const char *path, const char *
         return false;
     }
     bool any = open_rows(reader, &opening) && open_titles(reader, &opening, titles, &at);
+    titles->reader = *reader;
+    titles->row = opening.line;
     if (!any)
         diag_add(reader->errors, FBD_ERROR, "table-format", at, NULL, "the file holds no rows of numbers");
     bool fine = any && find_columns(reader, titles, path, wanted, wanted_at, model_file, which);

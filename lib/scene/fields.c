@@ -29,7 +29,7 @@ static const struct field *find_field(const struct group *group, const char *key
     return NULL;
 }
 
-static bool has_field(const struct group *group, const char *key)
+bool fields_has(const struct group *group, const char *key)
 {
     size_t offset;
     return find_field(group, key, &offset) != NULL;
@@ -57,7 +57,7 @@ static bool is_kind(const struct kinds *kinds, const char *name)
 static const char *kind_with(const struct kinds *kinds, const char *key)
 {
     for (size_t i = 0; i < kinds->count; i++)
-        if (kinds->kinds[i].group && has_field(kinds->kinds[i].group, key)) return kinds->kinds[i].name;
+        if (kinds->kinds[i].group && fields_has(kinds->kinds[i].group, key)) return kinds->kinds[i].name;
     return NULL;
 }
 
@@ -71,22 +71,22 @@ static const char *misplaced(fbd_errors *errors, const struct group *group, cons
     const char *motion = group == &body_group ? kind_with(&motion_kinds, key) : NULL;
     if (motion)
         return diag_hint(errors, "it belongs to the motion, as in `motion: {%s: {%s: ...}}`", motion, key);
-    if ((has_field(group, "along") || has_field(group, "at")) && has_field(group, "on") &&
+    if ((fields_has(group, "along") || fields_has(group, "at")) && fields_has(group, "on") &&
         (strcmp(key, "v") == 0 || strcmp(key, "omega") == 0))
         return diag_hint(
             errors,
             "the rate at the start belongs to `initial: {%s: ...}`; what is prescribed is the place, as "
             "an expression of t",
             key);
-    if (group == &scene_group && has_field(&body_group, key))
+    if (group == &scene_group && fields_has(&body_group, key))
         return "it belongs to a body: indent it below the name of the body, under `bodies`";
-    if (group == &scene_group && has_field(&simulate_group, key)) return "it belongs under `simulate`";
-    if (group == &scene_group && has_field(&ground_group, key)) return "it belongs under `ground`";
+    if (group == &scene_group && fields_has(&simulate_group, key)) return "it belongs under `simulate`";
+    if (group == &scene_group && fields_has(&ground_group, key)) return "it belongs under `ground`";
     return NULL;
 }
 
-/* What textbooks and other programs call keys. */
-static const char *const usual_keys[][2] = {
+/* What textbooks and other programs call keys, and what there is to say of those that mean something else. */
+static const char *const usual_keys[][3] = {
     {"mu_s", "static"},
     {"mu_k", "kinetic"},
     {"mu_d", "kinetic"},
@@ -121,13 +121,17 @@ static const char *const usual_keys[][2] = {
     {"max", "to"},
     {"start", "from"},
     {"end", "to"},
-    {"weight", "mass"},
+    {"weight", "mass", "the key is `mass`, which is the weight divided by g: `mass: \"20[N]/g\"`"},
     {"m", "mass"},
     {"r", "radius"},
     {"R", "radius"},
-    {"diameter", "radius"},
+    {"diameter", "radius", "the key is `radius`: half of the diameter"},
     {"I", "inertia"},
-    {"position", "center"},
+    {"position", "initial", "where it starts is `initial: {x: ..., y: ...}`"},
+    {"velocity", "initial", "how fast it starts is `initial: {v: ...}`, or `vx` and `vy`"},
+    {"speed", "initial", "how fast it starts is `initial: {v: ...}`, or `vx` and `vy`"},
+    {"between", "through"},
+    {"through", "between"},
     {"position", "x"},
     {"v0", "v"},
     {"x0", "x"},
@@ -156,6 +160,7 @@ static const char *translated(fbd_errors *errors, const struct group *group, con
         size_t offset;
         const struct field *field =
             strcmp(word, usual_keys[i][0]) == 0 ? find_field(group, usual_keys[i][1], &offset) : NULL;
+        if (field && usual_keys[i][2]) return usual_keys[i][2];
         if (field) return diag_hint(errors, "the key is `%s`: %s", field->key, field->doc);
     }
     return NULL;
@@ -173,10 +178,21 @@ static const char *not_given(const struct group *group)
 static const char in_quotes[] =
     "a comma separates entries inside braces: put the expression in quotes, as `\"min(1, 2)\"`";
 
+/* Does an entry before this one open a parenthesis that it does not close? */
+static bool is_torn(const struct node *map, const struct pair *pair)
+{
+    int open = 0;
+    for (const struct pair *p = map->pairs; p < pair; p++)
+        for (const char *c = p->value->kind == node_scalar ? p->value->text : ""; *c; c++)
+            open += (*c == '(') - (*c == ')');
+    return open > 0;
+}
+
 /* A comma inside braces ends an entry: what comes behind it is a key without a value. */
-static const char *behind_a_comma(const struct pair *pair)
+static const char *behind_a_comma(const struct node *map, const struct pair *pair)
 {
     if (pair->value->kind != node_null) return NULL;
+    if (is_torn(map, pair)) return in_quotes;
     size_t digits = strspn(pair->key, "0123456789");
     if (digits > 0 && (pair->key[digits] == '\0' || pair->key[digits] == ' '))
         return "a comma separates entries inside braces: write a decimal point, as `2.5`";
@@ -184,7 +200,8 @@ static const char *behind_a_comma(const struct pair *pair)
     return NULL;
 }
 
-static void note_unknown_key(struct reader *reader, const struct group *group, const struct pair *pair)
+static void note_unknown_key(struct reader *reader, const struct group *group, const struct node *map,
+                             const struct pair *pair)
 {
     const char *hint = NULL, *colon = strchr(pair->key, ':');
     if (colon && colon > pair->key && colon[1])
@@ -192,7 +209,7 @@ static void note_unknown_key(struct reader *reader, const struct group *group, c
                          pair->key, colon + 1);
     if (strstr(pair->key, "\xC2\xA0"))
         hint = "it holds a no-break space (U+00A0), as pasted text does: type a blank in its place";
-    if (!hint) hint = behind_a_comma(pair);
+    if (!hint) hint = behind_a_comma(map, pair);
     if (!hint) hint = not_given(group);
     if (!hint) hint = misplaced(reader->errors, group, pair->key);
     if (!hint) hint = translated(reader->errors, group, pair->key);
@@ -321,7 +338,7 @@ bool fields_read(struct reader *reader, const struct group *group, const struct 
     for (size_t i = 0; node && i < node->count; i++) {
         const struct pair *pair = &node->pairs[i];
         const struct field *field = find_field(group, pair->key, &offset);
-        if (!field) note_unknown_key(reader, group, pair);
+        if (!field) note_unknown_key(reader, group, node, pair);
         if (!field || !read_field(reader, field, pair, scope, start + offset)) fine = false;
     }
     return check_required(reader, group, node, owner) && fine;

@@ -27,6 +27,9 @@ struct chosen {
 bool kind_read(struct reader *reader, const struct kinds *kinds, const struct node *node, const char *what,
                struct chosen *chosen);
 
+/* Has a group, or what it is based on, this key? */
+bool fields_has(const struct group *group, const char *key);
+
 /* Note `conflicting-keys` when `map` has both keys; true when it has not. */
 bool fields_exclude(struct reader *reader, const struct node *map, const char *key, const char *other,
                     const char *hint);

@@ -62,6 +62,13 @@ static struct symbol variable(struct dim dim, size_t slot)
     return (struct symbol){.kind = symbol_variable, .dim = dim, .slot = (int)slot};
 }
 
+static struct symbol coordinate(struct dim dim, size_t slot, bool angle)
+{
+    struct symbol symbol = variable(dim, slot);
+    symbol.angle = angle;
+    return symbol;
+}
+
 static struct dim coordinate_dim(bool angle, int derivative)
 {
     struct dim dim = angle ? DIM_NONE : DIM_LENGTH;
@@ -87,7 +94,7 @@ static struct symbol coordinate_symbol(const struct names *names, int body, cons
         const struct coordinate_names *c = &list[i];
         size_t k = (size_t)i;
         if (strcmp(name, c->name) == 0)
-            return variable(coordinate_dim(c->angle, 0), constant ? 0 : 1 + first + k);
+            return coordinate(coordinate_dim(c->angle, 0), constant ? 0 : 1 + first + k, c->angle);
         if (matches(name, c->rate, c->rate_alias))
             return variable(coordinate_dim(c->angle, 1), constant ? 0 : 1 + n + first + k);
     }
@@ -125,7 +132,7 @@ static struct symbol absolute_slot(struct reader *reader, enum place place, cons
     struct dim dim = coordinate_dim(angle, derivative);
     if (wanted->kind == absolute_mass) dim = DIM_MASS;
     if (wanted->kind == absolute_mass_rate) dim = dim_over(DIM_MASS, DIM_TIME);
-    return variable(dim, 1 + scene_size(scene) + hand_slots + k);
+    return coordinate(dim, 1 + scene_size(scene) + hand_slots + k, wanted->kind == absolute_angle);
 }
 
 /* The mass `m` of a body: of one that varies what it is now, which has a rate `m_dot`. */

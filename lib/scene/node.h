@@ -37,6 +37,7 @@ struct node {
     const char *text; /* terminated, holds no zero byte */
     size_t length;    /* bytes */
     bool quoted;      /* written in quotes or as a block: text, whatever it looks like */
+    bool in_braces;   /* without quotes inside braces or brackets: it holds no bracket, brace or comma */
     bool many_lines;  /* `text` was put together from several lines */
 
     union { /* a large file has many nodes, and none needs both */

@@ -19,6 +19,7 @@ struct builder {
     struct arena *arena;
     fbd_errors *errors;
     size_t nodes, aliased;
+    int braces;         /* braces and brackets that are open */
     struct node *spare; /* of a key that has been read: the next node takes its room */
 
     /* Children of the collections that are open; each takes its own from the end when it closes. */
@@ -137,6 +138,7 @@ static struct node *read_scalar(struct builder *builder, const yaml_event_t *eve
     if (!node) return NULL;
     bool block = style == YAML_LITERAL_SCALAR_STYLE || style == YAML_FOLDED_SCALAR_STYLE;
     node->quoted = style != YAML_PLAIN_SCALAR_STYLE;
+    node->in_braces = !node->quoted && builder->braces > 0;
     node->many_lines = block || event->end_mark.line != event->start_mark.line;
     if (event->data.scalar.anchor && !node->many_lines)
         node->at = behind_anchor(event, characters(value, length), node->quoted);
@@ -368,7 +370,12 @@ static const struct node *read_collection(struct builder *builder, const yaml_ev
     }
     struct node *node = new_node(builder, map ? node_map : node_list, at);
     if (!node) return NULL;
-    return (map ? read_pairs : read_items)(builder, node, depth) ? node : NULL;
+    bool braces = map ? event->data.mapping_start.style == YAML_FLOW_MAPPING_STYLE
+                      : event->data.sequence_start.style == YAML_FLOW_SEQUENCE_STYLE;
+    builder->braces += braces;
+    bool fine = (map ? read_pairs : read_items)(builder, node, depth);
+    builder->braces -= braces;
+    return fine ? node : NULL;
 }
 
 /* ---- nodes */

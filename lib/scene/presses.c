@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * A surface that nothing presses on: friction there is zero, and whoever listed `normal` and not the weight should
+ * The side of a surface that pushes where no side is up, and a surface that nothing presses on: friction there is zero, and whoever listed `normal` and not the weight should
  * know.
  */
 #include "scene/reader.h"
+#include "scene/start_angle.h"
 
 /* Does a force act across a slide in the direction `along`, as far as can be told? */
 static bool acts_across(const struct scene *scene, const struct load *load, double along)
@@ -19,12 +20,29 @@ static const struct load *normal_of(const struct body *body)
     return NULL;
 }
 
-/* Mark the bodies that others may press on their surface: they move on another one, carry one, or are joined. */
+/* Do all bodies that carry it move along its own line? Then none of them presses on it. */
+static bool is_carried_along(const struct scene *scene, size_t b)
+{
+    const double parallel = 1e-12;
+    const struct vec e = vec_unit(start_angle(scene, (int)b));
+    for (int p = scene->bodies[b].motion.parent; p != ground_body; p = scene->bodies[p].motion.parent) {
+        enum motion_kind kind = scene->bodies[p].motion.kind;
+        if (kind == motion_weld) continue;
+        if (kind != motion_slide || fabs(vec_cross(vec_unit(start_angle(scene, p)), e)) > parallel)
+            return false;
+    }
+    return true;
+}
+
+/* Mark the bodies that others may press on their surface: what carries them moves across it, they carry one, or they are
+ * joined. */
 static void mark_joined(const struct scene *scene, bool *joined)
 {
     for (size_t b = 0; b < scene->body_count; b++) {
         int parent = scene->bodies[b].motion.parent;
-        if (parent != ground_body) joined[b] = joined[parent] = true;
+        if (parent == ground_body) continue;
+        joined[parent] = true;
+        if (!is_carried_along(scene, b)) joined[b] = true;
     }
     for (size_t c = 0; c < scene->coupling_count; c++)
         for (int end = 0; end < 2; end++)
@@ -34,9 +52,24 @@ static void mark_joined(const struct scene *scene, bool *joined)
             if (scene->constraints[c].body[end] >= 0) joined[scene->constraints[c].body[end]] = true;
 }
 
+/* On a vertical line the one side is as much up as the other. A guide does not care. */
+static void note_no_side_up(struct reader *reader, const struct load *normal, double along)
+{
+    const double upright = 1e-12; /* as where the side is chosen, in model/compile.c */
+    if (normal->side != side_up || fabs(vec_unit(along).x) > upright) return;
+    diag_add(reader->errors, FBD_WARNING, "no-side-up", normal->at,
+             "write `normal: {side: left}` or `normal: {side: right}`, as seen along +x",
+             "no side of a vertical line is up: the surface is taken to push to the left of +x");
+}
+
 bool presses_note(struct reader *reader)
 {
     const struct scene *scene = reader->scene;
+    for (size_t b = 0; b < scene->body_count; b++) {
+        const struct body *body = &scene->bodies[b];
+        const struct load *normal = body->motion.kind == motion_slide ? normal_of(body) : NULL;
+        if (normal) note_no_side_up(reader, normal, start_angle(scene, (int)b));
+    }
     if (vec_norm(scene->gravity) == 0) return true; /* said on purpose */
     bool *joined = ARENA_ARRAY(reader->arena, scene->body_count, bool);
     if (!joined) return false;
@@ -46,10 +79,13 @@ bool presses_note(struct reader *reader)
         const struct load *normal = body->motion.kind == motion_slide ? normal_of(body) : NULL;
         bool pressed = !normal || joined[b];
         for (size_t i = 0; !pressed && i < body->load_count; i++)
-            pressed = acts_across(scene, &body->loads[i], body->motion.along);
+            pressed = acts_across(scene, &body->loads[i], start_angle(scene, (int)b));
+        bool weighs = false;
+        for (size_t i = 0; i < body->load_count; i++) weighs |= body->loads[i].kind == load_gravity;
         if (!pressed)
             diag_add(reader->errors, FBD_WARNING, "nothing-presses", normal->at,
-                     "list what does, as `gravity`; what is not listed does not exist",
+                     weighs ? "gravity acts along this line; list what acts across it"
+                            : "list what does, as `gravity`; what is not listed does not exist",
                      "nothing presses `%s` on its surface: `%s` is zero, and so is friction", body->name,
                      normal->name);
     }

@@ -38,6 +38,29 @@ static bool check_body_name(struct reader *reader, const struct body *body)
     return false;
 }
 
+/* What stands among the bodies by the name of a key of a body, and is none: `forces` in the column of `block`. */
+static bool is_key_of_body(const struct pair *pair)
+{
+    const struct node *node = pair->value;
+    if (!fields_has(&body_group, pair->key)) return false;
+    for (size_t i = 0; node->kind == node_map && i < node->count; i++)
+        if (fields_has(&body_group, node->pairs[i].key)) return false;
+    return true;
+}
+
+static bool note_key_of_body(struct reader *reader, int index)
+{
+    const struct pair *pairs = reader->bodies->pairs, *owner = NULL;
+    for (int i = 0; i < index; i++)
+        if (!is_key_of_body(&pairs[i])) owner = &pairs[i];
+    const char *hint = owner
+                           ? diag_hint(reader->errors, "indent it one level further, below `%s`", owner->key)
+                           : "indent it one level further, below the name of a body";
+    diag_add(reader->errors, FBD_ERROR, "unknown-key", pairs[index].at, hint,
+             "`%s` is a key of a body, and stands here as if it were a body", pairs[index].key);
+    return false;
+}
+
 /* ---- points of the body */
 
 static bool is_special_point(const char *name)
@@ -137,6 +160,10 @@ bool body_read(struct reader *reader, int index)
     struct body_keys *keys = &draft->keys;
     const struct node *node = reader->bodies->pairs[index].value;
     body_parts_start(keys);
+    if (is_key_of_body(&reader->bodies->pairs[index])) {
+        draft->node = NULL;
+        return note_key_of_body(reader, index);
+    }
     bool fine = check_body_name(reader, body);
     if (!draft->node) {
         const char *hint = "write what it is below its name, indented: mass, motion, forces, ...";

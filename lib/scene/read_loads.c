@@ -26,10 +26,33 @@ static bool finish_anchored_spring(struct entry *entry)
     return fine;
 }
 
+/* Its other end is on a body, by name or by a point of one: that takes a coupling. */
+static bool ends_on_body(struct entry *entry)
+{
+    const struct node *to = entry->keys.to;
+    const struct scene *scene = entry->reader->scene;
+    if (to->kind != node_scalar || node_find(entry->reader->points, to->text)) return false;
+    size_t length = strcspn(to->text, ".");
+    for (size_t b = 0; b < scene->body_count; b++) {
+        const char *name = scene->bodies[b].name, *kind = entry->chosen.kind->name;
+        if (strlen(name) != length || memcmp(name, to->text, length) != 0) continue;
+        diag_add(
+            entry->reader->errors, FBD_ERROR, "unknown-point", to->at,
+            diag_hint(entry->reader->errors,
+                      "write at the top level `couplings: [%s: {between: [%s, %s], %s}]`, and delete it here",
+                      kind, scene->bodies[entry->body].name, to->text,
+                      strcmp(kind, "spring") == 0 ? "stiffness: ..." : "coefficient: ..."),
+            "`%s` is a body: a %s between two bodies is a coupling", name, kind);
+        return true;
+    }
+    return false;
+}
+
 bool link_finish(struct entry *entry)
 {
     struct load *load = &entry->keys.load;
     if (entry->keys.to) {
+        if (ends_on_body(entry)) return false;
         load->anchor = (struct point){.kind = point_fixed, .at = entry->keys.to->at};
         bool anchor = ground_point_read(entry->reader, entry->keys.to, "to", &load->anchor.where);
         return finish_anchored_spring(entry) && anchor;
@@ -98,17 +121,9 @@ bool friction_finish(struct entry *entry)
     return fine;
 }
 
-/* On a vertical line the one side is as much up as the other. A guide does not care. */
 bool normal_finish(struct entry *entry)
 {
-    const double upright = 1e-12; /* as where the side is chosen, in model/compile.c */
-    struct load *load = &entry->keys.load;
-    load->side = (enum normal_side)entry->keys.side;
-    if (load->side != side_up || load->two_sided || !entry_is_slide(entry)) return true;
-    if (fabs(vec_unit(entry->motion->along).x) > upright) return true;
-    diag_add(entry->reader->errors, FBD_WARNING, "no-side-up", entry->chosen.at,
-             "write `normal: {side: left}` or `normal: {side: right}`, as seen along +x",
-             "no side of a vertical line is up: the surface is taken to push to the left of +x");
+    entry->keys.load.side = (enum normal_side)entry->keys.side;
     return true;
 }
 

@@ -28,6 +28,23 @@ bool body_name_read(struct reader *reader, const struct node *node, const char *
     return false;
 }
 
+/* The place of an axis in the world, said by a point of the body itself. */
+static bool is_own_point(struct reader *reader, int index, const struct node *node)
+{
+    const struct body *body = &reader->scene->bodies[index];
+    if (node->kind != node_scalar || node_find(reader->points, node->text)) return false;
+    for (size_t i = 0; i < body->point_count; i++) {
+        if (strcmp(body->points[i].name, node->text) != 0) continue;
+        diag_add(reader->errors, FBD_ERROR, "unknown-point", node->at,
+                 diag_hint(reader->errors,
+                           "which point of it sits on the axis is `point: %s`; `at` is where in the world",
+                           node->text),
+                 "`%s` is a point of `%s`, not of the ground", node->text, body->name);
+        return true;
+    }
+    return false;
+}
+
 /* A point of the parent, or of the ground, in its frame. */
 static bool read_place(struct reader *reader, int parent, const struct node *node, const char *what,
                        struct vec *where)
@@ -62,6 +79,7 @@ bool body_parent_read(struct reader *reader, int index)
     }
     if (motion->parent == index) return true; /* a circle of one, see below */
     const struct node *place = motion->kind == motion_slide ? keys->through : keys->at;
+    if (place && motion->parent == ground_body && is_own_point(reader, index, place)) return false;
     bool fine = read_place(reader, motion->parent, place, motion->kind == motion_slide ? "through" : "at",
                            &motion->through);
     if (keys->line && !read_line(reader, keys->line, motion)) fine = false;

@@ -263,6 +263,14 @@ static const struct field *brief_of(const struct group *group)
     return NULL;
 }
 
+/* Of a group, one way to write it or another; the description is what editors show beside its name. */
+static void start_choice(struct text *text, const struct group *group)
+{
+    text_add(text, "{");
+    add_doc(text, group->doc);
+    text_add(text, ", \"anyOf\": [");
+}
+
 /* A mapping, or a single value for its main key. */
 static void add_group(struct text *text, const struct group *group, const char *name)
 {
@@ -271,7 +279,7 @@ static void add_group(struct text *text, const struct group *group, const char *
         text_add(text, "{\"$ref\": \"#/definitions/body\"}");
         return;
     }
-    if (brief) text_add(text, "{\"anyOf\": [");
+    if (brief) start_choice(text, group);
     add_mapping(text, group, name);
     if (!brief) return;
     text_add(text, ", ");
@@ -289,21 +297,28 @@ static bool may_be_bare(const struct kinds *kinds, const struct kind *kind)
     return !schema_needs(name) && !has_required(kind->group);
 }
 
+/* The names of those that may stand without keys; an `enum` of none is no schema. */
+static void add_bare_kinds(struct text *text, const struct kinds *kinds, unsigned motion)
+{
+    bool any = false;
+    for (size_t i = 0; i < kinds->count; i++) {
+        const struct kind *kind = &kinds->kinds[i];
+        if (!(kind->motions & motion) || !may_be_bare(kinds, kind)) continue;
+        text_add(text, any ? ", " : "{\"enum\": [");
+        any = true;
+        text_json_string(text, kind->name);
+    }
+    if (any) text_add(text, "]},\n");
+}
+
 /* One of those that go with `motion`, a bit or all of them. */
 static void add_kinds(struct text *text, const struct kinds *kinds, unsigned motion)
 {
     bool first = true;
-    text_add(text, "{\"anyOf\": [{\"enum\": [");
-    for (size_t i = 0; i < kinds->count; i++) {
-        const struct kind *kind = &kinds->kinds[i];
-        if (!(kind->motions & motion) || !may_be_bare(kinds, kind)) continue;
-        if (!first) text_add(text, ", ");
-        first = false;
-        text_json_string(text, kind->name);
-    }
-    text_add(text, "]},\n{\"type\": \"object\", \"minProperties\": 1, \"maxProperties\": 1, "
+    text_add(text, "{\"anyOf\": [");
+    add_bare_kinds(text, kinds, motion);
+    text_add(text, "{\"type\": \"object\", \"minProperties\": 1, \"maxProperties\": 1, "
                    "\"additionalProperties\": false, \"properties\": {\n");
-    first = true;
     for (size_t i = 0; i < kinds->count; i++) {
         const struct kind *kind = &kinds->kinds[i];
         if (!(kind->motions & motion)) continue;
@@ -321,7 +336,8 @@ static void define_kinds(struct text *text, const struct kinds *kinds, bool *fir
         format_into(name, sizeof name, "%s_%s", kinds->noun, kind->name);
         add_key(text, first, name);
         bool empty = may_be_bare(kinds, kind);
-        if (empty) text_add(text, "{\"anyOf\": [{\"type\": \"null\"}, ");
+        if (empty) start_choice(text, kind->group);
+        if (empty) text_add(text, "{\"type\": \"null\"}, ");
         add_group(text, kind->group, name);
         if (empty) text_add(text, "]}");
     }

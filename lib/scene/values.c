@@ -54,12 +54,36 @@ static void replace_notes(struct reader *reader, const struct node *node, struct
     }
 }
 
+/* Does a hint show, between backticks, an expression that braces take only in quotes? */
+static bool needs_quotes(const char *hint)
+{
+    for (const char *code = strchr(hint, '`'); code; code = strchr(code, '`')) {
+        size_t length = strcspn(++code, "`");
+        if (code[0] != '"' && strcspn(code, "[,") < length) return true;
+        code += length + (code[length] == '`');
+    }
+    return false;
+}
+
+static void quote_hints(struct reader *reader, const struct node *node, struct diag_note *last)
+{
+    if (!node->in_braces) return;
+    for (struct diag_note *note = last ? last->next : reader->errors->first; note; note = note->next) {
+        const char *hint = note->error.hint;
+        if (!hint || !needs_quotes(hint)) continue;
+        const char *quoted = diag_hint(reader->errors, "%s; inside braces the expression needs quotes", hint);
+        if (quoted) note->error.hint = quoted;
+    }
+}
+
 /* The site of an expression; a value from outside has no place in the file, and none here. */
 static struct program_site site_of(const struct node *node, const struct expr_want *want,
                                    const struct scope *scope)
 {
     const struct names *names = scope->context;
-    return (struct program_site){node->at.line > 0 ? node : NULL, names->place, names->body, *want};
+    struct program_site site = {node->at.line > 0 ? node : NULL, names->place, names->body, *want};
+    site.want.in_braces = node->in_braces;
+    return site;
 }
 
 /* Keep what was compiled, if it is right and holds whatever the parameters that vary. */
@@ -78,11 +102,13 @@ const struct expr *value_compile(struct reader *reader, const struct node *node,
     if (known) return known->left;
     bool outer = reader->varies, outer_names = reader->names_varying;
     reader->varies = reader->names_varying = false;
-    program.left = expr_compile(reader->exprs, node->text, node->text_at, scope, want, reader->errors);
+    program.left =
+        expr_compile(reader->exprs, node->text, node->text_at, scope, &program.site.want, reader->errors);
     if (program.left) keep(reader, &program, last);
     if (reader->record) record_compiled(reader, node, program.left);
     reader->varies |= outer;
     reader->names_varying |= outer_names;
+    quote_hints(reader, node, last);
     replace_notes(reader, node, last);
     return program.left;
 }
@@ -99,13 +125,14 @@ bool value_relation(struct reader *reader, const struct node *node, const struct
         program = *known;
     } else {
         reader->varies = reader->names_varying = false;
-        fine = expr_compile_relation(reader->exprs, node->text, node->text_at, scope, want, reader->errors,
-                                     &program.left, &program.relation, &program.right);
+        fine = expr_compile_relation(reader->exprs, node->text, node->text_at, scope, &program.site.want,
+                                     reader->errors, &program.left, &program.relation, &program.right);
         if (fine) keep(reader, &program, last);
         if (reader->record) record_compiled(reader, node, program.left);
         if (reader->record) record_compiled(reader, node, program.right);
         reader->varies |= outer;
         reader->names_varying |= outer_names;
+        quote_hints(reader, node, last);
         replace_notes(reader, node, last);
     }
     *left = program.left;

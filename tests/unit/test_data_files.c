@@ -117,6 +117,57 @@ static void files_are_read_as_they_are_written(void **unused)
     checks_end(&checks);
 }
 
+/* Read `text` as a table; does a note show `secret`? */
+static bool is_shown(const char *path, const char *text, const char *keys, const char *secret)
+{
+    char model_text[400];
+    bool shown = false;
+    write_file(path, text);
+    snprintf(model_text, sizeof model_text, "fbd: 1\ntables:\n  f: {file: %s%s}\n", path, keys);
+    fbd_errors *errors = fbd_errors_new();
+    fbd_model_free(fbd_model_parse(model_text, strlen(model_text), "scene", NULL, 0, errors));
+    for (size_t i = 0; i < fbd_errors_count(errors); i++) {
+        const fbd_error note = fbd_errors_get(errors, i);
+        shown = shown || strstr(note.message, secret) || (note.hint && strstr(note.hint, secret));
+    }
+    assert_true(fbd_errors_count(errors) > 0);
+    fbd_errors_free(errors);
+    return shown;
+}
+
+/* Whoever runs the model of somebody else shows him no line of a file with passwords, wherever reading ends. */
+static void what_is_no_table_is_not_shown(void **unused)
+{
+    static const char *const keys[] = {"", ", x: 2, y: 1", ", x: SEKRET, y: 3", ", x: SECRE, y: SECRT"};
+    static const char *const cells[] = {
+        "SECRET",          "SECRET7",    "0",     "12",         "-1.5e3",     "SECRET:x:0",
+        "\"SECRET word\"", "",           "#",     "1e999",      "SECRET,1",   "0x1SECRET",
+        "[SECRET]",        "t [SECRET]", "t [s]", "SECRET [N]", "a (SECRET)", "SECRET \"x\""};
+    static const char *const separators[] = {" ", ",", ";", "\t", ":", ", "};
+    char path[] = "/tmp/fbd-table-XXXXXX", text[2000];
+    struct checks checks = {0};
+    struct random_numbers numbers = {20};
+    (void)unused;
+    int descriptor = mkstemp(path);
+    assert_true(descriptor >= 0);
+    close(descriptor);
+    check_that(&checks, "a heading of a table is", is_shown(path, "t,SECRET\n0,1\n", ", y: SECRE", "SECRET"));
+    for (int draw = 0; draw < draws_of(200); draw++) {
+        const char *separator = separators[random_bits(&numbers) % 6];
+        int lines = (int)(random_bits(&numbers) % 5), used = 0;
+        for (int line = 0; line < lines; line++)
+            for (int cell = 0, count = 1 + (int)(random_bits(&numbers) % 4); cell < count; cell++)
+                used += snprintf(text + used, sizeof text - (size_t)used, "%s%s",
+                                 cells[random_bits(&numbers) % (sizeof cells / sizeof *cells)],
+                                 cell + 1 < count ? separator : "\n");
+        snprintf(text + used, sizeof text - (size_t)used, "0%sSECRET\n", separator); /* no row of numbers */
+        for (size_t k = 0; k < sizeof keys / sizeof *keys; k++)
+            check_that(&checks, text, !is_shown(path, text, keys[k], "SECRET"));
+    }
+    remove(path);
+    checks_end(&checks);
+}
+
 static void files_that_are_read_are_known(void **unused)
 {
     static const char text[] =
@@ -311,6 +362,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(files_are_read_as_they_are_written),
+        cmocka_unit_test(what_is_no_table_is_not_shown),
         cmocka_unit_test(files_that_are_read_are_known),
         cmocka_unit_test(a_file_is_read_once),
         cmocka_unit_test(a_measured_blow),
