@@ -72,6 +72,19 @@ cross-check: $(BUILD)/.tests
 	ninja -C $(BUILD)
 	$(BUILD)/tests/cross/cross_check --scenes $(SCENES) --seed $(SEED) --variants 10 --rest 4 --jobs 2 $(if $(KIND),--of $(KIND))
 
+# What differs from another revision, BASE, in the gallery with all outputs, in the files of the tests and in random
+# scenes: outcomes, events, states, works, texts, instructions (tests/tools/compare). BASE may be a build that is there
+# already; its programs are built into build-compare, once. COMPARE has further options: `--only hoist`, `--all`, ...
+BASE =
+COMPARE =
+compare: SCENES = 300
+compare: SEED = 1
+compare: $(BUILD)/.tests
+	@[ -n "$(BASE)" ] || { echo 'usage: make compare BASE=REVISION [SCENES=10000] [SEED=7] [COMPARE=--all]' >&2; exit 2; }
+	ninja -C $(BUILD) apps/fbd-run apps/fbd-sweep tests/cross/cross_check
+	python3 tests/tools/compare $(BASE) --build $(BUILD) --folder $(BUILD)-compare --scenes $(SCENES) --seed $(SEED) \
+		--meson "$(LIBDIR) $(MESON_OPTIONS)" $(COMPARE)
+
 # Tests whose scenes, values or texts are drawn, with DRAWS times as many as in every change; some two minutes.
 DRAWS = 5
 GENERATORS = actuators cams contact_tolerances dead_centres decks driven emit_drawn hoists linearize_couplings lines \
@@ -259,5 +272,5 @@ $(BUILD)-count/build.ninja:
 	.ci/install-packages run test lint
 	touch $@
 
-.PHONY: all run mutants generators test sanitize tsan valgrind faults cross-check fuzz bench measurements effects error-bars event-bars events late-times implicit tighter methods impacts failures gallery python live live-check site check-format format lint install uninstall dist deb deb-check clean
+.PHONY: all run mutants generators compare test sanitize tsan valgrind faults cross-check fuzz bench measurements effects error-bars event-bars events late-times implicit tighter methods impacts failures gallery python live live-check site check-format format lint install uninstall dist deb deb-check clean
 .SECONDARY:
