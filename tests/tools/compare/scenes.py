@@ -93,10 +93,13 @@ def ropes(draw):
     """Two weights on a rope over a pulley, one of them over dry friction; the rope may be slack."""
     mu = draw.number(0, 0.5)
     along = draw.number(0, 0.7)
-    block = body("block", f"{{slide: {{along: {along}, through: [-5, 0]}}}}", draw.number(0.5, 3), f"x: 0, v: {draw.choice([0, draw.number(-1, 0)])}",
+    slack = draw.maybe(0.3)
+    block = body("block", f"{{slide: {{along: {along}, through: [-5, 0]}}}}", draw.number(0.5, 3),
+                 f"x: 0, v: {draw.number(-1, 1) if slack else 0}",
                  ["gravity", "normal", f"friction: {mu}", *([push(draw, 20)] if draw.maybe(0.4) else [])])
-    weight = body("weight", "{slide: {along: -1.5707963267948966, through: [1, -1]}}", draw.number(0.5, 3), "x: 0", ["gravity"])
-    length = ", length: 8" if draw.maybe(0.3) else ""
+    weight = body("weight", "{slide: {along: -1.5707963267948966, through: [1, -1]}}", draw.number(0.5, 3), "x: 0",
+                  ["gravity"])
+    length = ", length: 8" if slack else ""
     return scene([block, weight], couplings=[f"rope: {{name: cord, through: [block.G, ground.P, weight.G]{length}}}"],
                  ground="ground: {points: {P: [0, 1]}}", until=1)
 
