@@ -6,8 +6,9 @@ BUILD = build
 MODEL = models/kinetics/incline.yaml
 MESON_OPTIONS =
 
+# Programs and library, which is all that is installed; tests are built by the targets that run them.
 all: $(BUILD)/build.ninja
-	ninja -C $(BUILD)
+	ninja -C $(BUILD) programs
 
 run: all
 	$(BUILD)/apps/fbd-run $(MODEL)
@@ -109,6 +110,11 @@ effects: $(BUILD)/.tests
 	FBD_SOURCE_ROOT=$(CURDIR) FBD_RUN=$(BUILD)/apps/fbd-run FBD_COUNT_RHS=$(BUILD)/tests/bench/count_rhs \
 		tests/tools/effects --write docs/effects.md
 
+# Records the instructions of five runs, of which no change may take a tenth more (tests/tools/instructions).
+instructions: $(BUILD)/.tests
+	ninja -C $(BUILD) programs
+	meson test -C $(BUILD) --no-rebuild --test-args=--write instructions
+
 # 155,000 random scenes whose lists of events are known; takes some minutes.
 events: $(BUILD)/.tests
 	ninja -C $(BUILD) tests/unit/test_events tests/unit/test_joined_events
@@ -195,7 +201,7 @@ live: $(BUILD)/build.ninja
 	.ci/install-packages run live
 	lib/live/module/make $(LIVE)
 	meson configure $(BUILD) -Dlive=enabled -Dlive-files=$(CURDIR)/$(LIVE)
-	ninja -C $(BUILD)
+	ninja -C $(BUILD) programs
 
 # Every model of the gallery live in Chromium, held against fbd-run; takes some minutes.
 live-check: live $(BUILD)/.tests
@@ -272,5 +278,5 @@ $(BUILD)-count/build.ninja:
 	.ci/install-packages run test lint
 	touch $@
 
-.PHONY: all run mutants generators compare test sanitize tsan valgrind faults cross-check fuzz bench measurements effects error-bars event-bars events late-times implicit tighter methods impacts failures gallery python live live-check site check-format format lint install uninstall dist deb deb-check clean
+.PHONY: all run mutants generators compare test sanitize tsan valgrind faults cross-check fuzz bench measurements effects instructions error-bars event-bars events late-times implicit tighter methods impacts failures gallery python live live-check site check-format format lint install uninstall dist deb deb-check clean
 .SECONDARY:

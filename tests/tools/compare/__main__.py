@@ -35,7 +35,7 @@ import instructions
 import report
 import runs
 import scenes
-from differences import Difference, differences, run_differences
+from differences import differences, run_differences
 
 # Differences of these kinds are compared with what another tolerance does to the base.
 NUMERIC = ("events", "states", "motion", "works", "forces")
@@ -117,10 +117,12 @@ def sensitive(programs, scene, first, tolerance, folder, limit):
 
 
 def mark_sensitive(found, own):
-    for difference in found:
-        for each in own:
-            if each.kind == difference.kind and each.size >= 0.1 * difference.size or difference.kind == "events" and each.kind == "events":
-                difference.sensitive = True
+    """Mark the differences of which the base has such as large at another tolerance; events by their kind alone."""
+    sizes = {}
+    for each in own:
+        sizes[each.kind] = max(sizes.get(each.kind, 0), each.size)
+    for each in found:
+        each.sensitive = each.kind in sizes and (each.kind == "events" or sizes[each.kind] >= 0.1 * each.size)
 
 
 def compare_output(plan, both, scene, name, keep):

@@ -302,12 +302,15 @@ def differences(output, base, new, tolerance):
         text = text_difference(base.out, new.out, 1e-3 if output == "run" else tolerance)
         if text:
             count, one, two = text
-            found.append(Difference("text", f"{count} lines; first\n    - {one.strip()[:150]}\n    + {two.strip()[:150]}",
-                                    count, output))
+            found.append(Difference("text", f"{output}: {count} lines; first\n    - {one.strip()[:150]}\n"
+                                            f"    + {two.strip()[:150]}", count))
     message = text_difference(base.err, new.err, tolerance)
     if message and not found:
         found.append(Difference("text", f"messages; first\n    - {message[1][:150]}\n    + {message[2][:150]}",
                                 message[0], "messages"))
+    for each in found:
+        if each.kind in ("keys", "text"):
+            each.group = each.group or output # one thing that all scenes say otherwise is shown once
     return sorted(found, key=Difference.key)
 
 
