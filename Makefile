@@ -24,7 +24,7 @@ sanitize: $(BUILD)-sanitize/.tests
 # Threads that share a model, and a sweep by four of them, under ThreadSanitizer.
 tsan: $(BUILD)-tsan/.tests
 	ninja -C $(BUILD)-tsan tests/unit/test_threads apps/fbd-sweep
-	.ci/test $(BUILD)-tsan --no-rebuild --timeout-multiplier 10 threads
+	FBD_TEST_TIMEOUT=10 .ci/test $(BUILD)-tsan --no-rebuild threads
 	TSAN_OPTIONS=halt_on_error=1 $(BUILD)-tsan/apps/fbd-sweep --jobs 4 --vary 'phi=0:60 deg:20' --vary 'mu_k=uniform(0.1,0.4):10' \
 		models/kinetics/incline.yaml >$(BUILD)-tsan/by-four.csv
 	$(BUILD)-tsan/apps/fbd-sweep --jobs 1 --vary 'phi=0:60 deg:20' --vary 'mu_k=uniform(0.1,0.4):10' \
@@ -92,7 +92,7 @@ GENERATORS = actuators cams contact_tolerances dead_centres decks driven emit_dr
 	long_pendulum nasty not_finite piles plane pulled_row residual rolls shelf sliding slots stick_slips stiff_motions switch_holds sweep wheels works
 generators: $(BUILD)/.tests
 	ninja -C $(BUILD)
-	FBD_DRAWS=$(DRAWS) .ci/test $(BUILD) --no-rebuild --timeout-multiplier $(DRAWS) $(GENERATORS)
+	FBD_DRAWS=$(DRAWS) FBD_TEST_TIMEOUT=$(DRAWS) .ci/test $(BUILD) --no-rebuild $(GENERATORS)
 
 # What is promised of speed, measured: writes docs/accuracy.md and one table of all bounds, $(BUILD)/bench.md; some
 # minutes. `make measurements` is for what judges nothing.
@@ -206,7 +206,7 @@ live: $(BUILD)/build.ninja
 # Every model of the gallery live in Chromium, held against fbd-run; takes some minutes.
 live-check: live $(BUILD)/.tests
 	ninja -C $(BUILD)
-	FBD_ALL_PAGES=1 .ci/test $(BUILD) --no-rebuild --timeout-multiplier 10 live
+	FBD_ALL_PAGES=1 FBD_TEST_TIMEOUT=10 .ci/test $(BUILD) --no-rebuild live
 
 # A folder that can be served from anywhere: every model live, and these documents.
 SITE = $(BUILD)/site
