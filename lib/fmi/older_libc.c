@@ -12,15 +12,15 @@ __asm__(".symver first_hypot, hypot@GLIBC_2.2.5");
 int first_stat(int version, const char *path, struct stat *status);
 __asm__(".symver first_stat, __xstat64@GLIBC_2.2.5");
 
-double __wrap_hypot(double x, double y);
-int __wrap_stat64(const char *path, struct stat *status);
+double wrapped_hypot(double x, double y) __asm__("__wrap_hypot");
+int wrapped_stat(const char *path, struct stat *status) __asm__("__wrap_stat64");
 
-double __wrap_hypot(double x, double y)
+double wrapped_hypot(double x, double y)
 {
     return first_hypot(x, y);
 }
 
-int __wrap_stat64(const char *path, struct stat *status)
+int wrapped_stat(const char *path, struct stat *status)
 {
     const int version_of_x86_64 = 1; /* of struct stat */
     return first_stat(version_of_x86_64, path, status);
