@@ -6,8 +6,9 @@ BUILD = build
 MODEL = models/kinetics/incline.yaml
 MESON_OPTIONS =
 
+# Programs and library, which is all that is installed; tests are built by the targets that run them.
 all: $(BUILD)/build.ninja
-	ninja -C $(BUILD)
+	ninja -C $(BUILD) programs
 
 run: all
 	$(BUILD)/apps/fbd-run $(MODEL)
@@ -23,7 +24,7 @@ sanitize: $(BUILD)-sanitize/.tests
 # Threads that share a model, and a sweep by four of them, under ThreadSanitizer.
 tsan: $(BUILD)-tsan/.tests
 	ninja -C $(BUILD)-tsan tests/unit/test_threads apps/fbd-sweep
-	.ci/test $(BUILD)-tsan --no-rebuild --timeout-multiplier 10 threads
+	FBD_TEST_TIMEOUT=10 .ci/test $(BUILD)-tsan --no-rebuild threads
 	TSAN_OPTIONS=halt_on_error=1 $(BUILD)-tsan/apps/fbd-sweep --jobs 4 --vary 'phi=0:60 deg:20' --vary 'mu_k=uniform(0.1,0.4):10' \
 		models/kinetics/incline.yaml >$(BUILD)-tsan/by-four.csv
 	$(BUILD)-tsan/apps/fbd-sweep --jobs 1 --vary 'phi=0:60 deg:20' --vary 'mu_k=uniform(0.1,0.4):10' \
@@ -72,6 +73,19 @@ cross-check: $(BUILD)/.tests
 	ninja -C $(BUILD)
 	$(BUILD)/tests/cross/cross_check --scenes $(SCENES) --seed $(SEED) --variants 10 --rest 4 --jobs 2 $(if $(KIND),--of $(KIND))
 
+# What differs from another revision, BASE, in the gallery with all outputs, in the files of the tests and in random
+# scenes: outcomes, events, states, works, texts, instructions (tests/tools/compare). BASE may be a build that is there
+# already; its programs are built into build-compare, once. COMPARE has further options: `--only hoist`, `--all`, ...
+BASE =
+COMPARE =
+compare: SCENES = 300
+compare: SEED = 1
+compare: $(BUILD)/.tests
+	@[ -n "$(BASE)" ] || { echo 'usage: make compare BASE=REVISION [SCENES=10000] [SEED=7] [COMPARE=--all]' >&2; exit 2; }
+	ninja -C $(BUILD) apps/fbd-run apps/fbd-sweep tests/cross/cross_check
+	python3 tests/tools/compare $(BASE) --build $(BUILD) --folder $(BUILD)-compare --scenes $(SCENES) --seed $(SEED) \
+		--meson "$(LIBDIR) $(MESON_OPTIONS)" $(COMPARE)
+
 # Tests whose scenes, values or texts are drawn, with DRAWS times as many as in every change; some two minutes.
 DRAWS = 5
 GENERATORS = actuators cams carried_slides contact_tolerances dead_centres decks driven emit_drawn hints hoists \
@@ -79,7 +93,7 @@ GENERATORS = actuators cams carried_slides contact_tolerances dead_centres decks
 	stick_slips stiff_motions sweep switch_holds symbolic_lines wheels works
 generators: $(BUILD)/.tests
 	ninja -C $(BUILD)
-	FBD_DRAWS=$(DRAWS) .ci/test $(BUILD) --no-rebuild --timeout-multiplier $(DRAWS) $(GENERATORS)
+	FBD_DRAWS=$(DRAWS) FBD_TEST_TIMEOUT=$(DRAWS) .ci/test $(BUILD) --no-rebuild $(GENERATORS)
 
 # What is promised of speed, measured: writes docs/accuracy.md and one table of all bounds, $(BUILD)/bench.md; some
 # minutes. `make measurements` is for what judges nothing.
@@ -96,6 +110,11 @@ effects: $(BUILD)/.tests
 	ninja -C $(BUILD)
 	FBD_SOURCE_ROOT=$(CURDIR) FBD_RUN=$(BUILD)/apps/fbd-run FBD_COUNT_RHS=$(BUILD)/tests/bench/count_rhs \
 		tests/tools/effects --write docs/effects.md
+
+# Records the instructions of five runs, of which no change may take a tenth more (tests/tools/instructions).
+instructions: $(BUILD)/.tests
+	ninja -C $(BUILD) programs
+	meson test -C $(BUILD) --no-rebuild --test-args=--write instructions
 
 # 155,000 random scenes whose lists of events are known; takes some minutes.
 events: $(BUILD)/.tests
@@ -183,12 +202,12 @@ live: $(BUILD)/build.ninja
 	.ci/install-packages run live
 	lib/live/module/make $(LIVE)
 	meson configure $(BUILD) -Dlive=enabled -Dlive-files=$(CURDIR)/$(LIVE)
-	ninja -C $(BUILD)
+	ninja -C $(BUILD) programs
 
 # Every model of the gallery live in Chromium, held against fbd-run; takes some minutes.
 live-check: live $(BUILD)/.tests
 	ninja -C $(BUILD)
-	FBD_ALL_PAGES=1 .ci/test $(BUILD) --no-rebuild --timeout-multiplier 10 live
+	FBD_ALL_PAGES=1 FBD_TEST_TIMEOUT=10 .ci/test $(BUILD) --no-rebuild live
 
 # A folder that can be served from anywhere: every model live, and these documents.
 SITE = $(BUILD)/site
@@ -260,5 +279,5 @@ $(BUILD)-count/build.ninja:
 	.ci/install-packages run test lint
 	touch $@
 
-.PHONY: all run mutants generators test sanitize tsan valgrind faults cross-check fuzz bench measurements effects error-bars event-bars events late-times implicit tighter methods impacts failures gallery python live live-check site check-format format lint install uninstall dist deb deb-check clean
+.PHONY: all run mutants generators compare test sanitize tsan valgrind faults cross-check fuzz bench measurements effects instructions error-bars event-bars events late-times implicit tighter methods impacts failures gallery python live live-check site check-format format lint install uninstall dist deb deb-check clean
 .SECONDARY:

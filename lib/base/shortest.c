@@ -5,8 +5,15 @@
 #include <stdbool.h>
 #include <string.h>
 
-/* 128 bits hold all that is multiplied here. */
+/* 128 bits hold all that is multiplied here. Compilers for 32 bits have no such integer; there every fraction is left to
+ * others. */
+#ifdef __SIZEOF_INT128__
 __extension__ typedef unsigned __int128 wide;
+enum { wide_bits = 128 };
+#else
+typedef uint64_t wide;
+enum { wide_bits = 64 };
+#endif
 
 enum { most_digits = 17, least_scale = -27, greatest_scale = 27 };
 
@@ -26,7 +33,7 @@ static uint64_t power_of_five(int exponent)
 
 static struct scaled scale_by(double value, int scale)
 {
-    enum { mantissa = 53, widest = 127, of_five = 63 };
+    enum { mantissa = 53, widest = wide_bits - 1, of_five = 63 };
     int exponent;
     struct scaled scaled = {.u = 1, .d = 1};
     scaled.m = (uint64_t)ldexp(frexp(value, &exponent), mantissa);

@@ -25,5 +25,5 @@ double stopwatch_seconds(const struct stopwatch *stopwatch)
     const double had = 0.95;
     double wall = stopwatch_wall(stopwatch),
            processor = read_clock(CLOCK_PROCESS_CPUTIME_ID) - stopwatch->processor;
-    return processor < had * wall ? processor : wall;
+    return processor > 0 && processor < had * wall ? processor : wall;
 }

@@ -12,7 +12,7 @@ struct stopwatch {
 struct stopwatch stopwatch_start(void);
 
 /* Seconds since the start: wall time, or processor time where the process was held up by others (it had the
- * processor for less than 95 % of the time). */
+ * processor for less than 95 % of the time). A clock of the processor that counts in ticks may not have moved: then wall time. */
 double stopwatch_seconds(const struct stopwatch *stopwatch);
 
 /* Wall time since the start. */

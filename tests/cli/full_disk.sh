@@ -46,12 +46,8 @@ to_closed_stream() {
     "$apps/$@" >&- 2>err
 }
 
-to_nobody() { # where the signal is ignored, an error is told; the reader has gone when the program writes
-    (
-        trap '' PIPE
-        { sleep 0.1 && "$apps/$@" 2>err; echo $? >code; } | true
-    )
-    return "$(cat code)"
+to_nobody() { # where the signal is ignored, an error is told
+    "$FBD_SOURCE_ROOT/tests/tools/to_nobody" --ignored "$apps/$@" 2>err
 }
 
 one_line_says() { # one_line_says PATTERN
@@ -72,8 +68,10 @@ done <lines
 check 'to a closed pipe, with SIGPIPE ignored' fails to_nobody 'Broken pipe' fbd-run "$incline"
 check 'so with --help' fails to_nobody 'Broken pipe' fbd-run --help
 check 'and of a sweep' fails to_nobody 'Broken pipe' fbd-sweep --vary mu_s=0.1:0.6:3 "$incline"
-check 'the signal ends it without a word' \
-    sh -c '{ sleep 0.1 && "$FBD_RUN" "$0" 2>err; echo $? >code; } | true; [ "$(cat code)" -eq 141 ] && [ ! -s err ]' "$incline"
+by_the_signal() {
+    exits 141 "$FBD_SOURCE_ROOT/tests/tools/to_nobody" "$FBD_RUN" "$incline" 2>err && [ ! -s err ]
+}
+check 'the signal ends it without a word' by_the_signal
 
 # ---- what is opened first does not become standard output or standard error
 check 'a file is not printed into when standard output is closed' exits 1 to_closed_stream fbd-run --csv o.csv "$incline"

@@ -16,6 +16,9 @@ import subprocess
 import sys
 import unicodedata
 
+sys.path.insert(0, os.path.join(os.environ["FBD_SOURCE_ROOT"], "tests", "tools"))
+import limits  # pylint: disable=wrong-import-position
+
 TEXTS = [
     "\x1b]0;pwned\x07\x1b[31mred", "\x9b31mred\x9d0;x\x9c", "\u202egnp.exe\u2066\u2069\u200f\u061c", "a\u200b\u200d\u2060\ufeffb\u00ad",
     "\x7f\b\r\x0b\x0c", "a ]]> b", "</title><script>touch(1)</script>", "</script><!--<script>", "`touch pwned`",
@@ -55,7 +58,7 @@ def run(name, *arguments, **how):
     """(exit code, standard output, diagnostics), as bytes; never ended by a signal."""
     global commands
     commands += 1
-    done = subprocess.run([program(name), *arguments], capture_output=True, timeout=120, check=False, **how)
+    done = limits.run([program(name), *arguments], 120, capture_output=True, check=False, **how)
     assert done.returncode >= 0, (name, arguments, done)
     return done.returncode, done.stdout, done.stderr
 

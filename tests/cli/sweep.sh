@@ -120,9 +120,7 @@ killed() { # killed SIGNAL CODE: start or go on, and kill it after some rows
     before=$(written)
     "$program" $slowly --jobs 2 --csv table.csv --resume "$incline" 2>err &
     process=$!
-    tries=0
-    while [ "$(written)" -le $((before + 20)) ] && kill -0 $process 2>/dev/null && [ $tries -lt 500 ]; do
-        tries=$((tries + 1))
+    while [ "$(written)" -le $((before + 20)) ] && kill -0 $process 2>/dev/null; do
         sleep 0.02
     done
     kill "-$1" $process || return 1

@@ -4,9 +4,12 @@
  *
  *     cross_check [--scenes N] [--seed FIRST] [--runs K] [--variants K] [--rest K] [--jobs J] [--of KIND] [--tap]
  *     cross_check [--of KIND] --show SEED
+ *     cross_check [--of KIND] [--scenes N] [--seed FIRST] --write FOLDER
  *
  * Scenes FIRST, FIRST + 1, ...; every K-th (default: each) is also run for a second. With `rest`
- * every K-th is brought to rest, for its statics and its linearisation (rest.h). Scenes that fail are shrunk and printed. Exit code 1 when any has failed. KIND: tracks, slots, windings, masses, rolls, spools.
+ * every K-th is brought to rest, for its statics and its linearisation (rest.h). Scenes that fail are shrunk and printed. Exit code 1 when any has failed.
+ * `write` compares nothing: it writes each scene that has a start to FOLDER/SEED.yaml. KIND: tracks, slots, windings,
+ * masses, rolls, spools.
  */
 #include <gsl/gsl_errno.h>
 #include <stdio.h>
@@ -360,14 +363,43 @@ static int show(uint64_t seed, enum focus focus)
     return 0;
 }
 
+static bool write_file(const char *path, const char *text)
+{
+    FILE *file = fopen(path, "w");
+    if (!file) return false;
+    bool fine = fputs(text, file) >= 0;
+    return fclose(file) == 0 && fine;
+}
+
+static int write_scenes(const struct plan *plan, const char *folder)
+{
+    static struct scene scene;
+    static struct absolute absolute;
+    static char text[text_room];
+    for (uint64_t i = 0; i < plan->scenes; i++) {
+        char path[4096];
+        unsigned long long seed = plan->first + i;
+        if (!scene_generate(&scene, &absolute, seed, plan->focus)) continue;
+        scene_write(&scene, run_length, text);
+        int length = snprintf(path, sizeof path, "%s/%llu.yaml", folder, seed);
+        if (length < 0 || (size_t)length >= sizeof path || !write_file(path, text)) {
+            perror(folder);
+            return 2;
+        }
+    }
+    return 0;
+}
+
 int main(int count, char **arguments)
 {
     struct plan plan = {.scenes = 2000, .first = 1, .stride = 1, .runs = 1};
+    const char *folder = NULL;
     for (int i = 1; i < count; i++) {
         const char *value = i + 1 < count ? arguments[i + 1] : "";
         uint64_t number = strtoull(value, NULL, 10);
         if (strcmp(arguments[i], "--tap") == 0) plan.tap = true;
         if (strcmp(arguments[i], "--show") == 0) return show(number, plan.focus);
+        if (strcmp(arguments[i], "--write") == 0) folder = value;
         if (strcmp(arguments[i], "--of") == 0) plan.focus = focus_called(value);
         if (strcmp(arguments[i], "--scenes") == 0) plan.scenes = number;
         if (strcmp(arguments[i], "--seed") == 0) plan.first = number;
@@ -378,6 +410,7 @@ int main(int count, char **arguments)
     }
     struct counts counts = {0};
     gsl_set_error_handler_off();
+    if (folder) return write_scenes(&plan, folder);
     if (plan.tap)
         printf("1..%d\n",
                run_verdicts - 1 + (plan.variants > 0 ? variant_count : 0) + (plan.rest > 0 ? 2 : 0));

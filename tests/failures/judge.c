@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "judge.h"
 
+#include <signal.h>
 #include <string.h>
 #include <sys/wait.h>
 
@@ -96,7 +97,7 @@ static bool no_model(const struct snapshot *run, enum layer_kind kind)
 const char *judge(const struct snapshot *whole, const struct snapshot *run, const struct layer_page *page,
                   const struct piece *before)
 {
-    if (!WIFEXITED(run->status)) return WTERMSIG(run->status) == 14 ? "it hangs" : "it ends by a signal";
+    if (!WIFEXITED(run->status)) return WTERMSIG(run->status) == SIGXCPU ? "it hangs" : "it ends by a signal";
     if (page->lost != 0) return "it loses memory";
     if (is_whole(whole, run)) return NULL;
     if (WEXITSTATUS(run->status) == 0) return "it ends with 0 and is not whole";

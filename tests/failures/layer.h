@@ -37,7 +37,7 @@ struct layer_page {
 #define LAYER_ASK    "LAYER_ASK"
 #define LAYER_ANSWER "LAYER_ANSWER"
 
-enum { layer_seconds = 60 }; /* a run that takes longer hangs */
+enum { layer_seconds = 60 }; /* of processor time: a run that takes longer hangs */
 
 /* ---- between the files of the layer */
 

@@ -7,12 +7,12 @@ import json
 import os
 import re
 import shlex
-import subprocess
 import sys
 from pathlib import Path
 
 SOURCE = Path(os.environ["FBD_SOURCE_ROOT"])
-sys.path.insert(0, str(SOURCE / "tests" / "page"))
+sys.path[:0] = [str(SOURCE / "tests" / "page"), str(SOURCE / "tests" / "tools")]
+import limits  # pylint: disable=wrong-import-position
 from claims import claim, close, finish  # pylint: disable=wrong-import-position
 
 FOLDER = SOURCE / "tests" / "faults"
@@ -36,8 +36,7 @@ def rows():
 @functools.cache
 def output(program, options, file):
     """The finished program; run once, whatever is claimed of it."""
-    return subprocess.run([PROGRAMS / program, *options, FOLDER / file], stdin=subprocess.DEVNULL,
-                          capture_output=True, check=False, timeout=60)
+    return limits.run([PROGRAMS / program, *options, FOLDER / file], input=b"", capture_output=True, check=False)
 
 
 def run(command, file, code):

@@ -14,18 +14,18 @@ import os
 import random
 import re
 import struct
-import subprocess
 import sys
 import tempfile
 from pathlib import Path
 
 SOURCE = Path(os.environ["FBD_SOURCE_ROOT"])
-sys.path.insert(0, str(SOURCE / "tests" / "page"))
+sys.path[:0] = [str(SOURCE / "tests" / "page"), str(SOURCE / "tests" / "tools")]
+import limits  # pylint: disable=wrong-import-position
 from claims import claim, finish  # pylint: disable=wrong-import-position
 
 PROGRAMS = Path(os.environ["FBD_RUN"]).parent
 ODD = re.compile(r"(?<![A-Za-z0-9_.+/])[-+]?(nan|inf|infinity)(?![A-Za-z0-9_+/=])", re.IGNORECASE)
-BAD_TIME = 5  # s; of what takes longer nothing is claimed
+BAD_TIME = 5  # s of processor time; of what takes longer nothing is claimed
 DRIVEN = 0.15
 
 QUESTIONS = [
@@ -244,10 +244,9 @@ def ask(question, folder):
     out = folder / "out"
     out.unlink(missing_ok=True)
     command = [str(out) if word == "OUT" else word for word in question[1:]]
-    try:
-        done = subprocess.run([PROGRAMS / question[0], *command, "m.yaml"], cwd=folder, capture_output=True,
-                              stdin=subprocess.DEVNULL, check=False, timeout=BAD_TIME)
-    except subprocess.TimeoutExpired:
+    done = limits.run([PROGRAMS / question[0], *command, "m.yaml"], BAD_TIME, cwd=folder, capture_output=True,
+                      input=b"", check=False)
+    if done.returncode == limits.TOO_LONG:
         return None, "", ""
     written = out.read_text(encoding="utf-8") if out.exists() else ""
     if "--html" in question:

@@ -10,13 +10,13 @@ One that fits is refused by nobody for that; one that does not is refused by a r
 import math
 import os
 import random
-import subprocess
 import sys
 import tempfile
 from pathlib import Path
 
 SOURCE = Path(os.environ["FBD_SOURCE_ROOT"])
-sys.path.insert(0, str(SOURCE / "tests" / "page"))
+sys.path[:0] = [str(SOURCE / "tests" / "page"), str(SOURCE / "tests" / "tools")]
+import limits  # pylint: disable=wrong-import-position
 from claims import claim, finish  # pylint: disable=wrong-import-position
 
 PROGRAMS = Path(os.environ["FBD_RUN"]).parent
@@ -91,8 +91,8 @@ def scene(rng, off):
 def ask(question, folder):
     out = folder / "out.svg"
     command = [str(out) if word == "OUT" else word for word in question[1:]]
-    done = subprocess.run([PROGRAMS / question[0], *command, "m.yaml"], cwd=folder, capture_output=True,
-                          stdin=subprocess.DEVNULL, check=False, timeout=60)
+    done = limits.run([PROGRAMS / question[0], *command, "m.yaml"], cwd=folder, capture_output=True, input=b"",
+                      check=False)
     return done.returncode, done.stdout.decode() + done.stderr.decode()
 
 

@@ -81,6 +81,8 @@ def the_binary_shows_the_functions_of_the_standard_and_needs_the_C_library():
     binary = fmu_of(NAMED, 3).binary
     said = subprocess.run(["nm", "-D", "--defined-only", binary], stdout=subprocess.PIPE, check=True, text=True).stdout
     assert {line.split()[2] for line in said.splitlines()} == FUNCTIONS_2 | FUNCTIONS_3
+    said = subprocess.run(["nm", "-D", "--undefined-only", binary], stdout=subprocess.PIPE, check=True, text=True).stdout
+    assert not re.search(r"\b(hypot|stat64)@GLIBC_2\.3", said), "it asks for a newer C library than it needs"
     said = subprocess.run(["readelf", "-d", binary], stdout=subprocess.PIPE, check=True, text=True).stdout
     assert set(re.findall(r"NEEDED.*\[(\w+)", said)) <= {"libc", "libm", "ld"}, said
     assert "RPATH" not in said and "RUNPATH" not in said and "TEXTREL" not in said

@@ -12,6 +12,7 @@ import time
 from pathlib import Path
 
 sys.path.insert(0, str(Path(os.environ["FBD_SOURCE_ROOT"]) / "tests/tools"))
+import limits  # noqa: E402
 from browser import Browser, Missing  # noqa: E402
 from claims import claim, close, finish, skip  # noqa: E402
 from fbd import MODELS, result, run  # noqa: E402
@@ -37,8 +38,8 @@ WORKER = """
     return answer;"""
 
 
-def wait_for(browser, condition, seconds=60):
-    end = time.monotonic() + seconds
+def wait_for(browser, condition):
+    end = time.monotonic() + limits.WAIT
     while not browser.run(f"return {condition}"):
         assert time.monotonic() < end, f"never: {condition}; it says {browser.run('return element(`live-says`).textContent')}"
         time.sleep(0.02)
@@ -52,7 +53,7 @@ def live_page(folder, model, *options):
 
 def open_live(browser, path, fragment=""):
     browser.open(path, fragment)
-    wait_for(browser, "typeof bench === 'object' && bench.shown > 0", 600)
+    wait_for(browser, "typeof bench === 'object' && bench.shown > 0")
 
 
 def settled(browser, action, *arguments):
@@ -215,7 +216,7 @@ def check_effects(browser, folder):
         assert browser.run("return run.stats.method") == "rk4"
     with claim("what accuracy costs is measured in the page"):
         browser.run("element('live-costs').open = true")
-        wait_for(browser, "element('live-diagram').complete && element('live-diagram').naturalWidth > 100", 120)
+        wait_for(browser, "element('live-diagram').complete && element('live-diagram').naturalWidth > 100")
     with claim("the page is quiet and asks for nothing"):
         is_quiet(browser, path)
 

@@ -11,6 +11,7 @@ import time
 from pathlib import Path
 
 sys.path.insert(0, str(Path(os.environ["FBD_SOURCE_ROOT"]) / "tests/tools"))
+import limits  # noqa: E402
 from browser import Browser, Missing  # noqa: E402
 from claims import claim, close, finish, skip  # noqa: E402
 from fbd import MODELS, many_bodies, result, run, table  # noqa: E402
@@ -49,9 +50,9 @@ return found.slice(0, 4);
 """
 
 
-def wait_for(browser, condition, seconds=20):
+def wait_for(browser, condition):
     """A condition of the page that comes true by and by."""
-    end = time.monotonic() + seconds
+    end = time.monotonic() + limits.WAIT
     while not browser.run(f"return {condition}"):
         assert time.monotonic() < end, f"never: {condition}"
         time.sleep(0.02)

@@ -11,6 +11,7 @@ import time
 from pathlib import Path
 
 sys.path.insert(0, str(Path(os.environ["FBD_SOURCE_ROOT"]) / "tests/tools"))
+import limits  # noqa: E402
 from browser import Browser, Missing  # noqa: E402
 from claims import claim, finish, skip  # noqa: E402
 from fbd import MODELS, RUN, run  # noqa: E402
@@ -18,8 +19,8 @@ from fbd import MODELS, RUN, run  # noqa: E402
 INCLINE = (MODELS / "kinetics/incline.yaml").read_text(encoding="utf-8")
 
 
-def until(condition, what, seconds=20):
-    end = time.monotonic() + seconds
+def until(condition, what):
+    end = time.monotonic() + limits.WAIT
     while not condition():
         assert time.monotonic() < end, f"never: {what}"
         time.sleep(0.05)
@@ -81,7 +82,7 @@ def check_watch(browser, folder):
         browser.open("about:blank")  # a live page whose watch has ended asks in vain, and the console says so
         browser.log("browser")
         watch.send_signal(signal.SIGINT)
-        watch.wait(20)
+        watch.wait(limits.WAIT)
     with claim("the watch leaves an ordinary page and no stamp"):
         assert not stamp.exists()
         # the same but for the time that the run took

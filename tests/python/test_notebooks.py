@@ -4,6 +4,7 @@ import base64
 import html
 import re
 
+import limits
 import nbclient
 import nbformat
 import pytest
@@ -15,7 +16,7 @@ NOTEBOOKS = sorted((SOURCE / "python/examples").glob("*.ipynb"))
 def run(path):
     notebook = nbformat.read(path, as_version=4)
     assert not any(cell.get("outputs") for cell in notebook.cells), "outputs belong in nobody's repository"
-    nbclient.NotebookClient(notebook, timeout=60, kernel_name="python3",
+    nbclient.NotebookClient(notebook, timeout=int(limits.WAIT), kernel_name="python3",
                             resources={"metadata": {"path": str(path.parent)}}).execute()
     return notebook
 

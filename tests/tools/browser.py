@@ -18,6 +18,8 @@ import urllib.error
 import urllib.request
 from pathlib import Path
 
+import limits  # beside this file
+
 ARGUMENTS = [
     "--headless", "--no-sandbox", "--disable-gpu", "--no-first-run", "--disable-background-networking",
     "--disable-component-update", "--disable-sync", "--disable-default-apps", "--disable-dev-shm-usage",
@@ -65,9 +67,10 @@ class Browser:
         shutil.rmtree(self.profile, ignore_errors=True)
 
     def _wait(self):
-        for _ in range(200):
+        end = time.monotonic() + limits.WAIT
+        while time.monotonic() < end:
             try:
-                with urllib.request.urlopen(f"http://127.0.0.1:{self.port}/status", timeout=5):
+                with urllib.request.urlopen(f"http://127.0.0.1:{self.port}/status", timeout=limits.WAIT):
                     return
             except OSError:
                 time.sleep(0.05)
@@ -81,6 +84,7 @@ class Browser:
             "perfLoggingPrefs": {"enableNetwork": True},
         }
         wanted = {"browserName": "chrome", "goog:chromeOptions": options,
+                  "timeouts": {"script": int(1000 * limits.WAIT), "pageLoad": int(1000 * limits.WAIT)},
                   "goog:loggingPrefs": {"browser": "ALL", "performance": "ALL"}}
         answer = self._request("POST", "/session", {"capabilities": {"alwaysMatch": wanted}})
         self.session = answer["sessionId"]
@@ -90,7 +94,7 @@ class Browser:
         request = urllib.request.Request(f"http://127.0.0.1:{self.port}{path}", data=data, method=method,
                                          headers={"Content-Type": "application/json"})
         try:
-            with urllib.request.urlopen(request, timeout=120) as answer:
+            with urllib.request.urlopen(request, timeout=limits.WAIT) as answer:
                 return json.load(answer)["value"]
         except urllib.error.HTTPError as error:
             raise RuntimeError(json.load(error)["value"]["message"]) from None

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
  * The shortest decimals by integers are those that printf and strtod find by trying, and rounded ones those of printf.
+ * Compiled a second time as for a processor of 32 bits, which has no integers of 128: there fractions are left to others.
  */
 #include <math.h>
 #include <setjmp.h>
@@ -14,6 +15,7 @@
 
 #include <cmocka.h>
 
+#include "base/format.h"
 #include "base/shortest.h"
 #include "random_numbers.h"
 
@@ -38,14 +40,22 @@ static void check_rounded(double value)
     }
 }
 
+#ifdef __SIZEOF_INT128__
+static const bool is_wide = true;
+#else
+static const bool is_wide = false;
+#endif
+
 /* False where the number is left to others. */
 static bool check(double value)
 {
     check_rounded(value);
-    char quick[shortest_size], slow[64];
+    char quick[shortest_size], slow[64], written[64];
     int length = shortest_write(quick, value);
-    if (length < 0) return false;
     by_trying(slow, sizeof slow, value);
+    format_shortest(written, sizeof written, value);
+    assert_string_equal(written, slow);
+    if (length < 0) return false;
     assert_string_equal(quick, slow);
     assert_int_equal(length, strlen(slow));
     return true;
@@ -62,7 +72,7 @@ static void numbers_of_all_sizes(void **state)
         taken += check(i % 2 ? size : -size);
         check(exp(1400 * (random_between(&seed, 0, 1) - 0.5)));
     }
-    assert_true(taken > count * 9 / 10);
+    assert_true(is_wide ? taken > count * 9 / 10 : taken < count / 10);
 }
 
 /* Few digits, halves, carries to one digit more, neighbours of powers of ten and two. */
@@ -85,7 +95,9 @@ static void numbers_that_are_special(void **state)
     }
     assert_true(check(0.0));
     char buffer[shortest_size];
-    assert_true(rounded_write(buffer, 1.0 / 3, 6) > 0 && rounded_write(buffer, -2.5, 1) > 0);
+    assert_true((rounded_write(buffer, 1.0 / 3, 6) > 0) == is_wide);
+    assert_true((rounded_write(buffer, -2.5, 1) > 0) == is_wide);
+    assert_true(shortest_write(buffer, 12) == 2 && rounded_write(buffer, 0, 6) == 1);
     assert_true(rounded_write(buffer, 1.0, 0) < 0 && rounded_write(buffer, 1.0, 18) < 0);
     assert_false(check(-0.0) || check(HUGE_VAL) || check(NAN) || check(5e-324) || check(1.7e308));
 }
