@@ -4,6 +4,7 @@
 #include <float.h>
 
 #include "dynamics/constraint.h"
+#include "dynamics/contact_thin.h"
 
 /* ---- places in the world */
 
@@ -80,7 +81,7 @@ struct distance meeting_distance(const struct fbd_model *model, const struct tre
     struct moving A = point_in_world(work, a->link, a->center), B = point_in_world(work, b->link, b->center);
     struct vec d = vec_sub(A.p, B.p);
     double apart =
-        b->kind == contact_line ? fabs(vec_cross(b->e, d)) - a->radius : vec_norm(d) - a->radius - b->radius;
+        b->kind == contact_line ? fabs(vec_cross(vec_turn(work->links[b->link].turn, b->e), d)) - a->radius : vec_norm(d) - a->radius - b->radius;
     return (struct distance){apart, vec_norm(vec_sub(A.v, B.v))};
 }
 
@@ -276,6 +277,7 @@ struct gap meeting_probe(const struct fbd_model *model, const struct instant *at
         if (closed > 0 && at->tree->ties[tie].feature == probe) return nothing;
         return feature_gap(model, at->tree, index, probe);
     }
+    if (meeting->thin) return thin_probe(model, at, index, probe);
     if (a->kind == contact_disc && b->kind == contact_disc) return feature_gap(model, at->tree, index, 0);
     if (a->kind == contact_disc) return disc_at_corners(model, at->tree, index, b);
     if (b->kind == contact_disc) return disc_at_corners(model, at->tree, index, a);
@@ -385,6 +387,7 @@ int meeting_touching(const struct fbd_model *model, const struct tree_work *work
     const struct meeting *meeting = &model->tree->meetings[index];
     const struct contact_shape *a = &meeting->shape[0], *b = &meeting->shape[1];
     struct outermost found = {0};
+    if (meeting->thin) return thin_touching(model, work, index, near, features);
     if (meeting->stop != 0) {
         if (fabs(feature_gap(model, work, index, 0).x) <= near) consider(&found, 0, 0);
     } else if (b->kind == contact_line && a->kind == contact_corners) {
