@@ -80,8 +80,9 @@ struct distance meeting_distance(const struct fbd_model *model, const struct tre
     if (meeting->stop != 0) return (struct distance){-1, 0}; /* always near */
     struct moving A = point_in_world(work, a->link, a->center), B = point_in_world(work, b->link, b->center);
     struct vec d = vec_sub(A.p, B.p);
-    double apart =
-        b->kind == contact_line ? fabs(vec_cross(vec_turn(work->links[b->link].turn, b->e), d)) - a->radius : vec_norm(d) - a->radius - b->radius;
+    double apart = b->kind == contact_line
+                       ? fabs(vec_cross(vec_turn(work->links[b->link].turn, b->e), d)) - a->radius
+                       : vec_norm(d) - a->radius - b->radius;
     return (struct distance){apart, vec_norm(vec_sub(A.v, B.v))};
 }
 

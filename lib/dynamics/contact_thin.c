@@ -28,6 +28,13 @@ static struct gap gap_at_side(const struct fbd_model *model, const struct tree_w
     return gap_at(model, work, index, probe, left ? thin_left : thin_right);
 }
 
+/* From the circle round the bar: outside there is no side yet. */
+static struct gap gap_at_circle(const struct fbd_model *model, const struct tree_work *work, int index,
+                                int probe)
+{
+    return gap_at(model, work, index, probe, thin_round);
+}
+
 /* How far it is beyond the nearer end; negative over the bar. */
 static struct gap gap_at_ends(const struct fbd_model *model, const struct tree_work *work, int index,
                               int probe)
@@ -57,14 +64,14 @@ static bool is_closed(const struct fbd_model *model, const struct instant *at, i
     return false;
 }
 
-/* An end that is met by a rounding is met: the bar is longer by what counts as touching. */
+/* An end that is met by a rounding is met: the circle is smaller by what counts as touching. */
 struct gap thin_probe(const struct fbd_model *model, const struct instant *at, int index, int probe)
 {
     if (is_closed(model, at, index, probe)) return (struct gap){HUGE_VAL, 0, no_feature};
     struct gap side = gap_at_side(model, at->tree, index, probe),
-               ends = gap_at_ends(model, at->tree, index, probe);
-    ends.x -= meeting_near(model, at->tree, index);
-    return ends.x > side.x ? ends : side;
+               circle = gap_at_circle(model, at->tree, index, probe);
+    circle.x -= meeting_near(model, at->tree, index);
+    return circle.x > side.x ? circle : side;
 }
 
 /* ---- what touches */
@@ -139,10 +146,10 @@ void meeting_turn_sides(const struct fbd_model *model, struct tree_work *work, i
     const struct meeting *meeting = meeting_of(model, index);
     for (int probe = 0; meeting->thin && probe < meeting->probes; probe++) {
         int *side = thin_side_of(model, work, index, probe);
-        double ends = gap_at_ends(model, work, index, probe).x,
+        double circle = gap_at_circle(model, work, index, probe).x,
                left = gap_at(model, work, index, probe, thin_left).x;
-        if (ends < -4 * near) continue;
-        if (fabs(left) <= near && ends <= 4 * near) left = thin_middle(model, work, index, probe);
+        if (circle < -4 * near) continue;
+        if (fabs(left) <= near && circle <= 4 * near) left = thin_middle(model, work, index, probe);
         if (fabs(left) > near) *side = left > 0 ? 1 : -1;
     }
 }

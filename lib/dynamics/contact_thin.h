@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
  * Thin meetings: two bars, or a point and a bar. Each corner has a side of the other's bar, which is part of the state,
- * and its gap there: the largest of the distance from that side of the bar and of those beyond its ends. It has a sign
- * wherever the corner is. The side changes where the corner comes round an end.
+ * and a gap: the larger one of its distances from the bar's line, positive on that side, and from the circle that has the
+ * bar as its diameter. It has a sign wherever the corner is. The side changes where the corner comes into the circle
+ * from the other side, round an end.
  */
 #ifndef FBD_DYNAMICS_CONTACT_THIN_H
 #define FBD_DYNAMICS_CONTACT_THIN_H

@@ -187,8 +187,7 @@ static int bending_probes(const struct run *run, int index)
 double run_contact_bend(struct run *run, double from, double to)
 {
     for (int i = 0; has_meetings(run->model) && i < tree_of(run)->meeting_count; i++)
-        for (int probe = 0; probe < bending_probes(run, i); probe++)
-            to = until_bend(run, i, probe, from, to);
+        for (int probe = 0; probe < bending_probes(run, i); probe++) to = until_bend(run, i, probe, from, to);
     return to;
 }
 

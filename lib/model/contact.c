@@ -14,8 +14,10 @@ int shape_sides(const struct contact_shape *shape)
 /* ---- features
  *
  * corners on a line: the corner. A disc at corners: the side, then, behind the sides, the corner. Corners at
- * corners: first those of shape 0 on sides of shape 1, then the other way round. Thin: four sides to each of two
- * corners of each shape. */
+ * corners: first those of shape 0 on sides of shape 1, then the other way round. Thin: five sides (enum thin_side) to
+ * each of two corners of each shape. */
+
+enum { thin_sides = thin_round + 1 };
 
 struct thin_corner thin_corner_of(const struct meeting *meeting, int probe)
 {
@@ -25,12 +27,13 @@ struct thin_corner thin_corner_of(const struct meeting *meeting, int probe)
 
 int thin_feature(struct thin_corner corner, enum thin_side side)
 {
-    return 4 * (2 * corner.moving + corner.corner) + (int)side;
+    return thin_sides * (2 * corner.moving + corner.corner) + (int)side;
 }
 
 struct thin_corner thin_corner_at(int feature)
 {
-    return (struct thin_corner){feature / 8, feature / 4 % 2};
+    int number = feature / thin_sides;
+    return (struct thin_corner){number / 2, number % 2};
 }
 
 int meeting_feature(const struct meeting *meeting, int moving, int corner, int side)
@@ -57,8 +60,12 @@ static struct touch at_bar(const struct meeting *meeting, int feature)
     const struct contact_shape *bar = &meeting->shape[1 - corner.moving];
     struct touch touch = {.moving = corner.moving,
                           .point = meeting->shape[corner.moving].corners[corner.corner]};
-    enum thin_side side = (enum thin_side)(feature % 4);
+    enum thin_side side = (enum thin_side)(feature % thin_sides);
     bool ends = side == thin_end || side == thin_begin;
+    touch.circles = side == thin_round;
+    touch.base_radius = touch.circles ? bar->radius : 0;
+    touch.base = bar->center;
+    if (touch.circles) return touch;
     set_side(&touch, bar, side == thin_left || side == thin_end ? 1 : 0);
     if (!ends) return touch;
     touch.length = 0;

@@ -67,8 +67,9 @@ struct thin_corner {
 };
 struct thin_corner thin_corner_of(const struct meeting *meeting, int probe);
 
-/* Its feature at a side of the bar: to the right of the bar's direction, to its left, and its end faces. */
-enum thin_side { thin_right, thin_left, thin_end, thin_begin };
+/* Its feature at a side of the bar: to the right of the bar's direction, to its left, its end faces, and the circle round
+ * the bar, which nothing touches. */
+enum thin_side { thin_right, thin_left, thin_end, thin_begin, thin_round };
 int thin_feature(struct thin_corner corner, enum thin_side side);
 
 /* The corner of a feature of a thin meeting. */

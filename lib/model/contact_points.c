@@ -34,8 +34,8 @@ static bool climb(const struct fbd_model *model, struct seen *seen)
 static bool see_both(const struct fbd_model *model, const struct meeting *meeting, struct seen seen[2])
 {
     for (int k = 0; k < 2; k++)
-        seen[k] = (struct seen){
-            .link = meeting->shape[k].link, .point = meeting->shape[k].corners[0], .x = {1, 0}};
+        seen[k] =
+            (struct seen){.link = meeting->shape[k].link, .point = meeting->shape[k].corners[0], .x = {1, 0}};
     while (seen[0].link != seen[1].link) /* the link below has the smaller number */
         if (!climb(model, &seen[seen[0].link > seen[1].link ? 0 : 1])) return false;
     return true;
@@ -70,9 +70,11 @@ void contacts_check(struct builder *builder)
         if (!meeting_is_of_points(meeting)) continue;
         bool ground = source->body[1] == ground_body;
         diag_add(builder->errors, FBD_ERROR, "no-shape", source->at,
-                 "give one of them a `shape`; points meet where both move on one line, by slides along it, and do not "
+                 "give one of them a `shape`; points meet where both move on one line, by slides along it, "
+                 "and do not "
                  "start in one place",
-                 "`%s` and %s%s%s meet in nothing but a point each: nothing says on which side one is of the other",
+                 "`%s` and %s%s%s meet in nothing but a point each: nothing says on which side one is of the "
+                 "other",
                  model->bodies[source->body[0]].name, ground ? "a point of the ground" : "`",
                  ground ? "" : model->bodies[source->body[1]].name, ground ? "" : "`");
     }
