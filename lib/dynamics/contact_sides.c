@@ -86,22 +86,39 @@ static double side_at_start(const struct fbd_model *model, const struct tree_wor
     return fabs(left.rate) > rounding * meeting_speed(work, meeting) ? left.rate : 0;
 }
 
+/* Is the corner outside of the circle round the bar, or at its end face? */
+static bool has_no_side(const struct fbd_model *model, const struct tree_work *work, int index, int probe,
+                        double near)
+{
+    struct thin_corner corner = thin_corner_of(&model->tree->meetings[index], probe);
+    return feature_gap(model, work, index, thin_feature(corner, thin_round)).x > near ||
+           thin_is_in_line(model, work, index, probe, near);
+}
+
+/* By the forces; accelerations are those of the state. */
+static int side_by_forces(const struct fbd_model *model, const struct tree_work *work, int index, int probe)
+{
+    const struct meeting *meeting = &model->tree->meetings[index];
+    struct thin_corner corner = thin_corner_of(meeting, probe);
+    struct vec n = left_of_bar(work, meeting, corner);
+    struct vec place = feature_place(model, work, index, thin_feature(corner, thin_left));
+    int sense = sense_of_upper(model, work, meeting, place, n);
+    return upper_of(model, meeting) == corner.moving ? sense : -sense;
+}
+
 void thin_choose_sides(struct fbd_state *state, int index, double near)
 {
     const struct fbd_model *model = state->model;
-    const struct meeting *meeting = &model->tree->meetings[index];
     bool evaluated = false;
-    for (int probe = 0; probe < meeting->probes; probe++) {
-        double side = side_at_start(model, state->tree, index, probe, near);
-        if (side == 0 && !evaluated) state_evaluate_unshared(state);
-        evaluated |= side == 0;
-        if (side == 0) {
-            struct thin_corner corner = thin_corner_of(meeting, probe);
-            struct vec n = left_of_bar(state->tree, meeting, corner),
-                       place = feature_place(model, state->tree, index, thin_feature(corner, thin_left));
-            int sense = sense_of_upper(model, state->tree, meeting, place, n);
-            side = upper_of(model, meeting) == corner.moving ? sense : -sense;
-        }
-        *thin_side_of(model, state->tree, index, probe) = side > 0 ? 1 : -1;
+    for (int probe = 0; probe < model->tree->meetings[index].probes; probe++) {
+        int *side = thin_side_of(model, state->tree, index, probe);
+        double start = 0;
+        bool none = has_no_side(model, state->tree, index, probe, near);
+        if (!none) start = side_at_start(model, state->tree, index, probe, near);
+        *side = start > 0 ? 1 : start < 0 ? -1 : 0;
+        if (none || start != 0) continue;
+        if (!evaluated) state_evaluate_unshared(state);
+        evaluated = true;
+        *side = side_by_forces(model, state->tree, index, probe);
     }
 }

@@ -28,7 +28,7 @@ static struct gap gap_at_side(const struct fbd_model *model, const struct tree_w
     return gap_at(model, work, index, probe, left ? thin_left : thin_right);
 }
 
-/* From the circle round the bar: outside there is no side yet. */
+/* From the circle round the bar. */
 static struct gap gap_at_circle(const struct fbd_model *model, const struct tree_work *work, int index,
                                 int probe)
 {
@@ -68,9 +68,10 @@ static bool is_closed(const struct fbd_model *model, const struct instant *at, i
 struct gap thin_probe(const struct fbd_model *model, const struct instant *at, int index, int probe)
 {
     if (is_closed(model, at, index, probe)) return (struct gap){HUGE_VAL, 0, no_feature};
-    struct gap side = gap_at_side(model, at->tree, index, probe),
-               circle = gap_at_circle(model, at->tree, index, probe);
+    struct gap circle = gap_at_circle(model, at->tree, index, probe);
     circle.x -= meeting_near(model, at->tree, index);
+    if (*thin_side_of(model, at->tree, index, probe) == 0) return circle;
+    struct gap side = gap_at_side(model, at->tree, index, probe);
     return circle.x > side.x ? circle : side;
 }
 
@@ -82,17 +83,24 @@ static int beside(const struct meeting *meeting, int probe)
     return meeting->shape[thin_corner_of(meeting, probe).moving].count > 1 ? probe ^ 1 : -1;
 }
 
-/* At an end of the bar: is it the end face that is met? What lies along the line of the bar does so, and what comes
- * along that line. */
+/* Does the corner's own bar lie along the line of the other, beyond the end at which the corner is? */
+bool thin_is_in_line(const struct fbd_model *model, const struct tree_work *work, int index, int probe,
+                     double near)
+{
+    int other = beside(meeting_of(model, index), probe);
+    return other >= 0 && fabs(gap_at_ends(model, work, index, probe).x) <= near &&
+           fabs(gap_at_side(model, work, index, other).x) <= near &&
+           gap_at_ends(model, work, index, other).x > near;
+}
+
+/* On the line of the bar at an end: is it the end face that is met, by what comes or lies along that line? */
 static bool meets_end_face(const struct fbd_model *model, const struct tree_work *work, int index, int probe,
                            double near)
 {
     struct gap side = gap_at_side(model, work, index, probe), ends = gap_at_ends(model, work, index, probe);
     if (fabs(ends.x) > near) return false;
     if (fabs(side.rate) < fabs(ends.rate)) return ends.rate < 0;
-    int other = beside(meeting_of(model, index), probe);
-    return other >= 0 && fabs(gap_at_side(model, work, index, other).x) <= near &&
-           gap_at_ends(model, work, index, other).x > near;
+    return thin_is_in_line(model, work, index, probe, near);
 }
 
 /* The gap by the feature at which the corner of a probe touches, if it does. */
@@ -141,15 +149,43 @@ double thin_middle(const struct fbd_model *model, const struct tree_work *work, 
     return other < 0 ? 0 : (left + gap_at(model, work, index, other, thin_left).x) / 2;
 }
 
+/* The side of a corner that touches, by its feature. */
+static bool touches(const struct meeting *meeting, const struct tree_work *work, struct thin_corner corner,
+                    int *side)
+{
+    for (int k = 0; k < meeting->tie_count; k++) {
+        int feature = work->ties[meeting->first_tie + k].feature;
+        if (feature == thin_feature(corner, thin_left)) *side = 1;
+        if (feature == thin_feature(corner, thin_right)) *side = -1;
+        if (feature >= thin_feature(corner, thin_right) && feature <= thin_feature(corner, thin_round))
+            return true;
+    }
+    return false;
+}
+
+/* Of a corner at the circle, or in it without a side. */
+static int side_now(const struct fbd_model *model, const struct tree_work *work, int index, int probe,
+                    double near)
+{
+    double left = gap_at(model, work, index, probe, thin_left).x;
+    int side = *thin_side_of(model, work, index, probe);
+    if (fabs(left) > near) return left > 0 ? 1 : -1;
+    if (meets_end_face(model, work, index, probe, near)) return 0;
+    double middle = thin_middle(model, work, index, probe);
+    if (fabs(middle) > near) return middle > 0 ? 1 : -1;
+    return side != 0 ? side : left >= 0 ? 1 : -1;
+}
+
 void meeting_turn_sides(const struct fbd_model *model, struct tree_work *work, int index, double near)
 {
     const struct meeting *meeting = meeting_of(model, index);
     for (int probe = 0; meeting->thin && probe < meeting->probes; probe++) {
         int *side = thin_side_of(model, work, index, probe);
-        double circle = gap_at_circle(model, work, index, probe).x,
-               left = gap_at(model, work, index, probe, thin_left).x;
-        if (circle < -4 * near) continue;
-        if (fabs(left) <= near && circle <= 4 * near) left = thin_middle(model, work, index, probe);
-        if (fabs(left) > near) *side = left > 0 ? 1 : -1;
+        double circle = gap_at_circle(model, work, index, probe).x;
+        if (touches(meeting, work, thin_corner_of(meeting, probe), side)) continue;
+        if (circle > 4 * near)
+            *side = 0;
+        else if (circle >= -4 * near || *side == 0)
+            *side = side_now(model, work, index, probe, near);
     }
 }
