@@ -357,6 +357,15 @@ static bool is_found(const struct outermost *found, double foot, double near)
     return false;
 }
 
+/* Do a side of the other shape and a side of `moving` face each other? Of both sides of a bar that lies on a side one does. */
+static bool face_each_other(const struct tree_work *work, const struct meeting *meeting, int moving, int side,
+                            int own)
+{
+    struct touch on_other = meeting_touch(meeting, meeting_feature(meeting, moving, 0, side)),
+                 on_own = meeting_touch(meeting, meeting_feature(meeting, 1 - moving, 0, own));
+    return vec_dot(over_side(work, meeting, &on_other).n, over_side(work, meeting, &on_own).n) < 0;
+}
+
 /* Where two corners of `moving` lie on the line of a side, that side lies on one of theirs, and its own ends
  * may lie between them; or on a corner, that leaves the side over its end as this end comes on that of the corners. */
 static void ends_of_side(const struct fbd_model *model, const struct tree_work *work, int index, int moving,
@@ -368,7 +377,7 @@ static void ends_of_side(const struct fbd_model *model, const struct tree_work *
     for (int i = 0; i < shape_sides(with); i++) {
         int ends[2] = {meeting_feature(meeting, moving, i, side),
                        meeting_feature(meeting, moving, beside(with, i, 1), side)};
-        bool flat = true;
+        bool flat = face_each_other(work, meeting, moving, side, i);
         for (int k = 0; k < 2; k++) flat &= fabs(feature_gap(model, work, index, ends[k]).x) <= near;
         for (int k = 0; flat && k < 2; k++) {
             int corner = k == 0 ? side : beside(on, side, 1);

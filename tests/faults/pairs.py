@@ -66,7 +66,7 @@ def draw(rng):
         sign = rng.choice([-1, 1])
         u = (sign * n[0], sign * n[1])
         way = math.atan2(u[1], u[0])
-    off = rng.uniform(-0.4, 0.4) * (b.reach() if b.kind != "line" else a.scale)
+    off = rng.uniform(-0.4, 0.4) * (a.scale if b.kind == "line" else b.reach() or a.reach())
     apart = (a.reach() + (0 if b.kind == "line" else b.reach())) * rng.uniform(1.05, 1.5) + 0.05 * scale
     place = (u[0] * apart - u[1] * off, u[1] * apart + u[0] * off)
     a.pose0 = (place[0], place[1], a.pose0[2])
