@@ -140,6 +140,20 @@ int thin_touching(const struct fbd_model *model, const struct tree_work *work, i
     return foot[1] - foot[0] > 4 * near && meeting->tie_count > 1 ? 2 : 1;
 }
 
+double thin_crossing(const struct fbd_model *model, const struct tree_work *work, int index)
+{
+    const struct meeting *meeting = meeting_of(model, index);
+    double least = HUGE_VAL;
+    if (meeting->probes < 4) return 0;
+    for (int k = 0; k < 2; k++) {
+        double from = gap_at(model, work, index, 2 * k, thin_left).x,
+               to = gap_at(model, work, index, 2 * k + 1, thin_left).x;
+        if ((from < 0) == (to < 0)) return 0;
+        least = fmin(least, fmin(fabs(from), fabs(to)));
+    }
+    return least;
+}
+
 /* ---- sides */
 
 double thin_middle(const struct fbd_model *model, const struct tree_work *work, int index, int probe)

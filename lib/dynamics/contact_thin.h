@@ -15,6 +15,9 @@ struct gap thin_probe(const struct fbd_model *model, const struct instant *at, i
 int thin_touching(const struct fbd_model *model, const struct tree_work *work, int index, double near,
                   int features[2]);
 
+/* How deep two bars that cross are in each other; else 0. */
+double thin_crossing(const struct fbd_model *model, const struct tree_work *work, int index);
+
 /* The side on which the corner of a probe is: +1 to the left of the bar's direction, -1 to its right, 0 none. */
 int *thin_side_of(const struct fbd_model *model, const struct tree_work *work, int index, int probe);
 
