@@ -4,6 +4,7 @@
 #include <float.h>
 
 #include "dynamics/constraint.h"
+#include "dynamics/contact_thin.h"
 
 /* ---- places in the world */
 
@@ -79,8 +80,9 @@ struct distance meeting_distance(const struct fbd_model *model, const struct tre
     if (meeting->stop != 0) return (struct distance){-1, 0}; /* always near */
     struct moving A = point_in_world(work, a->link, a->center), B = point_in_world(work, b->link, b->center);
     struct vec d = vec_sub(A.p, B.p);
-    double apart =
-        b->kind == contact_line ? fabs(vec_cross(b->e, d)) - a->radius : vec_norm(d) - a->radius - b->radius;
+    double apart = b->kind == contact_line
+                       ? fabs(vec_cross(vec_turn(work->links[b->link].turn, b->e), d)) - a->radius
+                       : vec_norm(d) - a->radius - b->radius;
     return (struct distance){apart, vec_norm(vec_sub(A.v, B.v))};
 }
 
@@ -276,6 +278,7 @@ struct gap meeting_probe(const struct fbd_model *model, const struct instant *at
         if (closed > 0 && at->tree->ties[tie].feature == probe) return nothing;
         return feature_gap(model, at->tree, index, probe);
     }
+    if (meeting->thin) return thin_probe(model, at, index, probe);
     if (a->kind == contact_disc && b->kind == contact_disc) return feature_gap(model, at->tree, index, 0);
     if (a->kind == contact_disc) return disc_at_corners(model, at->tree, index, b);
     if (b->kind == contact_disc) return disc_at_corners(model, at->tree, index, a);
@@ -354,6 +357,15 @@ static bool is_found(const struct outermost *found, double foot, double near)
     return false;
 }
 
+/* Do a side of the other shape and a side of `moving` face each other? Of both sides of a bar that lies on a side one does. */
+static bool face_each_other(const struct tree_work *work, const struct meeting *meeting, int moving, int side,
+                            int own)
+{
+    struct touch on_other = meeting_touch(meeting, meeting_feature(meeting, moving, 0, side)),
+                 on_own = meeting_touch(meeting, meeting_feature(meeting, 1 - moving, 0, own));
+    return vec_dot(over_side(work, meeting, &on_other).n, over_side(work, meeting, &on_own).n) < 0;
+}
+
 /* Where two corners of `moving` lie on the line of a side, that side lies on one of theirs, and its own ends
  * may lie between them; or on a corner, that leaves the side over its end as this end comes on that of the corners. */
 static void ends_of_side(const struct fbd_model *model, const struct tree_work *work, int index, int moving,
@@ -365,7 +377,7 @@ static void ends_of_side(const struct fbd_model *model, const struct tree_work *
     for (int i = 0; i < shape_sides(with); i++) {
         int ends[2] = {meeting_feature(meeting, moving, i, side),
                        meeting_feature(meeting, moving, beside(with, i, 1), side)};
-        bool flat = true;
+        bool flat = face_each_other(work, meeting, moving, side, i);
         for (int k = 0; k < 2; k++) flat &= fabs(feature_gap(model, work, index, ends[k]).x) <= near;
         for (int k = 0; flat && k < 2; k++) {
             int corner = k == 0 ? side : beside(on, side, 1);
@@ -385,6 +397,7 @@ int meeting_touching(const struct fbd_model *model, const struct tree_work *work
     const struct meeting *meeting = &model->tree->meetings[index];
     const struct contact_shape *a = &meeting->shape[0], *b = &meeting->shape[1];
     struct outermost found = {0};
+    if (meeting->thin) return thin_touching(model, work, index, near, features);
     if (meeting->stop != 0) {
         if (fabs(feature_gap(model, work, index, 0).x) <= near) consider(&found, 0, 0);
     } else if (b->kind == contact_line && a->kind == contact_corners) {

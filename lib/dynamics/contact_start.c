@@ -7,6 +7,7 @@
 
 #include "dynamics/constraint.h"
 #include "dynamics/contact.h"
+#include "dynamics/contact_thin.h"
 #include "dynamics/project.h"
 
 static struct vec in_world(const struct tree_work *work, int link, struct vec own)
@@ -28,9 +29,10 @@ static void choose_side(const struct fbd_model *model, struct tree_work *work, i
     const struct contact_shape *body = &meeting->shape[0], *line = &meeting->shape[1];
     if (line->kind != contact_line || work->kept) return;
     const struct tree_link *link = &model->tree->links[body->link];
-    struct vec n = vec_perp(line->e), G = vec_scale(1 / link->mass, link->moment);
-    struct vec middle = vec_sub(in_world(work, body->link, body->center), line->center);
-    struct vec mass = vec_sub(in_world(work, body->link, G), line->center);
+    struct vec n = vec_turn(work->links[line->link].turn, vec_perp(line->e));
+    struct vec at = in_world(work, line->link, line->center), G = vec_scale(1 / link->mass, link->moment);
+    struct vec middle = vec_sub(in_world(work, body->link, body->center), at);
+    struct vec mass = vec_sub(in_world(work, body->link, G), at);
     double side = vec_dot(n, middle);
     int told = model->scene->constraints[meeting->constraint].contact.side;
     if (fabs(side) <= share * vec_norm(vec_sub(mass, middle))) side = vec_dot(n, mass);
@@ -64,9 +66,11 @@ static void start_meeting(struct fbd_state *state, int index)
     const struct fbd_model *model = state->model;
     const struct tree *tree = model->tree;
     const struct meeting *meeting = &tree->meetings[index];
-    open_meeting(state, index);
-    choose_side(model, state->tree, index);
     double near = start_share * meeting_near(model, state->tree, index);
+    if (meeting->thin)
+        thin_choose_sides(state, index, near);
+    else
+        choose_side(model, state->tree, index);
     int features[2], count = meeting_touching(model, state->tree, index, near, features);
     for (int k = 0; k < count; k++) {
         if (!rests(model, state->tree, index, features[k])) continue;
@@ -81,6 +85,7 @@ void contacts_start(struct fbd_state *state)
     if (!tree || tree->meeting_count == 0) return;
     struct instant at = state_instant(state);
     tree_move(state->model, &at);
+    for (int i = 0; i < tree->meeting_count; i++) open_meeting(state, i);
     for (int i = 0; i < tree->meeting_count; i++) start_meeting(state, i);
 }
 
@@ -136,6 +141,7 @@ int contacts_overlap(struct fbd_state *state, double *depth)
     tree_move(state->model, &at);
     for (int i = 0; i < tree->meeting_count; i++) {
         double deep = meeting_depth(state->model, &at, i);
+        if (tree->meetings[i].thin) deep = fmax(deep, thin_crossing(state->model, state->tree, i));
         if (deep <= start_share * meeting_near(state->model, state->tree, i) || deep <= *depth) continue;
         *depth = deep;
         worst = i;

@@ -135,9 +135,10 @@ static double measure(struct run *run)
             reach = larger(reach, vec_norm(s->p) + arm);
             speed = larger(speed, vec_norm(s->v) + fabs(s->omega) * arm);
         }
-    /* An angle has a stop also where nothing has a length, as of a wheel about its centre. */
+    /* Shapes have their size wherever they are. An angle has a stop also where nothing has a length, as of a wheel about
+     * its centre. */
     for (int i = 0; i < tree->meeting_count; i++)
-        if (tree->meetings[i].stop != 0) reach = larger(reach, tree->meetings[i].reach);
+        reach = larger(reach, tree->meetings[i].stop != 0 ? tree->meetings[i].reach : tree->meetings[i].size);
     run->drift.reach = fmax(run->drift.reach, reach);
     run->drift.speed = fmax(run->drift.speed, speed);
     return reach;

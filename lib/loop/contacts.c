@@ -109,6 +109,7 @@ static bool same_place(const struct run *run, int meeting, int a, int b, double 
 void contacts_find_touching(struct run *run, int index, double near)
 {
     const struct meeting *meeting = &tree_of(run)->meetings[index];
+    meeting_turn_sides(run->model, run->state->tree, index, near);
     int found[2], count = meeting_touching(run->model, run->state->tree, index, near, found);
     for (int k = 0; k < meeting->tie_count; k++) {
         int tie = meeting->first_tie + k, feature = run->state->tree->ties[tie].feature;

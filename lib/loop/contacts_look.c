@@ -88,7 +88,7 @@ struct look {
     struct gap gap;
 };
 
-static struct look look_at(struct run *run, int index, double t)
+static struct look look_at(struct run *run, int index, int probe, double t)
 {
     const struct meeting *meeting = &tree_of(run)->meetings[index];
     struct fbd_state *trial = run->contacts.trial;
@@ -102,7 +102,7 @@ static struct look look_at(struct run *run, int index, double t)
     double speed = meeting_distance(run->model, trial->tree, index).speed;
     for (int k = 0; k < 2; k++)
         speed += fabs(trial->tree->links[meeting->shape[k].link].omega) * meeting->shape[k].radius;
-    return (struct look){t, speed, meeting_probe(run->model, &at, index, 0)};
+    return (struct look){t, speed, meeting_probe(run->model, &at, index, probe)};
 }
 
 /* What no gap can have got to within a stretch, at the speeds of its ends and half as much again. */
@@ -121,12 +121,12 @@ static bool bends(struct run *run, int index, const struct look *a, const struct
     return fabs(before.rate - b->gap.rate) * (b->t - a->t) > meeting_near(run->model, work, index);
 }
 
-static double bend_between(struct run *run, int index, struct look a, struct look b)
+static double bend_between(struct run *run, int index, int probe, struct look a, struct look b)
 {
     const double share = 1e-6;
     double least = fmax(share * (b.t - a.t), 4 * DBL_EPSILON * fabs(b.t));
     while (b.t - a.t > least) {
-        struct look middle = look_at(run, index, a.t + (b.t - a.t) / 2);
+        struct look middle = look_at(run, index, probe, a.t + (b.t - a.t) / 2);
         if (bends(run, index, &a, &middle))
             b = middle;
         else
@@ -142,12 +142,12 @@ static bool may_dip(const struct look *a, const struct look *b)
 }
 
 /* An instant at which they are, on the way to where they are nearest; the end of the stretch where there is none. */
-static double dip_between(struct run *run, int index, struct look a, struct look b)
+static double dip_between(struct run *run, int index, int probe, struct look a, struct look b)
 {
     const double share = 1e-6, end = b.t;
     double least = fmax(share * (b.t - a.t), 4 * DBL_EPSILON * fabs(b.t));
     while (b.t - a.t > least && !stays_apart(&a, &b)) {
-        struct look middle = look_at(run, index, a.t + (b.t - a.t) / 2);
+        struct look middle = look_at(run, index, probe, a.t + (b.t - a.t) / 2);
         if (middle.gap.x <= 0) return middle.t;
         if (middle.gap.rate < 0)
             a = middle;
@@ -159,33 +159,35 @@ static double dip_between(struct run *run, int index, struct look a, struct look
 
 /* The first bend that matters or dip in (from, to], else `to`. Where a corner has come and gone it is the same side at
  * both ends: so quarters are looked at. */
-static double until_bend(struct run *run, int index, double from, double to)
+static double until_bend(struct run *run, int index, int probe, double from, double to)
 {
     enum { pieces = 4 };
-    struct look a = look_at(run, index, from), end = look_at(run, index, to);
+    struct look a = look_at(run, index, probe, from), end = look_at(run, index, probe, to);
     for (int k = 1; k <= pieces && !stays_apart(&a, &end); k++) {
-        struct look b = k == pieces ? end : look_at(run, index, from + k * (to - from) / pieces);
-        look_at(run, index, b.t);
+        struct look b = k == pieces ? end : look_at(run, index, probe, from + k * (to - from) / pieces);
+        look_at(run, index, probe, b.t);
         bool near = !stays_apart(&a, &b);
-        if (near && bends(run, index, &a, &b)) return bend_between(run, index, a, b);
-        double dip = near && may_dip(&a, &b) ? dip_between(run, index, a, b) : b.t;
+        if (near && bends(run, index, &a, &b)) return bend_between(run, index, probe, a, b);
+        double dip = near && may_dip(&a, &b) ? dip_between(run, index, probe, a, b) : b.t;
         if (dip < b.t) return dip;
         a = b;
     }
     return to;
 }
 
-/* Is its gap a function that bends, or is sharply curved, as one shape goes past the other? */
-static bool goes_past(const struct meeting *meeting)
+/* How many of its gaps are functions that bend, or are sharply curved, as one shape goes past the other. */
+static int bending_probes(const struct run *run, int index)
 {
-    return meeting->stop == 0 && meeting->shape[1].kind != contact_line;
+    const struct meeting *meeting = &tree_of(run)->meetings[index];
+    bool smooth = meeting->stop != 0 || meeting->shape[1].kind == contact_line;
+    if (smooth || run->contacts.asleep[index]) return 0;
+    return meeting->thin ? meeting->probes : 1;
 }
 
 double run_contact_bend(struct run *run, double from, double to)
 {
     for (int i = 0; has_meetings(run->model) && i < tree_of(run)->meeting_count; i++)
-        if (goes_past(&tree_of(run)->meetings[i]) && !run->contacts.asleep[i])
-            to = until_bend(run, i, from, to);
+        for (int probe = 0; probe < bending_probes(run, i); probe++) to = until_bend(run, i, probe, from, to);
     return to;
 }
 

@@ -53,6 +53,9 @@ bool slips_find(struct fbd_model *model);
  * (gear_check.c). */
 void ties_check(struct builder *builder);
 
+/* Refuse contacts of points with points that do not move on one line (contact_points.c). */
+void contacts_check(struct builder *builder);
+
 /* Give the arrows of each diagram names that differ (arrow_names.c). False when memory is out. */
 bool arrows_name(struct fbd_model *model);
 

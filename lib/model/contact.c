@@ -14,7 +14,27 @@ int shape_sides(const struct contact_shape *shape)
 /* ---- features
  *
  * corners on a line: the corner. A disc at corners: the side, then, behind the sides, the corner. Corners at
- * corners: first those of shape 0 on sides of shape 1, then the other way round. */
+ * corners: first those of shape 0 on sides of shape 1, then the other way round. Thin: five sides (enum thin_side) to
+ * each of two corners of each shape. */
+
+enum { thin_sides = thin_round + 1 };
+
+struct thin_corner thin_corner_of(const struct meeting *meeting, int probe)
+{
+    int first = shape_sides(&meeting->shape[1]) > 0 ? meeting->shape[0].count : 0;
+    return probe < first ? (struct thin_corner){0, probe} : (struct thin_corner){1, probe - first};
+}
+
+int thin_feature(struct thin_corner corner, enum thin_side side)
+{
+    return thin_sides * (2 * corner.moving + corner.corner) + (int)side;
+}
+
+struct thin_corner thin_corner_at(int feature)
+{
+    int number = feature / thin_sides;
+    return (struct thin_corner){number / 2, number % 2};
+}
 
 int meeting_feature(const struct meeting *meeting, int moving, int corner, int side)
 {
@@ -31,6 +51,26 @@ static void set_side(struct touch *touch, const struct contact_shape *shape, int
     touch->length = vec_norm(along);
     touch->e = vec_scale(1 / touch->length, along);
     touch->side = -1; /* outwards is to the right of a side that runs counter-clockwise */
+}
+
+/* The sides of a bar run round it counter-clockwise; those at its ends have no length. */
+static struct touch at_bar(const struct meeting *meeting, int feature)
+{
+    struct thin_corner corner = thin_corner_at(feature);
+    const struct contact_shape *bar = &meeting->shape[1 - corner.moving];
+    struct touch touch = {.moving = corner.moving,
+                          .point = meeting->shape[corner.moving].corners[corner.corner]};
+    enum thin_side side = (enum thin_side)(feature % thin_sides);
+    bool ends = side == thin_end || side == thin_begin;
+    touch.circles = side == thin_round;
+    touch.base_radius = touch.circles ? bar->radius : 0;
+    touch.base = bar->center;
+    if (touch.circles) return touch;
+    set_side(&touch, bar, side == thin_left || side == thin_end ? 1 : 0);
+    if (!ends) return touch;
+    touch.length = 0;
+    touch.e = vec_scale(-1, vec_perp(touch.e));
+    return touch;
 }
 
 static struct touch at_line(const struct contact_shape *shape, const struct contact_shape *line, int corner)
@@ -61,6 +101,7 @@ struct touch meeting_touch(const struct meeting *meeting, int feature)
 {
     const struct contact_shape *a = &meeting->shape[0], *b = &meeting->shape[1];
     if (b->kind == contact_line) return at_line(a, b, feature);
+    if (meeting->thin) return at_bar(meeting, feature);
     if (a->kind == contact_disc) return at_disc(meeting, 0, feature);
     if (b->kind == contact_disc) return at_disc(meeting, 1, feature);
     int first = a->count * shape_sides(b), moving = feature < first ? 0 : 1;
@@ -176,6 +217,7 @@ static int probes_of(const struct meeting *meeting)
     const struct contact_shape *a = &meeting->shape[0], *b = &meeting->shape[1];
     enum { apart_or_one_neighbour_more = 3 };
     if (a->kind != contact_corners || b->kind == contact_disc) return 1;
+    if (meeting->thin) return (shape_sides(b) > 0 ? a->count : 0) + (shape_sides(a) > 0 ? b->count : 0);
     return b->kind == contact_line ? a->count : apart_or_one_neighbour_more;
 }
 
@@ -203,24 +245,64 @@ static double reach_of(const struct fbd_model *model, const struct meeting *meet
     return reach > 0 ? reach : 1;
 }
 
+static bool is_thin(const struct meeting *meeting)
+{
+    const struct contact_shape *a = &meeting->shape[0], *b = &meeting->shape[1];
+    bool corners = a->kind == contact_corners && b->kind == contact_corners;
+    return corners && a->count <= 2 && b->count <= 2 && a->count + b->count > 2;
+}
+
+bool meeting_is_of_points(const struct meeting *meeting)
+{
+    const struct contact_shape *a = &meeting->shape[0], *b = &meeting->shape[1];
+    return a->kind == contact_corners && b->kind == contact_corners && a->count + b->count == 2;
+}
+
+/* Has the body, or what it meets, no shape but points? */
+static bool is_of_points(const struct fbd_model *model, const struct constraint *source, int k)
+{
+    if (source->contact.stop != 0) return false;
+    if (source->body[k] == ground_body) return !source->contact.polygon && !source->contact.line;
+    if (source->point[k].kind != point_absent) return true;
+    const struct body *body = model->bodies[source->body[k]].source;
+    for (size_t i = 0; i < body->part_count; i++)
+        if (is_solid(&body->parts[i]) && outline_of_part(&body->parts[i]).kind != outline_dot) return false;
+    return true;
+}
+
+/* Meeting number `i` of the shapes of both sides. */
+static bool set_meeting(struct fbd_model *model, int index, int i, struct meeting *meeting)
+{
+    const struct constraint *source = &model->scene->constraints[index];
+    int count = shapes_of(model, source, 1);
+    *meeting = (struct meeting){.constraint = index,
+                                .first_tie = model->tree->tie_count,
+                                .stop = source->contact.stop,
+                                .limit = source->contact.limit};
+    if (!set_shape(model, source, 0, i / count, &meeting->shape[0]) ||
+        !set_shape(model, source, 1, i % count, &meeting->shape[1]))
+        return false;
+    if (meeting_is_of_points(meeting)) points_meet_on_line(model, meeting);
+    meeting->thin = is_thin(meeting);
+    meeting->size = meeting->shape[0].radius + meeting->shape[1].radius;
+    meeting->reach = reach_of(model, meeting);
+    meeting->tie_count = ties_of(meeting);
+    meeting->probes = probes_of(meeting);
+    return true;
+}
+
 bool meetings_add(struct fbd_model *model, int index)
 {
     const struct constraint *source = &model->scene->constraints[index];
     struct tree *tree = model->tree;
-    const int count[2] = {shapes_of(model, source, 0), shapes_of(model, source, 1)};
-    for (int i = 0; i < count[0] * count[1]; i++) {
-        struct meeting *meeting = &tree->meetings[tree->meeting_count++];
-        *meeting = (struct meeting){.constraint = index,
-                                    .first_tie = tree->tie_count,
-                                    .stop = source->contact.stop,
-                                    .limit = source->contact.limit};
-        if (!set_shape(model, source, 0, i / count[1], &meeting->shape[0]) ||
-            !set_shape(model, source, 1, i % count[1], &meeting->shape[1]))
-            return false;
-        meeting->size = meeting->shape[0].radius + meeting->shape[1].radius;
-        meeting->reach = reach_of(model, meeting);
-        meeting->tie_count = ties_of(meeting);
-        meeting->probes = probes_of(meeting);
+    int count = meetings_most(model, index);
+    bool points = is_of_points(model, source, 0) && is_of_points(model, source, 1);
+    for (int i = 0; i < count; i++) {
+        struct meeting *meeting = &tree->meetings[tree->meeting_count];
+        if (!set_meeting(model, index, i, meeting)) return false;
+        /* Points of bodies that have more than points pass each other. */
+        if (!points && meeting_is_of_points(meeting)) continue;
+        tree->meeting_count++;
         for (int k = 0; k < meeting->tie_count; k++) tie_of_contact(model, index, tree->meeting_count - 1);
     }
     return true;

@@ -39,6 +39,7 @@ struct meeting {
     int stop;  /* of a coordinate: +1 at its least, -1 at its largest value; else 0 */
     double limit;
     int probes; /* functions whose zeros are new features (dynamics/contact.h) */
+    bool thin;  /* two bars, or a point and a bar; a probe is a corner at the other's bar */
 };
 
 /* A feature: a point or circle of one shape at a side of the other, or two circles. */
@@ -60,11 +61,31 @@ struct touch meeting_touch(const struct meeting *meeting, int feature);
 /* Corner `corner` of shape `moving` on side `side` of the other. */
 int meeting_feature(const struct meeting *meeting, int moving, int corner, int side);
 
+/* Thin: the shape and the number of the corner of a probe. */
+struct thin_corner {
+    int moving, corner;
+};
+struct thin_corner thin_corner_of(const struct meeting *meeting, int probe);
+
+/* Its feature at a side of the bar: to the right of the bar's direction, to its left, its end faces, and the circle round
+ * the bar, which nothing touches. */
+enum thin_side { thin_right, thin_left, thin_end, thin_begin, thin_round };
+int thin_feature(struct thin_corner corner, enum thin_side side);
+
+/* The corner of a feature of a thin meeting. */
+struct thin_corner thin_corner_at(int feature);
+
 /* How many sides: none of a point, two of a bar. */
 int shape_sides(const struct contact_shape *shape);
 
 /* Build the meetings of constraint `index` of the scene with their ties. False when memory is out. */
 bool meetings_add(struct fbd_model *model, int index);
+
+/* Two points: make the second the line across the one line on which both move. False where there is none. */
+bool points_meet_on_line(const struct fbd_model *model, struct meeting *meeting);
+
+/* The meeting has two points, and no line on which both move. */
+bool meeting_is_of_points(const struct meeting *meeting);
 
 /* At most how many meetings and ties the contact will have. */
 int meetings_most(const struct fbd_model *model, int index);

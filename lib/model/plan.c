@@ -462,6 +462,7 @@ bool plan_build(struct builder *builder)
         if (model->bodies[b].place.link > 0) mark_body_slots(model, (int)b);
     mark_strands(model);
     ties_check(builder);
+    contacts_check(builder);
     if (model->tree && !tree_finish(model)) return false;
     body_terms_finish(builder);
     for (size_t i = 0; i < plan->link_count; i++) mark_body_slots(model, plan->links[i].body);

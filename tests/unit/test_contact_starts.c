@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Starts of scenes with contacts: sides of lines, and starts that are off by what a file rounds.
+ * Starts of scenes with contacts: sides of lines and bars, and starts that are off by what a file rounds.
  */
 #include <setjmp.h>
 #include <stdarg.h>
@@ -170,6 +170,100 @@ static void a_rod_slides_on_along_a_wall(void **unused)
     checks_end(&checks);
 }
 
+/* ---- on a bar */
+
+#define BEAM "  beam: {shape: rod, mass: 1 kg, length: 2 m, motion: {pivot: {theta: 0}}}\n"
+#define BALL "  ball: {mass: 1 kg, motion: particle, initial: {x: 0.3 m"
+
+/* Exactly on a bar, at rest: what is pulled onto it lies there; what moves goes to the side that it moves to. */
+static void what_starts_on_a_bar_has_a_side(void **unused)
+{
+    static const struct {
+        const char *what, *bodies, *between, *coordinate;
+        double end; /* at 1 s */
+    } cases[] = {
+        {"on top", BALL "}, forces: [gravity]}\n" BEAM, "ball, beam", "ball.y", 0},
+        {"on top, the other way round", BALL "}, forces: [gravity]}\n" BEAM, "beam, ball", "ball.y", 0},
+        {"pushed up from below", BALL "}, forces: [applied: {value: 3 N, angle: 90 deg}]}\n" BEAM,
+         "ball, beam", "ball.y", 0},
+        {"leaves upwards", BALL ", vy: 2 m/s}}\n" BEAM, "ball, beam", "ball.y", 2},
+        {"leaves downwards", BALL ", vy: -2 m/s}}\n" BEAM, "ball, beam", "ball.y", -2},
+        {"a rod on a peg",
+         "  rod: {shape: rod, mass: 1 kg, length: 2 m, motion: planar, forces: [gravity]}\n", "rod, ground.P",
+         "rod.y", 0},
+        {"a rod on a rod",
+         "  rod: {shape: rod, mass: 1 kg, length: 2 m, motion: planar, forces: [gravity]}\n" BEAM,
+         "beam, rod", "rod.y", 0},
+        {"end to end, pushed together",
+         "  rod: {shape: rod, mass: 1 kg, length: 2 m, motion: planar, initial: {x: -2 m}, forces: "
+         "[applied: {value: 3 N, angle: 0}]}\n" BEAM,
+         "rod, beam", "rod.x", -2},
+    };
+    (void)unused;
+    struct checks checks = {0};
+    for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
+        char scene[900];
+        snprintf(scene, sizeof scene,
+                 "fbd: 1\nground: {points: {P: [0, 0]}}\nbodies:\n%scontacts:\n  - {between: [%s]}\n"
+                 "simulate: {until: 1 s}\n",
+                 cases[k].bodies, cases[k].between);
+        struct trial trial = trial_parse(scene);
+        trial_start(&trial, NULL);
+        trial_finish(&trial);
+        check_that(&checks, cases[k].what, trial.outcome == FBD_DONE);
+        check_close(&checks, cases[k].what, trial_get(&trial, cases[k].coordinate), cases[k].end, 1e-9);
+        trial_close(&trial);
+    }
+    checks_end(&checks);
+}
+
+/* A ball that has come to rest at a bar from below, where nothing pulls it, falls off it when it is pulled down 0.2 s later,
+ * also in a motion that goes on from numbers: x = F t^2 / (2 m). Nothing but the state knows the side. */
+static void a_side_goes_with_the_state(void **unused)
+{
+    enum { most_numbers = 200 };
+    static const char *scene =
+        "fbd: 1\nbodies:\n" BALL
+        ", y: -0.5 m, vy: 1 m/s}, forces: [applied: {value: \"2[N]*step(t - 1[s])\", "
+        "angle: -90 deg}]}\n" BEAM "contacts:\n  - {between: [ball, beam]}\nsimulate: {until: 2 s}\n";
+    double numbers[most_numbers];
+    (void)unused;
+    struct checks checks = {0};
+    struct trial trial = trial_parse(scene), other = trial_parse(scene);
+    trial_start(&trial, NULL);
+    trial_to(&trial, 0.8);
+    check_close(&checks, "at rest", trial_get(&trial, "ball.y"), 0, 1e-9);
+    size_t count = fbd_state_pack(trial.state, numbers, most_numbers);
+    assert_true(count <= most_numbers && fbd_state_unpack(other.state, numbers, count));
+    other.simulation = fbd_simulation_from(other.state, NULL, NULL);
+    assert_non_null(other.simulation);
+    other.outcome = FBD_GOING;
+    trial_to(&trial, 2);
+    trial_to(&other, 2);
+    check_close(&checks, "the run", trial_get(&trial, "ball.y"), -1, 1e-9);
+    check_close(&checks, "the one that goes on", trial_get(&other, "ball.y"), -1, 1e-9);
+    trial_close(&trial);
+    trial_close(&other);
+    checks_end(&checks);
+}
+
+static void bars_that_cross_are_refused(void **unused)
+{
+    (void)unused;
+    struct checks checks = {0};
+    struct trial trial =
+        trial_parse("fbd: 1\nbodies:\n  rod: {shape: rod, mass: 1 kg, length: 2 m, motion: planar, "
+                    "initial: {y: 0.9 m, theta: 90 deg}}\n" BEAM
+                    "contacts:\n  - {between: [rod, beam]}\nsimulate: {until: 1 s}\n");
+    fbd_errors *errors = fbd_errors_new();
+    check_that(&checks, "refused", !fbd_state_close(trial.state, errors));
+    check_that(&checks, "as it says",
+               strstr(fbd_errors_get(errors, 0).message, "in each other by 0.1") != NULL);
+    fbd_errors_free(errors);
+    trial_close(&trial);
+    checks_end(&checks);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -177,6 +271,9 @@ int main(void)
         cmocka_unit_test(a_rod_slides_on_along_a_wall),
         cmocka_unit_test(a_start_that_is_off_by_the_digits_of_a_file_is_moved_out),
         cmocka_unit_test(moving_out_assembles_nothing),
+        cmocka_unit_test(what_starts_on_a_bar_has_a_side),
+        cmocka_unit_test(a_side_goes_with_the_state),
+        cmocka_unit_test(bars_that_cross_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,0 +1,124 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * On which sides of bars points and other bars start. Where a corner is tells; on the bar itself, the middle of its
+ * shape or body; else the side on which it has been, in a motion that goes on; else its velocity, towards that side;
+ * and at rest one of both lies on the other, by what pulls it there.
+ */
+#include "dynamics/constraint.h"
+#include "dynamics/contact_thin.h"
+#include "dynamics/state.h"
+
+/* What lies on the other: what moves freely lies on what is mounted, and that on the ground; of equals the point lies on
+ * the bar, and the first of `between` on the second. */
+static int upper_of(const struct fbd_model *model, const struct meeting *meeting)
+{
+    int rank[2];
+    for (int k = 0; k < 2; k++) {
+        int link = meeting->shape[k].link;
+        const struct tree_link *root = &model->tree->links[model->tree->links[link].root];
+        rank[k] = link == 0 ? 0 : root->kind == motion_planar || root->kind == motion_particle ? 2 : 1;
+    }
+    if (rank[0] != rank[1]) return rank[0] > rank[1] ? 0 : 1;
+    return meeting->shape[1].count < meeting->shape[0].count ? 1 : 0;
+}
+
+/* The acceleration of a place on a link, as the accelerations are. */
+static struct vec acceleration_of(const struct tree_work *work, int link, struct vec place)
+{
+    const struct tree_state *s = &work->links[link];
+    if (link == 0) return (struct vec){0, 0};
+    struct vec r = vec_sub(place, s->p);
+    struct vec turning = vec_sub(vec_scale(s->A.alpha, vec_perp(r)), vec_scale(s->omega * s->omega, r));
+    return vec_add(s->A.a, turning);
+}
+
+/* In which sense along n the upper one lies on the other one: against its acceleration, or along that of the lower one;
+ * where nothing pulls, up. */
+static int sense_of_upper(const struct fbd_model *model, const struct tree_work *work,
+                          const struct meeting *meeting, struct vec place, struct vec n)
+{
+    const double nothing = 1e-9;
+    int upper = upper_of(model, meeting);
+    double a[2], most = 0;
+    for (int k = 0; k < 2; k++) {
+        struct vec A = acceleration_of(work, meeting->shape[k].link, place);
+        a[k] = vec_dot(n, A);
+        most = fmax(most, vec_norm(A));
+    }
+    if (fabs(a[upper]) > nothing * most) return a[upper] < 0 ? 1 : -1;
+    if (fabs(a[1 - upper]) > nothing * most) return a[1 - upper] > 0 ? 1 : -1;
+    return n.y >= 0 ? 1 : -1;
+}
+
+static struct vec left_of_bar(const struct tree_work *work, const struct meeting *meeting,
+                              struct thin_corner corner)
+{
+    const struct touch touch = meeting_touch(meeting, thin_feature(corner, thin_right));
+    return vec_turn(work->links[meeting->shape[1 - corner.moving].link].turn, vec_perp(touch.e));
+}
+
+/* By the centre of mass of the body whose point the corner is; 0 where that is the point, or lies on the bar. */
+static double side_of_mass(const struct fbd_model *model, const struct tree_work *work,
+                           const struct meeting *meeting, struct thin_corner corner, struct vec n)
+{
+    const struct contact_shape *shape = &meeting->shape[corner.moving];
+    const struct tree_link *link = &model->tree->links[shape->link];
+    if (shape->link == 0 || !(link->mass > 0)) return 0;
+    struct vec arm = vec_sub(vec_scale(1 / link->mass, link->moment), shape->corners[corner.corner]);
+    return vec_dot(n, vec_turn(work->links[shape->link].turn, arm));
+}
+
+/* Above zero on the left, below on the right; 0 where only forces tell. */
+static double side_at_start(const struct fbd_model *model, const struct tree_work *work, int index, int probe,
+                            double near)
+{
+    const double rounding = 1e-10;
+    const struct meeting *meeting = &model->tree->meetings[index];
+    struct thin_corner corner = thin_corner_of(meeting, probe);
+    struct gap left = feature_gap(model, work, index, thin_feature(corner, thin_left));
+    struct vec n = left_of_bar(work, meeting, corner);
+    if (fabs(left.x) > near) return left.x;
+    double middle = thin_middle(model, work, index, probe);
+    if (fabs(middle) > near) return middle;
+    double mass = side_of_mass(model, work, meeting, corner, n);
+    if (fabs(mass) > near) return mass;
+    if (work->kept) return *thin_side_of(model, work, index, probe);
+    return fabs(left.rate) > rounding * meeting_speed(work, meeting) ? left.rate : 0;
+}
+
+/* Is the corner outside of the circle round the bar, or at its end face? */
+static bool has_no_side(const struct fbd_model *model, const struct tree_work *work, int index, int probe,
+                        double near)
+{
+    struct thin_corner corner = thin_corner_of(&model->tree->meetings[index], probe);
+    return feature_gap(model, work, index, thin_feature(corner, thin_round)).x > near ||
+           thin_is_in_line(model, work, index, probe, near);
+}
+
+/* By the forces; accelerations are those of the state. */
+static int side_by_forces(const struct fbd_model *model, const struct tree_work *work, int index, int probe)
+{
+    const struct meeting *meeting = &model->tree->meetings[index];
+    struct thin_corner corner = thin_corner_of(meeting, probe);
+    struct vec n = left_of_bar(work, meeting, corner);
+    struct vec place = feature_place(model, work, index, thin_feature(corner, thin_left));
+    int sense = sense_of_upper(model, work, meeting, place, n);
+    return upper_of(model, meeting) == corner.moving ? sense : -sense;
+}
+
+void thin_choose_sides(struct fbd_state *state, int index, double near)
+{
+    const struct fbd_model *model = state->model;
+    bool evaluated = false;
+    for (int probe = 0; probe < model->tree->meetings[index].probes; probe++) {
+        int *side = thin_side_of(model, state->tree, index, probe);
+        double start = 0;
+        bool none = has_no_side(model, state->tree, index, probe, near);
+        if (!none) start = side_at_start(model, state->tree, index, probe, near);
+        *side = start > 0 ? 1 : start < 0 ? -1 : 0;
+        if (none || start != 0) continue;
+        if (!evaluated) state_evaluate_unshared(state);
+        evaluated = true;
+        *side = side_by_forces(model, state->tree, index, probe);
+    }
+}
