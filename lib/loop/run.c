@@ -176,6 +176,7 @@ static void start(struct run *run)
         return;
     }
     run_release_contacts(run);
+    run_note_lifts_at_start(run);
     run_check_counts(run);
     watchers_arm(&run->watchers, run->state, 0);
     if (!(run->options.until > run->state->t)) run->end.outcome = FBD_DONE;
