@@ -415,7 +415,7 @@ static void fail_unsettled(struct run *run)
 }
 
 /* One of several ways to go on has been taken. */
-static void note_several(struct run *run)
+void run_note_several(struct run *run)
 {
     const struct holds_trouble *holds = &run->state->holds;
     if (holds->found != holds_several || holds->pair < 0) return;
@@ -430,7 +430,7 @@ static bool settle(struct run *run)
     enum { most_jams = 8 };
     for (int jam = 0;; jam++) {
         if (modes_settle(run->state, &run->decided)) {
-            note_several(run);
+            run_note_several(run);
             return true;
         }
         bool no_forces = run->state->holds.found == holds_none || run->state->holds.found == holds_lost;

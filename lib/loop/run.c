@@ -171,6 +171,7 @@ static void start(struct run *run)
         refuse(run, &lack);
         return;
     }
+    run_note_several(run);
     if (!hold_fixed(run)) {
         run_fail(run, FBD_OUT_OF_MEMORY, "out of memory");
         return;

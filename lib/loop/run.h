@@ -329,6 +329,9 @@ struct run_event *run_note(struct run *run, fbd_event_kind kind, int body, int l
 /* After the modes have settled: log what they tell; the events of this instant are those from `first` on. */
 void run_note_happened(struct run *run, size_t first, const bool *moving);
 
+/* Note that several motions agree with the forces, where the last settling has found that. */
+void run_note_several(struct run *run);
+
 /* Note the lift-off of what rests on its line at the start (a wheel that rolls, a follower of a cam) and is lifted at once. */
 void run_note_lifts_at_start(struct run *run);
 

@@ -147,12 +147,18 @@ void event_detail(const struct fbd_model *model, const struct run_event *event, 
                      "determined by "
                      "rigid bodies, and one of them is taken",
                      name);
-        else
+        else if (event->force > 1) /* friction that feeds its own normal force */
             format_into(
                 detail, size,
                 "%s: several motions agree with the forces, as in Painleve's paradox, and one of them is "
                 "taken; each %s of its normal force brings %.4g %s of it with it",
                 name, unit, event->force, unit);
+        else
+            snprintf(
+                detail, size,
+                "%s: several motions agree with the law of friction, and one of them is taken; which of the "
+                "bodies slip and which stick is not determined",
+                name);
         return;
     case FBD_EVENT_JAM: jam_detail(model, event, name, detail, size); return;
     case FBD_EVENT_REST:
