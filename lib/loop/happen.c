@@ -472,6 +472,7 @@ void run_apply(struct run *run, const bool *timed, const bool *moving)
     for (int s = 0; s < 2; s++)
         for (size_t i = 0; crossed[s] && i < sets[s]->count; i++)
             crossing |= crossed[s][i] && sets[s]->watchers[i].kind == watch_kink;
+    contacts_begin_events(run);
     run_rest_held(run);
     size_t first = run->log.count;
     for (int s = 0; s < 2; s++)

@@ -54,7 +54,9 @@ static void note_one_sided(struct run *run, const struct change *change)
     }
     struct run_event *event =
         run_note(run, rope ? FBD_EVENT_ROPE_TAUT : FBD_EVENT_LANDING, mode->body, mode->load, -1);
-    if (event) event->force = snapped ? -run->snap.work : 0;
+    if (!event) return;
+    event->force = snapped ? -run->snap.work : 0;
+    event->impact = run->contacts.of_ties[mode->tie];
 }
 
 void run_note_lifts_at_start(struct run *run)

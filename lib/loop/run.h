@@ -42,16 +42,6 @@ struct run_options {
     const struct fbd_state *start; /* where it begins, a state of the whole; NULL for the start of the file */
 };
 
-/* What an impact was: impulses along normal and tangent, the work that they did, and the velocities of the
- * point before and after. */
-struct impact_record {
-    double p, tau, work;
-    double v_n[2], v_t[2];
-    bool makes;   /* all impacts of the instant have made energy, and this one has */
-    bool several; /* other velocities agree with the laws, too */
-    bool in_turn; /* they are of one point after the other, where all together were asked for */
-};
-
 struct run_event {
     double t;
     fbd_event_kind kind;
