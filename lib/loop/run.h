@@ -28,6 +28,7 @@
 #include "integrate/linear.h"
 #include "integrate/switcher.h"
 #include "loop/contacts.h"
+#include "loop/energy_guard.h"
 #include "loop/passages.h"
 #include "loop/structure.h"
 
@@ -177,7 +178,8 @@ struct run {
     struct contacts_work contacts;
     struct snap snap;
     double *impact_work; /* per load: what impacts have done in all */
-    double liveliest;    /* the most kinetic energy of jointed bodies so far */
+    struct energy_guard energy;
+    double liveliest; /* the most kinetic energy of jointed bodies so far */
     struct event_log log;
     struct recent recent;
     struct run_work work;

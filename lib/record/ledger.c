@@ -6,6 +6,7 @@
 #include <stdlib.h>
 
 #include "dynamics/energy.h"
+#include "dynamics/load_rounding.h"
 #include "record/powers.h"
 
 static double kinetic(const struct fbd_model *model, const struct instant *at)
@@ -140,13 +141,10 @@ void ledger_note(struct ledger *ledger, const struct group *group)
 
 double ledger_explained(struct ledger *ledger, struct fbd_state *state, double tolerance, double steps)
 {
-    /* Runs of few steps are allowed a hundred; below its rounding a tolerance says nothing. Over the gallery, by methods from
-     * 1e-4 to 1e-10, residuals are up to a half of this by msadams where a ball bounces, and up to an eighth elsewhere. */
-    const double least_steps = 100, least_tolerance = 1e-13, tolerances = 4, roundings = 1e-11;
     struct instant at = state_instant(state);
     double size = fmax(ledger->liveliest, ledger->initial_kinetic) + ledger->turnover;
     if (!ledger->works) return NAN;
-    struct rounded rounded = rounded_at(ledger, state);
+    struct rounded rounded = rounded_at(state, ledger->arrows);
     double terms = size + rounded.places;
     /* What rests at the origin has no size there: a rounding of what forces move in a step, for each step. */
     double nothing = DBL_EPSILON * rounded.ways * at.t * at.t / fmax(steps, 1);
@@ -155,8 +153,7 @@ double ledger_explained(struct ledger *ledger, struct fbd_state *state, double t
         double potential = potential_energy(ledger->model, &ledger->model->loads[i], &at, ledger->scratch);
         terms += fabs(ledger->initial_potential[i]) + fabs(potential);
     }
-    return tolerances * (steps + least_steps) * fmax(tolerance, least_tolerance) * size + roundings * terms +
-           nothing;
+    return energy_explained(tolerance, steps, size, terms) + nothing;
 }
 
 bool ledger_within(struct ledger *ledger, struct ensemble *ensemble, double t, double *work)
