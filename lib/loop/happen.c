@@ -414,7 +414,6 @@ static void fail_unsettled(struct run *run)
     text_free(&words);
 }
 
-/* One of several ways to go on has been taken. */
 void run_note_several(struct run *run)
 {
     const struct holds_trouble *holds = &run->state->holds;
