@@ -36,8 +36,8 @@ static enum exit_code print(char *text, enum exit_code code)
 /* Say so when the energy shows that the motion is not that of the scene. */
 static enum exit_code balanced(fbd_result *result)
 {
-    double residual = fbd_result_energy(result).residual, explained = fbd_result_residual_explained(result);
-    if (!(fabs(residual) > explained)) return exit_done;
+    double residual, explained;
+    if (fbd_result_balanced(result, &residual, &explained)) return exit_done;
     complain("fbd-run: the motion is not accurate: the residual of its energy is %.2g, where the tolerance "
              "explains "
              "%.2g. Steps have gone over something much shorter than they are: give a small --step",

@@ -105,7 +105,7 @@ static bool observe(void *context, struct ensemble *ensemble, size_t group)
     tell_progress(going, alone ? ensemble->groups[group].run->state->t : ensemble->t);
     if (!event_states_note(&result->event_states, ensemble, group)) return false;
     if (result->ledger.works) ledger_note(&result->ledger, &ensemble->groups[group]);
-    if (!result->ledger.any || !ledger_integrates(&result->ledger, &ensemble->groups[group])) return true;
+    if (!result->ledger.any || !ledger_counts(&result->ledger, &ensemble->groups[group])) return true;
     double before = processor_seconds(); /* a call of the system: not for every step of a thousand groups */
     bool done = ledger_step(&result->ledger, ensemble, group);
     result->ledger_seconds += processor_seconds() - before;

@@ -50,6 +50,13 @@ struct integrand {
     double *y; /* scratch: a state whose coordinate is varied */
 };
 
+/* The pose of a body of one coordinate on the ground at that coordinate, joined to others or not: the tree holds the
+ * present pose only. */
+static struct pose pose_at(const struct model_body *body, const struct instant *at)
+{
+    return body_pose_turned(body, at, vec_cos_sin(at->y[body->first]));
+}
+
 /* The generalized force of a load of one coordinate that depends on nothing else. */
 static double force_at(double q, void *context)
 {
@@ -59,7 +66,7 @@ static double force_at(double q, void *context)
     const struct load *source = load->source;
     integrand->y[body->first] = q;
     if (source->kind == moment_applied) return formula_value(&load->value, &integrand->at);
-    struct pose pose = body_pose(body, &integrand->at);
+    struct pose pose = pose_at(body, &integrand->at);
     struct vec f = applied_force(load, &pose, &integrand->at);
     double share = 0;
     add_force(body, &pose, point_motion(body, &pose, load->point), f, &share);

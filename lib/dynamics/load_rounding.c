@@ -4,6 +4,8 @@
 #include <math.h>
 
 #include "dynamics/kinematics.h"
+#include "dynamics/mass.h"
+#include "model/tree.h"
 
 double formula_rounding(const struct formula *formula, const struct instant *at)
 {
@@ -46,4 +48,37 @@ double load_power_rounding(const struct fbd_model *model, size_t index, const st
     struct pose pose = body_pose(body, at);
     double speed = vec_norm(point_motion(body, &pose, load->point).v);
     return vec_norm(of.force) * speed + fabs(of.couple * pose.omega);
+}
+
+/* How far couplings reach: by that much they know where a body is, wherever that may be. */
+static double reach_of_couplings(const struct tree *tree)
+{
+    double reach = 0;
+    for (int i = 0; tree && i < tree->tie_count; i++) {
+        const struct tie *tie = &tree->ties[i];
+        reach = fmax(reach, fabs(tie->length));
+        for (int end = 0; end < tie->end_count; end++)
+            reach = fmax(reach, vec_norm(tie->end[end].point) + tie->end[end].radius);
+    }
+    return reach;
+}
+
+struct rounded rounded_at(const struct fbd_state *state, struct arrow *arrows)
+{
+    const struct fbd_model *model = state->model; /* of a group, or the whole */
+    struct instant at = state_instant(state);
+    struct rounded sum = {0, 0};
+    double reach = reach_of_couplings(model->tree);
+    for (size_t b = 0; b < model->body_count; b++) {
+        size_t count = diagram_fill(model, (int)b, &at, state->a, state->slots, arrows);
+        double forces = 0, mass = body_mass(&model->bodies[b], &at);
+        for (size_t i = 0; i < count; i++) {
+            const struct arrow *arrow = &arrows[i];
+            double force = vec_norm(arrow->force);
+            sum.places += force * fmax(vec_norm(arrow->point), reach) + fabs(arrow->couple);
+            forces += force;
+        }
+        if (mass > 0) sum.ways += forces * forces / mass;
+    }
+    return sum;
 }

@@ -6,7 +6,9 @@
 #ifndef FBD_DYNAMICS_LOAD_ROUNDING_H
 #define FBD_DYNAMICS_LOAD_ROUNDING_H
 
+#include "dynamics/diagram.h"
 #include "dynamics/instant.h"
+#include "dynamics/state.h"
 
 /* The rounding of the formulas of a load: of its force [N], in its direction in the world, and of a moment by itself
  * [N m]. Bounds, with one sign of each. */
@@ -21,5 +23,15 @@ double formula_rounding(const struct formula *formula, const struct instant *at)
 
 /* That of the power of load `index` [W]. */
 double load_power_rounding(const struct fbd_model *model, size_t index, const struct instant *at);
+
+/* What roundings do at a state of a group or of the whole, as energies. */
+struct rounded {
+    double
+        places; /* every force times the distance of its point, and every couple: one rounding of all places */
+    double ways; /* of unit time: every force times what it moves its body by alone */
+};
+
+/* Of an evaluated state; `arrows` is scratch: diagram_most_arrows. */
+struct rounded rounded_at(const struct fbd_state *state, struct arrow *arrows);
 
 #endif

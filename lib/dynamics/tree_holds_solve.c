@@ -20,6 +20,8 @@ static struct holds_trouble trouble_of(const struct gathered *all, enum holds_fo
         trouble.answer = fabs(answer) * hold->mu_k;
         trouble.pair = all->pair[i];
     }
+    for (size_t i = 0; i < problem->count && trouble.pair < 0; i++)
+        if (found == holds_several && problem->holds[i].kind == hold_friction) trouble.pair = all->pair[i];
     return trouble;
 }
 

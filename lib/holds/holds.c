@@ -393,23 +393,27 @@ static void found_restore(struct found *found, struct hold_problem *problem)
     free(found->guides);
 }
 
-/* Is it the only solution, beside those that mu_k < mu_s leaves to what was before? Only friction on what it
- * presses itself can have others; with many holds that is not looked for. */
-static enum holds_found look_for_others(struct hold_problem *problem)
+/* Can there be other solutions? Only with friction on what it presses itself, or that holds more than it rubs beside
+ * others. */
+static bool may_have_others(const struct hold_problem *problem)
 {
-    enum { few_modes = 250 };
+    bool may = false;
+    for (size_t i = 0; i < problem->count; i++) {
+        const struct hold *hold = &problem->holds[i];
+        if (hold->kind != hold_friction) continue;
+        may |= hold->press != press_constant || (hold->mu_k < hold->mu_s && problem->count > 1);
+    }
+    return may;
+}
+
+/* Is it the only solution? The problem stays as it is. */
+static enum holds_found look_for_others(struct hold_problem *problem, size_t most)
+{
     struct found found = {0};
-    bool coupled = false;
-    for (size_t i = 0; i < problem->count; i++)
-        coupled |= problem->holds[i].kind == hold_friction && problem->holds[i].press != press_constant;
-    if (!coupled) return holds_decided;
-    bool kept = found_keep(&found, problem);
-    int solutions = 0;
-    for (size_t i = 0; i < problem->count; i++) problem->holds[i].mu_k = problem->holds[i].mu_s;
-    if (kept) solutions = holds_try_all(problem, few_modes);
+    if (!may_have_others(problem)) return holds_decided;
+    int unique = found_keep(&found, problem) ? holds_is_unique(problem, most) : -2;
     found_restore(&found, problem);
-    if (!kept || solutions == -2) return holds_no_memory;
-    return solutions > 1 ? holds_several : holds_decided;
+    return unique == -2 ? holds_no_memory : unique == 0 ? holds_several : holds_decided;
 }
 
 /* The sides on which holds slip already are as they were. */
@@ -454,15 +458,17 @@ static enum holds_found try_further(struct hold_problem *problem)
 static enum holds_found decide(struct hold_problem *problem)
 {
     enum { most_modes = 70000 }; /* of eight points with friction */
+    enum { few_rows = 8, few_modes = 6561 };
     enum holds_found found = solve_and_keep(problem, 0);
     if (found == holds_decided) found = check(problem);
     if (found == holds_no_memory) return found;
-    if (found == holds_decided) return look_for_others(problem);
+    if (found == holds_decided)
+        return problem->count <= few_rows ? look_for_others(problem, few_modes) : holds_decided;
     int solutions = holds_try_all(problem, most_modes);
     if (solutions == -2) return holds_no_memory;
     return solutions < 0    ? try_further(problem)
            : solutions == 0 ? holds_none
-           : solutions > 1  ? holds_several
+           : solutions > 1  ? look_for_others(problem, most_modes)
                             : holds_decided;
 }
 

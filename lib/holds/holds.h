@@ -117,4 +117,9 @@ enum holds_found holds_meet(struct hold_problem *problem);
  * problem. -1 when there are too many modes (over `most`), -2 when memory is out. */
 int holds_try_all(struct hold_problem *problem, size_t most);
 
+/* Is the motion of the solution that stands in the problem the only one that agrees, by trying all modes? Friction sticks
+ * where it can: a solution that slips where another one sticks, beside all that it sticks at itself, does not count. The
+ * problem is left in any modes. 1 or 0; -1 and -2 as above. */
+int holds_is_unique(struct hold_problem *problem, size_t most);
+
 #endif

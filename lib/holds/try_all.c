@@ -146,24 +146,35 @@ static bool sides_agree(const struct trial *trial)
     return true;
 }
 
-static bool same_as_first(const struct trial *trial)
+/* Are the accelerations c those of `other`, to what counts as one motion? */
+static bool same_motion(const struct hold_problem *problem, const double *c, const double *other)
 {
     const double near = 1e-6;
-    const struct hold_problem *problem = trial->problem;
     double difference = 0, size = 0;
     for (size_t i = 0; i < problem->count; i++) {
         double own = problem->A[i * problem->count + i], weight = own > 0 ? 1 / sqrt(own) : 0;
-        difference = fmax(difference, weight * fabs(problem->holds[i].c - trial->first[i]));
-        size = fmax(size, weight * fmax(fabs(problem->holds[i].free), fabs(trial->first[i])));
+        difference = fmax(difference, weight * fabs(c[i] - other[i]));
+        size = fmax(size, weight * fmax(fabs(problem->holds[i].free), fabs(other[i])));
     }
     return difference <= near * size;
+}
+
+static void take_accelerations(const struct hold_problem *problem, double *c)
+{
+    for (size_t i = 0; i < problem->count; i++) c[i] = problem->holds[i].c;
+}
+
+static bool same_as_first(struct trial *trial)
+{
+    take_accelerations(trial->problem, trial->row);
+    return same_motion(trial->problem, trial->row, trial->first);
 }
 
 static void keep_first(struct trial *trial, size_t *number, size_t own)
 {
     if (trial->solutions++ > 0) return;
     *number = own;
-    for (size_t i = 0; i < trial->problem->count; i++) trial->first[i] = trial->problem->holds[i].c;
+    take_accelerations(trial->problem, trial->first);
 }
 
 bool trial_new(struct trial *trial, struct hold_problem *problem)
@@ -187,22 +198,35 @@ void trial_free(struct trial *trial)
     free(trial->pivot);
 }
 
+static size_t all_modes(const struct hold_problem *problem)
+{
+    size_t all = 1;
+    for (size_t g = 0; g < problem->guide_count; g++) all *= 2;
+    for (size_t i = 0; i < problem->count; i++) all *= choices(&problem->holds[i]);
+    return all;
+}
+
+/* Set modes number `number`: holds_decided where their forces agree with them, else holds_lost. */
+static enum holds_found try_modes(struct trial *trial, size_t number)
+{
+    set_modes(trial, number);
+    if (is_repeated(trial->problem) || !trial_find_forces(trial) || !sides_agree(trial) ||
+        !holds_agree(trial->problem))
+        return holds_lost;
+    return holds_meet(trial->problem);
+}
+
 int holds_try_all(struct hold_problem *problem, size_t most)
 {
     struct trial trial;
-    size_t all = 1, best = 0;
+    size_t best = 0;
     if (different_modes(problem) > (double)most) return -1;
-    for (size_t g = 0; g < problem->guide_count; g++) all *= 2;
-    for (size_t i = 0; i < problem->count; i++) all *= choices(&problem->holds[i]);
+    size_t all = all_modes(problem);
     bool made = trial_new(&trial, problem);
     for (size_t number = 0; made && number < all; number++) {
-        set_modes(&trial, number);
-        if (is_repeated(problem) || !trial_find_forces(&trial) || !sides_agree(&trial) ||
-            !holds_agree(problem))
-            continue;
-        enum holds_found met = holds_meet(problem);
-        made = met != holds_no_memory;
-        if (met == holds_decided && (trial.solutions == 0 || !same_as_first(&trial)))
+        enum holds_found found = try_modes(&trial, number);
+        made = found != holds_no_memory;
+        if (found == holds_decided && (trial.solutions == 0 || !same_as_first(&trial)))
             keep_first(&trial, &best, number);
     }
     if (made && trial.solutions > 0) {
@@ -213,4 +237,73 @@ int holds_try_all(struct hold_problem *problem, size_t most)
     }
     trial_free(&trial);
     return made ? trial.solutions : -2;
+}
+
+/* ---- is a solution unique? */
+
+/* Solutions one behind the other: modes and accelerations of each hold. */
+struct solutions {
+    size_t count, room;
+    int *modes;
+    double *c;
+};
+
+static bool keep_solution(struct solutions *solutions, const struct hold_problem *problem)
+{
+    size_t n = problem->count;
+    if (solutions->count == solutions->room) {
+        size_t room = solutions->room ? 2 * solutions->room : 4;
+        int *modes = realloc(solutions->modes, room * n * sizeof *modes);
+        if (modes) solutions->modes = modes;
+        double *c = realloc(solutions->c, room * n * sizeof *c);
+        if (c) solutions->c = c;
+        if (!modes || !c) return false;
+        solutions->room = room;
+    }
+    for (size_t i = 0; i < n; i++) solutions->modes[solutions->count * n + i] = problem->holds[i].mode;
+    take_accelerations(problem, solutions->c + solutions->count * n);
+    solutions->count++;
+    return true;
+}
+
+/* Does friction stick in `more` that slips in `less`, and none the other way round? With mu_k < mu_s what sticks might as well
+ * slip, by the law alone; but friction that holds at rest holds. */
+static bool holds_more(const struct hold_problem *problem, const int *more, const int *less)
+{
+    bool longer = false;
+    for (size_t i = 0; i < problem->count; i++) {
+        const struct hold *hold = &problem->holds[i];
+        if (more[i] == less[i]) continue;
+        if (hold->kind == hold_one_sided || less[i] == hold_keeps) return false;
+        longer |= more[i] == hold_keeps && hold->mu_k < hold->mu_s;
+    }
+    return longer;
+}
+
+/* Does a solution count beside the first one: with another motion, and none that holds more? */
+static bool counts_beside(const struct solutions *solutions, const struct hold_problem *problem, size_t which)
+{
+    size_t n = problem->count;
+    if (same_motion(problem, solutions->c + which * n, solutions->c)) return false;
+    for (size_t k = 0; k < solutions->count; k++)
+        if (holds_more(problem, solutions->modes + k * n, solutions->modes + which * n)) return false;
+    return true;
+}
+
+int holds_is_unique(struct hold_problem *problem, size_t most)
+{
+    struct trial trial;
+    struct solutions solutions = {0};
+    if (different_modes(problem) > (double)most) return -1;
+    size_t all = all_modes(problem);
+    bool made = keep_solution(&solutions, problem) && trial_new(&trial, problem), unique = true;
+    for (size_t number = 0; made && number < all; number++) {
+        enum holds_found found = try_modes(&trial, number);
+        made = found != holds_no_memory && (found != holds_decided || keep_solution(&solutions, problem));
+    }
+    for (size_t k = 1; made && k < solutions.count; k++) unique &= !counts_beside(&solutions, problem, k);
+    if (solutions.count > 0) trial_free(&trial);
+    free(solutions.modes);
+    free(solutions.c);
+    return made ? unique : -2;
 }

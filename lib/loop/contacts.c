@@ -58,6 +58,7 @@ bool contacts_work_init(struct contacts_work *work, const struct fbd_model *mode
     work->slide = ARENA_ARRAY(memory, pairs, struct impacts_slide);
     size_t extended = plan_size(&model->plan) + 1; /* with the speed of approach (place_contact) */
     work->W = ARENA_ARRAY(memory, all * (all + pairs + n + 4) + pairs + extended, double);
+    work->of_ties = ARENA_ARRAY(memory, (size_t)model->tree->tie_count, struct impact_record);
     if (!meetings_init(work, model, memory) || memory->failed) return false;
     work->modes = work->rows + rows;
     work->slides = work->modes + pairs;
@@ -210,15 +211,30 @@ bool contacts_part(const struct run *run, int i)
     return run->contacts.v[(ptrdiff_t)2 * i] > no_speed(run, row);
 }
 
+/* The impacts of a rope, or of what lands, in the present events: one may follow another. */
+static void add_to_tie(struct contacts_work *work, const struct striker *striker, const double *v,
+                       const double *P, double taken)
+{
+    struct impact_record *impact = &work->of_ties[striker->tie];
+    if (impact->p == 0 && impact->work == 0)
+        *impact = (struct impact_record){.v_n = {striker->v_n}, .v_t = {striker->v_t}};
+    impact->p += P[0];
+    impact->tau += striker->rubs ? P[1] : 0;
+    impact->work += taken;
+    impact->v_n[1] = v[0];
+    impact->v_t[1] = striker->rubs ? v[1] : 0;
+}
+
 static void note_impact(struct run *run, int i)
 {
-    const struct contacts_work *work = &run->contacts;
+    struct contacts_work *work = &run->contacts;
     const struct striker *striker = &work->strikers[i];
     const struct tie *tie = &tree_of(run)->ties[striker->tie];
     const double *v = work->v + (ptrdiff_t)2 * i, *P = work->P + (ptrdiff_t)2 * i;
     double p = P[0], tau = P[1];
     double taken = striker_taken(striker, v, P);
     run->impact_work[tie->load] += taken;
+    if (!striker->contact) add_to_tie(work, striker, v, P, taken);
     bool struck = striker->v_n < 0 || (p > 0 && contacts_part(run, i));
     if (!striker->contact || !struck) return; /* ropes and landings have events of their own */
     int body = tie->end[0].body;
@@ -379,6 +395,12 @@ static bool look_at_contacts(struct run *run)
         moved = contacts_lift_others(run);
     }
     return moved;
+}
+
+void contacts_begin_events(struct run *run)
+{
+    struct impact_record *of_ties = run->contacts.of_ties;
+    if (of_ties) memset(of_ties, 0, (size_t)tree_of(run)->tie_count * sizeof *of_ties);
 }
 
 void run_contacts(struct run *run)

@@ -54,6 +54,16 @@ static inline double striker_taken(const struct striker *striker, const double v
     return striker->rubs ? across + P[1] * (striker->v_t + v[1]) / 2 : across;
 }
 
+/* What an impact was: impulses along normal and tangent, the work that they did, and the velocities of the
+ * point before and after: of a rope the rate of its length, below zero while it lengthens. */
+struct impact_record {
+    double p, tau, work;
+    double v_n[2], v_t[2];
+    bool makes;   /* all impacts of the instant have made energy, and this one has */
+    bool several; /* other velocities agree with the laws, too */
+    bool in_turn; /* they are of one point after the other, where all together were asked for */
+};
+
 struct contacts_work {
     struct striker *strikers; /* room for all that may take part */
     int struck;               /* how many took part in the last impact */
@@ -73,10 +83,11 @@ struct contacts_work {
     bool *moves;    /* and: for put_down.c */
     bool *was_closed; /* of each tie, when it was looked at last */
     struct fbd_state *trial;
-    double speed; /* the largest of what has touched so far */
-    bool due;     /* shapes have met, or what touches has come to the end of a side */
-    bool makes;   /* the last impacts have made energy */
-    bool several; /* others agree with the laws, too, and give other velocities */
+    double speed;                  /* the largest of what has touched so far */
+    struct impact_record *of_ties; /* of each tie that is no contact: its impacts in the present events */
+    bool due;                      /* shapes have met, or what touches has come to the end of a side */
+    bool makes;                    /* the last impacts have made energy */
+    bool several;                  /* others agree with the laws, too, and give other velocities */
     bool in_turn; /* and are of one point after the other, where all together were asked for */
     bool turned;  /* see run_note_sign */
     bool plastic; /* the next ones are to be, whatever their e */
@@ -87,6 +98,9 @@ bool contacts_work_init(struct contacts_work *work, const struct fbd_model *mode
 
 /* Find what touches, let it have its impacts, and close what stays. To be called before the modes settle. */
 void run_contacts(struct run *run);
+
+/* Before events are applied: forget the impacts of ropes and of what lands (contacts_work.of_ties). */
+void contacts_begin_events(struct run *run);
 
 /* The first look: what a file's digits have put into each other is moved out before. False, with what is lacking,
  * when couplings do not fit. */

@@ -414,8 +414,7 @@ static void fail_unsettled(struct run *run)
     text_free(&words);
 }
 
-/* One of several ways to go on has been taken. */
-static void note_several(struct run *run)
+void run_note_several(struct run *run)
 {
     const struct holds_trouble *holds = &run->state->holds;
     if (holds->found != holds_several || holds->pair < 0) return;
@@ -430,7 +429,7 @@ static bool settle(struct run *run)
     enum { most_jams = 8 };
     for (int jam = 0;; jam++) {
         if (modes_settle(run->state, &run->decided)) {
-            note_several(run);
+            run_note_several(run);
             return true;
         }
         bool no_forces = run->state->holds.found == holds_none || run->state->holds.found == holds_lost;
@@ -472,6 +471,7 @@ void run_apply(struct run *run, const bool *timed, const bool *moving)
     for (int s = 0; s < 2; s++)
         for (size_t i = 0; crossed[s] && i < sets[s]->count; i++)
             crossing |= crossed[s][i] && sets[s]->watchers[i].kind == watch_kink;
+    contacts_begin_events(run);
     run_rest_held(run);
     size_t first = run->log.count;
     for (int s = 0; s < 2; s++)

@@ -54,7 +54,20 @@ static void note_one_sided(struct run *run, const struct change *change)
     }
     struct run_event *event =
         run_note(run, rope ? FBD_EVENT_ROPE_TAUT : FBD_EVENT_LANDING, mode->body, mode->load, -1);
-    if (event) event->force = snapped ? -run->snap.work : 0;
+    if (!event) return;
+    event->force = snapped ? -run->snap.work : 0;
+    event->impact = run->contacts.of_ties[mode->tie];
+}
+
+void run_note_lifts_at_start(struct run *run)
+{
+    const struct instant at = state_instant(run->state);
+    for (int pair = 0; pair < (int)run->model->plan.mode_count; pair++) {
+        const struct mode *mode = &run->model->plan.modes[pair];
+        if (mode->kind != mode_surface || run->model->tree->ties[mode->tie].meeting >= 0) continue;
+        if (run->state->slip[pair] != stick && one_sided_at(run->model, &at, pair).touches)
+            run_note(run, FBD_EVENT_LIFT_OFF, mode->body, mode->load, -1);
+    }
 }
 
 /* Friction of a contact that has just closed or opened has no event of its own. */

@@ -108,6 +108,7 @@ static bool make_run(struct run *run, const struct state_start *begin)
     run->watchers.asleep = run->contacts.asleep;
     run->watchers.deep = run->contacts.deep;
     run->impact_work = ARENA_ARRAY(memory, run->model->load_count, double);
+    run->energy.y = ARENA_ARRAY(memory, size, double);
     run->snap.pair = -1;
     if (memory->failed) return false;
     run->decided.slips = run->decided.branches + plan->branches;
@@ -171,12 +172,15 @@ static void start(struct run *run)
         refuse(run, &lack);
         return;
     }
+    run_note_several(run);
     if (!hold_fixed(run)) {
         run_fail(run, FBD_OUT_OF_MEMORY, "out of memory");
         return;
     }
     run_release_contacts(run);
+    run_note_lifts_at_start(run);
     run_check_counts(run);
+    energy_guard_begin(run);
     watchers_arm(&run->watchers, run->state, 0);
     if (!(run->options.until > run->state->t)) run->end.outcome = FBD_DONE;
 }
@@ -451,8 +455,10 @@ static bool apply_events(struct run *run, const struct turn *turn)
     if (run->end.outcome != FBD_GOING) return false;
     run->stale = !happens;
     if (happens) {
+        double struck = energy_of_impacts(run);
         run_apply(run, turn->timed ? run->search.timed.crossed : NULL,
                   turn->moving ? run->search.moving.crossed : NULL);
+        energy_guard_events(run, struck);
         if (turn->moving && run->end.outcome == FBD_GOING) run_stand_beyond(run);
     } else {
         /* Who shows forces shares them out: run_look, run_check_balance. */

@@ -28,6 +28,7 @@
 #include "integrate/linear.h"
 #include "integrate/switcher.h"
 #include "loop/contacts.h"
+#include "loop/energy_guard.h"
 #include "loop/passages.h"
 #include "loop/structure.h"
 
@@ -40,16 +41,6 @@ struct run_options {
     bool structure; /* use what the plan shows: see structure.h; with `automatic` it may choose the method */
     bool apart;     /* a companion's: other steps than a run without this makes, where events set them */
     const struct fbd_state *start; /* where it begins, a state of the whole; NULL for the start of the file */
-};
-
-/* What an impact was: impulses along normal and tangent, the work that they did, and the velocities of the
- * point before and after. */
-struct impact_record {
-    double p, tau, work;
-    double v_n[2], v_t[2];
-    bool makes;   /* all impacts of the instant have made energy, and this one has */
-    bool several; /* other velocities agree with the laws, too */
-    bool in_turn; /* they are of one point after the other, where all together were asked for */
 };
 
 struct run_event {
@@ -187,7 +178,8 @@ struct run {
     struct contacts_work contacts;
     struct snap snap;
     double *impact_work; /* per load: what impacts have done in all */
-    double liveliest;    /* the most kinetic energy of jointed bodies so far */
+    struct energy_guard energy;
+    double liveliest; /* the most kinetic energy of jointed bodies so far */
     struct event_log log;
     struct recent recent;
     struct run_work work;
@@ -328,6 +320,12 @@ struct run_event *run_note(struct run *run, fbd_event_kind kind, int body, int l
 
 /* After the modes have settled: log what they tell; the events of this instant are those from `first` on. */
 void run_note_happened(struct run *run, size_t first, const bool *moving);
+
+/* Note that several motions agree with the forces, where the last settling has found that. */
+void run_note_several(struct run *run);
+
+/* Note the lift-off of what rests on its line at the start (a wheel that rolls, a follower of a cam) and is lifted at once. */
+void run_note_lifts_at_start(struct run *run);
 
 /* What counts as no time: against the time that has passed and steps of this run, for its end may be very far away. */
 double run_instant(const struct run *run);

@@ -160,6 +160,12 @@ static void write_impact(struct text *text, const struct impact_record *impact)
     text_add(text, "], ");
 }
 
+static bool is_impact(fbd_event_kind kind)
+{
+    return kind == FBD_EVENT_IMPACT || kind == FBD_EVENT_JAM || kind == FBD_EVENT_ROPE_TAUT ||
+           kind == FBD_EVENT_LANDING;
+}
+
 static void write_events(struct text *text, const fbd_simulation *simulation)
 {
     const struct ensemble *run = simulation->ensemble;
@@ -174,8 +180,7 @@ static void write_events(struct text *text, const fbd_simulation *simulation)
         text_member(text, "body", event_body(run->model, event), false);
         text_member(text, "kind", fbd_event_kind_name(event->kind), false);
         text_member(text, "name", event_name(run->model, event), false);
-        if (event->kind == FBD_EVENT_IMPACT || event->kind == FBD_EVENT_JAM)
-            write_impact(text, &event->impact);
+        if (is_impact(event->kind)) write_impact(text, &event->impact);
         if (event->kind == FBD_EVENT_REST) member(text, "impacts", event->limit, false);
         text_member(text, "detail", detail, true);
         text_add(text, "}");

@@ -75,6 +75,24 @@ static void impact_detail(const struct fbd_model *model, const struct run_event 
                                 : "");
 }
 
+/* The speed at which its ends move apart, beyond what a drum gives, before the impact and after it. */
+static void rope_taut_detail(const struct fbd_model *model, const struct run_event *event, const char *name,
+                             char *detail, size_t size)
+{
+    const struct impact_record *impact = &event->impact;
+    const char *speed = model->scene->units == unit_si ? "m/s" : "ft/s";
+    if (impact->p == 0)
+        format_into(detail, size, "%s snaps taut; the impact takes %.6g %s", name, event->force,
+                    energy_unit(model));
+    else
+        format_into(detail, size,
+                    "%s snaps taut: it lengthens by %.6g %s before and %.6g %s after; impulse %.6g %s*s; the "
+                    "impact takes "
+                    "%.6g %s",
+                    name, -impact->v_n[0], speed, impact->v_n[1] == 0 ? 0 : -impact->v_n[1], speed, impact->p,
+                    force_unit(model), event->force, energy_unit(model));
+}
+
 static void jam_detail(const struct fbd_model *model, const struct run_event *event, const char *name,
                        char *detail, size_t size)
 {
@@ -134,10 +152,7 @@ void event_detail(const struct fbd_model *model, const struct run_event *event, 
     case FBD_EVENT_CONTACT_LOST: contact_lost_detail(event, name, unit, detail, size); return;
     case FBD_EVENT_USER: snprintf(detail, size, "%s", name); return;
     case FBD_EVENT_ROPE_SLACK: snprintf(detail, size, "%s goes slack", name); return;
-    case FBD_EVENT_ROPE_TAUT:
-        format_into(detail, size, "%s snaps taut; the impact takes %.6g %s", name, event->force,
-                    energy_unit(model));
-        return;
+    case FBD_EVENT_ROPE_TAUT: rope_taut_detail(model, event, name, detail, size); return;
     case FBD_EVENT_IMPACT: impact_detail(model, event, name, detail, size); return;
     case FBD_EVENT_CONTACT: snprintf(detail, size, "%s closes", name); return;
     case FBD_EVENT_SEVERAL:
@@ -147,12 +162,18 @@ void event_detail(const struct fbd_model *model, const struct run_event *event, 
                      "determined by "
                      "rigid bodies, and one of them is taken",
                      name);
-        else
+        else if (event->force > 1) /* friction that feeds its own normal force */
             format_into(
                 detail, size,
                 "%s: several motions agree with the forces, as in Painleve's paradox, and one of them is "
                 "taken; each %s of its normal force brings %.4g %s of it with it",
                 name, unit, event->force, unit);
+        else
+            snprintf(
+                detail, size,
+                "%s: several motions agree with the law of friction, and one of them is taken; which of the "
+                "bodies slip and which stick is not determined",
+                name);
         return;
     case FBD_EVENT_JAM: jam_detail(model, event, name, detail, size); return;
     case FBD_EVENT_REST:

@@ -6,6 +6,7 @@
 #include <stdlib.h>
 
 #include "dynamics/energy.h"
+#include "dynamics/load_rounding.h"
 #include "record/powers.h"
 
 static double kinetic(const struct fbd_model *model, const struct instant *at)
@@ -15,11 +16,24 @@ static double kinetic(const struct fbd_model *model, const struct instant *at)
     return sum;
 }
 
+/* Forces across the motion do no work, but for those of couplings in an impact. */
+static void count_works(struct ledger *ledger)
+{
+    const struct fbd_model *model = ledger->model;
+    for (size_t i = 0; i < model->load_count; i++)
+        ledger->integrated[i] = ledger->counted[i] = model->loads[i].potential_kind == potential_none;
+    for (int i = 0; model->tree && i < model->tree->tie_count; i++) {
+        int load = model->tree->ties[i].load;
+        if (load >= 0 && model->loads[load].potential_kind == potential_workless)
+            ledger->counted[load] = true;
+    }
+}
+
 bool ledger_init(struct ledger *ledger, const struct fbd_model *model, struct fbd_state *start, bool works)
 {
     size_t loads = model->load_count;
     *ledger = (struct ledger){.model = model, .works = works};
-    ledger->integrated = calloc(loads + 1, sizeof *ledger->integrated);
+    ledger->integrated = calloc(2 * loads + 1, sizeof *ledger->integrated);
     ledger->work = calloc(7 * loads + 2, sizeof *ledger->work);
     ledger->powers = calloc(power_points * loads + 1, sizeof *ledger->powers);
     ledger->arrows = calloc(diagram_most_arrows(model), sizeof *ledger->arrows);
@@ -28,6 +42,7 @@ bool ledger_init(struct ledger *ledger, const struct fbd_model *model, struct fb
         ledger_free(ledger);
         return false;
     }
+    ledger->counted = ledger->integrated + loads;
     ledger->initial_potential = ledger->work + loads;
     ledger->begin = ledger->initial_potential + loads;
     ledger->end = ledger->begin + loads;
@@ -36,11 +51,11 @@ bool ledger_init(struct ledger *ledger, const struct fbd_model *model, struct fb
     ledger->through = ledger->lively + loads + 1;
     struct instant at = state_instant(start);
     ledger->initial_kinetic = kinetic(model, &at);
+    count_works(ledger);
     for (size_t i = 0; i < loads; i++) {
         const struct model_load *load = &model->loads[i];
-        ledger->integrated[i] = load->potential_kind == potential_none;
-        ledger->any |= works && ledger->integrated[i];
-        if (!works && ledger->integrated[i]) ledger->work[i] = NAN;
+        ledger->any |= works && ledger->counted[i];
+        if (!works && ledger->counted[i]) ledger->work[i] = NAN;
         ledger->initial_potential[i] = potential_energy(model, load, &at, ledger->scratch);
         ledger->initial_sum += ledger->initial_potential[i];
     }
@@ -61,6 +76,13 @@ bool ledger_integrates(const struct ledger *ledger, const struct group *group)
 {
     for (size_t i = 0; i < group->model->load_count; i++)
         if (ledger->integrated[group_load(group, (int)i)]) return true;
+    return false;
+}
+
+bool ledger_counts(const struct ledger *ledger, const struct group *group)
+{
+    for (size_t i = 0; i < group->model->load_count; i++)
+        if (ledger->counted[group_load(group, (int)i)]) return true;
     return false;
 }
 
@@ -86,7 +108,7 @@ bool ledger_step(struct ledger *ledger, struct ensemble *ensemble, size_t index)
     ledger->through[first] = sums.turnover;
     for (size_t i = 0; i < model->load_count; i++) {
         int load = group_load(group, (int)i);
-        if (!ledger->integrated[load]) continue;
+        if (!ledger->counted[load]) continue;
         ledger->end[load] += run->impact_work[i] - ledger->struck[load];
         ledger->struck[load] = run->impact_work[i];
     }
@@ -119,23 +141,19 @@ void ledger_note(struct ledger *ledger, const struct group *group)
 
 double ledger_explained(struct ledger *ledger, struct fbd_state *state, double tolerance, double steps)
 {
-    /* Runs of few steps are allowed a hundred; below its rounding a tolerance says nothing. Over the gallery, by methods from
-     * 1e-4 to 1e-10, residuals are up to a half of this by msadams where a ball bounces, and up to an eighth elsewhere. */
-    const double least_steps = 100, least_tolerance = 1e-13, tolerances = 4, roundings = 1e-11;
     struct instant at = state_instant(state);
     double size = fmax(ledger->liveliest, ledger->initial_kinetic) + ledger->turnover;
     if (!ledger->works) return NAN;
-    struct rounded rounded = rounded_at(ledger, state);
+    struct rounded rounded = rounded_at(state, ledger->arrows);
     double terms = size + rounded.places;
     /* What rests at the origin has no size there: a rounding of what forces move in a step, for each step. */
     double nothing = DBL_EPSILON * rounded.ways * at.t * at.t / fmax(steps, 1);
     for (size_t i = 0; i < ledger->model->load_count; i++) {
-        if (ledger->integrated[i]) continue;
+        if (ledger->counted[i]) continue;
         double potential = potential_energy(ledger->model, &ledger->model->loads[i], &at, ledger->scratch);
         terms += fabs(ledger->initial_potential[i]) + fabs(potential);
     }
-    return tolerances * (steps + least_steps) * fmax(tolerance, least_tolerance) * size + roundings * terms +
-           nothing;
+    return energy_explained(tolerance, steps, size, terms) + nothing;
 }
 
 bool ledger_within(struct ledger *ledger, struct ensemble *ensemble, double t, double *work)
@@ -163,7 +181,7 @@ bool ledger_at(struct ledger *ledger, struct ensemble *ensemble, double *work)
 double ledger_work(struct ledger *ledger, const struct fbd_state *state, size_t index, const double *work)
 {
     const struct model_load *load = &ledger->model->loads[index];
-    if (ledger->integrated[index]) return work[index];
+    if (ledger->counted[index]) return work[index];
     struct instant at = state_instant(state);
     return ledger->initial_potential[index] - potential_energy(ledger->model, load, &at, ledger->scratch);
 }
@@ -178,7 +196,7 @@ fbd_energy ledger_energy(struct ledger *ledger, const struct fbd_state *state, c
     /* Differences load by load: a datum far away does not drown the change in rounding. */
     double change = 0;
     for (size_t i = 0; i < model->load_count; i++) {
-        if (ledger->integrated[i]) {
+        if (ledger->counted[i]) {
             energy.work += work[i];
             continue;
         }

@@ -20,7 +20,8 @@
 struct ledger {
     const struct fbd_model *model;
     bool *integrated;    /* per load: its work is integrated */
-    bool any;            /* one of them is, and it was asked for */
+    bool *counted;       /* per load: ... or it is that of impacts alone, of a force across the motion */
+    bool any;            /* a work is counted, of powers or of impacts, and it was asked for */
     bool works;          /* it was asked for */
     double *begin, *end; /* per load, integrated, up to the begin and end of its group's last step */
     double *work;        /* per load, integrated, up to the end of the run */
@@ -46,6 +47,9 @@ void ledger_free(struct ledger *ledger);
 
 /* Is any work in this group integrated? A look into a step costs what dense output costs. */
 bool ledger_integrates(const struct ledger *ledger, const struct group *group);
+
+/* Is any work in this group counted: of powers, or of impacts alone (a normal force of a wheel that lands)? */
+bool ledger_counts(const struct ledger *ledger, const struct group *group);
 
 /* Account for the last step of group `index`; begin with it again. Of use if `any` only. */
 bool ledger_step(struct ledger *ledger, struct ensemble *ensemble, size_t index);

@@ -78,39 +78,6 @@ static const double legendre[5][power_points] = {
      -2.3826716820551894},
 };
 
-/* How far couplings reach: by that much they know where a body is, wherever that may be. */
-static double reach_of_couplings(const struct tree *tree)
-{
-    double reach = 0;
-    for (int i = 0; tree && i < tree->tie_count; i++) {
-        const struct tie *tie = &tree->ties[i];
-        reach = fmax(reach, fabs(tie->length));
-        for (int end = 0; end < tie->end_count; end++)
-            reach = fmax(reach, vec_norm(tie->end[end].point) + tie->end[end].radius);
-    }
-    return reach;
-}
-
-struct rounded rounded_at(struct ledger *ledger, struct fbd_state *state)
-{
-    const struct fbd_model *model = state->model; /* of a group, or the whole */
-    struct instant at = state_instant(state);
-    struct rounded sum = {0, 0};
-    double reach = reach_of_couplings(model->tree);
-    for (size_t b = 0; b < model->body_count; b++) {
-        size_t count = diagram_fill(model, (int)b, &at, state->a, state->slots, ledger->arrows);
-        double forces = 0, mass = body_mass(&model->bodies[b], &at);
-        for (size_t i = 0; i < count; i++) {
-            const struct arrow *arrow = &ledger->arrows[i];
-            double force = vec_norm(arrow->force);
-            sum.places += force * fmax(vec_norm(arrow->point), reach) + fabs(arrow->couple);
-            forces += force;
-        }
-        if (mass > 0) sum.ways += forces * forces / mass;
-    }
-    return sum;
-}
-
 /* A panel: a part of a group's last step. */
 struct panel {
     size_t group;
@@ -239,7 +206,7 @@ static bool set_floor(struct ledger *ledger, struct ensemble *ensemble, struct p
     }
     struct fbd_state *state = ensemble_look_group(ensemble, panel->group, panel->from, true);
     if (!state) return false;
-    struct rounded rounded = rounded_at(ledger, state); /* of what rests, too */
+    struct rounded rounded = rounded_at(state, ledger->arrows); /* of what rests, too */
     panel->floor = rounding * rounded.places + DBL_EPSILON * rounded.ways * panel->length * panel->length +
                    panel->length * grain;
     return true;

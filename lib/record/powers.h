@@ -23,14 +23,4 @@ struct sums {
 bool powers_integrate(struct ledger *ledger, struct ensemble *ensemble, size_t group, struct moment from,
                       struct moment to, struct sums *sums);
 
-/* What roundings do at a state of a group or of the whole, as energies. */
-struct rounded {
-    double
-        places; /* every force times the distance of its point, and every couple: one rounding of all places */
-    double ways; /* of unit time: every force times what it moves its body by alone */
-};
-
-/* Of an evaluated state; overwrites ledger->arrows. */
-struct rounded rounded_at(struct ledger *ledger, struct fbd_state *state);
-
 #endif

@@ -33,6 +33,19 @@ double fbd_result_residual_explained(fbd_result *result)
     return ledger_explained(&result->ledger, fbd_result_state(result), stats.tolerance, (double)stats.steps);
 }
 
+bool fbd_result_balanced(fbd_result *result, double *residual, double *explained)
+{
+    struct energy_balance balance = {NAN, NAN};
+    if (result && result->ledger.works)
+        balance = (struct energy_balance){fbd_result_energy(result).residual,
+                                          fbd_result_residual_explained(result)};
+    if (result && !(fabs(balance.residual) > balance.explained))
+        balance = ensemble_energy_balance(result->simulation->ensemble);
+    if (residual) *residual = balance.residual;
+    if (explained) *explained = balance.explained;
+    return result && !(fabs(balance.residual) > balance.explained);
+}
+
 double fbd_result_work(fbd_result *result, const char *body, const char *load)
 {
     if (!result || !body || !load) return NAN;

@@ -164,6 +164,23 @@ static bool carry(struct row_maker *maker, struct ensemble *run, struct ledger *
     return true;
 }
 
+/* Does the energy show that the motion is that of the scene? `ledger` may be NULL. */
+static bool is_balanced(struct ensemble *run, struct ledger *ledger, char *reason, size_t size)
+{
+    struct energy_balance balance = ensemble_energy_balance(run);
+    if (ledger && run->options.step == 0 && !(fabs(balance.residual) > balance.explained)) {
+        struct fbd_state *state = ensemble_state(run);
+        double steps = 0;
+        for (size_t g = 0; g < run->count; g++)
+            steps += (double)switcher_counts(run->groups[g].run->stepper).accepted;
+        balance.residual = ledger_energy(ledger, state, ledger->work).residual;
+        balance.explained = ledger_explained(ledger, state, run->options.tolerance, steps);
+    }
+    snprintf(reason, size, "the residual of the energy is %.2g, where the tolerance explains %.2g",
+             balance.residual, balance.explained);
+    return !(fabs(balance.residual) > balance.explained);
+}
+
 /* A start that is refused has its id, and mostly a place in the file. */
 static void put_outcome(const struct ensemble *run, struct text *text)
 {
@@ -193,6 +210,12 @@ static enum row_end put_run(struct row_maker *maker, struct ensemble *run, struc
     columns_put(columns, &observed, text);
     text_add(text, ",");
     text_exact(text, (double)run->event_count);
+    char reason[100];
+    ended = run->outcome == FBD_DONE || run->outcome == FBD_STOPPED;
+    if (ended && !is_balanced(run, ledger, reason, sizeof reason)) {
+        put_end(text, "inaccurate", reason);
+        return row_failed;
+    }
     put_outcome(run, text);
     return run->outcome == FBD_DONE || run->outcome == FBD_STOPPED ? row_well : row_failed;
 }

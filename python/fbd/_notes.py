@@ -99,7 +99,8 @@ class RunFailed(Error):
 
 
 class AccuracyNotReached(RunFailed):
-    """The accuracy that was asked for was not reached; ``run`` is the best one, and came to its end."""
+    """The accuracy that was asked for was not reached, or the balance of energy does not hold; ``run`` is the best one, and
+    came to its end."""
 
 
 class Warning(_Noted, builtins.UserWarning):  # noqa: A001 - the library's word

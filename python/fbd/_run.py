@@ -90,6 +90,11 @@ class Run(Mapping[str, Column]):
                 warn(complaint("warning", "accuracy-not-reached", text))
             else:
                 raise AccuracyNotReached((complaint("error", "accuracy-not-reached", text),), self)
+        residual, explained = ffi.new("double *"), ffi.new("double *")
+        if self._outcome in ("done", "stopped") and not lib.fbd_result_balanced(self._result, residual, explained):
+            text = (f"the motion is not accurate: the residual of its energy is {residual[0]:.2g}, "
+                    f"where the tolerance explains {explained[0]:.2g}")
+            raise AccuracyNotReached((complaint("error", "energy-not-balanced", text),), self)
         if self._outcome == "broken":
             warn(complaint("warning", "run-ended-early", self.reason))
 

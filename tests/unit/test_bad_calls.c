@@ -280,6 +280,7 @@ static void results(void **context)
     ANSWERS(fbd_result_force_errors, fbd_result_force_errors(result, past, NULL, 3) == 0);
     ANSWERS(fbd_result_force_errors, fbd_result_force_errors(result, 0, NULL, 3) > 0);
     ANSWERS(fbd_result_accurate, !fbd_result_accurate(NULL));
+    ANSWERS(fbd_result_balanced, !fbd_result_balanced(NULL, NULL, NULL));
     ANSWERS(fbd_result_report, !fbd_result_report(NULL));
     ANSWERS(fbd_result_report_full, !fbd_result_report_full(NULL));
     ANSWERS(fbd_result_json, !fbd_result_json(NULL));
