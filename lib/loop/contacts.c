@@ -53,6 +53,7 @@ bool contacts_work_init(struct contacts_work *work, const struct fbd_model *mode
     size_t pairs = model->plan.mode_count, rows = 2 * most, all = rows + pairs;
     if (most == 0) return true;
     work->strikers = ARENA_ARRAY(memory, most, struct striker);
+    work->twins = ARENA_ARRAY(memory, most, struct striker_twin);
     work->points = ARENA_ARRAY(memory, most, struct impacts_point);
     work->rows = ARENA_ARRAY(memory, rows + 2 * pairs, int);
     work->slide = ARENA_ARRAY(memory, pairs, struct impacts_slide);
@@ -102,7 +103,7 @@ static bool same_place(const struct run *run, int meeting, int a, int b, double 
     if (a == b) return true;
     struct vec p = feature_place(run->model, run->state->tree, meeting, a);
     struct vec q = feature_place(run->model, run->state->tree, meeting, b);
-    return vec_norm(vec_sub(p, q)) <= 4 * near;
+    return vec_norm(vec_sub(p, q)) <= contacts_same * near;
 }
 
 /* Give the ties of a meeting the features that touch; those that they have stay where they can. */
@@ -164,32 +165,82 @@ static bool is_striker(const struct run *run, int i)
     return tie_takes_blows(tie) && run->state->slip[tie->surface] == stick;
 }
 
+/* ---- coinciding points */
+
+static const struct port *port_on(const struct row *row, int link)
+{
+    for (int k = 0; k < row->port_count; k++)
+        if (row->ports[k].link == link) return &row->ports[k];
+    return NULL;
+}
+
+/* Are two closed contacts one point: the same links, the same place and the same normal? Places to what counts as
+ * touching, directions to the digits of a file. */
+static bool coincide(const struct run *run, int a, int b)
+{
+    const double direction = 1e-9;
+    const struct tie *ties = tree_of(run)->ties;
+    const struct tree_work *work = run->state->tree;
+    int first = ties[a].end[0].link, second = ties[a].end[1].link, index = ties[a].meeting;
+    bool same = ties[b].end[0].link == first && ties[b].end[1].link == second;
+    bool swapped = ties[b].end[0].link == second && ties[b].end[1].link == first;
+    if (!same && !swapped) return false;
+    if (tree_of(run)->meetings[index].stop != 0 || tree_of(run)->meetings[ties[b].meeting].stop != 0) return false;
+    int link = first > 0 ? first : second;
+    const struct port *p = port_on(&work->rows[ties[a].first_row], link),
+                      *q = port_on(&work->rows[ties[b].first_row], link);
+    return p && q && vec_norm(vec_sub(p->force, q->force)) <= direction &&
+           vec_norm(vec_sub(p->arm, q->arm)) <= contacts_same * meeting_near(run->model, work, index);
+}
+
+/* The striker among the first `count` at whose point the contact of tie i is; -1 without one. */
+static int coinciding(const struct run *run, int i, int count)
+{
+    const struct striker *strikers = run->contacts.strikers;
+    for (int k = 0; k < count; k++)
+        if (strikers[k].contact && coincide(run, strikers[k].tie, i)) return k;
+    return -1;
+}
+
+/* ---- strikers */
+
+static void set_striker(struct run *run, int i, struct striker *striker)
+{
+    const struct tie *tie = &tree_of(run)->ties[i];
+    bool rope = tie->kind == constraint_rope, contact = tie->meeting >= 0;
+    *striker = (struct striker){
+        .tie = i, .contact = contact, .rope = rope, .rubs = contact || (!rope && tie->pair >= 0)};
+    if (tie->reels) striker->reel = rope_reel_rate(run->state, i);
+    const struct row *rows = &run->state->tree->rows[tie->first_row];
+    striker->v_n = normal_rate(run, striker);
+    striker->v_t = tie->row_count > 1 && !rope ? rows[1].g.x1 : 0;
+    run->contacts.speed = fmax(run->contacts.speed, speed_at(run, rows));
+}
+
+/* Rounding of redundant points contradicts itself, and next to a slow impact that is not little. */
+static void drop_no_speeds(const struct run *run, struct striker *striker)
+{
+    double least = no_speed(run, &run->state->tree->rows[tree_of(run)->ties[striker->tie].first_row]);
+    if (fabs(striker->v_n) <= least) striker->v_n = 0;
+    if (fabs(striker->v_t) <= least) striker->v_t = 0;
+    striker->rubs |=
+        striker->v_t != 0; /* a roll without a limit, which lands: it holds along its line from then on */
+}
+
 int contacts_find_strikers(struct run *run)
 {
-    const struct tree *tree = tree_of(run);
     struct contacts_work *work = &run->contacts;
     int count = 0;
-    for (int i = 0; i < tree->tie_count; i++) {
-        const struct tie *tie = &tree->ties[i];
+    work->twin_count = 0;
+    for (int i = 0; i < tree_of(run)->tie_count; i++) {
         if (!is_striker(run, i)) continue;
-        struct striker *striker = &work->strikers[count++];
-        bool rope = tie->kind == constraint_rope;
-        bool contact = tie->meeting >= 0;
-        *striker = (struct striker){.tie = i,
-                                    .contact = contact,
-                                    .rope = rope,
-                                    .rubs = contact || (!rope && tie->pair >= 0)};
-        if (tie->reels) striker->reel = rope_reel_rate(run->state, i);
-        const struct row *rows = &run->state->tree->rows[tie->first_row];
-        striker->v_n = normal_rate(run, striker);
-        work->speed = fmax(work->speed, speed_at(run, rows));
-        striker->v_t = tie->row_count > 1 && !rope ? rows[1].g.x1 : 0;
-        /* Rounding of redundant points contradicts itself, and next to a slow impact that is not little. */
-        if (fabs(striker->v_n) <= no_speed(run, rows)) striker->v_n = 0;
-        if (fabs(striker->v_t) <= no_speed(run, rows)) striker->v_t = 0;
-        striker->rubs |=
-            striker->v_t != 0; /* a roll without a limit, which lands: it holds along its line from then on */
+        int point = tree_of(run)->ties[i].meeting >= 0 ? coinciding(run, i, count) : -1;
+        if (point >= 0)
+            work->twins[work->twin_count++] = (struct striker_twin){i, point};
+        else
+            set_striker(run, i, &work->strikers[count++]);
     }
+    for (int i = 0; i < count; i++) drop_no_speeds(run, &work->strikers[i]);
     return count;
 }
 
@@ -254,6 +305,20 @@ static void let_slack(struct run *run, int pair)
     run->decided.slips[pair] = true;
 }
 
+/* What a contact does at tie `index` after it has come to the velocities of striker i. */
+static void open_or_close_contact(struct run *run, int index, int i, bool leaves, double v_t)
+{
+    const struct tie *tie = &tree_of(run)->ties[index];
+    if (leaves && run->contacts.strikers[i].contact) {
+        set_feature(run, index, no_feature);
+        return;
+    }
+    if (tie->pair < 0) return;
+    /* What sticks from here on does so where it is. */
+    if (v_t == 0 && run->state->slip[tie->pair] != stick) tie_rezero(run->model, run->state->tree, index);
+    run->state->slip[tie->pair] = v_t > 0 ? slip_plus : v_t < 0 ? slip_minus : stick;
+}
+
 void contacts_open_or_close(struct run *run, int count, bool struck)
 {
     const struct contacts_work *work = &run->contacts;
@@ -261,25 +326,15 @@ void contacts_open_or_close(struct run *run, int count, bool struck)
         const struct striker *striker = &work->strikers[i];
         const struct tie *tie = &tree_of(run)->ties[striker->tie];
         bool leaves = struck ? contacts_part(run, i) : striker->v_n > 0;
-        if (striker->rope) {
-            if (leaves && !striker->stays) let_slack(run, tie->pair);
-            continue;
-        }
-        if (leaves && !striker->contact) {
-            if (!striker->stays) let_slack(run, tie->surface);
-            continue;
-        }
-        if (leaves) {
-            set_feature(run, striker->tie, no_feature);
-            continue;
-        }
-        if (tie->pair < 0) continue;
         double v_t = struck ? work->v[2 * i + 1] : striker->v_t;
+        if (striker->rope || (leaves && !striker->contact)) {
+            if (leaves && !striker->stays) let_slack(run, striker->rope ? tie->pair : tie->surface);
+            continue;
+        }
         if (fabs(v_t) <= no_speed(run, &run->state->tree->rows[tie->first_row])) v_t = 0;
-        /* What sticks from here on does so where it is. */
-        if (v_t == 0 && run->state->slip[tie->pair] != stick)
-            tie_rezero(run->model, run->state->tree, striker->tie);
-        run->state->slip[tie->pair] = v_t > 0 ? slip_plus : v_t < 0 ? slip_minus : stick;
+        open_or_close_contact(run, striker->tie, i, leaves, v_t);
+        for (int k = 0; k < work->twin_count; k++)
+            if (work->twins[k].point == i) open_or_close_contact(run, work->twins[k].tie, i, leaves, v_t);
     }
 }
 

@@ -47,6 +47,13 @@ struct striker {
     bool stays;      /* no contact, and let go by an impact, for so little that it is kept (bounces.c) */
 };
 
+/* A contact at the place of another one, of the same two links and with the same normal: a corner that several parts of a
+ * body share, or a corner over a joint of tiles. Both are one point of an impact, which has the coefficients of the
+ * first; velocities and modes after are those of that point. */
+struct striker_twin {
+    int tie, point; /* the striker that it coincides with */
+};
+
 /* The work of its impulses P on the bodies, with the speeds v after. */
 static inline double striker_taken(const struct striker *striker, const double v[2], const double P[2])
 {
@@ -55,7 +62,9 @@ static inline double striker_taken(const struct striker *striker, const double v
 }
 
 struct contacts_work {
-    struct striker *strikers; /* room for all that may take part */
+    struct striker *strikers; /* room for all that may take part, each point once */
+    struct striker_twin *twins;
+    int twin_count; /* of the last look by contacts_find_strikers */
     int struck;               /* how many took part in the last impact */
     struct impacts_point *points;
     int *rows, *modes;
@@ -134,6 +143,9 @@ void run_check_overlap(struct run *run);
 /* What counts as touching when it is seen late, in `near` of dynamics/contact.h. */
 static const double contacts_late = 1e3;
 
+/* Places that count as the same one, likewise: each is known to that. */
+static const double contacts_same = 4;
+
 /* Bounces that nobody sees, likewise: 1e-9 of the scene. */
 enum { contacts_low = 1000 };
 
@@ -169,7 +181,7 @@ double contacts_reach(const struct run *run, int index);
 /* Give the ties of meeting `index` the features that touch within `near`. */
 void contacts_find_touching(struct run *run, int index, double near);
 
-/* All contacts that touch, ropes that are taut, and what presses on its surface; returns their number. */
+/* All points that touch, ropes that are taut, and what presses on its surface; returns their number. */
 int contacts_find_strikers(struct run *run);
 
 /* e of a meeting at a speed of approach; below zero after failing the run. */
