@@ -25,6 +25,7 @@ struct contact_shape {
         contact_stop /* no shape: the joint of the link, or what it moves on */
     } kind;
     int link;             /* 0: the ground */
+    const void *source;   /* what it is made of: a part or a polygon; NULL for others */
     int count;            /* corners */
     struct vec *corners;  /* in the frame of the link */
     struct vec center, e; /* disc; line: a point of it and its direction; corners: their mean */
@@ -65,6 +66,9 @@ int shape_sides(const struct contact_shape *shape);
 
 /* Build the meetings of constraint `index` of the scene with their ties. False when memory is out. */
 bool meetings_add(struct fbd_model *model, int index);
+
+/* Level the surfaces of all meetings (contact_level.c). False when memory is out. */
+bool meetings_level(struct fbd_model *model);
 
 /* At most how many meetings and ties the contact will have. */
 int meetings_most(const struct fbd_model *model, int index);

@@ -1,0 +1,106 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * Level surfaces: of shapes that move as one, which are the parts of a body or all of the ground, corners closer to each
+ * other than the level are one place, and corners closer to the line of a side are on it.
+ */
+#include "model/contact.h"
+
+#include "model/model.h"
+
+/* Of the scene. Bounces and depths below it are not told from contact (loop/contacts.h), so that no step is, either; and
+ * it is what the digits of a file are good for. */
+static const double level = 1e-9;
+
+/* Shapes that are level already, each once. */
+struct levelled {
+    const struct contact_shape **shapes;
+    int count;
+    double near; /* [m] */
+};
+
+static const struct contact_shape *find_same(const struct levelled *done, const struct contact_shape *shape)
+{
+    for (int i = 0; i < done->count && shape->source; i++)
+        if (done->shapes[i]->source == shape->source && done->shapes[i]->link == shape->link) return done->shapes[i];
+    return NULL;
+}
+
+static bool find_corner(const struct levelled *done, int link, struct vec *p)
+{
+    for (int i = 0; i < done->count; i++) {
+        const struct contact_shape *shape = done->shapes[i];
+        for (int k = 0; k < shape->count && shape->link == link; k++) {
+            if (vec_norm(vec_sub(shape->corners[k], *p)) > done->near) continue;
+            *p = shape->corners[k];
+            return true;
+        }
+    }
+    return false;
+}
+
+/* Side number k of a shape, or a line itself. */
+static bool side_of(const struct contact_shape *shape, int k, struct vec *base, struct vec *e)
+{
+    *base = shape->kind == contact_line ? shape->center : shape->corners[k];
+    *e = shape->kind == contact_line ? shape->e : vec_sub(shape->corners[(k + 1) % shape->count], *base);
+    double length = vec_norm(*e);
+    if (length > 0) *e = vec_scale(1 / length, *e);
+    return length > 0;
+}
+
+/* Onto a line; of two lines that cross onto their intersection, where that is near as well. */
+static void put_on_lines(const struct levelled *done, int link, struct vec *p)
+{
+    struct vec along = {0, 0}, base, e;
+    bool on_line = false;
+    for (int i = 0; i < done->count; i++) {
+        const struct contact_shape *shape = done->shapes[i];
+        int sides = shape->kind == contact_line ? 1 : shape_sides(shape);
+        for (int k = 0; k < sides && shape->link == link; k++) {
+            if (!side_of(shape, k, &base, &e)) continue;
+            double off = vec_cross(e, vec_sub(*p, base));
+            if (fabs(off) > done->near) continue;
+            if (!on_line) {
+                *p = vec_sub(*p, vec_scale(off, vec_perp(e)));
+                along = e;
+                on_line = true;
+                continue;
+            }
+            double slope = vec_cross(e, along);
+            if (fabs(off) > done->near * fabs(slope)) continue;
+            if (off != 0) *p = vec_sub(*p, vec_scale(off / slope, along));
+            if (slope != 0) return;
+        }
+    }
+}
+
+static void level_shape(struct levelled *done, struct contact_shape *shape)
+{
+    const struct contact_shape *same = find_same(done, shape);
+    for (int i = 0; i < shape->count; i++) {
+        if (same)
+            shape->corners[i] = same->corners[i];
+        else if (!find_corner(done, shape->link, &shape->corners[i]))
+            put_on_lines(done, shape->link, &shape->corners[i]);
+    }
+    if (!same) done->shapes[done->count++] = shape;
+}
+
+bool meetings_level(struct fbd_model *model)
+{
+    const struct tree *tree = model->tree;
+    struct levelled done = {0};
+    if (tree->meeting_count == 0) return true;
+    done.shapes = ARENA_ARRAY(&model->arena, 2 * (size_t)tree->meeting_count, const struct contact_shape *);
+    if (!done.shapes) return false;
+    for (int i = 0; i < tree->meeting_count; i++)
+        done.near = fmax(done.near, level * tree->meetings[i].reach);
+    for (int pass = 0; pass < 2; pass++)
+        for (int i = 0; i < tree->meeting_count; i++)
+            for (int k = 0; k < 2; k++) {
+                struct contact_shape *shape = &tree->meetings[i].shape[k];
+                if (tree->meetings[i].stop == 0 && shape->kind == (pass == 0 ? contact_line : contact_corners))
+                    level_shape(&done, shape);
+            }
+    return true;
+}
