@@ -37,6 +37,7 @@ static bool meetings_init(struct contacts_work *work, const struct fbd_model *mo
     work->was_closed = ARENA_ARRAY(memory, 3 * ties, bool);
     work->asleep = ARENA_ARRAY(memory, meetings, bool);
     work->deep = ARENA_ARRAY(memory, meetings, double);
+    work->touched = ARENA_ARRAY(memory, meetings, int);
     work->trial = state_new(model);
     if (memory->failed || !work->trial) return false;
     work->touching = work->was_closed + ties;
@@ -518,4 +519,5 @@ void run_release_contacts(struct run *run)
         run_note(run, now ? FBD_EVENT_CONTACT : FBD_EVENT_LIFT_OFF, tie->end[0].body, tie->load, -1);
     }
     contacts_note_depths(run);
+    contacts_note_touching(run);
 }

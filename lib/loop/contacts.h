@@ -77,6 +77,7 @@ struct contacts_work {
     struct bounces *bounces; /* of each meeting */
     struct bounces tugs;     /* of ropes that get taut, and what lands, in turn */
     bool *asleep;            /* of each meeting: too far apart for the step */
+    int *touched;   /* of each meeting: how many features touched, at the last look */
     double *deep;   /* of each meeting: how deep it was left open, at a corner that another side is next to */
     bool *touching; /* of each tie: scratch */
     bool *moves;    /* and: for put_down.c */
@@ -125,6 +126,9 @@ bool contacts_lift_others(struct run *run);
 /* Note how deep in each other shapes are that do not touch: within what counts as touching, where a corner goes
  * over the end of a side. */
 void contacts_note_depths(struct run *run);
+
+/* Note which shapes touch, closed or left open. */
+void contacts_note_touching(struct run *run);
 
 /* Which meetings the step from run->step.from to the state run->work.y at `end` has to look at: those whose shapes
  * could come near in it. In panels of how many radians the shapes turn. */
