@@ -261,19 +261,46 @@ bool contacts_part(const struct run *run, int i)
     return run->contacts.v[(ptrdiff_t)2 * i] > no_speed(run, row);
 }
 
-static void note_impact(struct run *run, int i)
+/* Does point i strike, so that its impact is an event? Ropes and landings have events of their own. */
+static bool is_impact(const struct run *run, int i)
+{
+    const struct contacts_work *work = &run->contacts;
+    const struct striker *striker = &work->strikers[i];
+    bool struck = striker->v_n < 0 || (work->P[(ptrdiff_t)2 * i] > 0 && contacts_part(run, i));
+    return striker->contact && struck;
+}
+
+/* Do points i and j belong to one contact, and strike at the same speeds, as the corners of a side that falls flat do? */
+static bool strike_alike(const struct run *run, int i, int j)
+{
+    const struct contacts_work *work = &run->contacts;
+    const struct striker *a = &work->strikers[i], *b = &work->strikers[j];
+    const struct tie *tie = &tree_of(run)->ties[a->tie];
+    const double *v = work->v + (ptrdiff_t)2 * i, *w = work->v + (ptrdiff_t)2 * j;
+    double same = no_speed(run, &run->state->tree->rows[tie->first_row]);
+    return is_impact(run, j) && tree_of(run)->ties[b->tie].load == tie->load && fabs(a->v_n - b->v_n) <= same &&
+           fabs(a->v_t - b->v_t) <= same && fabs(v[0] - w[0]) <= same && fabs(v[1] - w[1]) <= same;
+}
+
+/* One event for all points that strike alike, with the sums of their impulses. */
+static void note_impact(struct run *run, int i, int count)
 {
     const struct contacts_work *work = &run->contacts;
     const struct striker *striker = &work->strikers[i];
     const struct tie *tie = &tree_of(run)->ties[striker->tie];
-    const double *v = work->v + (ptrdiff_t)2 * i, *P = work->P + (ptrdiff_t)2 * i;
-    double p = P[0], tau = P[1];
-    double taken = striker_taken(striker, v, P);
-    run->impact_work[tie->load] += taken;
-    bool struck = striker->v_n < 0 || (p > 0 && contacts_part(run, i));
-    if (!striker->contact || !struck) return; /* ropes and landings have events of their own */
-    int body = tie->end[0].body;
-    struct run_event *event = run_note(run, FBD_EVENT_IMPACT, body, tie->load, -1);
+    const double *v = work->v + (ptrdiff_t)2 * i;
+    double p = 0, tau = 0, taken = 0;
+    run->impact_work[tie->load] += striker_taken(striker, v, work->P + (ptrdiff_t)2 * i);
+    if (!is_impact(run, i)) return;
+    for (int k = 0; k < count; k++) {
+        if (!strike_alike(run, i, k)) continue;
+        if (k < i) return; /* its event has this one */
+        const double *P = work->P + (ptrdiff_t)2 * k;
+        p += P[0];
+        tau += P[1];
+        taken += striker_taken(&work->strikers[k], work->v + (ptrdiff_t)2 * k, P);
+    }
+    struct run_event *event = run_note(run, FBD_EVENT_IMPACT, tie->end[0].body, tie->load, -1);
     if (!event) return;
     event->impact = (struct impact_record){
         p,     tau,          taken, {striker->v_n, v[0]}, {striker->v_t, v[1]}, work->makes && taken > 0,
@@ -295,7 +322,7 @@ static void note_several(struct run *run, int count)
 
 static void note_impacts(struct run *run, int count)
 {
-    for (int i = 0; i < count; i++) note_impact(run, i);
+    for (int i = 0; i < count; i++) note_impact(run, i, count);
     note_several(run, count);
 }
 
@@ -504,19 +531,31 @@ static void stop_what_opens(struct run *run)
     state_evaluate(state);
 }
 
+/* Note that a contact has closed or opened: once, at however many corners. */
+static void note_change(struct run *run, int index)
+{
+    const struct tie *ties = tree_of(run)->ties, *tie = &ties[index];
+    const bool *changed = run->contacts.moves;
+    bool now = is_closed(run, run->state, index);
+    for (int k = 0; k < index; k++)
+        if (changed[k] && ties[k].load == tie->load && is_closed(run, run->state, k) == now) return;
+    run_note(run, now ? FBD_EVENT_CONTACT : FBD_EVENT_LIFT_OFF, tie->end[0].body, tie->load, -1);
+}
+
 void run_release_contacts(struct run *run)
 {
     if (!has_meetings(run->model)) return;
     const struct tree *tree = tree_of(run);
+    bool *changed = run->contacts.moves;
     stop_what_opens(run);
     for (int i = 0; i < tree->tie_count; i++) {
-        const struct tie *tie = &tree->ties[i];
-        if (tie->kind != constraint_contact) continue;
-        bool before = run->contacts.was_closed[i], now = is_closed(run, run->state, i);
+        changed[i] = false;
+        if (tree->ties[i].kind != constraint_contact) continue;
+        bool now = is_closed(run, run->state, i);
+        changed[i] = now != run->contacts.was_closed[i];
         run->contacts.was_closed[i] = now;
         if (!now) run->state->tree->ties[i].feature = no_feature;
-        if (before == now) continue;
-        run_note(run, now ? FBD_EVENT_CONTACT : FBD_EVENT_LIFT_OFF, tie->end[0].body, tie->load, -1);
+        if (changed[i]) note_change(run, i);
     }
     contacts_note_depths(run);
     contacts_note_touching(run);

@@ -1,15 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Level surfaces: of shapes that move as one, which are the parts of a body or all of the ground, corners closer to each
+ * Level surfaces, and what is inside of them: of shapes that move as one, which are the parts of a body or all of the ground, corners closer to each
  * other than the level are one place, and corners closer to the line of a side are on it.
  */
 #include "model/contact.h"
 
 #include "model/model.h"
-
-/* Of the scene. Bounces and depths below it are not told from contact (loop/contacts.h), so that no step is, either; and
- * it is what the digits of a file are good for. */
-static const double level = 1e-9;
 
 /* Shapes that are level already, each once. */
 struct levelled {
@@ -86,6 +82,54 @@ static void level_shape(struct levelled *done, struct contact_shape *shape)
     if (!same) done->shapes[done->count++] = shape;
 }
 
+/* ---- what is inside */
+
+/* The direction from corner k of a shape to the next one or the one before. */
+static struct vec ray(const struct contact_shape *shape, int k, int step)
+{
+    struct vec d = vec_sub(shape->corners[(k + step + shape->count) % shape->count], shape->corners[k]);
+    return vec_scale(1 / vec_norm(d), d);
+}
+
+static bool is_along(struct vec a, struct vec b, double sense)
+{
+    const double direction = 1e-9;
+    return fabs(vec_cross(a, b)) <= direction && sense * vec_dot(a, b) > 0;
+}
+
+/* What shape `other` covers at corner k of a shape, where it has a corner as well. A bar covers nothing. */
+static unsigned char inner_at(const struct contact_shape *shape, int k, const struct contact_shape *other)
+{
+    unsigned char inner = 0;
+    if (other->count < 3 || other->link != shape->link) return 0;
+    for (int j = 0; j < other->count; j++) {
+        if (vec_norm(vec_sub(other->corners[j], shape->corners[k])) > 0) continue;
+        struct vec begin = ray(shape, k, 1), end = ray(shape, k, -1), others_begin = ray(other, j, 1),
+                   others_end = ray(other, j, -1);
+        if (is_along(begin, others_end, 1)) inner |= inner_begin | (is_along(end, others_begin, -1) ? inner_flat : 0);
+        if (is_along(end, others_begin, 1)) inner |= inner_end | (is_along(begin, others_end, -1) ? inner_flat : 0);
+    }
+    return inner;
+}
+
+static bool set_inner(struct fbd_model *model, const struct levelled *done, struct contact_shape *shape)
+{
+    if (shape->kind != contact_corners || shape->count < 2) return true;
+    const struct contact_shape *same = find_same(done, shape);
+    if (same && same->inner) {
+        shape->inner = same->inner;
+        return true;
+    }
+    shape->inner = ARENA_ARRAY(&model->arena, (size_t)shape->count, unsigned char);
+    if (!shape->inner) return false;
+    for (int k = 0; k < shape->count; k++) {
+        shape->inner[k] = 0;
+        for (int i = 0; i < done->count; i++)
+            if (done->shapes[i] != shape) shape->inner[k] |= inner_at(shape, k, done->shapes[i]);
+    }
+    return true;
+}
+
 bool meetings_level(struct fbd_model *model)
 {
     const struct tree *tree = model->tree;
@@ -94,7 +138,7 @@ bool meetings_level(struct fbd_model *model)
     done.shapes = ARENA_ARRAY(&model->arena, 2 * (size_t)tree->meeting_count, const struct contact_shape *);
     if (!done.shapes) return false;
     for (int i = 0; i < tree->meeting_count; i++)
-        done.near = fmax(done.near, level * tree->meetings[i].reach);
+        done.near = fmax(done.near, contact_level * tree->meetings[i].reach);
     for (int pass = 0; pass < 2; pass++)
         for (int i = 0; i < tree->meeting_count; i++)
             for (int k = 0; k < 2; k++) {
@@ -102,5 +146,8 @@ bool meetings_level(struct fbd_model *model)
                 if (tree->meetings[i].stop == 0 && shape->kind == (pass == 0 ? contact_line : contact_corners))
                     level_shape(&done, shape);
             }
+    for (int i = 0; i < tree->meeting_count; i++)
+        for (int k = 0; k < 2; k++)
+            if (!set_inner(model, &done, &tree->meetings[i].shape[k])) return false;
     return true;
 }
