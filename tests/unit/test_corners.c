@@ -6,7 +6,7 @@
  *     several parts: one impact, that of Routh's diagram in small steps (impact_by_steps.h).
  *   - Boxes of parts move as the same boxes of one part.
  *   - Boxes of parts slide on boxes of parts, corners past corners, as Coulomb's law has it.
- *   - Crates slide over floors of tiles whose heights differ by less than the level; over larger steps they do not gain energy.
+ *   - Crates slide over floors of tiles whose heights differ by less than the level, and are stopped by higher steps.
  *
  * FBD_DRAWS: times as many scenes; FBD_CORNERS_SEED begins elsewhere; FBD_CORNERS_SHOW prints the scenes.
  */
@@ -453,12 +453,112 @@ static void corners_pass_corners(void **unused)
     checks_end(&checks);
 }
 
+/* ---- floors of tiles */
+
+/* Heights of tiles: every other one lower by h, or any between -h and h; the first is level with the floor. */
+static void write_tiles(struct random_numbers *numbers, struct written *text, double h, double width, int count)
+{
+    bool alternate = random_chance(numbers, 0.5);
+    add(text, "fbd: 1\nground:\n  polygons:\n");
+    for (int i = 0; i < count; i++) {
+        double left = -4 + i * width, right = left + width;
+        double y = i == 0 ? 0 : alternate ? -h * (i % 2) : random_between(numbers, -h, h);
+        add(text, "    t%d: [[%.17g, -0.5], [%.17g, -0.5], [%.17g, %.17g], [%.17g, %.17g]]\n", i, left, right, right, y,
+            left, y);
+    }
+}
+
+static void slide_over_tiles(struct checks *checks, uint64_t seed, double h)
+{
+    struct random_numbers numbers = {seed};
+    static struct assembly body;
+    static struct written text;
+    double a = random_between(&numbers, 0.2, 0.8), b = random_between(&numbers, 0.1, 0.3),
+           mu = random_perhaps(&numbers, 0.7, 0.05, 0.4), width = random_between(&numbers, 0.25, 0.9),
+           x0 = random_between(&numbers, -0.5, 0.5), v0 = random_between(&numbers, 1, 6),
+           way = random_chance(&numbers, 0.5) ? 1 : -1, T = random_between(&numbers, 0.2, 0.5);
+    int count = (int)(8 / width) + 1;
+    text.length = 0;
+    write_tiles(&numbers, &text, h, width, count);
+    add_box(&body, 4, a, b, 1 + choose(&numbers, 2), 1);
+    add(&text, "bodies:\n  box: {parts: {%s}, motion: planar, initial: {x: %.17g, y: %.17g, vx: %.17g}, forces: [gravity]}\n",
+        body.parts.all, x0, b / 2, way * v0);
+    add(&text, "contacts:\n");
+    for (int i = 0; i < count; i++) add(&text, "  - {between: [box, ground.t%d], static: %.17g}\n", i, mu);
+    add(&text, "simulate: {until: %.17g}\n", T);
+    show(&text);
+    double t = mu > 0 ? fmin(T, v0 / mu / g) : T, v = t < T ? 0 : v0 - mu * g * t;
+    struct trial trial = trial_parse(text.all);
+    trial_start(&trial, NULL);
+    trial_finish(&trial);
+    size_t failed = checks->failed;
+    check_that(checks, "it ends", trial.outcome == FBD_DONE);
+    check_that(checks, "no impact", count_of(&trial, FBD_EVENT_IMPACT) == 0);
+    check_close(checks, "box.x", trial_get(&trial, "box.x"), x0 + way * (v0 * t - mu * g * t * t / 2), 1e-9);
+    check_close(checks, "box.vx", trial_get(&trial, "box.vx"), way * v, 1e-9);
+    check_close(checks, "box.y", trial_get(&trial, "box.y"), b / 2, 1e-9);
+    check_close(checks, "box.theta", trial_get(&trial, "box.theta"), 0, 1e-9);
+    if (checks->failed > failed) printf("# seed %llu, h = %g\n%s\n", (unsigned long long)seed, h, text.all);
+    trial_close(&trial);
+}
+
+/* The level is 1e-8 of the scene, which is larger than a metre. */
+static void crates_slide_over_level_tiles(void **unused)
+{
+    struct checks checks = {0};
+    (void)unused;
+    for (int i = 0; i < draws_of(88); i++) {
+        struct random_numbers numbers = {first_seed() + (uint64_t)i};
+        int decade = -17 + i % 11; /* the first: none */
+        double h = i % 11 == 0 ? 0 : random_between(&numbers, 1, 3) * pow(10, fmin(decade, -9));
+        slide_over_tiles(&checks, first_seed() + (uint64_t)i, h);
+    }
+    checks_end(&checks);
+}
+
+/* A smooth crate that slides against a step, however low, turns about its edge: omega = v b m / 2 (I + m (a^2 + b^2) / 4). */
+static void crates_are_stopped_by_steps(void **unused)
+{
+    struct checks checks = {0};
+    (void)unused;
+    for (int i = 0; i < draws_of(28); i++) {
+        struct random_numbers numbers = {first_seed() + (uint64_t)i};
+        static struct written text;
+        double h = random_between(&numbers, 1, 9) * pow(10, -7 + i % 4), a = random_between(&numbers, 0.2, 0.8),
+               b = random_between(&numbers, 0.1, 0.3), v = random_between(&numbers, 1, 3),
+               way = random_chance(&numbers, 0.5) ? 1 : -1, T = random_between(&numbers, 0.01, 0.2), m = 2,
+               x = way * (a / 2 + v * T); /* of the step */
+        text.length = 0;
+        add(&text, "fbd: 1\nground:\n  lines: {floor: {along: 0}}\n  polygons: {step: [[%.17g, -0.5], [%.17g, -0.5], [%.17g, "
+                   "%.17g], [%.17g, %.17g]]}\n",
+            fmin(x, x + way), fmax(x, x + way), fmax(x, x + way), h, fmin(x, x + way), h);
+        add(&text,
+            "bodies: {box: {shape: prism, mass: %.17g, a: %.17g, b: %.17g, motion: planar, initial: {y: %.17g, vx: %.17g}, "
+            "forces: [gravity]}}\ncontacts: [{between: [box, ground.floor]}, {between: [box, ground.step]}]\n",
+            m, a, b, b / 2, way * v);
+        add(&text, "simulate: {until: %.17g}\n", T + 1e-9);
+        show(&text);
+        struct trial trial = trial_parse(text.all);
+        trial_start(&trial, NULL);
+        trial_finish(&trial);
+        size_t failed = checks.failed;
+        check_that(&checks, "it ends", trial.outcome == FBD_DONE);
+        check_close(&checks, "box.omega", trial_get(&trial, "box.omega"),
+                    -way * v * b / 2 / ((a * a + b * b) / 3), 1e-6 + 100 * h);
+        if (checks.failed > failed) printf("# h = %g\n%s\n", h, text.all);
+        trial_close(&trial);
+    }
+    checks_end(&checks);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(shared_corners_strike_once),
         cmocka_unit_test(boxes_of_parts_move_as_one),
         cmocka_unit_test(corners_pass_corners),
+        cmocka_unit_test(crates_slide_over_level_tiles),
+        cmocka_unit_test(crates_are_stopped_by_steps),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
