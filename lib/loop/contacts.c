@@ -186,7 +186,8 @@ static bool coincide(const struct run *run, int a, int b)
     bool same = ties[b].end[0].link == first && ties[b].end[1].link == second;
     bool swapped = ties[b].end[0].link == second && ties[b].end[1].link == first;
     if (!same && !swapped) return false;
-    if (tree_of(run)->meetings[index].stop != 0 || tree_of(run)->meetings[ties[b].meeting].stop != 0) return false;
+    if (tree_of(run)->meetings[index].stop != 0 || tree_of(run)->meetings[ties[b].meeting].stop != 0)
+        return false;
     int link = first > 0 ? first : second;
     const struct port *p = port_on(&work->rows[ties[a].first_row], link),
                       *q = port_on(&work->rows[ties[b].first_row], link);
@@ -209,8 +210,10 @@ static void set_striker(struct run *run, int i, struct striker *striker)
 {
     const struct tie *tie = &tree_of(run)->ties[i];
     bool rope = tie->kind == constraint_rope, contact = tie->meeting >= 0;
-    *striker = (struct striker){
-        .tie = i, .contact = contact, .rope = rope, .rubs = contact || (!rope && tie->pair >= 0)};
+    *striker = (struct striker){.tie = i,
+                                .contact = contact,
+                                .rope = rope,
+                                .rubs = contact || (!rope && tie->pair >= 0)};
     if (tie->reels) striker->reel = rope_reel_rate(run->state, i);
     const struct row *rows = &run->state->tree->rows[tie->first_row];
     striker->v_n = normal_rate(run, striker);
@@ -278,8 +281,9 @@ static bool strike_alike(const struct run *run, int i, int j)
     const struct tie *tie = &tree_of(run)->ties[a->tie];
     const double *v = work->v + (ptrdiff_t)2 * i, *w = work->v + (ptrdiff_t)2 * j;
     double same = no_speed(run, &run->state->tree->rows[tie->first_row]);
-    return is_impact(run, j) && tree_of(run)->ties[b->tie].load == tie->load && fabs(a->v_n - b->v_n) <= same &&
-           fabs(a->v_t - b->v_t) <= same && fabs(v[0] - w[0]) <= same && fabs(v[1] - w[1]) <= same;
+    return is_impact(run, j) && tree_of(run)->ties[b->tie].load == tie->load &&
+           fabs(a->v_n - b->v_n) <= same && fabs(a->v_t - b->v_t) <= same && fabs(v[0] - w[0]) <= same &&
+           fabs(v[1] - w[1]) <= same;
 }
 
 /* One event for all points that strike alike, with the sums of their impulses. */

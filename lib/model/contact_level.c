@@ -17,7 +17,8 @@ struct levelled {
 static const struct contact_shape *find_same(const struct levelled *done, const struct contact_shape *shape)
 {
     for (int i = 0; i < done->count && shape->source; i++)
-        if (done->shapes[i]->source == shape->source && done->shapes[i]->link == shape->link) return done->shapes[i];
+        if (done->shapes[i]->source == shape->source && done->shapes[i]->link == shape->link)
+            return done->shapes[i];
     return NULL;
 }
 
@@ -106,8 +107,10 @@ static unsigned char inner_at(const struct contact_shape *shape, int k, const st
         if (vec_norm(vec_sub(other->corners[j], shape->corners[k])) > 0) continue;
         struct vec begin = ray(shape, k, 1), end = ray(shape, k, -1), others_begin = ray(other, j, 1),
                    others_end = ray(other, j, -1);
-        if (is_along(begin, others_end, 1)) inner |= inner_begin | (is_along(end, others_begin, -1) ? inner_flat : 0);
-        if (is_along(end, others_begin, 1)) inner |= inner_end | (is_along(begin, others_end, -1) ? inner_flat : 0);
+        if (is_along(begin, others_end, 1))
+            inner |= inner_begin | (is_along(end, others_begin, -1) ? inner_flat : 0);
+        if (is_along(end, others_begin, 1))
+            inner |= inner_end | (is_along(begin, others_end, -1) ? inner_flat : 0);
     }
     return inner;
 }
@@ -143,7 +146,8 @@ bool meetings_level(struct fbd_model *model)
         for (int i = 0; i < tree->meeting_count; i++)
             for (int k = 0; k < 2; k++) {
                 struct contact_shape *shape = &tree->meetings[i].shape[k];
-                if (tree->meetings[i].stop == 0 && shape->kind == (pass == 0 ? contact_line : contact_corners))
+                if (tree->meetings[i].stop == 0 &&
+                    shape->kind == (pass == 0 ? contact_line : contact_corners))
                     level_shape(&done, shape);
             }
     for (int i = 0; i < tree->meeting_count; i++)

@@ -119,9 +119,11 @@ static void draw_assembly(struct random_numbers *numbers, struct assembly *body)
         break;
     default:
         add_prism(body, random_between(numbers, 0.2, 3), a, b, 0, 0);
-        add_rod(body, random_between(numbers, 0.2, 3), (struct vec){-a / 2, -b / 2}, (struct vec){a / 2, -b / 2});
+        add_rod(body, random_between(numbers, 0.2, 3), (struct vec){-a / 2, -b / 2},
+                (struct vec){a / 2, -b / 2});
         if (count > 2)
-            add_rod(body, random_between(numbers, 0.2, 3), (struct vec){-a / 2, -b / 2}, (struct vec){-a / 2, b / 2});
+            add_rod(body, random_between(numbers, 0.2, 3), (struct vec){-a / 2, -b / 2},
+                    (struct vec){-a / 2, b / 2});
         if (count > 3) add_prism(body, random_between(numbers, 0.2, 3), a, b, 0, 0);
     }
     close_assembly(body);
@@ -192,7 +194,8 @@ static bool draw_motion(struct random_numbers *numbers, struct meeting_scene *sc
                    : (struct vec){random_between(numbers, -1, 1), random_between(numbers, -1, 1)};
     scene->P = body->corner[0];
     for (int i = 1; i < body->corner_count; i++)
-        if (turned(scene->theta, body->corner[i]).y < turned(scene->theta, scene->P).y) scene->P = body->corner[i];
+        if (turned(scene->theta, body->corner[i]).y < turned(scene->theta, scene->P).y)
+            scene->P = body->corner[i];
     return strikes_alone(scene);
 }
 
@@ -212,25 +215,28 @@ static void draw_meeting(struct random_numbers *numbers, struct meeting_scene *s
 static void write_meeting(const struct meeting_scene *scene, struct written *text)
 {
     static const char *const grounds[] = {
-        "lines: {a: {along: 0}}",
-        "polygons: {a: [[-2, -1], [2, -1], [2, 0], [-2, 0]]}",
+        "lines: {a: {along: 0}}", "polygons: {a: [[-2, -1], [2, -1], [2, 0], [-2, 0]]}",
         "polygons: {a: [[-2, -1], [0, -1], [0, 0], [-2, 0]], b: [[0, -1], [2, -1], [2, 0], [0, 0]]}",
-        "polygons: {a: [[-2, -1], [0, -1], [0, 0], [-2, 0]], b: [[0, -1], [2, -1], [2, 0], [0, 0]]}, lines: {c: {along: 0}}",
+        "polygons: {a: [[-2, -1], [0, -1], [0, 0], [-2, 0]], b: [[0, -1], [2, -1], [2, 0], [0, 0]]}, lines: "
+        "{c: {along: 0}}",
         "lines: {unused: {along: 0}}"};
     static const char *const laws[] = {"stronge", "poisson", "newton", "moreau"};
     static const char *const with[] = {"ground.a", "ground.b", "ground.c"};
     static const int contacts[] = {1, 1, 2, 3, 1};
     struct vec O = seen_before(scene, (struct vec){0, 0}, scene->T), at = vec_scale(-scene->T, scene->u);
     double theta = scene->theta - scene->omega * scene->T;
-    struct vec arm = turned(theta, scene->body.G), v = vec_sub(scene->v, vec_scale(scene->omega, vec_perp(arm)));
+    struct vec arm = turned(theta, scene->body.G),
+               v = vec_sub(scene->v, vec_scale(scene->omega, vec_perp(arm)));
     O = vec_add(O, at);
     add(text, "fbd: 1\nground: {%s}\nbodies:\n", grounds[scene->ground]);
     add(text,
-        "  body: {parts: {%s}, motion: planar, initial: {x: %.17g, y: %.17g, theta: %.17g, vx: %.17g, vy: %.17g, omega: "
+        "  body: {parts: {%s}, motion: planar, initial: {x: %.17g, y: %.17g, theta: %.17g, vx: %.17g, vy: "
+        "%.17g, omega: "
         "%.17g}}\n",
         scene->body.parts.all, O.x, O.y, theta, v.x, v.y, scene->omega);
     if (scene->ground == on_block)
-        add(text, "  block: {parts: {%s}, motion: planar, initial: {x: %.17g, y: %.17g, vx: %.17g, vy: %.17g}}\n",
+        add(text,
+            "  block: {parts: {%s}, motion: planar, initial: {x: %.17g, y: %.17g, vx: %.17g, vy: %.17g}}\n",
             scene->block.parts.all, at.x, at.y, scene->u.x, scene->u.y);
     add(text, "contacts:\n");
     for (int i = 0; i < contacts[scene->ground]; i++)
@@ -240,8 +246,8 @@ static void write_meeting(const struct meeting_scene *scene, struct written *tex
 }
 
 /* Velocities of O, whose arm from G is r. */
-static void check_body(struct checks *checks, struct trial *trial, const char *name, struct vec v, double omega,
-                       struct vec r)
+static void check_body(struct checks *checks, struct trial *trial, const char *name, struct vec v,
+                       double omega, struct vec r)
 {
     const double tolerance = 1e-6; /* steps of the impact, and 1e-9 s after it */
     char what[32];
@@ -293,7 +299,8 @@ static void check_meeting(struct checks *checks, uint64_t seed)
     double angle = scene.theta;
     check_body(checks, &trial, "body", vec_add(scene.v, vec_scale(w, p)), scene.omega + k * vec_cross(r, p),
                turned(angle, vec_scale(-1, scene.body.G)));
-    if (block) check_body(checks, &trial, "block", vec_sub(scene.u, vec_scale(W, p)), -K * vec_cross(s, p), s);
+    if (block)
+        check_body(checks, &trial, "block", vec_sub(scene.u, vec_scale(W, p)), -K * vec_cross(s, p), s);
     if (checks->failed > failed) printf("# seed %llu\n%s\n", (unsigned long long)seed, text.all);
     trial_close(&trial);
 }
@@ -353,11 +360,13 @@ static void throw(const struct thrown *box, int columns, int rows, struct trial 
     add_box(&body, box->m, box->a, box->b, columns, rows);
     add(&text, "fbd: 1\nground: {lines: {floor: {along: %.17g}}}\nbodies:\n", box->slope);
     add(&text,
-        "  box: {parts: {%s}, motion: planar, initial: {x: %.17g, y: %.17g, theta: %.17g, vx: %.17g, vy: %.17g, omega: "
+        "  box: {parts: {%s}, motion: planar, initial: {x: %.17g, y: %.17g, theta: %.17g, vx: %.17g, vy: "
+        "%.17g, omega: "
         "%.17g}, forces: [gravity]}\n",
-        body.parts.all, box->start[0], box->start[1], box->start[2], box->start[3], box->start[4], box->start[5]);
-    add(&text, "contacts: [{between: [box, ground.floor], static: %.17g, restitution: %.17g, law: %s}]\n", box->mu, box->e,
-        laws[box->law]);
+        body.parts.all, box->start[0], box->start[1], box->start[2], box->start[3], box->start[4],
+        box->start[5]);
+    add(&text, "contacts: [{between: [box, ground.floor], static: %.17g, restitution: %.17g, law: %s}]\n",
+        box->mu, box->e, laws[box->law]);
     add(&text, "simulate: {until: %.17g}\n", box->until);
     show(&text);
     *trial = trial_parse(text.all);
@@ -424,7 +433,8 @@ static void slide_on_tower(struct checks *checks, uint64_t seed)
     until = random_between(&numbers, 0.2, 0.35);
     add(&text, "contacts:\n  - {between: [b0, ground.floor], static: 0.9, restitution: %.17g}\n", e);
     for (int i = 1; i < count; i++)
-        add(&text, "  - {between: [b%d, b%d], static: %.17g, restitution: %.17g}\n", i - 1, i, i == count - 1 ? mu : 0.9, e);
+        add(&text, "  - {between: [b%d, b%d], static: %.17g, restitution: %.17g}\n", i - 1, i,
+            i == count - 1 ? mu : 0.9, e);
     add(&text, "simulate: {until: %.17g}\n", until);
     show(&text);
     struct trial trial = trial_parse(text.all);
@@ -456,15 +466,16 @@ static void corners_pass_corners(void **unused)
 /* ---- floors of tiles */
 
 /* Heights of tiles: every other one lower by h, or any between -h and h; the first is level with the floor. */
-static void write_tiles(struct random_numbers *numbers, struct written *text, double h, double width, int count)
+static void write_tiles(struct random_numbers *numbers, struct written *text, double h, double width,
+                        int count)
 {
     bool alternate = random_chance(numbers, 0.5);
     add(text, "fbd: 1\nground:\n  polygons:\n");
     for (int i = 0; i < count; i++) {
         double left = -4 + i * width, right = left + width;
         double y = i == 0 ? 0 : alternate ? -h * (i % 2) : random_between(numbers, -h, h);
-        add(text, "    t%d: [[%.17g, -0.5], [%.17g, -0.5], [%.17g, %.17g], [%.17g, %.17g]]\n", i, left, right, right, y,
-            left, y);
+        add(text, "    t%d: [[%.17g, -0.5], [%.17g, -0.5], [%.17g, %.17g], [%.17g, %.17g]]\n", i, left, right,
+            right, y, left, y);
     }
 }
 
@@ -481,7 +492,9 @@ static void slide_over_tiles(struct checks *checks, uint64_t seed, double h)
     text.length = 0;
     write_tiles(&numbers, &text, h, width, count);
     add_box(&body, 4, a, b, 1 + choose(&numbers, 2), 1);
-    add(&text, "bodies:\n  box: {parts: {%s}, motion: planar, initial: {x: %.17g, y: %.17g, vx: %.17g}, forces: [gravity]}\n",
+    add(&text,
+        "bodies:\n  box: {parts: {%s}, motion: planar, initial: {x: %.17g, y: %.17g, vx: %.17g}, forces: "
+        "[gravity]}\n",
         body.parts.all, x0, b / 2, way * v0);
     add(&text, "contacts:\n");
     for (int i = 0; i < count; i++) add(&text, "  - {between: [box, ground.t%d], static: %.17g}\n", i, mu);
@@ -524,17 +537,21 @@ static void crates_are_stopped_by_steps(void **unused)
     for (int i = 0; i < draws_of(28); i++) {
         struct random_numbers numbers = {first_seed() + (uint64_t)i};
         static struct written text;
-        double h = random_between(&numbers, 1, 9) * pow(10, -7 + i % 4), a = random_between(&numbers, 0.2, 0.8),
-               b = random_between(&numbers, 0.1, 0.3), v = random_between(&numbers, 1, 3),
-               way = random_chance(&numbers, 0.5) ? 1 : -1, T = random_between(&numbers, 0.01, 0.2), m = 2,
-               x = way * (a / 2 + v * T); /* of the step */
+        double h = random_between(&numbers, 1, 9) * pow(10, -7 + i % 4),
+               a = random_between(&numbers, 0.2, 0.8), b = random_between(&numbers, 0.1, 0.3),
+               v = random_between(&numbers, 1, 3), way = random_chance(&numbers, 0.5) ? 1 : -1,
+               T = random_between(&numbers, 0.01, 0.2), m = 2, x = way * (a / 2 + v * T); /* of the step */
         text.length = 0;
-        add(&text, "fbd: 1\nground:\n  lines: {floor: {along: 0}}\n  polygons: {step: [[%.17g, -0.5], [%.17g, -0.5], [%.17g, "
-                   "%.17g], [%.17g, %.17g]]}\n",
+        add(&text,
+            "fbd: 1\nground:\n  lines: {floor: {along: 0}}\n  polygons: {step: [[%.17g, -0.5], [%.17g, "
+            "-0.5], [%.17g, "
+            "%.17g], [%.17g, %.17g]]}\n",
             fmin(x, x + way), fmax(x, x + way), fmax(x, x + way), h, fmin(x, x + way), h);
         add(&text,
-            "bodies: {box: {shape: prism, mass: %.17g, a: %.17g, b: %.17g, motion: planar, initial: {y: %.17g, vx: %.17g}, "
-            "forces: [gravity]}}\ncontacts: [{between: [box, ground.floor]}, {between: [box, ground.step]}]\n",
+            "bodies: {box: {shape: prism, mass: %.17g, a: %.17g, b: %.17g, motion: planar, initial: {y: "
+            "%.17g, vx: %.17g}, "
+            "forces: [gravity]}}\ncontacts: [{between: [box, ground.floor]}, {between: [box, "
+            "ground.step]}]\n",
             m, a, b, b / 2, way * v);
         add(&text, "simulate: {until: %.17g}\n", T + 1e-9);
         show(&text);
@@ -554,10 +571,8 @@ static void crates_are_stopped_by_steps(void **unused)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(shared_corners_strike_once),
-        cmocka_unit_test(boxes_of_parts_move_as_one),
-        cmocka_unit_test(corners_pass_corners),
-        cmocka_unit_test(crates_slide_over_level_tiles),
+        cmocka_unit_test(shared_corners_strike_once),  cmocka_unit_test(boxes_of_parts_move_as_one),
+        cmocka_unit_test(corners_pass_corners),        cmocka_unit_test(crates_slide_over_level_tiles),
         cmocka_unit_test(crates_are_stopped_by_steps),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
