@@ -9,6 +9,7 @@
 #include "dynamics/impulse.h"
 #include "dynamics/project.h"
 #include "dynamics/tree_system.h"
+#include "loop/contacts_points.h"
 #include "loop/run.h"
 #include "rest/start.h"
 
@@ -133,121 +134,6 @@ void contacts_find_touching(struct run *run, int index, double near)
 
 /* ---- who takes part */
 
-/* The speeds that a row's velocity is made of. */
-static double speed_at(const struct run *run, const struct row *row)
-{
-    double size = 0;
-    for (int k = 0; k < row->port_count; k++) {
-        const struct tree_state *s = &run->state->tree->links[row->ports[k].link];
-        size = fmax(size, vec_norm(s->v) + fabs(s->omega) * vec_norm(row->ports[k].arm));
-    }
-    return size;
-}
-
-/* A speed that is nothing: against those that it is made of, and against what the scene has seen. */
-static double no_speed(const struct run *run, const struct row *row)
-{
-    const double rounding = 1e-11, of_all = 1e-13;
-    return fmax(rounding * speed_at(run, row), of_all * run->contacts.speed);
-}
-
-static double normal_rate(const struct run *run, const struct striker *striker)
-{
-    double rate = run->state->tree->rows[tree_of(run)->ties[striker->tie].first_row].g.x1;
-    return striker->rope ? -rate : rate;
-}
-
-/* Does it take part as things are? */
-static bool is_striker(const struct run *run, int i)
-{
-    const struct tie *tie = &tree_of(run)->ties[i];
-    if (tie->kind == constraint_contact) return run->state->tree->ties[i].feature != no_feature;
-    if (tie->kind == constraint_rope) return run->state->slip[tie->pair] == stick;
-    return tie_takes_blows(tie) && run->state->slip[tie->surface] == stick;
-}
-
-/* ---- coinciding points */
-
-static const struct port *port_on(const struct row *row, int link)
-{
-    for (int k = 0; k < row->port_count; k++)
-        if (row->ports[k].link == link) return &row->ports[k];
-    return NULL;
-}
-
-/* Are two closed contacts one point: the same links, the same place and the same normal? Places to what counts as
- * touching, directions to the digits of a file. */
-static bool coincide(const struct run *run, int a, int b)
-{
-    const double direction = 1e-9;
-    const struct tie *ties = tree_of(run)->ties;
-    const struct tree_work *work = run->state->tree;
-    int first = ties[a].end[0].link, second = ties[a].end[1].link, index = ties[a].meeting;
-    bool same = ties[b].end[0].link == first && ties[b].end[1].link == second;
-    bool swapped = ties[b].end[0].link == second && ties[b].end[1].link == first;
-    if (!same && !swapped) return false;
-    if (tree_of(run)->meetings[index].stop != 0 || tree_of(run)->meetings[ties[b].meeting].stop != 0)
-        return false;
-    int link = first > 0 ? first : second;
-    const struct port *p = port_on(&work->rows[ties[a].first_row], link),
-                      *q = port_on(&work->rows[ties[b].first_row], link);
-    return p && q && vec_norm(vec_sub(p->force, q->force)) <= direction &&
-           vec_norm(vec_sub(p->arm, q->arm)) <= contacts_same * meeting_near(run->model, work, index);
-}
-
-/* The striker among the first `count` at whose point the contact of tie i is; -1 without one. */
-static int coinciding(const struct run *run, int i, int count)
-{
-    const struct striker *strikers = run->contacts.strikers;
-    for (int k = 0; k < count; k++)
-        if (strikers[k].contact && coincide(run, strikers[k].tie, i)) return k;
-    return -1;
-}
-
-/* ---- strikers */
-
-static void set_striker(struct run *run, int i, struct striker *striker)
-{
-    const struct tie *tie = &tree_of(run)->ties[i];
-    bool rope = tie->kind == constraint_rope, contact = tie->meeting >= 0;
-    *striker = (struct striker){.tie = i,
-                                .contact = contact,
-                                .rope = rope,
-                                .rubs = contact || (!rope && tie->pair >= 0)};
-    if (tie->reels) striker->reel = rope_reel_rate(run->state, i);
-    const struct row *rows = &run->state->tree->rows[tie->first_row];
-    striker->v_n = normal_rate(run, striker);
-    striker->v_t = tie->row_count > 1 && !rope ? rows[1].g.x1 : 0;
-    run->contacts.speed = fmax(run->contacts.speed, speed_at(run, rows));
-}
-
-/* Rounding of redundant points contradicts itself, and next to a slow impact that is not little. */
-static void drop_no_speeds(const struct run *run, struct striker *striker)
-{
-    double least = no_speed(run, &run->state->tree->rows[tree_of(run)->ties[striker->tie].first_row]);
-    if (fabs(striker->v_n) <= least) striker->v_n = 0;
-    if (fabs(striker->v_t) <= least) striker->v_t = 0;
-    striker->rubs |=
-        striker->v_t != 0; /* a roll without a limit, which lands: it holds along its line from then on */
-}
-
-int contacts_find_strikers(struct run *run)
-{
-    struct contacts_work *work = &run->contacts;
-    int count = 0;
-    work->twin_count = 0;
-    for (int i = 0; i < tree_of(run)->tie_count; i++) {
-        if (!is_striker(run, i)) continue;
-        int point = tree_of(run)->ties[i].meeting >= 0 ? coinciding(run, i, count) : -1;
-        if (point >= 0)
-            work->twins[work->twin_count++] = (struct striker_twin){i, point};
-        else
-            set_striker(run, i, &work->strikers[count++]);
-    }
-    for (int i = 0; i < count; i++) drop_no_speeds(run, &work->strikers[i]);
-    return count;
-}
-
 static bool any_closes(const struct run *run, int count)
 {
     for (int i = 0; i < count; i++)
@@ -261,7 +147,7 @@ bool contacts_part(const struct run *run, int i)
 {
     const struct striker *striker = &run->contacts.strikers[i];
     const struct row *row = &run->state->tree->rows[tree_of(run)->ties[striker->tie].first_row];
-    return run->contacts.v[(ptrdiff_t)2 * i] > no_speed(run, row);
+    return run->contacts.v[(ptrdiff_t)2 * i] > contacts_no_speed(run, row);
 }
 
 /* Does point i strike, so that its impact is an event? Ropes and landings have events of their own. */
@@ -280,7 +166,7 @@ static bool strike_alike(const struct run *run, int i, int j)
     const struct striker *a = &work->strikers[i], *b = &work->strikers[j];
     const struct tie *tie = &tree_of(run)->ties[a->tie];
     const double *v = work->v + (ptrdiff_t)2 * i, *w = work->v + (ptrdiff_t)2 * j;
-    double same = no_speed(run, &run->state->tree->rows[tie->first_row]);
+    double same = contacts_no_speed(run, &run->state->tree->rows[tie->first_row]);
     return is_impact(run, j) && tree_of(run)->ties[b->tie].load == tie->load &&
            fabs(a->v_n - b->v_n) <= same && fabs(a->v_t - b->v_t) <= same && fabs(v[0] - w[0]) <= same &&
            fabs(v[1] - w[1]) <= same;
@@ -363,7 +249,7 @@ void contacts_open_or_close(struct run *run, int count, bool struck)
             if (leaves && !striker->stays) let_slack(run, striker->rope ? tie->pair : tie->surface);
             continue;
         }
-        if (fabs(v_t) <= no_speed(run, &run->state->tree->rows[tie->first_row])) v_t = 0;
+        if (fabs(v_t) <= contacts_no_speed(run, &run->state->tree->rows[tie->first_row])) v_t = 0;
         open_or_close_contact(run, striker->tie, i, leaves, v_t);
         for (int k = 0; k < work->twin_count; k++)
             if (work->twins[k].point == i) open_or_close_contact(run, work->twins[k].tie, i, leaves, v_t);
@@ -524,7 +410,8 @@ static void stop_what_opens(struct run *run)
         const struct tie *tie = &tree->ties[i];
         const struct row *row = &state->tree->rows[tie->first_row];
         stops[i] = tie->kind == constraint_contact && state->tree->ties[i].feature != no_feature &&
-                   !is_closed(run, state, i) && row->g.x1 != 0 && fabs(row->g.x1) <= no_speed(run, row);
+                   !is_closed(run, state, i) && row->g.x1 != 0 &&
+                   fabs(row->g.x1) <= contacts_no_speed(run, row);
         if (stops[i]) state->slip[tie->surface] = stick;
         any |= stops[i];
     }

@@ -21,7 +21,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "base/vec.h"
+#include "assemblies.h"
 #include "gallery.h"
 #include "impact_by_steps.h"
 #include "random_numbers.h"
@@ -38,109 +38,6 @@ static uint64_t first_seed(void)
 static void show(const struct written *text)
 {
     if (getenv("FBD_CORNERS_SHOW")) printf("%s\n", text->all);
-}
-
-static int choose(struct random_numbers *numbers, int count)
-{
-    return (int)(random_bits(numbers) % (uint64_t)count);
-}
-
-/* ---- bodies of parts, their mass and its centre */
-
-enum { most_corners = 16 };
-
-struct assembly {
-    struct written parts;
-    int part_count, corner_count;
-    struct vec corner[most_corners], G;
-    double m, I; /* about the origin until it is closed, then about G */
-};
-
-static void add_mass(struct assembly *body, double m, struct vec c, double I)
-{
-    body->G = vec_add(body->G, vec_scale(m, c));
-    body->I += I + m * vec_dot(c, c);
-    body->m += m;
-}
-
-static void close_assembly(struct assembly *body)
-{
-    body->G = vec_scale(1 / body->m, body->G);
-    body->I -= body->m * vec_dot(body->G, body->G);
-}
-
-static void add_corner(struct assembly *body, double x, double y)
-{
-    assert_true(body->corner_count < most_corners);
-    body->corner[body->corner_count++] = (struct vec){x, y};
-}
-
-static void add_prism(struct assembly *body, double m, double a, double b, double x, double y)
-{
-    add(&body->parts, "%sp%d: {shape: prism, mass: %.17g, a: %.17g, b: %.17g, center: [%.17g, %.17g]}",
-        body->part_count > 0 ? ", " : "", body->part_count, m, a, b, x, y);
-    body->part_count++;
-    add_mass(body, m, (struct vec){x, y}, m * (a * a + b * b) / 12);
-    for (int k = 0; k < 4; k++) add_corner(body, x + (k % 2 ? a : -a) / 2, y + (k / 2 ? b : -b) / 2);
-}
-
-static void add_rod(struct assembly *body, double m, struct vec from, struct vec to)
-{
-    struct vec d = vec_sub(to, from);
-    add(&body->parts, "%sp%d: {shape: rod, mass: %.17g, from: [%.17g, %.17g], to: [%.17g, %.17g]}",
-        body->part_count > 0 ? ", " : "", body->part_count, m, from.x, from.y, to.x, to.y);
-    body->part_count++;
-    add_mass(body, m, vec_scale(0.5, vec_add(from, to)), m * vec_dot(d, d) / 12);
-    add_corner(body, from.x, from.y);
-    add_corner(body, to.x, to.y);
-}
-
-/* Two to four prisms in one place; a frame of rods; rods that part from a point; a prism with rods on its sides. */
-static void draw_assembly(struct random_numbers *numbers, struct assembly *body)
-{
-    double a = random_between(numbers, 0.1, 0.8), b = random_between(numbers, 0.1, 0.8);
-    int count = 2 + choose(numbers, 3);
-    *body = (struct assembly){0};
-    switch (choose(numbers, 4)) {
-    case 0:
-        for (int k = 0; k < count; k++) add_prism(body, random_between(numbers, 0.2, 3), a, b, 0, 0);
-        break;
-    case 1: {
-        const struct vec at[] = {{-a / 2, -b / 2}, {a / 2, -b / 2}, {a / 2, b / 2}, {-a / 2, b / 2}};
-        for (int k = 0; k < 4; k++) add_rod(body, random_between(numbers, 0.2, 3), at[k], at[(k + 1) % 4]);
-        break;
-    }
-    case 2:
-        for (int k = 0; k < count; k++) {
-            double angle = 0.5 + (k + random_between(numbers, 0, 0.7)) * 2.1 / count;
-            struct vec to = {a * cos(angle), a * sin(angle)};
-            add_rod(body, random_between(numbers, 0.2, 3), (struct vec){0, 0}, to);
-        }
-        break;
-    default:
-        add_prism(body, random_between(numbers, 0.2, 3), a, b, 0, 0);
-        add_rod(body, random_between(numbers, 0.2, 3), (struct vec){-a / 2, -b / 2},
-                (struct vec){a / 2, -b / 2});
-        if (count > 2)
-            add_rod(body, random_between(numbers, 0.2, 3), (struct vec){-a / 2, -b / 2},
-                    (struct vec){-a / 2, b / 2});
-        if (count > 3) add_prism(body, random_between(numbers, 0.2, 3), a, b, 0, 0);
-    }
-    close_assembly(body);
-}
-
-/* What is struck where its parts meet, at its origin: a block below. */
-static void draw_block(struct random_numbers *numbers, struct assembly *body)
-{
-    double left = random_between(numbers, 0.3, 1), right = random_between(numbers, 0.3, 1),
-           b = random_between(numbers, 0.2, 1);
-    int count = 2 + choose(numbers, 3);
-    *body = (struct assembly){0};
-    for (int k = 0; k < count; k++) {
-        double a = k % 2 ? right : left;
-        add_prism(body, random_between(numbers, 0.2, 3), a, b, k % 2 ? a / 2 : -a / 2, -b / 2);
-    }
-    close_assembly(body);
 }
 
 /* ---- one impact */
@@ -203,8 +100,8 @@ static void draw_meeting(struct random_numbers *numbers, struct meeting_scene *s
 {
     do {
         *scene = (struct meeting_scene){.ground = (enum ground)choose(numbers, ground_count)};
-        draw_assembly(numbers, &scene->body);
-        draw_block(numbers, &scene->block);
+        assembly_draw(numbers, &scene->body);
+        assembly_draw_block(numbers, &scene->block);
         scene->law = choose(numbers, 4);
         scene->e = random_perhaps(numbers, 0.7, 0, 1);
         scene->mu = random_perhaps(numbers, 0.85, 0, 0.9);
@@ -315,16 +212,6 @@ static void shared_corners_strike_once(void **unused)
 
 /* ---- boxes of parts, and of one */
 
-/* A box a by b of mass m and density that is even, as columns and rows of prisms. */
-static void add_box(struct assembly *body, double m, double a, double b, int columns, int rows)
-{
-    *body = (struct assembly){0};
-    for (int i = 0; i < columns; i++)
-        for (int j = 0; j < rows; j++)
-            add_prism(body, m / columns / rows, a / columns, b / rows, ((i + 0.5) / columns - 0.5) * a,
-                      ((j + 0.5) / rows - 0.5) * b);
-}
-
 struct thrown {
     double m, a, b, mu, e, slope, start[6];
     int columns, rows, law;
@@ -357,7 +244,7 @@ static void throw(const struct thrown *box, int columns, int rows, struct trial 
     static struct assembly body;
     static struct written text;
     text.length = 0;
-    add_box(&body, box->m, box->a, box->b, columns, rows);
+    assembly_box(&body, box->m, box->a, box->b, columns, rows);
     add(&text, "fbd: 1\nground: {lines: {floor: {along: %.17g}}}\nbodies:\n", box->slope);
     add(&text,
         "  box: {parts: {%s}, motion: planar, initial: {x: %.17g, y: %.17g, theta: %.17g, vx: %.17g, vy: "
@@ -418,7 +305,7 @@ static void slide_on_tower(struct checks *checks, uint64_t seed)
         m = top ? random_between(&numbers, 0.5, 2) : random_between(&numbers, 2, 4);
         /* A corner starts on one side of a joint of the box below and ends on the other one. */
         start = top ? -way * random_between(&numbers, 0.02, 0.1) + (choose(&numbers, 2) ? a / 2 : -a / 2) : 0;
-        add_box(&body, m, a, b, 2 + choose(&numbers, 2), 1);
+        assembly_box(&body, m, a, b, 2 + choose(&numbers, 2), 1);
         acceleration = random_between(&numbers, 1, 3);
         add(&text, "  b%d: {parts: {%s}, motion: planar, initial: {x: %.17g, y: %.17g}, forces: [gravity", i,
             body.parts.all, start, y + b / 2);
@@ -491,7 +378,7 @@ static void slide_over_tiles(struct checks *checks, uint64_t seed, double h)
     int count = (int)(8 / width) + 1;
     text.length = 0;
     write_tiles(&numbers, &text, h, width, count);
-    add_box(&body, 4, a, b, 1 + choose(&numbers, 2), 1);
+    assembly_box(&body, 4, a, b, 1 + choose(&numbers, 2), 1);
     add(&text,
         "bodies:\n  box: {parts: {%s}, motion: planar, initial: {x: %.17g, y: %.17g, vx: %.17g}, forces: "
         "[gravity]}\n",
