@@ -93,7 +93,9 @@ static bool draw_motion(struct random_numbers *numbers, struct meeting_scene *sc
     for (int i = 1; i < body->corner_count; i++)
         if (turned(scene->theta, body->corner[i]).y < turned(scene->theta, scene->P).y)
             scene->P = body->corner[i];
-    return strikes_alone(scene);
+    struct vec r = turned(scene->theta, vec_sub(scene->P, body->G));
+    double approach = scene->u.y - scene->v.y - scene->omega * r.x;
+    return approach > 0.1 && strikes_alone(scene); /* it does not graze */
 }
 
 static void draw_meeting(struct random_numbers *numbers, struct meeting_scene *scene)
