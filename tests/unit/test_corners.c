@@ -116,8 +116,8 @@ static void write_meeting(const struct meeting_scene *scene, struct written *tex
     static const char *const grounds[] = {
         "lines: {a: {along: 0}}", "polygons: {a: [[-2, -1], [2, -1], [2, 0], [-2, 0]]}",
         "polygons: {a: [[-2, -1], [0, -1], [0, 0], [-2, 0]], b: [[0, -1], [2, -1], [2, 0], [0, 0]]}",
-        "polygons: {a: [[-2, -1], [0, -1], [0, 0], [-2, 0]], b: [[0, -1], [2, -1], [2, 0], [0, 0]]}, lines: "
-        "{c: {along: 0}}",
+        ("polygons: {a: [[-2, -1], [0, -1], [0, 0], [-2, 0]], b: [[0, -1], [2, -1], [2, 0], [0, 0]]}, "
+         "lines: {c: {along: 0}}"),
         "lines: {unused: {along: 0}}"};
     static const char *const laws[] = {"stronge", "poisson", "newton", "moreau"};
     static const char *const with[] = {"ground.a", "ground.b", "ground.c"};
