@@ -65,7 +65,7 @@ struct contacts_work {
     struct striker *strikers; /* room for all that may take part, each point once */
     struct striker_twin *twins;
     int twin_count; /* of the last look by contacts_find_strikers */
-    int struck;               /* how many took part in the last impact */
+    int struck;     /* how many took part in the last impact */
     struct impacts_point *points;
     int *rows, *modes;
     int *slides;     /* pairs whose friction takes part, behind the strikers; */
@@ -77,7 +77,7 @@ struct contacts_work {
     struct bounces *bounces; /* of each meeting */
     struct bounces tugs;     /* of ropes that get taut, and what lands, in turn */
     bool *asleep;            /* of each meeting: too far apart for the step */
-    int *touched;   /* of each meeting: how many features touched, at the last look */
+    int *touched;            /* of each meeting: how many features touched, at the last look */
     double *deep;   /* of each meeting: how deep it was left open, at a corner that another side is next to */
     bool *touching; /* of each tie: scratch */
     bool *moves;    /* and: for put_down.c */

@@ -19,7 +19,7 @@ struct fbd_model;
 
 /* Of the scene: places that count as touching, and heights that count as level. What bounces within 2e-9 is put on its
  * surface (loop/put_down.c), so that smaller steps are not told from contact. */
-#define contact_near 1e-12
+#define contact_near  1e-12
 #define contact_level 1e-8
 
 struct contact_shape {
@@ -29,11 +29,12 @@ struct contact_shape {
         contact_corners,
         contact_stop /* no shape: the joint of the link, or what it moves on */
     } kind;
-    int link;             /* 0: the ground */
-    const void *source;   /* what it is made of: a part or a polygon; NULL for others */
-    int count;            /* corners */
-    struct vec *corners;  /* in the frame of the link */
-    unsigned char *inner; /* of each corner: what other shapes of the link cover there (enum contact_inner), or NULL */
+    int link;            /* 0: the ground */
+    const void *source;  /* what it is made of: a part or a polygon; NULL for others */
+    int count;           /* corners */
+    struct vec *corners; /* in the frame of the link */
+    unsigned char
+        *inner; /* of each corner: what other shapes of the link cover there (enum contact_inner), or NULL */
     struct vec center, e; /* disc; line: a point of it and its direction; corners: their mean */
     double radius;        /* disc; corners: the farthest from `center` */
 };

@@ -427,7 +427,7 @@ static void crates_are_stopped_by_steps(void **unused)
     for (int i = 0; i < draws_of(18); i++) {
         struct random_numbers numbers = {first_seed() + (uint64_t)i};
         static struct written text;
-        double h = random_between(&numbers, 1, 9) * pow(10, -6 + i % 3),
+        double h = random_between(&numbers, 1, 9) * pow(10, -5 + i % 2),
                a = random_between(&numbers, 0.2, 0.8), b = random_between(&numbers, 0.1, 0.3),
                v = random_between(&numbers, 1, 3), way = random_chance(&numbers, 0.5) ? 1 : -1,
                T = random_between(&numbers, 0.01, 0.2), m = 2, x = way * (a / 2 + v * T); /* of the step */
