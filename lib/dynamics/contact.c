@@ -120,8 +120,7 @@ static double reach_of(const struct fbd_model *model, const struct tree_work *wo
 
 double meeting_near(const struct fbd_model *model, const struct tree_work *work, int index)
 {
-    const double share = 1e-12;
-    return share * reach_of(model, work, index);
+    return contact_near * reach_of(model, work, index);
 }
 
 double meeting_rounding(const struct fbd_model *model, const struct tree_work *work, int index)
@@ -179,28 +178,6 @@ static bool is_over(const struct fbd_model *model, const struct tree_work *work,
     return at.foot >= -near && at.foot <= at.length + near;
 }
 
-/* The side that separates best, by its lowest corner. Of sides that do so alike to rounding the one whose corner is
- * over it: sides that lie flat on each other have corners beyond their ends, which touch nothing. And then, at a
- * corner on a corner, the one that the shapes leave fastest: that is how they will part. */
-static struct gap separation(const struct fbd_model *model, const struct tree_work *work, int index)
-{
-    const struct meeting *meeting = &model->tree->meetings[index];
-    const double alike = 1e-12 * meeting->size;
-    struct gap best = {-HUGE_VAL, 0, no_feature};
-    for (int moving = 0; moving < 2; moving++)
-        for (int side = 0; side < shape_sides(&meeting->shape[1 - moving]); side++) {
-            struct gap gap = lowest_over(model, work, index, moving, side);
-            bool better = gap.x > best.x + alike;
-            if (!better && gap.x > best.x - alike) {
-                bool over = is_over(model, work, index, gap.feature),
-                     other = is_over(model, work, index, best.feature);
-                better = over != other ? over : gap.rate > best.rate;
-            }
-            if (better) best = gap;
-        }
-    return best;
-}
-
 /* Corner and side of a feature of two sets of corners. */
 struct pairing {
     int moving, corner, side;
@@ -218,6 +195,44 @@ static struct pairing pairing_of(const struct meeting *meeting, int feature)
 static int beside(const struct contact_shape *shape, int corner, int step)
 {
     return (corner + step + shape->count) % shape->count;
+}
+
+/* Is the corner of a feature, or its side next to it, inside of the parts of a body or of the ground? At the joint of two
+ * tiles it is the surface of both that is struck, and not where they touch each other. */
+static bool is_inner(const struct fbd_model *model, const struct tree_work *work, int index, int feature)
+{
+    const struct meeting *meeting = &model->tree->meetings[index];
+    struct pairing at = pairing_of(meeting, feature);
+    const struct contact_shape *with = &meeting->shape[at.moving], *on = &meeting->shape[1 - at.moving];
+    struct place_on_side place = feature_foot(model, work, index, feature);
+    bool begins = place.foot < place.length / 2;
+    int end = begins ? at.side : beside(on, at.side, 1);
+    if (with->inner && (with->inner[at.corner] & inner_flat)) return true;
+    return on->inner && (on->inner[end] & (begins ? inner_begin : inner_end));
+}
+
+/* The side that separates best, by its lowest corner. Of sides that do so alike to rounding one on the surface, and of these
+ * the one whose corner is over it: sides that lie flat on each other have corners beyond their ends, which touch
+ * nothing. And then, at a corner on a corner, the one that the shapes leave fastest: that is how they will part. */
+static struct gap separation(const struct fbd_model *model, const struct tree_work *work, int index)
+{
+    const struct meeting *meeting = &model->tree->meetings[index];
+    const double alike = 1e-12 * meeting->size;
+    struct gap best = {-HUGE_VAL, 0, no_feature};
+    for (int moving = 0; moving < 2; moving++)
+        for (int side = 0; side < shape_sides(&meeting->shape[1 - moving]); side++) {
+            struct gap gap = lowest_over(model, work, index, moving, side);
+            bool better = gap.x > best.x + alike;
+            if (!better && gap.x > best.x - alike) {
+                bool over = is_over(model, work, index, gap.feature),
+                     other = is_over(model, work, index, best.feature);
+                bool inner = is_inner(model, work, index, gap.feature),
+                     others_inner = is_inner(model, work, index, best.feature);
+                better = inner != others_inner ? others_inner : over != other ? over : gap.rate > best.rate;
+            }
+            if (better) best = gap;
+        }
+    return best;
 }
 
 /* ---- probes */

@@ -15,8 +15,11 @@ static struct vec in_world(const struct tree_work *work, int link, struct vec ow
     return vec_add(work->links[link].p, vec_turn(work->links[link].turn, own));
 }
 
-/* Of a start numbers are as exact as a file has them: 1e-9 of the scene. */
-static const double start_share = 1e3;
+/* Of a start numbers are as exact as a file has them: to the level of surfaces. */
+static const double start_share = contact_level / contact_near;
+
+/* What shapes may be in each other by in a run, before it has missed an impact. */
+static const double run_share = 1e3;
 
 /* The side of a line that a body stays on: the one that it says, or that its shape's middle is on. A point
  * that the line goes through but for what a file rounds, within a share of its distance from the centre of
@@ -143,6 +146,7 @@ int contacts_overlap(struct fbd_state *state, double *depth)
         double deep = meeting_depth(state->model, &at, i);
         if (tree->meetings[i].thin) deep = fmax(deep, thin_crossing(state->model, state->tree, i));
         if (deep <= start_share * meeting_near(state->model, state->tree, i) || deep <= *depth) continue;
+        if (deep <= run_share * meeting_near(state->model, state->tree, i) || deep <= *depth) continue;
         *depth = deep;
         worst = i;
     }

@@ -38,6 +38,11 @@ static double acceleration_of(struct run *run, int tie, int feature)
         bool leaves = striker->contact && contacts_part(run, i);
         if (leaves) state->slip[tree->ties[striker->tie].surface] = slip_plus;
     }
+    for (int k = 0; k < work->twin_count; k++) {
+        int own = work->twins[k].tie, point = work->twins[k].point;
+        bool leaves = work->strikers[point].tie == tie || contacts_part(run, point);
+        if (leaves) state->slip[tree->ties[own].surface] = slip_plus;
+    }
     state_evaluate(state);
     return state->tree->rows[tree_of(run)->ties[tie].first_row].g.x2;
 }

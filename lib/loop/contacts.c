@@ -9,6 +9,7 @@
 #include "dynamics/impulse.h"
 #include "dynamics/project.h"
 #include "dynamics/tree_system.h"
+#include "loop/contacts_points.h"
 #include "loop/run.h"
 #include "rest/start.h"
 
@@ -37,6 +38,7 @@ static bool meetings_init(struct contacts_work *work, const struct fbd_model *mo
     work->was_closed = ARENA_ARRAY(memory, 3 * ties, bool);
     work->asleep = ARENA_ARRAY(memory, meetings, bool);
     work->deep = ARENA_ARRAY(memory, meetings, double);
+    work->touched = ARENA_ARRAY(memory, meetings, int);
     work->trial = state_new(model);
     if (memory->failed || !work->trial) return false;
     work->touching = work->was_closed + ties;
@@ -53,6 +55,7 @@ bool contacts_work_init(struct contacts_work *work, const struct fbd_model *mode
     size_t pairs = model->plan.mode_count, rows = 2 * most, all = rows + pairs;
     if (most == 0) return true;
     work->strikers = ARENA_ARRAY(memory, most, struct striker);
+    work->twins = ARENA_ARRAY(memory, most, struct striker_twin);
     work->points = ARENA_ARRAY(memory, most, struct impacts_point);
     work->rows = ARENA_ARRAY(memory, rows + 2 * pairs, int);
     work->slide = ARENA_ARRAY(memory, pairs, struct impacts_slide);
@@ -103,7 +106,7 @@ static bool same_place(const struct run *run, int meeting, int a, int b, double 
     if (a == b) return true;
     struct vec p = feature_place(run->model, run->state->tree, meeting, a);
     struct vec q = feature_place(run->model, run->state->tree, meeting, b);
-    return vec_norm(vec_sub(p, q)) <= 4 * near;
+    return vec_norm(vec_sub(p, q)) <= contacts_same * near;
 }
 
 /* Give the ties of a meeting the features that touch; those that they have stay where they can. */
@@ -133,68 +136,6 @@ void contacts_find_touching(struct run *run, int index, double near)
 
 /* ---- who takes part */
 
-/* The speeds that a row's velocity is made of. */
-static double speed_at(const struct run *run, const struct row *row)
-{
-    double size = 0;
-    for (int k = 0; k < row->port_count; k++) {
-        const struct tree_state *s = &run->state->tree->links[row->ports[k].link];
-        size = fmax(size, vec_norm(s->v) + fabs(s->omega) * vec_norm(row->ports[k].arm));
-    }
-    return size;
-}
-
-/* A speed that is nothing: against those that it is made of, and against what the scene has seen. */
-static double no_speed(const struct run *run, const struct row *row)
-{
-    const double rounding = 1e-11, of_all = 1e-13;
-    return fmax(rounding * speed_at(run, row), of_all * run->contacts.speed);
-}
-
-static double normal_rate(const struct run *run, const struct striker *striker)
-{
-    double rate = run->state->tree->rows[tree_of(run)->ties[striker->tie].first_row].g.x1;
-    return striker->rope ? -rate : rate;
-}
-
-/* Does it take part as things are? */
-static bool is_striker(const struct run *run, int i)
-{
-    const struct tie *tie = &tree_of(run)->ties[i];
-    if (tie->kind == constraint_contact) return run->state->tree->ties[i].feature != no_feature;
-    if (tie->kind == constraint_rope) return run->state->slip[tie->pair] == stick;
-    return tie_takes_blows(tie) && run->state->slip[tie->surface] == stick;
-}
-
-int contacts_find_strikers(struct run *run)
-{
-    const struct tree *tree = tree_of(run);
-    struct contacts_work *work = &run->contacts;
-    int count = 0;
-    for (int i = 0; i < tree->tie_count; i++) {
-        const struct tie *tie = &tree->ties[i];
-        if (!is_striker(run, i)) continue;
-        struct striker *striker = &work->strikers[count++];
-        bool rope = tie->kind == constraint_rope;
-        bool contact = tie->meeting >= 0;
-        *striker = (struct striker){.tie = i,
-                                    .contact = contact,
-                                    .rope = rope,
-                                    .rubs = contact || (!rope && tie->pair >= 0)};
-        if (tie->reels) striker->reel = rope_reel_rate(run->state, i);
-        const struct row *rows = &run->state->tree->rows[tie->first_row];
-        striker->v_n = normal_rate(run, striker);
-        work->speed = fmax(work->speed, speed_at(run, rows));
-        striker->v_t = tie->row_count > 1 && !rope ? rows[1].g.x1 : 0;
-        /* Rounding of redundant points contradicts itself, and next to a slow impact that is not little. */
-        if (fabs(striker->v_n) <= no_speed(run, rows)) striker->v_n = 0;
-        if (fabs(striker->v_t) <= no_speed(run, rows)) striker->v_t = 0;
-        striker->rubs |=
-            striker->v_t != 0; /* a roll without a limit, which lands: it holds along its line from then on */
-    }
-    return count;
-}
-
 static bool any_closes(const struct run *run, int count)
 {
     for (int i = 0; i < count; i++)
@@ -208,7 +149,7 @@ bool contacts_part(const struct run *run, int i)
 {
     const struct striker *striker = &run->contacts.strikers[i];
     const struct row *row = &run->state->tree->rows[tree_of(run)->ties[striker->tie].first_row];
-    return run->contacts.v[(ptrdiff_t)2 * i] > no_speed(run, row);
+    return run->contacts.v[(ptrdiff_t)2 * i] > contacts_no_speed(run, row);
 }
 
 /* The impacts of a rope, or of what lands, in the present events: one may follow another. */
@@ -226,6 +167,30 @@ static void add_to_tie(struct contacts_work *work, const struct striker *striker
 }
 
 static void note_impact(struct run *run, int i)
+/* Does point i strike, so that its impact is an event? Ropes and landings have events of their own. */
+static bool is_impact(const struct run *run, int i)
+{
+    const struct contacts_work *work = &run->contacts;
+    const struct striker *striker = &work->strikers[i];
+    bool struck = striker->v_n < 0 || (work->P[(ptrdiff_t)2 * i] > 0 && contacts_part(run, i));
+    return striker->contact && struck;
+}
+
+/* Do points i and j belong to one contact, and strike at the same speeds, as the corners of a side that falls flat do? */
+static bool strike_alike(const struct run *run, int i, int j)
+{
+    const struct contacts_work *work = &run->contacts;
+    const struct striker *a = &work->strikers[i], *b = &work->strikers[j];
+    const struct tie *tie = &tree_of(run)->ties[a->tie];
+    const double *v = work->v + (ptrdiff_t)2 * i, *w = work->v + (ptrdiff_t)2 * j;
+    double same = contacts_no_speed(run, &run->state->tree->rows[tie->first_row]);
+    return is_impact(run, j) && tree_of(run)->ties[b->tie].load == tie->load &&
+           fabs(a->v_n - b->v_n) <= same && fabs(a->v_t - b->v_t) <= same && fabs(v[0] - w[0]) <= same &&
+           fabs(v[1] - w[1]) <= same;
+}
+
+/* One event for all points that strike alike, with the sums of their impulses. */
+static void note_impact(struct run *run, int i, int count)
 {
     struct contacts_work *work = &run->contacts;
     const struct striker *striker = &work->strikers[i];
@@ -239,6 +204,19 @@ static void note_impact(struct run *run, int i)
     if (!striker->contact || !struck) return; /* ropes and landings have events of their own */
     int body = tie->end[0].body;
     struct run_event *event = run_note(run, FBD_EVENT_IMPACT, body, tie->load, -1);
+    const double *v = work->v + (ptrdiff_t)2 * i;
+    double p = 0, tau = 0, taken = 0;
+    run->impact_work[tie->load] += striker_taken(striker, v, work->P + (ptrdiff_t)2 * i);
+    if (!is_impact(run, i)) return;
+    for (int k = 0; k < count; k++) {
+        if (!strike_alike(run, i, k)) continue;
+        if (k < i) return; /* its event has this one */
+        const double *P = work->P + (ptrdiff_t)2 * k;
+        p += P[0];
+        tau += P[1];
+        taken += striker_taken(&work->strikers[k], work->v + (ptrdiff_t)2 * k, P);
+    }
+    struct run_event *event = run_note(run, FBD_EVENT_IMPACT, tie->end[0].body, tie->load, -1);
     if (!event) return;
     event->impact = (struct impact_record){
         p,     tau,          taken, {striker->v_n, v[0]}, {striker->v_t, v[1]}, work->makes && taken > 0,
@@ -260,7 +238,7 @@ static void note_several(struct run *run, int count)
 
 static void note_impacts(struct run *run, int count)
 {
-    for (int i = 0; i < count; i++) note_impact(run, i);
+    for (int i = 0; i < count; i++) note_impact(run, i, count);
     note_several(run, count);
 }
 
@@ -271,6 +249,20 @@ static void let_slack(struct run *run, int pair)
     run->decided.slips[pair] = true;
 }
 
+/* What a contact does at tie `index` after it has come to the velocities of striker i. */
+static void open_or_close_contact(struct run *run, int index, int i, bool leaves, double v_t)
+{
+    const struct tie *tie = &tree_of(run)->ties[index];
+    if (leaves && run->contacts.strikers[i].contact) {
+        set_feature(run, index, no_feature);
+        return;
+    }
+    if (tie->pair < 0) return;
+    /* What sticks from here on does so where it is. */
+    if (v_t == 0 && run->state->slip[tie->pair] != stick) tie_rezero(run->model, run->state->tree, index);
+    run->state->slip[tie->pair] = v_t > 0 ? slip_plus : v_t < 0 ? slip_minus : stick;
+}
+
 void contacts_open_or_close(struct run *run, int count, bool struck)
 {
     const struct contacts_work *work = &run->contacts;
@@ -278,25 +270,15 @@ void contacts_open_or_close(struct run *run, int count, bool struck)
         const struct striker *striker = &work->strikers[i];
         const struct tie *tie = &tree_of(run)->ties[striker->tie];
         bool leaves = struck ? contacts_part(run, i) : striker->v_n > 0;
-        if (striker->rope) {
-            if (leaves && !striker->stays) let_slack(run, tie->pair);
-            continue;
-        }
-        if (leaves && !striker->contact) {
-            if (!striker->stays) let_slack(run, tie->surface);
-            continue;
-        }
-        if (leaves) {
-            set_feature(run, striker->tie, no_feature);
-            continue;
-        }
-        if (tie->pair < 0) continue;
         double v_t = struck ? work->v[2 * i + 1] : striker->v_t;
-        if (fabs(v_t) <= no_speed(run, &run->state->tree->rows[tie->first_row])) v_t = 0;
-        /* What sticks from here on does so where it is. */
-        if (v_t == 0 && run->state->slip[tie->pair] != stick)
-            tie_rezero(run->model, run->state->tree, striker->tie);
-        run->state->slip[tie->pair] = v_t > 0 ? slip_plus : v_t < 0 ? slip_minus : stick;
+        if (striker->rope || (leaves && !striker->contact)) {
+            if (leaves && !striker->stays) let_slack(run, striker->rope ? tie->pair : tie->surface);
+            continue;
+        }
+        if (fabs(v_t) <= contacts_no_speed(run, &run->state->tree->rows[tie->first_row])) v_t = 0;
+        open_or_close_contact(run, striker->tie, i, leaves, v_t);
+        for (int k = 0; k < work->twin_count; k++)
+            if (work->twins[k].point == i) open_or_close_contact(run, work->twins[k].tie, i, leaves, v_t);
     }
 }
 
@@ -460,7 +442,8 @@ static void stop_what_opens(struct run *run)
         const struct tie *tie = &tree->ties[i];
         const struct row *row = &state->tree->rows[tie->first_row];
         stops[i] = tie->kind == constraint_contact && state->tree->ties[i].feature != no_feature &&
-                   !is_closed(run, state, i) && row->g.x1 != 0 && fabs(row->g.x1) <= no_speed(run, row);
+                   !is_closed(run, state, i) && row->g.x1 != 0 &&
+                   fabs(row->g.x1) <= contacts_no_speed(run, row);
         if (stops[i]) state->slip[tie->surface] = stick;
         any |= stops[i];
     }
@@ -471,19 +454,32 @@ static void stop_what_opens(struct run *run)
     state_evaluate(state);
 }
 
+/* Note that a contact has closed or opened: once, at however many corners. */
+static void note_change(struct run *run, int index)
+{
+    const struct tie *ties = tree_of(run)->ties, *tie = &ties[index];
+    const bool *changed = run->contacts.moves;
+    bool now = is_closed(run, run->state, index);
+    for (int k = 0; k < index; k++)
+        if (changed[k] && ties[k].load == tie->load && is_closed(run, run->state, k) == now) return;
+    run_note(run, now ? FBD_EVENT_CONTACT : FBD_EVENT_LIFT_OFF, tie->end[0].body, tie->load, -1);
+}
+
 void run_release_contacts(struct run *run)
 {
     if (!has_meetings(run->model)) return;
     const struct tree *tree = tree_of(run);
+    bool *changed = run->contacts.moves;
     stop_what_opens(run);
     for (int i = 0; i < tree->tie_count; i++) {
-        const struct tie *tie = &tree->ties[i];
-        if (tie->kind != constraint_contact) continue;
-        bool before = run->contacts.was_closed[i], now = is_closed(run, run->state, i);
+        changed[i] = false;
+        if (tree->ties[i].kind != constraint_contact) continue;
+        bool now = is_closed(run, run->state, i);
+        changed[i] = now != run->contacts.was_closed[i];
         run->contacts.was_closed[i] = now;
         if (!now) run->state->tree->ties[i].feature = no_feature;
-        if (before == now) continue;
-        run_note(run, now ? FBD_EVENT_CONTACT : FBD_EVENT_LIFT_OFF, tie->end[0].body, tie->load, -1);
+        if (changed[i]) note_change(run, i);
     }
     contacts_note_depths(run);
+    contacts_note_touching(run);
 }

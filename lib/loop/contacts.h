@@ -47,6 +47,13 @@ struct striker {
     bool stays;      /* no contact, and let go by an impact, for so little that it is kept (bounces.c) */
 };
 
+/* A contact at the place of another one, of the same two links and with the same normal: a corner that several parts of a
+ * body share, or a corner over a joint of tiles. Both are one point of an impact, which has the coefficients of the
+ * first; velocities and modes after are those of that point. */
+struct striker_twin {
+    int tie, point; /* the striker that it coincides with */
+};
+
 /* The work of its impulses P on the bodies, with the speeds v after. */
 static inline double striker_taken(const struct striker *striker, const double v[2], const double P[2])
 {
@@ -65,8 +72,10 @@ struct impact_record {
 };
 
 struct contacts_work {
-    struct striker *strikers; /* room for all that may take part */
-    int struck;               /* how many took part in the last impact */
+    struct striker *strikers; /* room for all that may take part, each point once */
+    struct striker_twin *twins;
+    int twin_count; /* of the last look by contacts_find_strikers */
+    int struck;     /* how many took part in the last impact */
     struct impacts_point *points;
     int *rows, *modes;
     int *slides;     /* pairs whose friction takes part, behind the strikers; */
@@ -78,6 +87,7 @@ struct contacts_work {
     struct bounces *bounces; /* of each meeting */
     struct bounces tugs;     /* of ropes that get taut, and what lands, in turn */
     bool *asleep;            /* of each meeting: too far apart for the step */
+    int *touched;            /* of each meeting: how many features touched, at the last look */
     double *deep;   /* of each meeting: how deep it was left open, at a corner that another side is next to */
     bool *touching; /* of each tie: scratch */
     bool *moves;    /* and: for put_down.c */
@@ -131,6 +141,9 @@ bool contacts_lift_others(struct run *run);
  * over the end of a side. */
 void contacts_note_depths(struct run *run);
 
+/* Note which shapes touch, closed or left open. */
+void contacts_note_touching(struct run *run);
+
 /* Which meetings the step from run->step.from to the state run->work.y at `end` has to look at: those whose shapes
  * could come near in it. In panels of how many radians the shapes turn. */
 void run_wake_contacts(struct run *run, double end);
@@ -147,6 +160,9 @@ void run_check_overlap(struct run *run);
 
 /* What counts as touching when it is seen late, in `near` of dynamics/contact.h. */
 static const double contacts_late = 1e3;
+
+/* Places that count as the same one, likewise: each is known to that. */
+static const double contacts_same = 4;
 
 /* Bounces that nobody sees, likewise: 1e-9 of the scene. */
 enum { contacts_low = 1000 };
@@ -183,7 +199,7 @@ double contacts_reach(const struct run *run, int index);
 /* Give the ties of meeting `index` the features that touch within `near`. */
 void contacts_find_touching(struct run *run, int index, double near);
 
-/* All contacts that touch, ropes that are taut, and what presses on its surface; returns their number. */
+/* All points that touch, ropes that are taut, and what presses on its surface; returns their number. */
 int contacts_find_strikers(struct run *run);
 
 /* e of a meeting at a speed of approach; below zero after failing the run. */

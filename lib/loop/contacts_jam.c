@@ -45,6 +45,8 @@ static void let_go(struct run *run, int count)
         const struct tie *tie = &tree_of(run)->ties[striker->tie];
         trial->slip[striker->rope ? tie->pair : tie->surface] = slip_plus;
     }
+    for (int k = 0; k < run->contacts.twin_count; k++)
+        trial->slip[tree_of(run)->ties[run->contacts.twins[k].tie].surface] = slip_plus;
     state_evaluate(trial);
 }
 
@@ -153,6 +155,10 @@ bool run_jam(struct run *run)
     contacts_open_or_close(run, count, true);
     for (int i = 0; i < count; i++) {
         int pair = tree_of(run)->ties[work->strikers[i].tie].pair;
+        if (pair >= 0) run->decided.slips[pair] = false;
+    }
+    for (int k = 0; k < work->twin_count; k++) {
+        int pair = tree_of(run)->ties[work->twins[k].tie].pair;
         if (pair >= 0) run->decided.slips[pair] = false;
     }
     return true;

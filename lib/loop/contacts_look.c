@@ -241,13 +241,56 @@ static bool projected_in(struct run *run)
     return in;
 }
 
+/* At how many places the shapes of a meeting touch. */
+static int count_touching(const struct run *run, int index)
+{
+    const struct tree_work *work = run->state->tree;
+    double near = meeting_near(run->model, work, index);
+    int features[2], count = meeting_touching(run->model, work, index, near, features);
+    if (count < 2) return count;
+    struct vec a = feature_place(run->model, work, index, features[0]),
+               b = feature_place(run->model, work, index, features[1]);
+    return vec_norm(vec_sub(a, b)) <= contacts_same * near ? 1 : 2;
+}
+
+static int count_closed(const struct run *run, int index)
+{
+    const struct meeting *meeting = &tree_of(run)->meetings[index];
+    const struct instant at = state_instant(run->state);
+    int closed = 0;
+    for (int k = 0; k < meeting->tie_count; k++)
+        closed += tie_is_closed(run->model, &at, meeting->first_tie + k);
+    return closed;
+}
+
+/* Features that have come to touch without an approach, as a corner that slides over a joint of level tiles: no gap has
+ * had a zero. Those that touched before and were left open are not looked at again. */
+static bool come_to_touch(struct run *run)
+{
+    struct contacts_work *work = &run->contacts;
+    bool come = false;
+    for (int i = 0; i < tree_of(run)->meeting_count; i++) {
+        if (work->asleep[i] || tree_of(run)->meetings[i].stop != 0) continue;
+        int touching = count_touching(run, i);
+        come |= touching > work->touched[i] && touching > count_closed(run, i);
+        work->touched[i] = touching;
+    }
+    return come;
+}
+
+void contacts_note_touching(struct run *run)
+{
+    for (int i = 0; i < tree_of(run)->meeting_count; i++)
+        run->contacts.touched[i] = tree_of(run)->meetings[i].stop != 0 ? 0 : count_touching(run, i);
+}
+
 void run_check_overlap(struct run *run)
 {
     double depth;
     if (!has_meetings(run->model) || run->end.outcome != FBD_GOING) return;
     int meeting = contacts_overlap(run->state, &depth);
     if (meeting < 0) {
-        run->contacts.due |= run->projected && projected_in(run);
+        run->contacts.due |= come_to_touch(run) || (run->projected && projected_in(run));
         return;
     }
     run_fail(run, FBD_FAILED,

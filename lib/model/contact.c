@@ -142,6 +142,7 @@ static bool set_part(struct fbd_model *model, struct contact_shape *shape, const
 {
     struct outline_part outline = outline_of_part(part);
     shape->link = place->link;
+    shape->source = part;
     switch (outline.kind) {
     case outline_circle:
         shape->kind = contact_disc;
@@ -175,6 +176,7 @@ static bool set_ground(struct fbd_model *model, struct contact_shape *shape, con
 {
     const struct polygon *polygon = source->contact.polygon;
     struct vec where = source->point[1].where;
+    shape->source = polygon;
     if (polygon) return set_corners(model, shape, NULL, polygon->corners, (int)polygon->count);
     if (!source->contact.line) return set_corners(model, shape, NULL, &where, 1);
     *shape = (struct contact_shape){.kind = contact_line, .center = where, .e = vec_unit(source->along)};

@@ -17,6 +17,11 @@
 
 struct fbd_model;
 
+/* Of the scene: places that count as touching, and heights that count as level. What bounces within 2e-9 is put on its
+ * surface (loop/put_down.c), so that smaller steps are not told from contact. */
+#define contact_near  1e-12
+#define contact_level 1e-8
+
 struct contact_shape {
     enum contact_shape_kind {
         contact_line,
@@ -24,12 +29,19 @@ struct contact_shape {
         contact_corners,
         contact_stop /* no shape: the joint of the link, or what it moves on */
     } kind;
-    int link;             /* 0: the ground */
-    int count;            /* corners */
-    struct vec *corners;  /* in the frame of the link */
+    int link;            /* 0: the ground */
+    const void *source;  /* what it is made of: a part or a polygon; NULL for others */
+    int count;           /* corners */
+    struct vec *corners; /* in the frame of the link */
+    unsigned char
+        *inner; /* of each corner: what other shapes of the link cover there (enum contact_inner), or NULL */
     struct vec center, e; /* disc; line: a point of it and its direction; corners: their mean */
     double radius;        /* disc; corners: the farthest from `center` */
 };
+
+/* At a corner: the side that begins, or ends, there runs along another shape, inside of both; the corner is in the middle of
+ * a side of both. */
+enum contact_inner { inner_begin = 1, inner_end = 2, inner_flat = 4 };
 
 struct meeting {
     int constraint, first_tie, tie_count;
@@ -86,6 +98,9 @@ bool points_meet_on_line(const struct fbd_model *model, struct meeting *meeting)
 
 /* The meeting has two points, and no line on which both move. */
 bool meeting_is_of_points(const struct meeting *meeting);
+
+/* Level the surfaces of all meetings (contact_level.c). False when memory is out. */
+bool meetings_level(struct fbd_model *model);
 
 /* At most how many meetings and ties the contact will have. */
 int meetings_most(const struct fbd_model *model, int index);

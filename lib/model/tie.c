@@ -192,6 +192,7 @@ bool ties_build(struct fbd_model *model)
         else
             set_line(model, add_tie(model, (int)c, 0, source->end_count - 1));
     }
+    if (!meetings_level(model)) return false;
     for (int i = 0; i < tree->tie_count; i++) {
         name_rows(&model->arena, &tree->ties[i]);
         for (int k = 0; k < tree->ties[i].end_count; k++) name_end(model, &tree->ties[i], k);

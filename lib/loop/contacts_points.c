@@ -1,0 +1,127 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "loop/contacts_points.h"
+
+#include "dynamics/contact.h"
+#include "dynamics/tree_system.h"
+#include "loop/contacts.h"
+#include "loop/run.h"
+
+static const struct tree *tree_of(const struct run *run)
+{
+    return run->model->tree;
+}
+
+/* The speeds that a row's velocity is made of. */
+static double speed_at(const struct run *run, const struct row *row)
+{
+    double size = 0;
+    for (int k = 0; k < row->port_count; k++) {
+        const struct tree_state *s = &run->state->tree->links[row->ports[k].link];
+        size = fmax(size, vec_norm(s->v) + fabs(s->omega) * vec_norm(row->ports[k].arm));
+    }
+    return size;
+}
+
+double contacts_no_speed(const struct run *run, const struct row *row)
+{
+    const double rounding = 1e-11, of_all = 1e-13;
+    return fmax(rounding * speed_at(run, row), of_all * run->contacts.speed);
+}
+
+static double normal_rate(const struct run *run, const struct striker *striker)
+{
+    double rate = run->state->tree->rows[tree_of(run)->ties[striker->tie].first_row].g.x1;
+    return striker->rope ? -rate : rate;
+}
+
+/* Does it take part as things are? */
+static bool is_striker(const struct run *run, int i)
+{
+    const struct tie *tie = &tree_of(run)->ties[i];
+    if (tie->kind == constraint_contact) return run->state->tree->ties[i].feature != no_feature;
+    if (tie->kind == constraint_rope) return run->state->slip[tie->pair] == stick;
+    return tie_takes_blows(tie) && run->state->slip[tie->surface] == stick;
+}
+
+/* ---- coinciding points */
+
+static const struct port *port_on(const struct row *row, int link)
+{
+    for (int k = 0; k < row->port_count; k++)
+        if (row->ports[k].link == link) return &row->ports[k];
+    return NULL;
+}
+
+/* Are two closed contacts one point: the same links, the same place and the same normal? Places to what counts as
+ * touching, directions to the digits of a file. */
+static bool coincide(const struct run *run, int a, int b)
+{
+    const double direction = 1e-9;
+    const struct tie *ties = tree_of(run)->ties;
+    const struct tree_work *work = run->state->tree;
+    int first = ties[a].end[0].link, second = ties[a].end[1].link, index = ties[a].meeting;
+    bool same = ties[b].end[0].link == first && ties[b].end[1].link == second;
+    bool swapped = ties[b].end[0].link == second && ties[b].end[1].link == first;
+    if (!same && !swapped) return false;
+    if (tree_of(run)->meetings[index].stop != 0 || tree_of(run)->meetings[ties[b].meeting].stop != 0)
+        return false;
+    int link = first > 0 ? first : second;
+    const struct port *p = port_on(&work->rows[ties[a].first_row], link),
+                      *q = port_on(&work->rows[ties[b].first_row], link);
+    return p && q && vec_norm(vec_sub(p->force, q->force)) <= direction &&
+           vec_norm(vec_sub(p->arm, q->arm)) <= contacts_same * meeting_near(run->model, work, index);
+}
+
+/* The striker among the first `count` at whose point the contact of tie i is; -1 without one. */
+static int coinciding(const struct run *run, int i, int count)
+{
+    const struct striker *strikers = run->contacts.strikers;
+    for (int k = 0; k < count; k++)
+        if (strikers[k].contact && coincide(run, strikers[k].tie, i)) return k;
+    return -1;
+}
+
+/* ---- strikers */
+
+static void set_striker(struct run *run, int i, struct striker *striker)
+{
+    const struct tie *tie = &tree_of(run)->ties[i];
+    bool rope = tie->kind == constraint_rope, contact = tie->meeting >= 0;
+    *striker = (struct striker){.tie = i,
+                                .contact = contact,
+                                .rope = rope,
+                                .rubs = contact || (!rope && tie->pair >= 0)};
+    if (tie->reels) striker->reel = rope_reel_rate(run->state, i);
+    const struct row *rows = &run->state->tree->rows[tie->first_row];
+    striker->v_n = normal_rate(run, striker);
+    striker->v_t = tie->row_count > 1 && !rope ? rows[1].g.x1 : 0;
+    run->contacts.speed = fmax(run->contacts.speed, speed_at(run, rows));
+}
+
+/* Rounding of redundant points contradicts itself, and next to a slow impact that is not little. */
+static void drop_no_speeds(const struct run *run, struct striker *striker)
+{
+    double least =
+        contacts_no_speed(run, &run->state->tree->rows[tree_of(run)->ties[striker->tie].first_row]);
+    if (fabs(striker->v_n) <= least) striker->v_n = 0;
+    if (fabs(striker->v_t) <= least) striker->v_t = 0;
+    striker->rubs |=
+        striker->v_t != 0; /* a roll without a limit, which lands: it holds along its line from then on */
+}
+
+int contacts_find_strikers(struct run *run)
+{
+    struct contacts_work *work = &run->contacts;
+    int count = 0;
+    work->twin_count = 0;
+    for (int i = 0; i < tree_of(run)->tie_count; i++) {
+        if (!is_striker(run, i)) continue;
+        int point = tree_of(run)->ties[i].meeting >= 0 ? coinciding(run, i, count) : -1;
+        if (point >= 0)
+            work->twins[work->twin_count++] = (struct striker_twin){i, point};
+        else
+            set_striker(run, i, &work->strikers[count++]);
+    }
+    for (int i = 0; i < count; i++) drop_no_speeds(run, &work->strikers[i]);
+    return count;
+}
