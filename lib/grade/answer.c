@@ -220,6 +220,14 @@ static bool says_something(const struct node *root)
     return false;
 }
 
+static const struct node *take_root(struct fbd_grade *grade, const struct node *root)
+{
+    root = shorten_lists(grade, strip(grade, root));
+    root = root ? answer_take_drawn(grade, root) : NULL;
+    if (!root) grade->arena.failed = true;
+    return root;
+}
+
 static void note_absent(struct fbd_grade *grade, const char *message)
 {
     fbd_finding *finding = finding_add(grade, FBD_FINDING_NO_SUBMISSION, "", "", (struct pos){0, 0});
@@ -248,7 +256,7 @@ static void open_answer(struct fbd_grade *grade, const char *path, struct answer
     answer_mend(grade, answer->text, length);
     bool open = document_open(&answer->document, answer->text, length, grade->file, errors);
     if (open && fbd_errors_failed_count(errors) == 0 && answer->document.root->kind == node_map)
-        answer->root = shorten_lists(grade, strip(grade, answer->document.root));
+        answer->root = take_root(grade, answer->document.root);
     else if (first_error(errors))
         note_unreadable(grade, "", NULL, first_error(errors));
     else

@@ -84,7 +84,7 @@ bool is_drawn_as_such(const struct sides *sides, const struct item *key)
 {
     for (size_t i = 0; i < sides->count && key->follows; i++) {
         const struct item *item = &sides->items[i];
-        if (!item->used && item->source && item->source->kind == key->source->kind) return true;
+        if (is_left(item) && item->source->kind == key->source->kind) return true;
     }
     return false;
 }
@@ -103,7 +103,7 @@ static size_t take_unused(struct item *items, size_t count, struct item *left[mo
 {
     size_t found = 0;
     for (size_t i = 0; i < count && found < most_in_group; i++)
-        if (!items[i].used && items[i].source) left[found++] = &items[i];
+        if (is_left(&items[i])) left[found++] = &items[i];
     return found;
 }
 

@@ -48,13 +48,20 @@ size_t drawn_overrides(struct arena *arena, const struct fbd_key *key, const cha
 
 /* ---- reading */
 
+size_t key_asks(const struct fbd_key *key, size_t b)
+{
+    size_t count = 0;
+    for (size_t i = 0; i < key->asked_count[b]; i++) count += key->asked[b][i];
+    return count;
+}
+
 static double points_of(const struct fbd_key *key)
 {
     const struct scene *scene = key->model->scene;
     const struct grading_points *points = &scene->grading.points;
     double most = 0;
     for (size_t b = 0; b < scene->body_count; b++)
-        most += points->force * (double)scene->bodies[b].load_count +
+        most += points->force * (double)(scene->bodies[b].load_count + key_asks(key, b)) +
                 points->derivation * (double)scene->bodies[b].hand_count + points->inertia;
     return most;
 }
@@ -71,6 +78,16 @@ static bool has_points(struct fbd_key *key, fbd_errors *errors)
     return false;
 }
 
+static bool find_asked(struct fbd_key *key)
+{
+    size_t count = key->model->body_count;
+    key->asked = ARENA_ARRAY(&key->arena, count + 1, bool *);
+    key->asked_count = ARENA_ARRAY(&key->arena, count + 1, size_t);
+    bool done = key->asked && key->asked_count && compare_with_itself(key);
+    if (!done) key->arena.failed = true;
+    return done;
+}
+
 static bool compile_key(struct fbd_key *key, fbd_errors *errors)
 {
     struct scene *scene = scene_make(&key->document, NULL, 0, errors);
@@ -79,7 +96,7 @@ static bool compile_key(struct fbd_key *key, fbd_errors *errors)
         key->model = model_compile(scene, errors);
     else
         scene_free(scene);
-    return key->model && has_points(key, errors);
+    return key->model && find_asked(key) && has_points(key, errors);
 }
 
 /* A key whose own derivations are wrong is told: students who have the right ones would be told otherwise. */

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "base/text.h"
+#include "grade/reactions.h"
 
 static const struct pos nowhere = {0, 0};
 
@@ -25,7 +26,8 @@ static bool near(double a, double b, double tolerance)
 static double worth(const struct fbd_grade *grade, const struct model_body *key)
 {
     const struct grading_points *points = &grading_of(grade)->points;
-    return points->force * (double)key->source->load_count + points->inertia;
+    size_t b = (size_t)(key - grade->sheet->bodies);
+    return points->force * (double)(key->source->load_count + key_asks(grade->key, b)) + points->inertia;
 }
 
 void verdict_body(struct fbd_grade *grade, const struct model_body *key)
@@ -225,7 +227,13 @@ static void compare_inertia(struct fbd_grade *grade, const struct model_body *ke
 
 static const char *noun(const struct load *load)
 {
-    return load->kind >= moment_applied && load->kind <= moment_potential ? "moment" : "force";
+    return load && load->kind >= moment_applied && load->kind <= moment_potential ? "moment" : "force";
+}
+
+/* What the key may have drawn, or not, brings nothing. */
+static double points_of(const struct fbd_grade *grade, const struct item *key)
+{
+    return key->source || key->asked ? grading_of(grade)->points.force : 0;
 }
 
 static void add_pair(struct fbd_grade *grade, const char *body, struct item *key, struct item *item,
@@ -233,7 +241,7 @@ static void add_pair(struct fbd_grade *grade, const char *body, struct item *key
 {
     double share = kind == FBD_FINDING_RIGHT ? 1 : grading_of(grade)->partial;
     fbd_finding *finding = finding_add(grade, kind, body, item->source->name, item->source->at);
-    finding->most = grading_of(grade)->points.force;
+    finding->most = points_of(grade, key);
     finding->points = share * finding->most;
     finding_say(grade, finding, message);
     finding_tell(grade, finding, detail);
@@ -244,7 +252,7 @@ static void add_right(struct fbd_grade *grade, const char *body, struct item *ke
                       const char *message)
 {
     struct text text = {0};
-    text_printf(&text, "it is `%s` of the key", key->source->name);
+    text_printf(&text, "it is `%s` of the key", key->name);
     if (text.failed) grade->arena.failed = true;
     add_pair(grade, body, key, item, FBD_FINDING_RIGHT, message, text.data ? text.data : "");
     text_free(&text);
@@ -264,7 +272,7 @@ static void pair_equal(struct fbd_grade *grade, const char *body, struct sides *
         for (size_t i = 0; i < sides->key_count; i++)
             for (size_t j = 0; j < sides->count; j++) {
                 struct item *key = &sides->key[i], *item = &sides->items[j];
-                if (key->used || item->used || !key->source || !item->source) continue;
+                if (!is_left(key) || !is_left(item)) continue;
                 if (same_kind && key->source->kind != item->source->kind) continue;
                 if (key->source->kind != item->source->kind && is_drawn_as_such(sides, key)) continue;
                 if (is_nothing(sides, item) && !is_nothing(sides, key)) continue; /* where friction rests */
@@ -278,7 +286,7 @@ static void pair_equal(struct fbd_grade *grade, const char *body, struct sides *
 static bool take_parts(const struct sides *sides, struct item **parts, size_t count, const struct item *whole)
 {
     for (size_t i = 0; i < count; i++)
-        if (parts[i]->used || !parts[i]->source) return false;
+        if (!is_left(parts[i])) return false;
     if (!adds_up(sides, (const struct item *const *)parts, count, whole)) return false;
     for (size_t i = 0; i < count; i++) parts[i]->used = true;
     return true;
@@ -307,13 +315,13 @@ static void pair_sums(struct fbd_grade *grade, const char *body, struct sides *s
     struct item *parts[3];
     for (size_t k = 0; k < sides->key_count; k++) {
         struct item *key = &sides->key[k];
-        bool asked = !key->used && key->source && !is_drawn_as_such(sides, key);
+        bool asked = is_left(key) && !is_drawn_as_such(sides, key);
         if (asked && find_parts(sides, sides->items, sides->count, key, parts) > 0)
             add_right(grade, body, key, parts[0], "right, together with its other components");
     }
     for (size_t j = 0; j < sides->count; j++) {
         struct item *item = &sides->items[j];
-        bool left = !item->used && item->source;
+        bool left = is_left(item);
         size_t found = left ? find_parts(sides, sides->key, sides->key_count, item, parts) : 0;
         for (size_t i = 0; i < found; i++) add_right(grade, body, parts[i], item, "right, as a resultant");
     }
@@ -387,6 +395,9 @@ static int unlikeness(const struct item *key, const struct item *item, const str
     bool same_kind = key->source->kind == item->source->kind;
     bool same_noun = strcmp(noun(key->source), noun(item->source)) == 0;
     if (!same_noun) return no_pair + 1;
+    /* Another size and the opposite sense: two errors are none, and nothing exerts it. */
+    if (difference->relation == is_scaled && !(difference->ratio > 0) && !same_name && !same_kind)
+        return no_pair;
     /* Any two moments are along one line: only what is a constant share of the other is like it. */
     bool alike = difference->relation != is_scaled || isfinite(difference->ratio);
     bool nothing = difference->relation == is_scaled && fabs(difference->ratio) < 1e-9;
@@ -423,37 +434,131 @@ static void say_pair(struct fbd_grade *grade, const char *body, struct item *key
     text_free(&detail);
 }
 
-/* The closest pair of those that are left. */
-static bool pair_closest(struct fbd_grade *grade, const char *body, struct sides *sides)
+/* ---- reactions */
+
+/* An unknown has the value of the reaction from here on, for the derivations. */
+static void name_values(struct fbd_grade *grade, const struct sides *sides, const struct support *support)
 {
-    int best = no_pair;
-    struct item *best_key = NULL, *best_item = NULL;
-    struct difference best_difference = {.relation = is_other};
+    double values[most_components];
+    support_solve(sides, support, values);
+    bool us = grade->sheet->scene->units == unit_us;
+    for (size_t j = 0; j < support->count; j++) {
+        const struct load *source = support->parts[j]->source;
+        struct drawn *drawn = drawn_at(grade, source->at);
+        bool moment = strcmp(noun(source), "moment") == 0;
+        const char *unit = moment ? (us ? "lb*ft" : "N*m") : us ? "lb" : "N";
+        if (!drawn || !drawn->unknown || !isfinite(values[j])) continue;
+        drawn->value = arena_printf(&grade->arena, "(%.17g[%s])", values[j], unit);
+    }
+}
+
+static void pair_reactions(struct fbd_grade *grade, const char *body, struct sides *sides, size_t parts)
+{
+    struct support support;
+    while (support_find(sides, parts, &support)) {
+        const char *message = parts > 1                 ? "right, together with its other components"
+                              : support.key_count > 1 ? "right, as a resultant"
+                                                      : "right";
+        name_values(grade, sides, &support);
+        for (size_t i = 0; i < support.key_count; i++)
+            add_right(grade, body, support.key[i], support.parts[0], message);
+        for (size_t j = 0; j < parts; j++) support.parts[j]->used = true;
+    }
+}
+
+/* A `normal` of the answer for what guides the body in the key is a force across its line. */
+static void take_normals(struct sides *sides)
+{
+    for (size_t j = 0; j < sides->count; j++) {
+        struct item *item = &sides->items[j];
+        if (!is_left(item) || item->source->kind != load_normal) continue;
+        for (size_t i = 0; i < sides->reaction_count; i++) {
+            const struct item *key = &sides->reactions[i];
+            if (!key->name || !key->couples || key->used) continue;
+            item->unknown = true;
+            for (size_t s = 0; s < sides->samples; s++) item->at[s].force = item->across;
+        }
+    }
+}
+
+static void say_misdrawn(struct fbd_grade *grade, const char *body, const struct misdrawn *misdrawn)
+{
+    const char *message = "its direction is wrong, or a component of it is missing";
+    fbd_finding_kind kind = FBD_FINDING_DIRECTION;
+    struct text detail = {0};
+    if (misdrawn->relation == is_opposite) {
+        kind = FBD_FINDING_SENSE;
+        message = "it points the opposite way";
+    } else if (misdrawn->relation == is_elsewhere) {
+        kind = FBD_FINDING_PLACE;
+        message = "it acts at the wrong place: its line of action is another one";
+    } else if (misdrawn->relation == is_scaled) {
+        kind = FBD_FINDING_MAGNITUDE;
+        message = "its magnitude is wrong";
+    }
+    text_printf(&detail, "compared with `%s` of the key", misdrawn->key->name);
+    if (detail.failed) grade->arena.failed = true;
+    add_pair(grade, body, misdrawn->key, misdrawn->item, kind, message, detail.data ? detail.data : "");
+    if (misdrawn->other) misdrawn->other->used = true;
+    text_free(&detail);
+}
+
+/* Drawn rightly, or for a reaction that is zero. */
+static void add_unknowns_of_nothing(struct fbd_grade *grade, const char *body, struct sides *sides)
+{
+    for (size_t j = 0; j < sides->count; j++) {
+        struct item *item = &sides->items[j];
+        if (item->used || !item->source || !unknown_of_nothing(sides, item)) continue;
+        item->used = true;
+        fbd_finding *finding =
+            finding_add(grade, FBD_FINDING_RIGHT, body, item->source->name, item->source->at);
+        finding_say(grade, finding, "right: it is zero");
+    }
+}
+
+/* The closest pair of the forces that the key lists and those of the answer that are left. */
+struct closest {
+    struct item *key, *item;
+    struct difference difference;
+    int rank;
+};
+
+static struct closest closest_pair(struct sides *sides)
+{
+    struct closest best = {.difference = {.relation = is_other}, .rank = no_pair};
     for (size_t i = 0; i < sides->key_count; i++)
         for (size_t j = 0; j < sides->count; j++) {
             struct item *key = &sides->key[i], *item = &sides->items[j];
-            if (key->used || item->used || !key->source || !item->source) continue;
+            if (!is_left(key) || !is_left(item)) continue;
             struct difference difference = difference_of(sides, key, item);
             int rank = unlikeness(key, item, &difference);
-            if (rank >= best) continue;
-            best = rank;
-            best_key = key;
-            best_item = item;
-            best_difference = difference;
+            if (rank < best.rank) best = (struct closest){key, item, difference, rank};
         }
-    if (best_key) say_pair(grade, body, best_key, best_item, &best_difference);
-    return best_key != NULL;
+    return best;
 }
 
-static void add_missing(struct fbd_grade *grade, const char *body, const struct load *load)
+static bool pair_closest(struct fbd_grade *grade, const char *body, struct sides *sides)
+{
+    struct closest best = closest_pair(sides);
+    struct misdrawn misdrawn;
+    if (reactions_closest(sides, best.rank, &misdrawn))
+        say_misdrawn(grade, body, &misdrawn);
+    else if (best.rank < no_pair)
+        say_pair(grade, body, best.key, best.item, &best.difference);
+    else
+        return false;
+    return true;
+}
+
+static void add_missing(struct fbd_grade *grade, const char *body, const struct item *key)
 {
     struct text text = {0};
     fbd_finding *finding = finding_add(grade, FBD_FINDING_MISSING, body, "", nowhere);
     finding->most = grading_of(grade)->points.force;
-    text_printf(&text, "a %s is missing", noun(load));
+    text_printf(&text, "a %s is missing", key->source ? noun(key->source) : "reaction");
     finding_say(grade, finding, text.data ? text.data : "");
     text.length = 0;
-    text_printf(&text, "it is `%s` of the key", load->name);
+    text_printf(&text, "it is `%s` of the key", key->name);
     finding_tell(grade, finding, text.data ? text.data : "");
     if (text.failed) grade->arena.failed = true;
     text_free(&text);
@@ -465,12 +570,19 @@ void verdict_on(struct fbd_grade *grade, const struct model_body *key, const str
     double masses = force / length * body->inertia.mass / key->inertia.mass;
     compare_inertia(grade, key, body, sides, length, force);
     pair_equal(grade, key->name, sides, masses);
+    take_normals(sides);
+    pair_reactions(grade, key->name, sides, 1);
     pair_sums(grade, key->name, sides);
     pair_groups(grade, key->name, sides);
+    for (size_t parts = 2; parts <= most_components; parts++) pair_reactions(grade, key->name, sides, parts);
+    add_unknowns_of_nothing(grade, key->name, sides);
     bool paired = true;
     while (paired) paired = pair_closest(grade, key->name, sides);
     for (size_t i = 0; i < sides->key_count; i++)
-        if (!sides->key[i].used) add_missing(grade, key->name, &key->source->loads[i]);
+        if (!sides->key[i].used) add_missing(grade, key->name, &sides->key[i]);
+    for (size_t i = 0; i < sides->reaction_count; i++)
+        if (!sides->reactions[i].used && sides->reactions[i].asked)
+            add_missing(grade, key->name, &sides->reactions[i]);
     for (size_t j = 0; j < sides->count; j++)
         if (!sides->items[j].used && !is_nothing(sides, &sides->items[j]))
             verdict_superfluous(grade, FBD_FINDING_SUPERFLUOUS, key->name, body->source->loads[j].name,

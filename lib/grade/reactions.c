@@ -1,0 +1,488 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "grade/reactions.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+
+/* Forces below this share of the largest one are zero: reactions are solutions of systems of equations. */
+static const double zero_share = 1e-7;
+
+/* ---- what exerts it */
+
+void reaction_describe(const fbd_model *model, int b, const struct arrow *arrow, struct item *item)
+{
+    const struct model_body *body = &model->bodies[b];
+    item->contact = -1;
+    item->couples = arrow->name == body->reaction && body->kind != motion_pivot;
+    for (int i = 0; model->tree && i < model->tree->tie_count; i++) {
+        const struct tie *tie = &model->tree->ties[i];
+        for (int k = 0; k < tie->end_count; k++)
+            for (int row = 0; row < 2; row++) {
+                if (tie->end[k].body != b || tie->end[k].name[row] != arrow->name) continue;
+                bool rope = tie->kind == constraint_rope || tie->law->strands;
+                item->one_sided = rope || (tie_presses(tie) && row == 0);
+                if (tie->kind == constraint_contact) item->contact = tie->constraint;
+                return;
+            }
+    }
+}
+
+/* ---- where it is compared */
+
+static bool is_zero_at(const struct sides *sides, const struct item *item, size_t s)
+{
+    const struct wrench *at = &item->at[s];
+    if (item->unknown) return false;
+    bool moment = sides->turns && fabs(at->moment) > zero_share * sides->moment;
+    return vec_norm(at->force) <= zero_share * sides->force && !moment;
+}
+
+/* The first state where it is not zero, at the start if possible; `samples` when there is none. */
+static size_t when_of(const struct sides *sides, const struct item *key)
+{
+    for (int start = 1; start >= 0; start--)
+        for (size_t s = 0; s < sides->samples; s++)
+            if (sides->possible[s] && (!start || sides->starts[s]) && !is_zero_at(sides, key, s)) return s;
+    return sides->samples;
+}
+
+bool reaction_is_nothing(const struct sides *sides, const struct item *key)
+{
+    return when_of(sides, key) == sides->samples;
+}
+
+/* Is the second wrench the first, to the tolerance? */
+static bool is_near(const struct sides *sides, const struct wrench *key, const struct wrench *other)
+{
+    double size = vec_norm(key->force), off = vec_norm(vec_sub(key->force, other->force));
+    double moments = fabs(key->moment) + size * sides->reach;
+    return off <= sides->tolerance * size + zero_share * sides->force &&
+           (!sides->turns || fabs(key->moment - other->moment) <=
+                                 sides->tolerance * moments + zero_share * sides->moment);
+}
+
+/* ---- which have to be drawn */
+
+/* Is this the name of the reaction, or of its coupling? */
+static bool is_named(const struct item *key, const char *name)
+{
+    size_t length = strlen(name);
+    return strncmp(key->name, name, length) == 0 && (key->name[length] == '\0' || key->name[length] == '.');
+}
+
+static bool has_to_be_drawn(const struct grading *grading, const struct sides *sides, const struct item *key)
+{
+    bool named = grading->reactions == reactions_all;
+    if (!key->name) return false;
+    for (size_t i = 0; i < grading->reaction_count; i++)
+        named = named || is_named(key, grading->reaction_names[i]);
+    size_t s = named ? when_of(sides, key) : sides->samples;
+    return s < sides->samples && sides->starts[s];
+}
+
+bool reactions_note_asked(struct fbd_key *key, size_t b, const struct sides *sides)
+{
+    bool *asked = ARENA_ARRAY(&key->arena, sides->reaction_count + 1, bool);
+    for (size_t i = 0; asked && i < sides->reaction_count; i++)
+        asked[i] = has_to_be_drawn(&key->model->scene->grading, sides, &sides->reactions[i]);
+    key->asked[b] = asked;
+    key->asked_count[b] = asked ? sides->reaction_count : 0;
+    return asked != NULL;
+}
+
+void reactions_take_asked(const struct fbd_key *key, size_t b, struct sides *sides)
+{
+    for (size_t i = 0; i < sides->reaction_count; i++)
+        sides->reactions[i].asked = i < key->asked_count[b] && key->asked[b][i];
+}
+
+/* ---- lines of action */
+
+static double reach_of(const struct sides *sides)
+{
+    return sides->tolerance * sides->reach + 1e-9 * (sides->reach + 1);
+}
+
+/* How far to its left a line through `item` passes `point`. */
+static double distance_to(const struct wrench *item, struct vec point)
+{
+    double size = vec_norm(item->force);
+    return size > 0 ? vec_cross(item->force, vec_sub(point, item->point)) / size : 0;
+}
+
+static bool passes(const struct sides *sides, const struct wrench *item, struct vec point)
+{
+    return !sides->turns || fabs(distance_to(item, point)) <= reach_of(sides);
+}
+
+/* Does a component pass the point where the reactions act, or between their points? */
+static bool meets_support(const struct sides *sides, const struct support *support,
+                          const struct wrench *item, size_t s)
+{
+    double low = HUGE_VAL, high = -HUGE_VAL;
+    for (size_t i = 0; i < support->key_count; i++) {
+        double distance = distance_to(item, support->key[i]->at[s].point);
+        low = fmin(low, distance);
+        high = fmax(high, distance);
+    }
+    return !sides->turns || (low <= reach_of(sides) && high >= -reach_of(sides));
+}
+
+/* ---- magnitudes of unknowns */
+
+enum { most_columns = 3 };
+
+struct column {
+    double row[3]; /* force, and moment over a length */
+    size_t part;
+    bool any; /* one of two of a force without a direction */
+};
+
+static struct column column_of(const struct sides *sides, struct vec force, double moment)
+{
+    double length = sides->reach > 0 ? sides->reach : 1;
+    return (struct column){.row = {force.x, force.y, sides->turns ? moment / length : 0}};
+}
+
+static double dot(const double *a, const double *b)
+{
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+/* Least squares by Gram-Schmidt; false where columns depend on each other. */
+static bool solve(struct column *columns, size_t count, const double *right, double *values)
+{
+    double base[most_columns][3], factor[most_columns][most_columns] = {{0}}, along[most_columns];
+    for (size_t k = 0; k < count; k++) {
+        memcpy(base[k], columns[k].row, sizeof base[k]);
+        double before = sqrt(dot(base[k], base[k]));
+        for (size_t j = 0; j < k; j++) {
+            factor[j][k] = dot(base[j], base[k]);
+            for (int i = 0; i < 3; i++) base[k][i] -= factor[j][k] * base[j][i];
+        }
+        double size = sqrt(dot(base[k], base[k]));
+        if (!(size > 1e-3 * before)) return false;
+        for (int i = 0; i < 3; i++) base[k][i] /= size;
+        factor[k][k] = size;
+        along[k] = dot(base[k], right);
+    }
+    for (size_t k = count; k-- > 0;) {
+        values[k] = along[k];
+        for (size_t j = k + 1; j < count; j++) values[k] -= factor[k][j] * values[j];
+        values[k] /= factor[k][k];
+    }
+    return true;
+}
+
+struct fitting {
+    size_t count;
+    struct column columns[most_columns];
+    double values[most_columns];
+    struct wrench wanted, known; /* sums */
+};
+
+static bool add_column(struct fitting *fitting, struct column column, size_t part, bool any)
+{
+    if (fitting->count == most_columns) return false;
+    column.part = part;
+    column.any = any;
+    fitting->columns[fitting->count++] = column;
+    return true;
+}
+
+static bool collect(const struct sides *sides, const struct support *support, size_t s,
+                    struct fitting *fitting)
+{
+    bool fine = true;
+    for (size_t i = 0; i < support->key_count; i++) {
+        fitting->wanted.force = vec_add(fitting->wanted.force, support->key[i]->at[s].force);
+        fitting->wanted.moment += support->key[i]->at[s].moment;
+    }
+    for (size_t j = 0; fine && j < support->count; j++) {
+        const struct item *part = support->parts[j];
+        const struct wrench *at = &part->at[s];
+        if (part->free) {
+            struct vec to = vec_sub(at->point, part->about[s]);
+            fine = add_column(fitting, column_of(sides, (struct vec){1, 0}, -to.y), j, true) &&
+                   add_column(fitting, column_of(sides, (struct vec){0, 1}, to.x), j, true);
+        } else if (part->unknown) {
+            fine = add_column(fitting, column_of(sides, at->force, at->moment), j, false);
+        } else {
+            fitting->known.force = vec_add(fitting->known.force, at->force);
+            fitting->known.moment += at->moment;
+        }
+    }
+    return fine;
+}
+
+/* What the parts are together, with these magnitudes of the unknowns. */
+static struct wrench sum_of(const struct sides *sides, const struct fitting *fitting)
+{
+    struct wrench sum = fitting->known;
+    double length = sides->reach > 0 ? sides->reach : 1;
+    for (size_t k = 0; k < fitting->count; k++) {
+        const double *row = fitting->columns[k].row;
+        sum.force = vec_add(sum.force, vec_scale(fitting->values[k], (struct vec){row[0], row[1]}));
+        sum.moment += fitting->values[k] * row[2] * length;
+    }
+    return sum;
+}
+
+static bool fit(const struct sides *sides, const struct support *support, size_t s, struct fitting *fitting)
+{
+    *fitting = (struct fitting){.count = 0};
+    if (!collect(sides, support, s, fitting)) return false;
+    struct vec force = vec_sub(fitting->wanted.force, fitting->known.force);
+    struct column right = column_of(sides, force, fitting->wanted.moment - fitting->known.moment);
+    if (fitting->count > 0 && !solve(fitting->columns, fitting->count, right.row, fitting->values))
+        return false;
+    struct wrench sum = sum_of(sides, fitting);
+    return is_near(sides, &fitting->wanted, &sum);
+}
+
+/* A sense is that of the reaction, for a single force and where the reactions only pull or press. Two components of a
+ * force that may point anywhere have any sense: their signs follow from the equations. */
+static bool senses_agree(const struct sides *sides, const struct support *support,
+                         const struct fitting *fitting)
+{
+    bool one_sided = true;
+    for (size_t i = 0; i < support->key_count; i++) one_sided = one_sided && support->key[i]->one_sided;
+    for (size_t k = 0; k < fitting->count; k++) {
+        bool moment = vec_norm((struct vec){fitting->columns[k].row[0], fitting->columns[k].row[1]}) == 0;
+        if (fitting->columns[k].any) continue;
+        double size = zero_share * (moment ? sides->moment : sides->force);
+        if (fitting->count == 1 && !(fitting->values[k] > size)) return false;
+        if (one_sided && !(fitting->values[k] > -size)) return false;
+    }
+    return true;
+}
+
+/* ---- supports */
+
+static bool is_couple_at(const struct sides *sides, const struct item *item, size_t s)
+{
+    return vec_norm(item->at[s].force) <= (item->unknown ? 0 : 1e-9 * sides->force);
+}
+
+static bool may_be_drawn_so(const struct sides *sides, const struct support *support, size_t s,
+                            size_t unknowns)
+{
+    bool follows = false, couples = false;
+    for (size_t i = 0; i < support->key_count; i++) {
+        follows = follows || support->key[i]->source;
+        couples = couples || support->key[i]->couples || is_couple_at(sides, support->key[i], s);
+    }
+    if (follows && unknowns == 0) return false; /* compared by value at all states (verdict.c) */
+    for (size_t j = 0; unknowns > 0 && j < support->count; j++) {
+        const struct item *part = support->parts[j];
+        if (part->free && support->count > 1) return false;
+        if (is_couple_at(sides, part, s) ? !couples
+                                         : support->count > 1 &&
+                                               !meets_support(sides, support, &part->at[s], s))
+            return false;
+    }
+    return true;
+}
+
+static bool is_right(const struct sides *sides, const struct support *support)
+{
+    struct fitting fitting;
+    size_t s = when_of(sides, support->key[0]), unknowns = 0;
+    for (size_t j = 0; j < support->count; j++) unknowns += support->parts[j]->unknown;
+    return may_be_drawn_so(sides, support, s, unknowns) && fit(sides, support, s, &fitting) &&
+           senses_agree(sides, support, &fitting);
+}
+
+void support_solve(const struct sides *sides, const struct support *support, double values[most_components])
+{
+    struct fitting fitting;
+    for (size_t j = 0; j < most_components; j++) values[j] = NAN;
+    if (!fit(sides, support, when_of(sides, support->key[0]), &fitting)) return;
+    for (size_t k = 0; k < fitting.count; k++)
+        if (!fitting.columns[k].any) values[fitting.columns[k].part] = fitting.values[k];
+}
+
+/* Number k of what can be a reaction: those of couplings and joints, then normal forces and friction that the key lists.
+ * NULL for what is used or zero. */
+static struct item *candidate(const struct sides *sides, size_t k)
+{
+    bool reaction = k < sides->reaction_count;
+    struct item *item = reaction ? &sides->reactions[k] : &sides->key[k - sides->reaction_count];
+    if (item->used || !item->name || (!reaction && !item->follows)) return NULL;
+    return reaction_is_nothing(sides, item) ? NULL : item;
+}
+
+/* Do two act at one point, or in one contact? */
+static bool share_support(const struct sides *sides, const struct item *a, const struct item *b)
+{
+    size_t s = when_of(sides, a);
+    if ((a->source != NULL) != (b->source != NULL)) return false;
+    if (a->source || (a->contact >= 0 && a->contact == b->contact)) return true;
+    return vec_norm(vec_sub(a->at[s].point, b->at[s].point)) <= reach_of(sides);
+}
+
+/* Choose parts from item `from` on until they are right. */
+static bool choose_parts(struct sides *sides, struct support *support, size_t parts, size_t from)
+{
+    if (support->count == parts) return is_right(sides, support);
+    for (size_t j = from; j < sides->count; j++) {
+        struct item *item = &sides->items[j];
+        if (item->used || !item->source || is_zero_at(sides, item, 0)) continue;
+        support->parts[support->count++] = item;
+        if (choose_parts(sides, support, parts, j + 1)) return true;
+        support->count--;
+    }
+    return false;
+}
+
+static bool try_support(struct sides *sides, size_t parts, struct support *support, size_t key_count)
+{
+    support->key_count = key_count;
+    support->count = 0;
+    return choose_parts(sides, support, parts, 0);
+}
+
+/* With reaction k as the first: alone, with one other, with all at its support. */
+static bool find_from(struct sides *sides, size_t k, size_t parts, bool alone, struct support *support)
+{
+    size_t all = sides->reaction_count + sides->key_count, shared = 1;
+    struct item *first = candidate(sides, k), *others[most_support];
+    if (!first) return false;
+    others[0] = support->key[0] = first;
+    if (alone) return try_support(sides, parts, support, 1);
+    for (size_t j = k + 1; j < all && shared < most_support; j++) {
+        struct item *other = candidate(sides, j);
+        if (!other || !share_support(sides, first, other)) continue;
+        support->key[1] = others[shared++] = other;
+        if (try_support(sides, parts, support, 2)) return true;
+    }
+    if (shared < 3) return false;
+    memcpy(support->key, others, sizeof others);
+    return try_support(sides, parts, support, shared);
+}
+
+bool support_find(struct sides *sides, size_t parts, struct support *support)
+{
+    size_t all = sides->reaction_count + sides->key_count;
+    for (int alone = 1; alone >= 0; alone--)
+        for (size_t k = 0; k < all; k++)
+            if (find_from(sides, k, parts, alone, support)) return true;
+    return false;
+}
+
+bool unknown_of_nothing(const struct sides *sides, const struct item *item)
+{
+    for (size_t i = 0; item->unknown && i < sides->reaction_count; i++) {
+        const struct item *key = &sides->reactions[i];
+        if (!key->name || !reaction_is_nothing(sides, key)) continue;
+        if (is_couple_at(sides, item, 0) ? key->couples : passes(sides, &item->at[0], key->at[0].point))
+            return true;
+    }
+    return false;
+}
+
+/* ---- what is not right */
+
+static bool is_parallel(const struct sides *sides, struct vec a, struct vec b)
+{
+    double size = vec_norm(a) * vec_norm(b);
+    return size > 0 && fabs(vec_cross(a, b)) <= sides->tolerance * size;
+}
+
+static struct wrench times(double factor, struct wrench wrench)
+{
+    wrench.force = vec_scale(factor, wrench.force);
+    wrench.moment *= factor;
+    return wrench;
+}
+
+static enum relation relation_of_couples(const struct sides *sides, const struct wrench *key,
+                                         const struct item *item, const struct wrench *at)
+{
+    const struct wrench other = times(-1, *at);
+    if (item->unknown ? at->moment * key->moment < 0 : is_near(sides, key, &other)) return is_opposite;
+    return at->moment * key->moment > 0 ? is_scaled : is_other;
+}
+
+/* How an item differs from `key`, a reaction or the component of one. */
+static enum relation relation_of(const struct sides *sides, const struct wrench *key, const struct item *item,
+                                 size_t s)
+{
+    const struct wrench *at = &item->at[s];
+    double size = vec_norm(key->force), own = vec_norm(at->force);
+    bool couple = size <= zero_share * sides->force;
+    if (couple != is_couple_at(sides, item, s)) return is_other;
+    if (couple) return relation_of_couples(sides, key, item, at);
+    bool same = item->unknown || fabs(own - size) <= sides->tolerance * size;
+    bool there = passes(sides, at, key->point), parallel = is_parallel(sides, key->force, at->force);
+    double sense = vec_dot(key->force, at->force);
+    if (item->free) return is_elsewhere;
+    if (parallel && same && there && sense < 0) return is_opposite;
+    if (parallel && same && !there && sense > 0) return is_elsewhere;
+    if (parallel && there && sense > 0) return is_scaled;
+    return same && there ? is_turned : is_other;
+}
+
+/* Is an item, at least when its magnitude is right, a component of this wrench at right angles to the rest? *rest. */
+static bool is_component(const struct sides *sides, const struct wrench *key, const struct item *item,
+                         size_t s, struct wrench *rest)
+{
+    struct wrench at = item->at[s];
+    double size = vec_norm(at.force), along = size > 0 ? vec_dot(key->force, at.force) / size : 0;
+    if (item->free || is_couple_at(sides, item, s) || !passes(sides, &at, key->point)) return false;
+    double factor = item->unknown ? along / size : 1;
+    if (!item->unknown && fabs(along - size) > sides->tolerance * vec_norm(key->force)) return false;
+    *rest = *key;
+    rest->force = vec_sub(key->force, vec_scale(factor, at.force));
+    rest->moment = key->moment - factor * at.moment;
+    return vec_norm(rest->force) > sides->tolerance * vec_norm(key->force);
+}
+
+static int rank_of(const struct item *key, const struct item *item, enum relation relation)
+{
+    static const int ranks[] = {[is_same] = 9,   [is_opposite] = 0, [is_elsewhere] = 1, [is_rougher] = 9,
+                                [is_turned] = 2, [is_scaled] = 3,   [is_other] = 9};
+    return ranks[relation] + (strcmp(key->name, item->name) == 0 ? 0 : 4);
+}
+
+static void consider(struct misdrawn *best, struct item *key, struct item *item, struct item *other,
+                     enum relation relation)
+{
+    int rank = rank_of(key, item, relation) + (other ? -4 : 0);
+    if (rank >= best->rank) return;
+    *best = (struct misdrawn){key, item, other, relation, rank};
+}
+
+/* An item by itself, or beside a component that is right. */
+static void consider_item(struct sides *sides, struct item *key, struct item *item, struct misdrawn *best)
+{
+    size_t s = when_of(sides, key);
+    const struct wrench *wanted = &key->at[s];
+    struct wrench rest;
+    if (is_zero_at(sides, item, s)) return;
+    enum relation relation = relation_of(sides, wanted, item, s);
+    if (relation == is_other && is_component(sides, wanted, item, s, &rest)) relation = is_turned;
+    consider(best, key, item, NULL, relation);
+    for (size_t j = 0; j < sides->count; j++) {
+        struct item *other = &sides->items[j];
+        if (other == item || other->used || !other->source) continue;
+        if (!is_component(sides, wanted, other, s, &rest)) continue;
+        relation = relation_of(sides, &rest, item, s);
+        if (relation != is_other && relation != is_turned) consider(best, key, item, other, relation);
+    }
+}
+
+bool reactions_closest(struct sides *sides, int below, struct misdrawn *found)
+{
+    found->rank = below;
+    for (size_t k = 0; k < sides->reaction_count + sides->key_count; k++) {
+        struct item *key = candidate(sides, k);
+        for (size_t j = 0; key && j < sides->count; j++) {
+            struct item *item = &sides->items[j];
+            if (item->used || !item->source || (key->source && !item->unknown)) continue;
+            consider_item(sides, key, item, found);
+        }
+    }
+    return found->rank < below;
+}
