@@ -18,6 +18,7 @@ enum { slips = 3 }; /* of a body's friction: back, none, forth */
 struct line {
     unsigned says;
     size_t seen[slips], agreed[slips];
+    unsigned counts; /* bit k: slip k - 1 is one of the motion of the sheet, or all are */
     bool checked;
     bool dynamic;         /* it fails when other forces act: it is not of the motion alone */
     unsigned met;         /* the unknowns of the line of the key that it has met */
@@ -100,9 +101,28 @@ static bool agrees_at(const struct line *line, int slip)
     return line->seen[slip] > 0 && line->agreed[slip] == line->seen[slip];
 }
 
+/* The senses of slip of which bit k is set: those of the motion of the sheet, or where a line does not hold there, all. */
+static void count_slips(struct line *line, unsigned of_motion)
+{
+    unsigned seen = 0;
+    for (unsigned slip = 0; slip < slips; slip++) seen |= line->seen[slip] > 0 ? 1U << slip : 0;
+    line->counts = (seen & of_motion) != 0 ? seen & of_motion : seen;
+}
+
 static bool agrees_somewhere(const struct line *line)
 {
-    return agrees_at(line, 0) || agrees_at(line, 1) || agrees_at(line, 2);
+    for (int slip = 0; slip < slips; slip++)
+        if ((line->counts >> slip & 1U) && agrees_at(line, slip)) return true;
+    return false;
+}
+
+/* The senses of slip for which a line of the key has to be met: those for which it holds itself. */
+static unsigned wanted_slips(const struct line *key)
+{
+    unsigned wanted = 0;
+    for (unsigned slip = 0; slip < slips; slip++)
+        if ((key->counts >> slip & 1U) && agrees_at(key, (int)slip)) wanted |= 1U << slip;
+    return wanted ? wanted : key->counts;
 }
 
 static bool is_of_name(char c)
@@ -168,6 +188,7 @@ static bool sample_line(struct lines *lines, const struct node *root, const fbd_
     if (!hand_take_samples(&lines->check, &document, lines->rng, spread)) return false;
     line->says = lines->check.says;
     count_samples(&lines->check, tolerance, line);
+    count_slips(line, lines->slips[lines->check.body]);
     return true;
 }
 
@@ -306,13 +327,14 @@ static bool find_line(struct line *own, size_t count, const struct line *key, in
 /* By which share of its cases a line of the key is met. */
 static double share_met(const struct line *key, struct line *own, size_t count)
 {
-    int seen = 0, met = 0;
+    unsigned wanted = wanted_slips(key);
+    int cases = 0, met = 0;
     for (int slip = 0; slip < slips; slip++) {
-        bool found = key->seen[slip] > 0 && find_line(own, count, key, slip);
-        seen += key->seen[slip] > 0;
-        met += found;
+        if (!(wanted >> slip & 1U)) continue;
+        cases++;
+        met += find_line(own, count, key, slip);
     }
-    return seen ? (double)met / seen : 0;
+    return cases ? (double)met / cases : 0;
 }
 
 static void say_of_key_line(struct lines *lines, int body, const struct line *key)
@@ -353,14 +375,17 @@ static bool is_of_motion(const struct line *line)
     return line->dynamic && (line->says & accelerations) != 0;
 }
 
-static double share_agreed(const struct line *line)
+/* By which share of the cases of a line of the key another one agrees. */
+static double share_agreed(const struct line *key, const struct line *line)
 {
-    int seen = 0, agreed = 0;
+    unsigned wanted = wanted_slips(key);
+    int cases = 0, agreed = 0;
     for (int slip = 0; slip < slips; slip++) {
-        seen += line->seen[slip] > 0;
+        if (!(wanted >> slip & 1U)) continue;
+        cases++;
         agreed += agrees_at(line, slip);
     }
-    return seen ? (double)agreed / seen : 0;
+    return cases ? (double)agreed / cases : 0;
 }
 
 /* With one degree of freedom there is one equation of motion, whichever acceleration it is written for. Where none of
@@ -385,7 +410,7 @@ static void meet_by_another(struct lines *lines, struct body_lines *bodies, size
     if (!wanted || !given) return;
     for (size_t k = 0; k < sizeof shares / sizeof *shares; k++) push(lines, shares[k], &lines->pushed[k]);
     if (!lines_one_freedom(lines)) return;
-    wanted->share = share_agreed(given);
+    wanted->share = share_agreed(wanted, given);
     say_of_key_line(lines, (int)body, wanted);
 }
 
@@ -439,6 +464,35 @@ static bool grade_all(struct lines *lines, struct lines *plain, struct lines *sh
     return done && !lines->grade->arena.failed;
 }
 
+/* Of each body: in which senses its friction slips in the run of the sheet, bit k for slip k - 1; all of them where it
+ * does not. */
+static unsigned *motion_slips(struct fbd_grade *grade)
+{
+    enum { most_steps = 400 };
+    const fbd_model *model = grade->sheet;
+    unsigned *found = ARENA_ARRAY(&grade->arena, model->body_count + 1, unsigned);
+    fbd_errors *errors = fbd_errors_new();
+    fbd_simulation *run = found && errors ? fbd_simulation_new(model, NULL, errors) : NULL;
+    fbd_state *state = run ? state_new(model) : NULL;
+    bool rubs = false;
+    for (size_t b = 0; found && b < model->body_count; b++) rubs = rubs || model->bodies[b].friction >= 0;
+    for (int step = 0; state && rubs && step < most_steps; step++) {
+        double from, to;
+        if (fbd_simulation_advance(run) != FBD_GOING) break;
+        fbd_simulation_interval(run, &from, &to);
+        if (!fbd_simulation_state(run, from + 0.5 * (to - from), state)) continue;
+        for (size_t b = 0; b < model->body_count; b++) {
+            int friction = model->bodies[b].friction;
+            if (friction >= 0 && state->slip[friction] != 0) found[b] |= 1U << (state->slip[friction] + 1);
+        }
+    }
+    for (size_t b = 0; found && b < model->body_count; b++) found[b] = found[b] ? found[b] | 2U : 7U;
+    state_free(state);
+    fbd_simulation_free(run);
+    fbd_errors_free(errors);
+    return errors ? found : NULL;
+}
+
 static bool open_lines(struct lines *lines)
 {
     lines->rng = gsl_rng_alloc(gsl_rng_mt19937);
@@ -472,7 +526,9 @@ void grade_lines(struct fbd_grade *grade, const struct node *root)
 {
     struct lines lines = {.grade = grade}, plain = lines, sheet = {.grade = grade, .model = grade->sheet};
     sheet.root = grade->key->document.root;
-    bool done = open_lines(&lines) && open_lines(&plain) && open_lines(&sheet);
+    unsigned *slips_of_motion = motion_slips(grade);
+    lines.slips = plain.slips = sheet.slips = slips_of_motion;
+    bool done = slips_of_motion && open_lines(&lines) && open_lines(&plain) && open_lines(&sheet);
     if (done) lines_read(&lines, root);
     done = done && lines.model != NULL && read_plain(&lines, &plain);
     done = done && grade_all(&lines, &plain, &sheet);

@@ -23,6 +23,7 @@ struct lines {
     bool left_out;             /* all of these */
     fbd_model *model;
     struct pushed pushed[2]; /* the same with other forces on all bodies */
+    const unsigned *slips; /* of each body: the senses of slip of the motion of the sheet */
     struct hand_check check;
     gsl_rng *rng;
 };
@@ -42,8 +43,13 @@ bool lines_one_freedom(struct lines *lines);
 
 /* ---- coordinates of the answer's own (coordinates.c) */
 
-/* The derivations of a body in the coordinates of the sheet. NULL when memory is out, or `hand` is. */
-const struct node *coordinates_of_sheet(struct fbd_grade *grade, const struct node *hand, const char *body);
+/* The derivations of a body in the coordinates of the sheet, with the values of the forces that they name. NULL when
+ * memory is out, or `hand` is. */
+const struct node *coordinates_of_sheet(struct fbd_grade *grade, const struct node *answer,
+                                        const struct node *hand, const char *body);
+
+/* What has this name in an equation is not for an answer to say. */
+bool name_is_of_equations(const char *name);
 
 /* The lines that were read, in the coordinates of the sheet after all: an answer may have taken its derivations from
  * there. NULL when memory is out. */
