@@ -472,7 +472,7 @@ void grade_bodies(struct fbd_grade *grade, const fbd_model *answer)
             measure(&twin->sides);
             reactions_take_asked(grade->key, b, &twin->sides);
             if (body->kind == motion_pivot) twin->sides.turned = twin->offset;
-            verdict_on(grade, body, &answer->bodies[twin->other], &twin->sides, comparison.length,
+            verdict_on(grade, answer, body, &answer->bodies[twin->other], &twin->sides, comparison.length,
                        comparison.force);
         }
         verdict_on_others(grade, answer);

@@ -16,6 +16,7 @@ struct rewriting {
     const struct fbd_grade *grade;
     const struct node *answer;
     const char *body; /* whose derivation it is */
+    bool varied;      /* reactions are parameters */
 };
 
 static bool is_word(const char *word, size_t length, const char *name)
@@ -95,7 +96,7 @@ static void add_word(const struct rewriting *rewriting, struct text *text, const
     const char *dot = memchr(word, '.', length);
     const struct drawn *drawn = dot ? NULL : find_drawn(rewriting, word, length);
     if (drawn) {
-        text_add(text, drawn->value);
+        text_add(text, rewriting->varied && drawn->parameter ? drawn->parameter : drawn->value);
         return;
     }
     for (const struct own_coordinate *own = rewriting->grade->own; own; own = own->next) {
@@ -142,8 +143,15 @@ static const char *rewritten(struct arena *arena, const struct node *scalar, con
 const struct node *coordinates_of_sheet(struct fbd_grade *grade, const struct node *answer,
                                         const struct node *hand, const char *body)
 {
-    const struct rewriting rewriting = {grade, answer, body};
+    const struct rewriting rewriting = {grade, answer, body, false};
     return (grade->own || grade->drawn) && hand ? node_rewritten(&grade->arena, hand, rewritten, &rewriting) : hand;
+}
+
+const struct node *line_over_parameters(struct fbd_grade *grade, const struct node *answer,
+                                        const struct node *line, const char *body)
+{
+    const struct rewriting rewriting = {grade, answer, body, true};
+    return node_rewritten(&grade->arena, line, rewritten, &rewriting);
 }
 
 /* ---- back */

@@ -6,6 +6,7 @@
  * without a magnitude and without `angle`, on a body that does not slide, has no direction either; so has one with
  * `angle: unknown`, and one with two unknown components.
  */
+#include <math.h>
 #include <string.h>
 
 #include "base/text.h"
@@ -137,6 +138,7 @@ static const struct node *take_value(const struct draft_place *place, const stru
         return keys;
     }
     drawn->unknown = true;
+    drawn->minus = minus;
     bool wanted = angle && angle->kind == node_scalar &&
                   (strcmp(angle->text, "unknown") == 0 || strcmp(angle->text, "?") == 0);
     drawn->free = !place->moments && !toward && (angle ? wanted : !place->slides);
@@ -154,7 +156,7 @@ static const struct node *take_entry(const struct draft_place *place, const stru
     const struct node *keys = applied->value, *name = lines_value(keys, "name");
     struct drawn *drawn = ARENA_NEW(arena, struct drawn);
     if (!drawn) return NULL;
-    *drawn = (struct drawn){.at = applied->at, .body = place->body, .next = place->grade->drawn};
+    *drawn = (struct drawn){.at = applied->at, .body = place->body, .size = NAN, .next = place->grade->drawn};
     drawn->name = name && name->kind == node_scalar ? name->text : NULL;
     place->grade->drawn = drawn;
     bool components = node_find(keys, "fx") || node_find(keys, "fy");

@@ -39,6 +39,9 @@ struct drawn {
     const char *body, *name, *symbol; /* `symbol`: what stands for its value, or NULL */
     const char *value;                /* as an expression; NULL where it is unknown */
     bool unknown, free;               /* its magnitude, and its direction */
+    bool minus;                       /* unknown: drawn against its direction */
+    double size;                      /* of a reaction that is right: its value at the start; else NAN */
+    const char *parameter, *unit;     /* of that, where it is varied (statics.c) */
     struct drawn *next;
 };
 

@@ -23,6 +23,7 @@ struct line {
     bool dynamic;         /* it fails when other forces act: it is not of the motion alone */
     unsigned met;         /* the unknowns of the line of the key that it has met */
     bool in_numbers;      /* for the values of the sheet, not for others */
+    const double *rest;   /* an equation of rest (statics.c): how it changes with the parameters */
     double share;         /* of a line of the key: in how many of its cases it is met */
     fbd_finding *finding; /* what is said of a line of the key */
 };
@@ -245,6 +246,9 @@ static bool look_at_line(struct lines *lines, int body, int index, struct line *
         !look_at_values(lines, model->scene->bodies[body].hands[index].text, &tolerance, line))
         return false;
     if (agrees_somewhere(line)) return look_at_pushed(lines, tolerance, line);
+    const struct hand *hand = &model->scene->bodies[body].hands[index];
+    const char *text = lines->answer ? line_as_written(lines, model->bodies[body].name, hand) : hand->text;
+    if (line->says == 0 && !line_is_of_rest(lines, body, text, &line->rest)) return false;
     struct line again;
     return sample_line(lines, lines->root, model, 0.3, 1e-9, &again); /* for what is said of it */
 }
@@ -272,6 +276,7 @@ static void note_student_line(struct lines *lines, int body, int index, const st
     struct fbd_grade *grade = lines->grade;
     const struct body *source = &lines->model->scene->bodies[body];
     const struct hand *hand = &source->hands[index];
+    if (line->rest) return;
     bool good = agrees_somewhere(line), empty = good && !asked && (line->says == 0 || !line->dynamic);
     size_t seen = line->seen[0] + line->seen[1] + line->seen[2];
     if (good && !empty && !line->in_numbers) return;
@@ -335,6 +340,27 @@ static double share_met(const struct line *key, struct line *own, size_t count)
         met += find_line(own, count, key, slip);
     }
     return cases ? (double)met / cases : 0;
+}
+
+/* The next equation of rest that does not follow from those that have met one of the key: `base` has these. */
+static bool find_line_of_rest(const struct lines *lines, struct line *own, size_t count, double *base,
+                              size_t *met)
+{
+    const int draws = rest_draws(lines);
+    const double apart = 0.03;
+    for (size_t i = 0; i < count; i++) {
+        if (!own[i].rest || own[i].met != 0) continue;
+        double *changes = base + *met * 32;
+        memcpy(changes, own[i].rest, (size_t)draws * sizeof *changes);
+        double before = rest_norm(changes, draws), after = before;
+        for (size_t k = 0; k < *met; k++) after = rest_beyond(changes, base + k * 32, draws);
+        own[i].met = 1;
+        if (!(after > apart * before)) continue;
+        for (int k = 0; k < draws; k++) changes[k] /= after;
+        (*met)++;
+        return true;
+    }
+    return false;
 }
 
 static void say_of_key_line(struct lines *lines, int body, const struct line *key)
@@ -447,8 +473,14 @@ static bool grade_body(struct lines *lines, struct lines *plain, struct lines *s
             note_student_line(lines, body, (int)i, &found->own[i],
                               is_asked(&found->own[i], found->key, found->key_count));
     }
-    for (size_t k = 0; done && k < found->key_count; k++) {
-        found->key[k].share = share_met(&found->key[k], found->own, found->count);
+    double *base = ARENA_ARRAY(&lines->grade->arena, (found->key_count + 1) * 32, double);
+    done = done && base;
+    for (size_t k = 0, met = 0; done && k < found->key_count; k++) {
+        struct line *key = &found->key[k];
+        if (key->rest)
+            key->share = find_line_of_rest(lines, found->own, found->count, base, &met) ? 1 : 0;
+        else
+            key->share = share_met(key, found->own, found->count);
         note_key_line(lines, body, (int)k, &found->key[k]);
     }
     return done;

@@ -23,6 +23,9 @@ struct lines {
     bool left_out;             /* all of these */
     fbd_model *model;
     struct pushed pushed[2]; /* the same with other forces on all bodies */
+    bool rest_made;            /* statics.c: the sums of forces and moments have been looked for, */
+    struct rest *rest;         /* these, or NULL */
+    const struct node *varied; /* the answer with a parameter for each reaction */
     const unsigned *slips; /* of each body: the senses of slip of the motion of the sheet */
     struct hand_check check;
     gsl_rng *rng;
@@ -40,6 +43,21 @@ void lines_read(struct lines *lines, const struct node *answer);
 
 /* Has the scene one degree of freedom? Its pushes are made (freedom.c). */
 bool lines_one_freedom(struct lines *lines);
+
+/* ---- equations of rest (statics.c) */
+
+/* *changes: how left less right changes with the parameters, where the equation is one of rest that is right; else NULL.
+ * False when memory is out. */
+bool line_is_of_rest(struct lines *lines, int body, const char *text, const double **changes);
+
+/* How many numbers changes are; their norm; and what they are beyond a direction (of norm 1). */
+int rest_draws(const struct lines *lines);
+double rest_norm(const double *a, int count);
+double rest_beyond(double *a, const double *base, int count);
+
+/* An equation with the parameters of reactions for the names of what is drawn. */
+const struct node *line_over_parameters(struct fbd_grade *grade, const struct node *answer,
+                                        const struct node *line, const char *body);
 
 /* ---- coordinates of the answer's own (coordinates.c) */
 

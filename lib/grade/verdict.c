@@ -436,30 +436,35 @@ static void say_pair(struct fbd_grade *grade, const char *body, struct item *key
 
 /* ---- reactions */
 
-/* An unknown has the value of the reaction from here on, for the derivations. */
-static void name_values(struct fbd_grade *grade, const struct sides *sides, const struct support *support)
+/* What a reaction is, for the derivations that name it: of an unknown the value that makes it right. */
+static void keep_values(struct fbd_grade *grade, const fbd_model *answer, const struct sides *sides,
+                        const struct support *support)
 {
     double values[most_components];
     support_solve(sides, support, values);
-    bool us = grade->sheet->scene->units == unit_us;
     for (size_t j = 0; j < support->count; j++) {
         const struct load *source = support->parts[j]->source;
         struct drawn *drawn = drawn_at(grade, source->at);
         bool moment = strcmp(noun(source), "moment") == 0;
-        const char *unit = moment ? (us ? "lb*ft" : "N*m") : us ? "lb" : "N";
-        if (!drawn || !drawn->unknown || !isfinite(values[j])) continue;
-        drawn->value = arena_printf(&grade->arena, "(%.17g[%s])", values[j], unit);
+        if (!drawn) continue;
+        bool us = (drawn->unknown ? grade->sheet : answer)->scene->units == unit_us;
+        drawn->unit = moment ? (us ? "lb*ft" : "N*m") : us ? "lb" : "N";
+        bool constant = source->value.expr && expr_is_constant(source->value.expr);
+        drawn->size = drawn->unknown ? values[j] : constant ? expr_value(source->value.expr) : NAN;
+        if (drawn->unknown && isfinite(values[j]))
+            drawn->value = arena_printf(&grade->arena, "(%.17g[%s])", values[j], drawn->unit);
     }
 }
 
-static void pair_reactions(struct fbd_grade *grade, const char *body, struct sides *sides, size_t parts)
+static void pair_reactions(struct fbd_grade *grade, const fbd_model *answer, const char *body,
+                           struct sides *sides, size_t parts)
 {
     struct support support;
     while (support_find(sides, parts, &support)) {
         const char *message = parts > 1                 ? "right, together with its other components"
                               : support.key_count > 1 ? "right, as a resultant"
                                                       : "right";
-        name_values(grade, sides, &support);
+        keep_values(grade, answer, sides, &support);
         for (size_t i = 0; i < support.key_count; i++)
             add_right(grade, body, support.key[i], support.parts[0], message);
         for (size_t j = 0; j < parts; j++) support.parts[j]->used = true;
@@ -564,17 +569,17 @@ static void add_missing(struct fbd_grade *grade, const char *body, const struct 
     text_free(&text);
 }
 
-void verdict_on(struct fbd_grade *grade, const struct model_body *key, const struct model_body *body,
-                struct sides *sides, double length, double force)
+void verdict_on(struct fbd_grade *grade, const fbd_model *answer, const struct model_body *key,
+                const struct model_body *body, struct sides *sides, double length, double force)
 {
     double masses = force / length * body->inertia.mass / key->inertia.mass;
     compare_inertia(grade, key, body, sides, length, force);
     pair_equal(grade, key->name, sides, masses);
     take_normals(sides);
-    pair_reactions(grade, key->name, sides, 1);
+    pair_reactions(grade, answer, key->name, sides, 1);
     pair_sums(grade, key->name, sides);
     pair_groups(grade, key->name, sides);
-    for (size_t parts = 2; parts <= most_components; parts++) pair_reactions(grade, key->name, sides, parts);
+    for (size_t parts = 2; parts <= most_components; parts++) pair_reactions(grade, answer, key->name, sides, parts);
     add_unknowns_of_nothing(grade, key->name, sides);
     bool paired = true;
     while (paired) paired = pair_closest(grade, key->name, sides);

@@ -12,8 +12,8 @@ void verdict_body(struct fbd_grade *grade, const struct model_body *key);
 void verdict_motion(struct fbd_grade *grade, const struct model_body *key, const struct model_body *body);
 
 /* What it is and what it lists; units of length and force of the answer in those of the key. */
-void verdict_on(struct fbd_grade *grade, const struct model_body *key, const struct model_body *body,
-                struct sides *sides, double length, double force);
+void verdict_on(struct fbd_grade *grade, const fbd_model *answer, const struct model_body *key,
+                const struct model_body *body, struct sides *sides, double length, double force);
 
 /* Bodies and couplings that the key does not have, or the answer. */
 void verdict_on_others(struct fbd_grade *grade, const fbd_model *answer);
