@@ -458,12 +458,25 @@ bool compare_with_itself(struct fbd_key *key)
     return done;
 }
 
+/* Gravity belongs to the sheet. */
+static bool same_gravity(const struct comparison *comparison)
+{
+    struct vec key = comparison->key->scene->gravity, own = comparison->answer->scene->gravity;
+    struct vec apart = vec_sub(vec_scale(comparison->length, own), key);
+    return vec_norm(apart) <= comparison->key->scene->grading.tolerance * vec_norm(key);
+}
+
 void grade_bodies(struct fbd_grade *grade, const fbd_model *answer)
 {
     struct comparison comparison = {.grade = grade, .key = grade->sheet, .answer = answer};
     bool open = open_comparison(&comparison);
-    for (size_t b = 0; open && b < comparison.key->body_count; b++) find_twin(&comparison, b);
-    if (open && make_sides(&comparison)) {
+    bool same = open && same_gravity(&comparison);
+    for (size_t b = 0; open && !same && b < comparison.key->body_count; b++)
+        verdict_gravity(grade, &comparison.key->bodies[b]);
+    for (size_t b = 0; same && b < comparison.key->body_count; b++) find_twin(&comparison, b);
+    if (open && !same) {
+        verdict_on_others(grade, answer);
+    } else if (open && make_sides(&comparison)) {
         look_at_states(&comparison);
         for (size_t b = 0; b < comparison.key->body_count; b++) {
             struct twin *twin = &comparison.twins[b];

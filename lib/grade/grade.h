@@ -24,6 +24,7 @@ enum { most_grade_samples = 32 };
 struct fbd_key {
     struct arena arena;
     char *source; /* text of the file */
+    size_t length;
     const char *file;
     struct document document;
     fbd_model *model; /* with the values of the file */
@@ -47,6 +48,7 @@ struct drawn {
 
 struct finding {
     fbd_finding finding;
+    bool reaction; /* it is about a reaction of the key */
     struct finding *next;
 };
 
@@ -86,6 +88,9 @@ const char *draw_for_student(struct arena *arena, const struct grading *grading,
 size_t drawn_overrides(struct arena *arena, const struct fbd_key *key, const char *student,
                        const struct node *root, struct override **overrides);
 
+/* The key as an answer to itself; NULL when memory is out. */
+fbd_grade *grade_itself(const struct fbd_key *key);
+
 /* Compile a tree of an answer or of the key under the student's values. NULL with notes. */
 fbd_model *grade_compile(struct fbd_grade *grade, const struct node *root, const char *file, bool hands,
                          fbd_errors *errors);
@@ -112,6 +117,7 @@ struct answer {
     char *text;
 };
 
+/* `path` NULL: the key itself. */
 bool answer_read(struct fbd_grade *grade, const char *path, struct answer *answer, fbd_errors *errors);
 void answer_close(struct answer *answer);
 

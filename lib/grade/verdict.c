@@ -45,6 +45,13 @@ void verdict_motion(struct fbd_grade *grade, const struct model_body *key, const
                 "the body moves in another way than on the sheet: its forces are not compared");
 }
 
+void verdict_gravity(struct fbd_grade *grade, const struct model_body *key)
+{
+    fbd_finding *finding = finding_add(grade, FBD_FINDING_MOTION, key->name, "", nowhere);
+    finding->most = worth(grade, key);
+    finding_say(grade, finding, "`gravity` is not that of the sheet: its forces are not compared");
+}
+
 static void verdict_superfluous(struct fbd_grade *grade, fbd_finding_kind kind, const char *body,
                                 const char *name, struct pos at, const char *message)
 {
@@ -560,6 +567,7 @@ static void add_missing(struct fbd_grade *grade, const char *body, const struct 
     struct text text = {0};
     fbd_finding *finding = finding_add(grade, FBD_FINDING_MISSING, body, "", nowhere);
     finding->most = grading_of(grade)->points.force;
+    if (!key->source && grade->last) grade->last->reaction = true;
     text_printf(&text, "a %s is missing", key->source ? noun(key->source) : "reaction");
     finding_say(grade, finding, text.data ? text.data : "");
     text.length = 0;
