@@ -181,12 +181,37 @@ static bool has_own_names(const struct lines *lines, const char *text, bool *rou
     return found;
 }
 
-static bool sample_line(struct lines *lines, const struct node *root, const fbd_model *model, double spread,
-                        double tolerance, struct line *line)
+/* A scene with one equation alone: the others are not compiled with it each time that a parameter changes. */
+static const struct node *with_line_alone(struct lines *lines, const struct node *root, int body, int index)
 {
-    const struct document document = {.file = lines->grade->key->file, .root = root, .split_hands = true};
-    lines->check.model = model;
-    if (!hand_take_samples(&lines->check, &document, lines->rng, spread)) return false;
+    struct arena *arena = &lines->grade->arena;
+    const char *name = lines->model->bodies[body].name;
+    const struct node *bodies = lines_value(root, "bodies"), *made = bodies;
+    const struct node *hand = lines_value(lines_value(bodies, name), "hand");
+    if (hand->kind == node_list) hand = node_appended(arena, NULL, hand->items[index]);
+    for (size_t b = 0; made && hand && b < bodies->count; b++) {
+        const char *other = bodies->pairs[b].key;
+        const struct node *value = bodies->pairs[b].value;
+        if (!node_find(value, "hand")) continue;
+        const struct node *one = node_with(arena, value, "hand", strcmp(other, name) == 0 ? hand : NULL);
+        made = one ? node_with(arena, made, other, one) : NULL;
+    }
+    return made && hand ? node_with(arena, root, "bodies", made) : NULL;
+}
+
+static bool sample_line(struct lines *lines, const struct node *root, double spread, double tolerance,
+                        struct line *line)
+{
+    struct document document = {.file = lines->grade->key->file, .split_hands = true};
+    fbd_errors *errors = fbd_errors_new();
+    document.root = with_line_alone(lines, root, lines->check.body, lines->index);
+    fbd_model_free(lines->alone);
+    lines->alone = NULL;
+    if (document.root && errors) lines->alone = lines_try(lines, document.root, true, false, errors);
+    fbd_errors_free(errors);
+    lines->check.model = lines->alone;
+    lines->check.index = 0;
+    if (!lines->alone || !hand_take_samples(&lines->check, &document, lines->rng, spread)) return false;
     line->says = lines->check.says;
     count_samples(&lines->check, tolerance, line);
     count_slips(line, lines->slips[lines->check.body]);
@@ -206,7 +231,7 @@ static bool look_at_pushed(struct lines *lines, double tolerance, struct line *l
             line->dynamic = true;
             return !lines->grade->arena.failed;
         }
-        if (!sample_line(lines, pushed->root, pushed->model, 0, tolerance, &other)) return false;
+        if (!sample_line(lines, pushed->root, 0, tolerance, &other)) return false;
         size_t seen = other.seen[0] + other.seen[1] + other.seen[2];
         seen_any = seen_any || seen > 0;
         line->dynamic = 2 * (other.agreed[0] + other.agreed[1] + other.agreed[2]) < seen;
@@ -221,10 +246,10 @@ static bool look_at_values(struct lines *lines, const char *text, double *tolera
     const struct line general = *line;
     bool rounded = has_numbers(text), own = has_own_names(lines, text, &rounded);
     if (!rounded && !own) return true;
-    if (!sample_line(lines, lines->root, lines->model, 0, *tolerance, line)) return false;
+    if (!sample_line(lines, lines->root, 0, *tolerance, line)) return false;
     if (!agrees_somewhere(line) && rounded) {
         *tolerance = 0.3 * lines->model->scene->grading.tolerance;
-        if (!sample_line(lines, lines->root, lines->model, 0, *tolerance, line)) return false;
+        if (!sample_line(lines, lines->root, 0, *tolerance, line)) return false;
     }
     line->in_numbers = agrees_somewhere(line);
     if (!line->in_numbers) *line = general;
@@ -238,10 +263,10 @@ static bool look_at_line(struct lines *lines, int body, int index, struct line *
     double tolerance = 1e-9;
     *line = (struct line){.says = 0};
     lines->check.body = body;
-    lines->check.index = index;
+    lines->index = index;
     if (diagram_arrows(model, body) >= most_terms) return true;
     line->checked = true;
-    if (!sample_line(lines, lines->root, model, 0.3, tolerance, line)) return false;
+    if (!sample_line(lines, lines->root, 0.3, tolerance, line)) return false;
     if (!agrees_somewhere(line) &&
         !look_at_values(lines, model->scene->bodies[body].hands[index].text, &tolerance, line))
         return false;
@@ -250,7 +275,7 @@ static bool look_at_line(struct lines *lines, int body, int index, struct line *
     const char *text = lines->answer ? line_as_written(lines, model->bodies[body].name, hand) : hand->text;
     if (line->says == 0 && !line_is_of_rest(lines, body, text, &line->rest)) return false;
     struct line again;
-    return sample_line(lines, lines->root, model, 0.3, 1e-9, &again); /* for what is said of it */
+    return sample_line(lines, lines->root, 0.3, 1e-9, &again); /* for what is said of it */
 }
 
 /* ---- what is said of it */
@@ -538,6 +563,7 @@ static void close_lines(struct lines *lines)
         model_free(lines->pushed[k].model);
         document_close(&lines->pushed[k].probes);
     }
+    fbd_model_free(lines->alone);
     free(lines->check.samples);
     if (lines->rng) gsl_rng_free(lines->rng);
 }

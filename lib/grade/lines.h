@@ -27,6 +27,8 @@ struct lines {
     struct rest *rest;         /* these, or NULL */
     const struct node *varied; /* the answer with a parameter for each reaction */
     const unsigned *slips; /* of each body: the senses of slip of the motion of the sheet */
+    int index;        /* of the equation at hand, */
+    fbd_model *alone; /* and the scene with it alone */
     struct hand_check check;
     gsl_rng *rng;
 };

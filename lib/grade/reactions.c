@@ -325,10 +325,13 @@ static bool share_support(const struct sides *sides, const struct item *a, const
 /* Choose parts from item `from` on until they are right. */
 static bool choose_parts(struct sides *sides, struct support *support, size_t parts, size_t from)
 {
+    enum { most_left = 24 }; /* among so many components are looked for */
     if (support->count == parts) return is_right(sides, support);
-    for (size_t j = from; j < sides->count; j++) {
+    size_t left = 0;
+    for (size_t j = from; j < sides->count && (parts == 1 || left < most_left); j++) {
         struct item *item = &sides->items[j];
         if (item->used || !item->source || is_zero_at(sides, item, 0)) continue;
+        left++;
         support->parts[support->count++] = item;
         if (choose_parts(sides, support, parts, j + 1)) return true;
         support->count--;
