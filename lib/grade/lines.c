@@ -426,10 +426,9 @@ static bool is_of_motion(const struct line *line)
     return line->dynamic && (line->says & accelerations) != 0;
 }
 
-/* By which share of the cases of a line of the key another one agrees. */
-static double share_agreed(const struct line *key, const struct line *line)
+/* By which share of these senses of slip a line agrees. */
+static double share_agreed(unsigned wanted, const struct line *line)
 {
-    unsigned wanted = wanted_slips(key);
     int cases = 0, agreed = 0;
     for (int slip = 0; slip < slips; slip++) {
         if (!(wanted >> slip & 1U)) continue;
@@ -444,7 +443,7 @@ static double share_agreed(const struct line *key, const struct line *line)
 static void meet_by_another(struct lines *lines, struct body_lines *bodies, size_t count)
 {
     struct line *wanted = NULL, *given = NULL;
-    size_t body = 0;
+    size_t body = 0, other = 0;
     for (size_t b = 0; b < count; b++) {
         for (size_t k = 0; k < bodies[b].key_count; k++) {
             struct line *key = &bodies[b].key[k];
@@ -455,13 +454,15 @@ static void meet_by_another(struct lines *lines, struct body_lines *bodies, size
         }
         for (size_t i = 0; i < bodies[b].count; i++) {
             struct line *own = &bodies[b].own[i];
-            if (is_of_motion(own) && own->met == 0 && agrees_somewhere(own) && !given) given = own;
+            if (!is_of_motion(own) || own->met != 0 || !agrees_somewhere(own) || given) continue;
+            given = own;
+            other = b;
         }
     }
     if (!wanted || !given) return;
     for (size_t k = 0; k < sizeof shares / sizeof *shares; k++) push(lines, shares[k], &lines->pushed[k]);
     if (!lines_one_freedom(lines)) return;
-    wanted->share = share_agreed(wanted, given);
+    wanted->share = share_agreed(body == other ? wanted_slips(wanted) : given->counts, given);
     say_of_key_line(lines, (int)body, wanted);
 }
 

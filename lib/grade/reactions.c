@@ -483,7 +483,7 @@ bool reactions_closest(struct sides *sides, int below, struct misdrawn *found)
         struct item *key = candidate(sides, k);
         for (size_t j = 0; key && j < sides->count; j++) {
             struct item *item = &sides->items[j];
-            if (item->used || !item->source || (key->source && !item->unknown)) continue;
+            if (item->used || !item->source || (key->source ? !item->unknown : !key->asked)) continue;
             consider_item(sides, key, item, found);
         }
     }
