@@ -279,7 +279,7 @@ static double coefficient(const struct value *value, const fbd_state *state)
 static void take_item(struct item *item, size_t s, const struct arrow *arrow, struct vec G,
                       const fbd_state *state, double force, double length)
 {
-    struct wrench *at = &item->at[s];
+    struct action *at = &item->at[s];
     at->force = vec_scale(force, arrow->force);
     at->point = vec_scale(length, arrow->point);
     item->about[s] = G;
@@ -320,7 +320,7 @@ static void take_items(const struct comparison *comparison, fbd_state *state, in
         item->name = arrow->name;
         item->follows = arrow_is_reaction(model, arrow);
         take_item(item, s, arrow, G, state, force, length);
-        if (!listed) reaction_describe(model, b, arrow, item);
+        if (!listed && s == 0) reaction_describe(model, b, arrow, &at, item);
         if (listed && !own) note_unknown(comparison, item);
         if (listed && s == 0 && item->source->kind == load_normal)
             item->across = surface_normal(model, body, &at);
@@ -374,7 +374,7 @@ static void measure_item(struct sides *sides, const struct item *item)
 {
     for (size_t s = 0; s < sides->samples; s++) {
         if (item->follows && !sides->possible[s]) continue;
-        const struct wrench *at = &item->at[s];
+        const struct action *at = &item->at[s];
         sides->force = fmax(sides->force, vec_norm(at->force));
         sides->moment = fmax(sides->moment, fabs(at->moment));
         sides->arm = fmax(sides->arm, at->arm);

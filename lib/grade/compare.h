@@ -8,7 +8,7 @@
 #include "grade/grade.h"
 
 /* A force and a moment at one state: in the world, in the units of the key, about the key's centre of mass. */
-struct wrench {
+struct action {
     struct vec force, point;
     double moment;
     double arm;                 /* of its line of action from there */
@@ -30,8 +30,10 @@ struct item {
     bool couples;   /* it may be a force with a moment: of a weld or a guide */
     int contact;    /* the contact that it is part of, or -1 */
 
-    struct vec across; /* of a normal force: where its surface pushes to, at the start */
-    struct wrench at[most_grade_samples];
+    bool any;       /* it may point anywhere, as that of a pin; */
+    bool single;    /* one force alone is right for it, without a component that is zero */
+    struct vec across; /* else its line, at the start; of a normal force: where its surface pushes to */
+    struct action at[most_grade_samples];
     struct vec about[most_grade_samples]; /* the centre of mass of the key's body */
 };
 

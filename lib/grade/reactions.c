@@ -4,17 +4,37 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "dynamics/constraint.h"
+#include "dynamics/tree.h"
+
 
 /* Forces below this share of the largest one are zero: reactions are solutions of systems of equations. */
 static const double zero_share = 1e-7;
 
 /* ---- what exerts it */
 
-void reaction_describe(const fbd_model *model, int b, const struct arrow *arrow, struct item *item)
+/* The direction of what row `row` of a tie does at its end k; zero where that has none of its own. */
+static struct vec direction_of(const struct tie *tie, int k, int row, const struct instant *at)
+{
+    struct vec sum = {0, 0};
+    if (tie->row_count > 1 && !tie->law->end_names[1]) return sum; /* a pin */
+    const struct row *one = &at->tree->rows[tie->first_row + (row < tie->row_count ? row : 0)];
+    for (int i = 0; i < one->port_count; i++)
+        if (one->ports[i].end == k) sum = vec_add(sum, one->ports[i].force);
+    return sum;
+}
+
+void reaction_describe(const fbd_model *model, int b, const struct arrow *arrow, const struct instant *at,
+                       struct item *item)
 {
     const struct model_body *body = &model->bodies[b];
+    bool joint = arrow->name == body->reaction;
+    bool guided = body->kind == motion_slide || body->kind == motion_track;
     item->contact = -1;
-    item->couples = arrow->name == body->reaction && body->kind != motion_pivot;
+    item->couples = joint && body->kind != motion_pivot;
+    if (!joint && body->place.link == 0) joint = true; /* on the ground: `pin` or `guide` */
+    if (joint && guided) item->across = vec_perp(body_direction(body, at));
+    item->any = joint && !guided;
     for (int i = 0; model->tree && i < model->tree->tie_count; i++) {
         const struct tie *tie = &model->tree->ties[i];
         for (int k = 0; k < tie->end_count; k++)
@@ -23,6 +43,8 @@ void reaction_describe(const fbd_model *model, int b, const struct arrow *arrow,
                 bool rope = tie->kind == constraint_rope || tie->law->strands;
                 item->one_sided = rope || (tie_presses(tie) && row == 0);
                 if (tie->kind == constraint_contact) item->contact = tie->constraint;
+                item->across = direction_of(tie, k, row, at);
+                item->any = tie->row_count > 1 && !tie->law->end_names[1];
                 return;
             }
     }
@@ -32,7 +54,7 @@ void reaction_describe(const fbd_model *model, int b, const struct arrow *arrow,
 
 static bool is_zero_at(const struct sides *sides, const struct item *item, size_t s)
 {
-    const struct wrench *at = &item->at[s];
+    const struct action *at = &item->at[s];
     if (item->unknown) return false;
     bool moment = sides->turns && fabs(at->moment) > zero_share * sides->moment;
     return vec_norm(at->force) <= zero_share * sides->force && !moment;
@@ -53,7 +75,7 @@ bool reaction_is_nothing(const struct sides *sides, const struct item *key)
 }
 
 /* Is the second wrench the first, to the tolerance? */
-static bool is_near(const struct sides *sides, const struct wrench *key, const struct wrench *other)
+static bool is_near(const struct sides *sides, const struct action *key, const struct action *other)
 {
     double size = vec_norm(key->force), off = vec_norm(vec_sub(key->force, other->force));
     double moments = fabs(key->moment) + size * sides->reach;
@@ -105,20 +127,20 @@ static double reach_of(const struct sides *sides)
 }
 
 /* How far to its left a line through `item` passes `point`. */
-static double distance_to(const struct wrench *item, struct vec point)
+static double distance_to(const struct action *item, struct vec point)
 {
     double size = vec_norm(item->force);
     return size > 0 ? vec_cross(item->force, vec_sub(point, item->point)) / size : 0;
 }
 
-static bool passes(const struct sides *sides, const struct wrench *item, struct vec point)
+static bool passes(const struct sides *sides, const struct action *item, struct vec point)
 {
     return !sides->turns || fabs(distance_to(item, point)) <= reach_of(sides);
 }
 
 /* Does a component pass the point where the reactions act, or between their points? */
 static bool meets_support(const struct sides *sides, const struct support *support,
-                          const struct wrench *item, size_t s)
+                          const struct action *item, size_t s)
 {
     double low = HUGE_VAL, high = -HUGE_VAL;
     for (size_t i = 0; i < support->key_count; i++) {
@@ -127,6 +149,12 @@ static bool meets_support(const struct sides *sides, const struct support *suppo
         high = fmax(high, distance);
     }
     return !sides->turns || (low <= reach_of(sides) && high >= -reach_of(sides));
+}
+
+static bool is_parallel(const struct sides *sides, struct vec a, struct vec b)
+{
+    double size = vec_norm(a) * vec_norm(b);
+    return size > 0 && fabs(vec_cross(a, b)) <= sides->tolerance * size;
 }
 
 /* ---- magnitudes of unknowns */
@@ -179,7 +207,7 @@ struct fitting {
     size_t count;
     struct column columns[most_columns];
     double values[most_columns];
-    struct wrench wanted, known; /* sums */
+    struct action wanted, known; /* sums */
 };
 
 static bool add_column(struct fitting *fitting, struct column column, size_t part, bool any)
@@ -201,7 +229,7 @@ static bool collect(const struct sides *sides, const struct support *support, si
     }
     for (size_t j = 0; fine && j < support->count; j++) {
         const struct item *part = support->parts[j];
-        const struct wrench *at = &part->at[s];
+        const struct action *at = &part->at[s];
         if (part->free) {
             struct vec to = vec_sub(at->point, part->about[s]);
             fine = add_column(fitting, column_of(sides, (struct vec){1, 0}, -to.y), j, true) &&
@@ -217,9 +245,9 @@ static bool collect(const struct sides *sides, const struct support *support, si
 }
 
 /* What the parts are together, with these magnitudes of the unknowns. */
-static struct wrench sum_of(const struct sides *sides, const struct fitting *fitting)
+static struct action sum_of(const struct sides *sides, const struct fitting *fitting)
 {
-    struct wrench sum = fitting->known;
+    struct action sum = fitting->known;
     double length = sides->reach > 0 ? sides->reach : 1;
     for (size_t k = 0; k < fitting->count; k++) {
         const double *row = fitting->columns[k].row;
@@ -237,8 +265,22 @@ static bool fit(const struct sides *sides, const struct support *support, size_t
     struct column right = column_of(sides, force, fitting->wanted.moment - fitting->known.moment);
     if (fitting->count > 0 && !solve(fitting->columns, fitting->count, right.row, fitting->values))
         return false;
-    struct wrench sum = sum_of(sides, fitting);
+    struct action sum = sum_of(sides, fitting);
     return is_near(sides, &fitting->wanted, &sum);
+}
+
+/* Is an unknown drawn along the line of one of the reactions, the other way? */
+static bool is_against_line(const struct sides *sides, const struct support *support,
+                            const struct fitting *fitting, size_t k)
+{
+    const double *row = fitting->columns[k].row;
+    struct vec along = vec_scale(fitting->values[k], (struct vec){row[0], row[1]});
+    for (size_t i = 0; i < support->key_count; i++) {
+        const struct item *key = support->key[i];
+        struct vec force = key->at[when_of(sides, key)].force;
+        if (!key->any && is_parallel(sides, along, force) && vec_dot(along, force) < 0) return true;
+    }
+    return false;
 }
 
 /* A sense is that of the reaction, for a single force and where the reactions only pull or press. Two components of a
@@ -254,6 +296,7 @@ static bool senses_agree(const struct sides *sides, const struct support *suppor
         double size = zero_share * (moment ? sides->moment : sides->force);
         if (fitting->count == 1 && !(fitting->values[k] > size)) return false;
         if (one_sided && !(fitting->values[k] > -size)) return false;
+        if (!moment && is_against_line(sides, support, fitting, k)) return false;
     }
     return true;
 }
@@ -323,63 +366,89 @@ static bool share_support(const struct sides *sides, const struct item *a, const
 }
 
 /* Choose parts from item `from` on until they are right. */
-static bool choose_parts(struct sides *sides, struct support *support, size_t parts, size_t from)
+static bool choose_parts(struct sides *sides, const struct search *search, struct support *support,
+                         size_t from)
 {
     enum { most_left = 24 }; /* among so many components are looked for */
-    if (support->count == parts) return is_right(sides, support);
+    if (support->count == search->parts) return is_right(sides, support);
     size_t left = 0;
-    for (size_t j = from; j < sides->count && (parts == 1 || left < most_left); j++) {
+    for (size_t j = from; j < sides->count && (search->parts == 1 || left < most_left); j++) {
         struct item *item = &sides->items[j];
-        if (item->used || !item->source || is_zero_at(sides, item, 0)) continue;
+        if (item->used || !item->source || is_zero_at(sides, item, 0) || item->free != search->free ||
+            (search->valued && item->unknown))
+            continue;
         left++;
         support->parts[support->count++] = item;
-        if (choose_parts(sides, support, parts, j + 1)) return true;
+        if (choose_parts(sides, search, support, j + 1)) return true;
         support->count--;
     }
     return false;
 }
 
-static bool try_support(struct sides *sides, size_t parts, struct support *support, size_t key_count)
+static bool try_support(struct sides *sides, const struct search *search, struct support *support,
+                        size_t key_count)
 {
     support->key_count = key_count;
     support->count = 0;
-    return choose_parts(sides, support, parts, 0);
+    return choose_parts(sides, search, support, 0);
 }
 
-/* With reaction k as the first: alone, with one other, with all at its support. */
-static bool find_from(struct sides *sides, size_t k, size_t parts, bool alone, struct support *support)
+/* Reaction k with one other, or with all at its support. */
+static bool find_group(struct sides *sides, size_t k, const struct search *search, struct support *support)
 {
     size_t all = sides->reaction_count + sides->key_count, shared = 1;
     struct item *first = candidate(sides, k), *others[most_support];
-    if (!first) return false;
     others[0] = support->key[0] = first;
-    if (alone) return try_support(sides, parts, support, 1);
     for (size_t j = k + 1; j < all && shared < most_support; j++) {
         struct item *other = candidate(sides, j);
         if (!other || !share_support(sides, first, other)) continue;
         support->key[1] = others[shared++] = other;
-        if (try_support(sides, parts, support, 2)) return true;
+        if (try_support(sides, search, support, 2)) return true;
     }
     if (shared < 3) return false;
     memcpy(support->key, others, sizeof others);
-    return try_support(sides, parts, support, shared);
+    return try_support(sides, search, support, shared);
 }
 
-bool support_find(struct sides *sides, size_t parts, struct support *support)
+bool support_find(struct sides *sides, const struct search *search, struct support *support)
 {
-    size_t all = sides->reaction_count + sides->key_count;
-    for (int alone = 1; alone >= 0; alone--)
-        for (size_t k = 0; k < all; k++)
-            if (find_from(sides, k, parts, alone, support)) return true;
+    for (size_t k = 0; k < sides->reaction_count + sides->key_count; k++) {
+        struct item *key = candidate(sides, k);
+        if (!key || (search->keys == keys_of_one_line && key->any) ||
+            (search->keys == keys_of_any_line && !key->any))
+            continue;
+        support->key[0] = key;
+        if (search->keys == keys_together ? find_group(sides, k, search, support)
+                                          : try_support(sides, search, support, 1))
+            return true;
+    }
     return false;
 }
 
-bool unknown_of_nothing(const struct sides *sides, const struct item *item)
+/* The component of a reaction that may point anywhere, beside one that is right by itself. */
+static bool is_beside(const struct sides *sides, const struct item *item, struct item *key)
 {
-    for (size_t i = 0; item->unknown && i < sides->reaction_count; i++) {
-        const struct item *key = &sides->reactions[i];
-        if (!key->name || !reaction_is_nothing(sides, key)) continue;
-        if (is_couple_at(sides, item, 0) ? key->couples : passes(sides, &item->at[0], key->at[0].point))
+    size_t s = when_of(sides, key);
+    bool small = vec_norm(item->at[s].force) <= sides->tolerance * vec_norm(key->at[s].force);
+    if (!key->any || !key->single || !(item->unknown || small)) return false;
+    if (is_couple_at(sides, item, s) || !passes(sides, &item->at[s], key->at[s].point)) return false;
+    key->single = false;
+    return true;
+}
+
+bool is_of_nothing(struct sides *sides, const struct item *item)
+{
+    for (size_t i = 0; i < sides->reaction_count; i++) {
+        struct item *key = &sides->reactions[i];
+        if (!key->name) continue;
+        if (!reaction_is_nothing(sides, key)) {
+            if (is_beside(sides, item, key)) return true;
+            continue;
+        }
+        if (!item->unknown) continue;
+        if (is_couple_at(sides, item, 0) ? key->couples
+                                         : passes(sides, &item->at[0], key->at[0].point) &&
+                                               (key->any || is_parallel(sides, key->across, item->at[0].force)))
             return true;
     }
     return false;
@@ -387,32 +456,26 @@ bool unknown_of_nothing(const struct sides *sides, const struct item *item)
 
 /* ---- what is not right */
 
-static bool is_parallel(const struct sides *sides, struct vec a, struct vec b)
-{
-    double size = vec_norm(a) * vec_norm(b);
-    return size > 0 && fabs(vec_cross(a, b)) <= sides->tolerance * size;
-}
-
-static struct wrench times(double factor, struct wrench wrench)
+static struct action times(double factor, struct action wrench)
 {
     wrench.force = vec_scale(factor, wrench.force);
     wrench.moment *= factor;
     return wrench;
 }
 
-static enum relation relation_of_couples(const struct sides *sides, const struct wrench *key,
-                                         const struct item *item, const struct wrench *at)
+static enum relation relation_of_couples(const struct sides *sides, const struct action *key,
+                                         const struct item *item, const struct action *at)
 {
-    const struct wrench other = times(-1, *at);
+    const struct action other = times(-1, *at);
     if (item->unknown ? at->moment * key->moment < 0 : is_near(sides, key, &other)) return is_opposite;
     return at->moment * key->moment > 0 ? is_scaled : is_other;
 }
 
 /* How an item differs from `key`, a reaction or the component of one. */
-static enum relation relation_of(const struct sides *sides, const struct wrench *key, const struct item *item,
+static enum relation relation_of(const struct sides *sides, const struct action *key, const struct item *item,
                                  size_t s)
 {
-    const struct wrench *at = &item->at[s];
+    const struct action *at = &item->at[s];
     double size = vec_norm(key->force), own = vec_norm(at->force);
     bool couple = size <= zero_share * sides->force;
     if (couple != is_couple_at(sides, item, s)) return is_other;
@@ -428,10 +491,10 @@ static enum relation relation_of(const struct sides *sides, const struct wrench 
 }
 
 /* Is an item, at least when its magnitude is right, a component of this wrench at right angles to the rest? *rest. */
-static bool is_component(const struct sides *sides, const struct wrench *key, const struct item *item,
-                         size_t s, struct wrench *rest)
+static bool is_component(const struct sides *sides, const struct action *key, const struct item *item,
+                         size_t s, struct action *rest)
 {
-    struct wrench at = item->at[s];
+    struct action at = item->at[s];
     double size = vec_norm(at.force), along = size > 0 ? vec_dot(key->force, at.force) / size : 0;
     if (item->free || is_couple_at(sides, item, s) || !passes(sides, &at, key->point)) return false;
     double factor = item->unknown ? along / size : 1;
@@ -461,8 +524,8 @@ static void consider(struct misdrawn *best, struct item *key, struct item *item,
 static void consider_item(struct sides *sides, struct item *key, struct item *item, struct misdrawn *best)
 {
     size_t s = when_of(sides, key);
-    const struct wrench *wanted = &key->at[s];
-    struct wrench rest;
+    const struct action *wanted = &key->at[s];
+    struct action rest;
     if (is_zero_at(sides, item, s)) return;
     enum relation relation = relation_of(sides, wanted, item, s);
     if (relation == is_other && is_component(sides, wanted, item, s, &rest)) relation = is_turned;

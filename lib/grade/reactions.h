@@ -13,7 +13,8 @@
 #include "grade/compare.h"
 
 /* What exerts it. */
-void reaction_describe(const fbd_model *model, int b, const struct arrow *arrow, struct item *item);
+void reaction_describe(const fbd_model *model, int b, const struct arrow *arrow, const struct instant *at,
+                       struct item *item);
 
 /* Which of them have to be drawn: found once for the key (false when memory is out), and then taken from it. */
 bool reactions_note_asked(struct fbd_key *key, size_t b, const struct sides *sides);
@@ -30,8 +31,16 @@ struct support {
     struct item *key[most_support], *parts[most_components];
 };
 
-/* The next of these that is right and not used yet: with one force of the answer (`parts` 1), two components or three. */
-bool support_find(struct sides *sides, size_t parts, struct support *support);
+/* What is looked for: reactions whose line is given by what exerts them, or that may point anywhere, one by one; all one
+ * by one; or several together; drawn by so many forces, with a direction or without. */
+struct search {
+    enum { keys_of_one_line, keys_of_any_line, keys_alone, keys_together } keys;
+    size_t parts;
+    bool free, valued; /* without a direction; with a value */
+};
+
+/* The next of these that is right and not used yet. */
+bool support_find(struct sides *sides, const struct search *search, struct support *support);
 
 /* The finding about one reaction that is not drawn rightly, and what was meant by it. */
 struct misdrawn {
@@ -43,8 +52,8 @@ struct misdrawn {
 /* The likeliest of those with a rank below `below`; false when there is none. */
 bool reactions_closest(struct sides *sides, int below, struct misdrawn *found);
 
-/* Is this an unknown that is drawn for a reaction which is zero? */
-bool unknown_of_nothing(const struct sides *sides, const struct item *item);
+/* Is this drawn for a reaction that is zero, or the component that is zero of one which is right? */
+bool is_of_nothing(struct sides *sides, const struct item *item);
 
 /* The value of the unknowns that make these reactions, by the force of each, for the derivations. */
 void support_solve(const struct sides *sides, const struct support *support, double values[most_components]);

@@ -464,10 +464,11 @@ static void keep_values(struct fbd_grade *grade, const fbd_model *answer, const 
 }
 
 static void pair_reactions(struct fbd_grade *grade, const fbd_model *answer, const char *body,
-                           struct sides *sides, size_t parts)
+                           struct sides *sides, const struct search *search)
 {
     struct support support;
-    while (support_find(sides, parts, &support)) {
+    size_t parts = search->parts;
+    while (support_find(sides, search, &support)) {
         const char *message = parts > 1                 ? "right, together with its other components"
                               : support.key_count > 1 ? "right, as a resultant"
                                                       : "right";
@@ -475,6 +476,7 @@ static void pair_reactions(struct fbd_grade *grade, const fbd_model *answer, con
         for (size_t i = 0; i < support.key_count; i++)
             add_right(grade, body, support.key[i], support.parts[0], message);
         for (size_t j = 0; j < parts; j++) support.parts[j]->used = true;
+        support.key[0]->single = parts == 1 && !support.parts[0]->free;
     }
 }
 
@@ -515,12 +517,12 @@ static void say_misdrawn(struct fbd_grade *grade, const char *body, const struct
     text_free(&detail);
 }
 
-/* Drawn rightly, or for a reaction that is zero. */
-static void add_unknowns_of_nothing(struct fbd_grade *grade, const char *body, struct sides *sides)
+/* What is drawn for a reaction, or a component of one, that is zero. */
+static void add_zeros(struct fbd_grade *grade, const char *body, struct sides *sides)
 {
     for (size_t j = 0; j < sides->count; j++) {
         struct item *item = &sides->items[j];
-        if (item->used || !item->source || !unknown_of_nothing(sides, item)) continue;
+        if (item->used || !item->source || !is_of_nothing(sides, item)) continue;
         item->used = true;
         fbd_finding *finding =
             finding_add(grade, FBD_FINDING_RIGHT, body, item->source->name, item->source->at);
@@ -581,14 +583,25 @@ void verdict_on(struct fbd_grade *grade, const fbd_model *answer, const struct m
                 const struct model_body *body, struct sides *sides, double length, double force)
 {
     double masses = force / length * body->inertia.mass / key->inertia.mass;
+    /* What can only be one thing comes first. */
+    enum { singles = 4 };
+    static const struct search searches[] = {
+        {keys_of_one_line, 1, false, true},  {keys_alone, 1, false, true},
+        {keys_of_one_line, 1, false, false}, {keys_alone, 1, false, false},
+        {keys_alone, 2, false, false},       {keys_alone, 3, false, false},
+        {keys_of_any_line, 1, true, false},  {keys_together, 1, false, false},
+        {keys_together, 1, true, false},     {keys_together, 2, false, false},
+        {keys_together, 3, false, false},    {keys_alone, 1, true, false},
+    };
     compare_inertia(grade, key, body, sides, length, force);
     pair_equal(grade, key->name, sides, masses);
     take_normals(sides);
-    pair_reactions(grade, answer, key->name, sides, 1);
+    for (size_t k = 0; k < singles; k++) pair_reactions(grade, answer, key->name, sides, &searches[k]);
     pair_sums(grade, key->name, sides);
     pair_groups(grade, key->name, sides);
-    for (size_t parts = 2; parts <= most_components; parts++) pair_reactions(grade, answer, key->name, sides, parts);
-    add_unknowns_of_nothing(grade, key->name, sides);
+    for (size_t k = singles; k < sizeof searches / sizeof *searches; k++)
+        pair_reactions(grade, answer, key->name, sides, &searches[k]);
+    add_zeros(grade, key->name, sides);
     bool paired = true;
     while (paired) paired = pair_closest(grade, key->name, sides);
     for (size_t i = 0; i < sides->key_count; i++)
