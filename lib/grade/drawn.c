@@ -13,6 +13,12 @@
 #include "grade/lines.h"
 #include "scene/node_edit.h"
 
+const char *name_as_drawn(const struct fbd_grade *grade, const struct load *load)
+{
+    const struct drawn *drawn = drawn_at(grade, load->at);
+    return drawn && drawn->name ? drawn->name : load->name;
+}
+
 struct drawn *drawn_at(const struct fbd_grade *grade, struct pos at)
 {
     for (struct drawn *one = grade->drawn; one; one = one->next)
@@ -147,6 +153,35 @@ static const struct node *take_value(const struct draft_place *place, const stru
     return with_text(arena, keys, "value", minus ? back : one);
 }
 
+/* Is this the name of a coupling or contact of the file? */
+static bool is_coupling(const struct node *root, const char *name)
+{
+    static const char *const lists[] = {"couplings", "contacts"};
+    for (size_t k = 0; k < 2; k++) {
+        const struct node *list = lines_value(root, lists[k]);
+        for (size_t i = 0; list && list->kind == node_list && i < list->count; i++) {
+            const struct node *keys = list->items[i];
+            if (k == 0 && keys->kind == node_map && keys->count == 1) {
+                if (strcmp(keys->pairs[0].key, name) == 0) return true;
+                keys = keys->pairs[0].value;
+            }
+            const struct node *own = lines_value(keys, "name");
+            if (own && own->kind == node_scalar && strcmp(own->text, name) == 0) return true;
+        }
+    }
+    return false;
+}
+
+/* The tension of a rope may be called as the rope: in the model, where that has its own force, otherwise. */
+static const struct node *with_own_name(const struct draft_place *place, const struct node *keys,
+                                        const struct drawn *drawn)
+{
+    struct arena *arena = &place->grade->arena;
+    if (!keys || !drawn->name || !is_coupling(place->root, drawn->name)) return keys;
+    const char *name = arena_printf(arena, "%s_drawn", drawn->name);
+    return name ? with_text(arena, keys, "name", name) : NULL;
+}
+
 /* An entry `applied: {...}` as it is compiled. */
 static const struct node *take_entry(const struct draft_place *place, const struct node *entry)
 {
@@ -161,7 +196,8 @@ static const struct node *take_entry(const struct draft_place *place, const stru
     place->grade->drawn = drawn;
     bool components = node_find(keys, "fx") || node_find(keys, "fy");
     keys = components ? take_components(place, keys, drawn) : take_value(place, keys, drawn);
-    return keys && drawn->unknown ? node_with(arena, entry, "applied", keys) : keys ? entry : NULL;
+    keys = with_own_name(place, keys, drawn);
+    return keys ? node_with(arena, entry, "applied", keys) : NULL;
 }
 
 

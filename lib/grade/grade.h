@@ -130,6 +130,9 @@ const struct node *answer_take_drawn(struct fbd_grade *grade, const struct node 
 /* The drawn entry at this place, or NULL. */
 struct drawn *drawn_at(const struct fbd_grade *grade, struct pos at);
 
+/* What the answer calls a force. */
+const char *name_as_drawn(const struct fbd_grade *grade, const struct load *load);
+
 /* ---- comparing */
 
 /* Which reactions of the key have to be drawn: those that are not zero at the start. False when memory is out. */

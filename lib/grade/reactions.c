@@ -308,6 +308,15 @@ static bool is_couple_at(const struct sides *sides, const struct item *item, siz
     return vec_norm(item->at[s].force) <= (item->unknown ? 0 : 1e-9 * sides->force);
 }
 
+/* Components of a force that may point anywhere are drawn where it acts, others across its support. */
+static bool is_drawn_there(const struct sides *sides, const struct support *support, const struct item *part,
+                           size_t s)
+{
+    const struct item *key = support->key[0];
+    if (!key->any) return !part->unknown || meets_support(sides, support, &part->at[s], s);
+    return !sides->turns || vec_norm(vec_sub(part->at[s].point, key->at[s].point)) <= reach_of(sides);
+}
+
 static bool may_be_drawn_so(const struct sides *sides, const struct support *support, size_t s,
                             size_t unknowns)
 {
@@ -317,13 +326,12 @@ static bool may_be_drawn_so(const struct sides *sides, const struct support *sup
         couples = couples || support->key[i]->couples || is_couple_at(sides, support->key[i], s);
     }
     if (follows && unknowns == 0) return false; /* compared by value at all states (verdict.c) */
-    for (size_t j = 0; unknowns > 0 && j < support->count; j++) {
+    for (size_t j = 0; j < support->count; j++) {
         const struct item *part = support->parts[j];
+        bool couple = is_couple_at(sides, part, s);
         if (part->free && support->count > 1) return false;
-        if (is_couple_at(sides, part, s) ? !couples
-                                         : support->count > 1 &&
-                                               !meets_support(sides, support, &part->at[s], s))
-            return false;
+        if (couple && part->unknown && !couples) return false;
+        if (!couple && support->count > 1 && !is_drawn_there(sides, support, part, s)) return false;
     }
     return true;
 }
@@ -431,7 +439,9 @@ static bool is_beside(const struct sides *sides, const struct item *item, struct
     size_t s = when_of(sides, key);
     bool small = vec_norm(item->at[s].force) <= sides->tolerance * vec_norm(key->at[s].force);
     if (!key->any || !key->single || !(item->unknown || small)) return false;
-    if (is_couple_at(sides, item, s) || !passes(sides, &item->at[s], key->at[s].point)) return false;
+    if (is_couple_at(sides, item, s) ||
+        (sides->turns && vec_norm(vec_sub(item->at[s].point, key->at[s].point)) > reach_of(sides)))
+        return false;
     key->single = false;
     return true;
 }

@@ -247,7 +247,7 @@ static void add_pair(struct fbd_grade *grade, const char *body, struct item *key
                      fbd_finding_kind kind, const char *message, const char *detail)
 {
     double share = kind == FBD_FINDING_RIGHT ? 1 : grading_of(grade)->partial;
-    fbd_finding *finding = finding_add(grade, kind, body, item->source->name, item->source->at);
+    fbd_finding *finding = finding_add(grade, kind, body, name_as_drawn(grade, item->source), item->source->at);
     finding->most = points_of(grade, key);
     finding->points = share * finding->most;
     finding_say(grade, finding, message);
@@ -525,7 +525,7 @@ static void add_zeros(struct fbd_grade *grade, const char *body, struct sides *s
         if (item->used || !item->source || !is_of_nothing(sides, item)) continue;
         item->used = true;
         fbd_finding *finding =
-            finding_add(grade, FBD_FINDING_RIGHT, body, item->source->name, item->source->at);
+            finding_add(grade, FBD_FINDING_RIGHT, body, name_as_drawn(grade, item->source), item->source->at);
         finding_say(grade, finding, "right: it is zero");
     }
 }
@@ -611,6 +611,7 @@ void verdict_on(struct fbd_grade *grade, const fbd_model *answer, const struct m
             add_missing(grade, key->name, &sides->reactions[i]);
     for (size_t j = 0; j < sides->count; j++)
         if (!sides->items[j].used && !is_nothing(sides, &sides->items[j]))
-            verdict_superfluous(grade, FBD_FINDING_SUPERFLUOUS, key->name, body->source->loads[j].name,
+            verdict_superfluous(grade, FBD_FINDING_SUPERFLUOUS, key->name,
+                                name_as_drawn(grade, &body->source->loads[j]),
                                 body->source->loads[j].at, "nothing exerts this on the body");
 }
