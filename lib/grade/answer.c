@@ -222,8 +222,7 @@ static const struct node *shorten_hands(struct fbd_grade *grade, const struct no
         }
         fbd_finding *finding = finding_add(grade, FBD_FINDING_UNREADABLE, name, "hand", hand->at);
         finding_say(grade, finding, "the answer has more derivations than are looked at: the rest is not");
-        const struct node *list =
-            hand->kind == node_list ? node_shortened(&grade->arena, hand, left) : NULL;
+        const struct node *list = hand->kind == node_list ? node_shortened(&grade->arena, hand, left) : NULL;
         body = node_with(&grade->arena, body, "hand", list);
         made = body ? node_with(&grade->arena, made, name, body) : NULL;
         left = 0;

@@ -361,8 +361,7 @@ static bool make_sides(struct comparison *comparison)
         sides->tolerance = comparison->key->scene->grading.tolerance;
         sides->turns = body->kind != motion_slide && body->kind != motion_particle;
         sides->reaction_count = diagram_arrows(comparison->key, (int)b) - sides->key_count;
-        sides->key =
-            calloc(sides->key_count + sides->count + sides->reaction_count + 1, sizeof *sides->key);
+        sides->key = calloc(sides->key_count + sides->count + sides->reaction_count + 1, sizeof *sides->key);
         if (!sides->key) return false;
         sides->items = sides->key + sides->key_count;
         sides->reactions = sides->items + sides->count;
@@ -378,7 +377,8 @@ static void measure_item(struct sides *sides, const struct item *item)
         sides->force = fmax(sides->force, vec_norm(at->force));
         sides->moment = fmax(sides->moment, fabs(at->moment));
         sides->arm = fmax(sides->arm, at->arm);
-        sides->reach = fmax(sides->reach, item->source ? at->arm : vec_norm(vec_sub(at->point, item->about[s])));
+        sides->reach =
+            fmax(sides->reach, item->source ? at->arm : vec_norm(vec_sub(at->point, item->about[s])));
     }
 }
 

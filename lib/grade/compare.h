@@ -30,8 +30,8 @@ struct item {
     bool couples;   /* it may be a force with a moment: of a weld or a guide */
     int contact;    /* the contact that it is part of, or -1 */
 
-    bool any;       /* it may point anywhere, as that of a pin; */
-    bool single;    /* one force alone is right for it, without a component that is zero */
+    bool any;          /* it may point anywhere, as that of a pin; */
+    bool single;       /* one force alone is right for it, without a component that is zero */
     struct vec across; /* else its line, at the start; of a normal force: where its surface pushes to */
     struct action at[most_grade_samples];
     struct vec about[most_grade_samples]; /* the centre of mass of the key's body */
@@ -46,7 +46,7 @@ struct sides {
     bool turns;                           /* moments about G matter */
     double turned;                        /* the answer's frame lies so in the body, against the key's */
     double tolerance, force, arm, moment; /* sizes of what is compared */
-    double reach;                         /* distance of reactions from G: a direction is off by a share of it */
+    double reach; /* distance of reactions from G: a direction is off by a share of it */
     size_t key_count, count, reaction_count;
     struct item *key, *items, *reactions;
 };

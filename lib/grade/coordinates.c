@@ -144,7 +144,8 @@ const struct node *coordinates_of_sheet(struct fbd_grade *grade, const struct no
                                         const struct node *hand, const char *body)
 {
     const struct rewriting rewriting = {grade, answer, body, false};
-    return (grade->own || grade->drawn) && hand ? node_rewritten(&grade->arena, hand, rewritten, &rewriting) : hand;
+    return (grade->own || grade->drawn) && hand ? node_rewritten(&grade->arena, hand, rewritten, &rewriting)
+                                                : hand;
 }
 
 const struct node *line_over_parameters(struct fbd_grade *grade, const struct node *answer,

@@ -44,8 +44,8 @@ static bool is_word(const char *text)
 /* Names that have a value of their own in a file. */
 static bool has_value(const struct fbd_grade *grade, const struct node *root, const char *name)
 {
-    static const char *const known[] = {"t",     "g",  "pi", "e",     "x",     "y",         "v",    "vx",
-                                        "vy",    "theta", "omega", "angle", "x_dot", "theta_dot"};
+    static const char *const known[] = {"t",  "g",  "pi",    "e",     "x",     "y",     "v",
+                                        "vx", "vy", "theta", "omega", "angle", "x_dot", "theta_dot"};
     static const char *const maps[] = {"parameters", "inputs", "states", "tables"};
     for (size_t i = 0; i < sizeof known / sizeof *known; i++)
         if (strcmp(name, known[i]) == 0) return true;
@@ -134,7 +134,8 @@ static const struct node *take_components(const struct draft_place *place, const
     return keys;
 }
 
-static const struct node *take_value(const struct draft_place *place, const struct node *keys, struct drawn *drawn)
+static const struct node *take_value(const struct draft_place *place, const struct node *keys,
+                                     struct drawn *drawn)
 {
     struct arena *arena = &place->grade->arena;
     const struct node *value = lines_value(keys, "value"), *angle = lines_value(keys, "angle");
@@ -199,7 +200,6 @@ static const struct node *take_entry(const struct draft_place *place, const stru
     keys = with_own_name(place, keys, drawn);
     return keys ? node_with(arena, entry, "applied", keys) : NULL;
 }
-
 
 static const struct node *take_list(const struct draft_place *place, const struct node *list)
 {

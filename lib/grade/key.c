@@ -128,9 +128,10 @@ static void tell_reactions(const struct fbd_key *key, fbd_errors *errors)
     if (key->model->scene->grading.reactions_given) return;
     for (size_t b = 0; b < key->model->body_count; b++) add_names(key, b, &text);
     if (text.length > 0)
-        diag_add(errors, FBD_WARNING, "key-differs", (struct pos){0, 0},
-                 "say `grading: {reactions: all}` if this is meant, else `none` or the names of those to be drawn",
-                 "an answer has to draw reactions too: %.600s", text.data);
+        diag_add(
+            errors, FBD_WARNING, "key-differs", (struct pos){0, 0},
+            "say `grading: {reactions: all}` if this is meant, else `none` or the names of those to be drawn",
+            "an answer has to draw reactions too: %.600s", text.data);
     text_free(&text);
 }
 

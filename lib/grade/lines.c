@@ -270,10 +270,11 @@ static bool look_at_line(struct lines *lines, int body, int index, struct line *
     if (!agrees_somewhere(line) &&
         !look_at_values(lines, model->scene->bodies[body].hands[index].text, &tolerance, line))
         return false;
-    if (agrees_somewhere(line)) return look_at_pushed(lines, tolerance, line);
     const struct hand *hand = &model->scene->bodies[body].hands[index];
     const char *text = lines->answer ? line_as_written(lines, model->bodies[body].name, hand) : hand->text;
-    if (line->says == 0 && !line_is_of_rest(lines, body, text, &line->rest)) return false;
+    bool in_general = agrees_somewhere(line) && !line->in_numbers;
+    if (line->says == 0 && !in_general && !line_is_of_rest(lines, body, text, &line->rest)) return false;
+    if (agrees_somewhere(line)) return look_at_pushed(lines, tolerance, line);
     struct line again;
     return sample_line(lines, lines->root, 0.3, 1e-9, &again); /* for what is said of it */
 }

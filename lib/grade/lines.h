@@ -22,13 +22,13 @@ struct lines {
     const struct node *root;   /* the key with the answer's derivations */
     bool left_out;             /* all of these */
     fbd_model *model;
-    struct pushed pushed[2]; /* the same with other forces on all bodies */
+    struct pushed pushed[2];   /* the same with other forces on all bodies */
     bool rest_made;            /* statics.c: the sums of forces and moments have been looked for, */
     struct rest *rest;         /* these, or NULL */
     const struct node *varied; /* the answer with a parameter for each reaction */
-    const unsigned *slips; /* of each body: the senses of slip of the motion of the sheet */
-    int index;        /* of the equation at hand, */
-    fbd_model *alone; /* and the scene with it alone */
+    const unsigned *slips;     /* of each body: the senses of slip of the motion of the sheet */
+    int index;                 /* of the equation at hand, */
+    fbd_model *alone;          /* and the scene with it alone */
     struct hand_check check;
     gsl_rng *rng;
 };

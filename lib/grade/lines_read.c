@@ -17,8 +17,8 @@ const struct node *lines_value(const struct node *map, const char *key)
 
 bool name_is_of_equations(const char *name)
 {
-    static const char *const names[] = {"m",    "g",    "N",    "I_G",      "I_O", "L",  "mu", "mu_s",
-                                        "mu_k", "slip", "distance", "t", "pi", "e"};
+    static const char *const names[] = {"m",    "g",    "N",    "I_G",      "I_O", "L",  "mu",
+                                        "mu_s", "mu_k", "slip", "distance", "t",   "pi", "e"};
     for (size_t i = 0; i < sizeof names / sizeof *names; i++)
         if (strcmp(name, names[i]) == 0) return true;
     return false;

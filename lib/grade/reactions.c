@@ -7,7 +7,6 @@
 #include "dynamics/constraint.h"
 #include "dynamics/tree.h"
 
-
 /* Forces below this share of the largest one are zero: reactions are solutions of systems of equations. */
 static const double zero_share = 1e-7;
 
@@ -80,8 +79,8 @@ static bool is_near(const struct sides *sides, const struct action *key, const s
     double size = vec_norm(key->force), off = vec_norm(vec_sub(key->force, other->force));
     double moments = fabs(key->moment) + size * sides->reach;
     return off <= sides->tolerance * size + zero_share * sides->force &&
-           (!sides->turns || fabs(key->moment - other->moment) <=
-                                 sides->tolerance * moments + zero_share * sides->moment);
+           (!sides->turns ||
+            fabs(key->moment - other->moment) <= sides->tolerance * moments + zero_share * sides->moment);
 }
 
 /* ---- which have to be drawn */
@@ -139,8 +138,8 @@ static bool passes(const struct sides *sides, const struct action *item, struct 
 }
 
 /* Does a component pass the point where the reactions act, or between their points? */
-static bool meets_support(const struct sides *sides, const struct support *support,
-                          const struct action *item, size_t s)
+static bool meets_support(const struct sides *sides, const struct support *support, const struct action *item,
+                          size_t s)
 {
     double low = HUGE_VAL, high = -HUGE_VAL;
     for (size_t i = 0; i < support->key_count; i++) {
@@ -294,7 +293,7 @@ static bool senses_agree(const struct sides *sides, const struct support *suppor
         bool moment = vec_norm((struct vec){fitting->columns[k].row[0], fitting->columns[k].row[1]}) == 0;
         if (fitting->columns[k].any) continue;
         double size = zero_share * (moment ? sides->moment : sides->force);
-        if (fitting->count == 1 && !(fitting->values[k] > size)) return false;
+        if (support->count == 1 && !(fitting->values[k] > size)) return false;
         if (one_sided && !(fitting->values[k] > -size)) return false;
         if (!moment && is_against_line(sides, support, fitting, k)) return false;
     }
@@ -456,9 +455,10 @@ bool is_of_nothing(struct sides *sides, const struct item *item)
             continue;
         }
         if (!item->unknown) continue;
-        if (is_couple_at(sides, item, 0) ? key->couples
-                                         : passes(sides, &item->at[0], key->at[0].point) &&
-                                               (key->any || is_parallel(sides, key->across, item->at[0].force)))
+        if (is_couple_at(sides, item, 0)
+                ? key->couples
+                : passes(sides, &item->at[0], key->at[0].point) &&
+                      (key->any || is_parallel(sides, key->across, item->at[0].force)))
             return true;
     }
     return false;

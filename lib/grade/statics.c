@@ -66,7 +66,8 @@ static fbd_model *changed_model(struct fbd_grade *grade, const struct node *root
         const char *text = arena_printf(&grade->arena, "%.17g", factor * scene->parameters[i].value);
         overrides[count++] = (struct override){.name = name, .value = text};
     }
-    struct scene *made = errors && !grade->arena.failed ? scene_make(&document, overrides, count, errors) : NULL;
+    struct scene *made =
+        errors && !grade->arena.failed ? scene_make(&document, overrides, count, errors) : NULL;
     if (made && fbd_errors_failed_count(errors) == 0)
         model = model_compile(made, errors);
     else
@@ -140,7 +141,12 @@ static bool take_sums(struct lines *lines, const fbd_model *answer, int number, 
     fbd_model_free(model);
     if (!answer || !done) return done;
     bool us = answer->scene->units == unit_us, key_us = grade->sheet->scene->units == unit_us;
-    double length = us == key_us ? 1 : us ? foot : 1 / foot, force = us == key_us ? 1 : us ? pound : 1 / pound;
+    double length = us == key_us ? 1
+                    : us         ? foot
+                                 : 1 / foot,
+           force = us == key_us ? 1
+                   : us         ? pound
+                                : 1 / pound;
     model = changed_model(grade, lines->varied, answer, false, number);
     done = model && add_sums(lines, model, length, force, true, sum, size);
     fbd_model_free(model);

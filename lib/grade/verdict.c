@@ -247,7 +247,8 @@ static void add_pair(struct fbd_grade *grade, const char *body, struct item *key
                      fbd_finding_kind kind, const char *message, const char *detail)
 {
     double share = kind == FBD_FINDING_RIGHT ? 1 : grading_of(grade)->partial;
-    fbd_finding *finding = finding_add(grade, kind, body, name_as_drawn(grade, item->source), item->source->at);
+    fbd_finding *finding =
+        finding_add(grade, kind, body, name_as_drawn(grade, item->source), item->source->at);
     finding->most = points_of(grade, key);
     finding->points = share * finding->most;
     finding_say(grade, finding, message);
@@ -469,7 +470,7 @@ static void pair_reactions(struct fbd_grade *grade, const fbd_model *answer, con
     struct support support;
     size_t parts = search->parts;
     while (support_find(sides, search, &support)) {
-        const char *message = parts > 1                 ? "right, together with its other components"
+        const char *message = parts > 1               ? "right, together with its other components"
                               : support.key_count > 1 ? "right, as a resultant"
                                                       : "right";
         keep_values(grade, answer, sides, &support);
@@ -612,6 +613,6 @@ void verdict_on(struct fbd_grade *grade, const fbd_model *answer, const struct m
     for (size_t j = 0; j < sides->count; j++)
         if (!sides->items[j].used && !is_nothing(sides, &sides->items[j]))
             verdict_superfluous(grade, FBD_FINDING_SUPERFLUOUS, key->name,
-                                name_as_drawn(grade, &body->source->loads[j]),
-                                body->source->loads[j].at, "nothing exerts this on the body");
+                                name_as_drawn(grade, &body->source->loads[j]), body->source->loads[j].at,
+                                "nothing exerts this on the body");
 }
