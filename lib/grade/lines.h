@@ -43,6 +43,19 @@ fbd_model *lines_try(struct lines *lines, const struct node *root, bool hands, b
  * are noted. No model when memory is out. */
 void lines_read(struct lines *lines, const struct node *answer);
 
+/* ---- the scenes of a derivation (lines_scene.c) */
+
+/* A scene with one equation alone. NULL when memory is out. */
+const struct node *lines_alone(struct lines *lines, const struct node *root, int body, int index);
+
+/* Make the scene with push k. */
+enum { lines_pushes = 2 };
+void lines_push(struct lines *lines, int k);
+
+/* Of each body: in which senses its friction slips in the run of the sheet, bit k for slip k - 1; all of them where it
+ * does not. NULL when memory is out. */
+unsigned *lines_slips(struct fbd_grade *grade);
+
 /* Has the scene one degree of freedom? Its pushes are made (freedom.c). */
 bool lines_one_freedom(struct lines *lines);
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "grade/reactions.h"
+#include "grade/reactions_work.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -8,7 +8,7 @@
 #include "dynamics/tree.h"
 
 /* Forces below this share of the largest one are zero: reactions are solutions of systems of equations. */
-static const double zero_share = 1e-7;
+const double reaction_zero = 1e-7;
 
 /* ---- what exerts it */
 
@@ -51,36 +51,37 @@ void reaction_describe(const fbd_model *model, int b, const struct arrow *arrow,
 
 /* ---- where it is compared */
 
-static bool is_zero_at(const struct sides *sides, const struct item *item, size_t s)
+bool reaction_is_zero(const struct sides *sides, const struct item *item, size_t s)
 {
     const struct action *at = &item->at[s];
     if (item->unknown) return false;
-    bool moment = sides->turns && fabs(at->moment) > zero_share * sides->moment;
-    return vec_norm(at->force) <= zero_share * sides->force && !moment;
+    bool moment = sides->turns && fabs(at->moment) > reaction_zero * sides->moment;
+    return vec_norm(at->force) <= reaction_zero * sides->force && !moment;
 }
 
 /* The first state where it is not zero, at the start if possible; `samples` when there is none. */
-static size_t when_of(const struct sides *sides, const struct item *key)
+size_t reaction_when(const struct sides *sides, const struct item *key)
 {
     for (int start = 1; start >= 0; start--)
         for (size_t s = 0; s < sides->samples; s++)
-            if (sides->possible[s] && (!start || sides->starts[s]) && !is_zero_at(sides, key, s)) return s;
+            if (sides->possible[s] && (!start || sides->starts[s]) && !reaction_is_zero(sides, key, s))
+                return s;
     return sides->samples;
 }
 
 bool reaction_is_nothing(const struct sides *sides, const struct item *key)
 {
-    return when_of(sides, key) == sides->samples;
+    return reaction_when(sides, key) == sides->samples;
 }
 
 /* Is the second wrench the first, to the tolerance? */
-static bool is_near(const struct sides *sides, const struct action *key, const struct action *other)
+bool reaction_is_near(const struct sides *sides, const struct action *key, const struct action *other)
 {
     double size = vec_norm(key->force), off = vec_norm(vec_sub(key->force, other->force));
     double moments = fabs(key->moment) + size * sides->reach;
-    return off <= sides->tolerance * size + zero_share * sides->force &&
+    return off <= sides->tolerance * size + reaction_zero * sides->force &&
            (!sides->turns ||
-            fabs(key->moment - other->moment) <= sides->tolerance * moments + zero_share * sides->moment);
+            fabs(key->moment - other->moment) <= sides->tolerance * moments + reaction_zero * sides->moment);
 }
 
 /* ---- which have to be drawn */
@@ -98,7 +99,7 @@ static bool has_to_be_drawn(const struct grading *grading, const struct sides *s
     if (!key->name) return false;
     for (size_t i = 0; i < grading->reaction_count; i++)
         named = named || is_named(key, grading->reaction_names[i]);
-    size_t s = named ? when_of(sides, key) : sides->samples;
+    size_t s = named ? reaction_when(sides, key) : sides->samples;
     return s < sides->samples && sides->starts[s];
 }
 
@@ -132,7 +133,7 @@ static double distance_to(const struct action *item, struct vec point)
     return size > 0 ? vec_cross(item->force, vec_sub(point, item->point)) / size : 0;
 }
 
-static bool passes(const struct sides *sides, const struct action *item, struct vec point)
+bool reaction_passes(const struct sides *sides, const struct action *item, struct vec point)
 {
     return !sides->turns || fabs(distance_to(item, point)) <= reach_of(sides);
 }
@@ -150,7 +151,7 @@ static bool meets_support(const struct sides *sides, const struct support *suppo
     return !sides->turns || (low <= reach_of(sides) && high >= -reach_of(sides));
 }
 
-static bool is_parallel(const struct sides *sides, struct vec a, struct vec b)
+bool reaction_is_parallel(const struct sides *sides, struct vec a, struct vec b)
 {
     double size = vec_norm(a) * vec_norm(b);
     return size > 0 && fabs(vec_cross(a, b)) <= sides->tolerance * size;
@@ -265,7 +266,7 @@ static bool fit(const struct sides *sides, const struct support *support, size_t
     if (fitting->count > 0 && !solve(fitting->columns, fitting->count, right.row, fitting->values))
         return false;
     struct action sum = sum_of(sides, fitting);
-    return is_near(sides, &fitting->wanted, &sum);
+    return reaction_is_near(sides, &fitting->wanted, &sum);
 }
 
 /* Is an unknown drawn along the line of one of the reactions, the other way? */
@@ -276,8 +277,8 @@ static bool is_against_line(const struct sides *sides, const struct support *sup
     struct vec along = vec_scale(fitting->values[k], (struct vec){row[0], row[1]});
     for (size_t i = 0; i < support->key_count; i++) {
         const struct item *key = support->key[i];
-        struct vec force = key->at[when_of(sides, key)].force;
-        if (!key->any && is_parallel(sides, along, force) && vec_dot(along, force) < 0) return true;
+        struct vec force = key->at[reaction_when(sides, key)].force;
+        if (!key->any && reaction_is_parallel(sides, along, force) && vec_dot(along, force) < 0) return true;
     }
     return false;
 }
@@ -292,7 +293,7 @@ static bool senses_agree(const struct sides *sides, const struct support *suppor
     for (size_t k = 0; k < fitting->count; k++) {
         bool moment = vec_norm((struct vec){fitting->columns[k].row[0], fitting->columns[k].row[1]}) == 0;
         if (fitting->columns[k].any) continue;
-        double size = zero_share * (moment ? sides->moment : sides->force);
+        double size = reaction_zero * (moment ? sides->moment : sides->force);
         if (support->count == 1 && !(fitting->values[k] > size)) return false;
         if (one_sided && !(fitting->values[k] > -size)) return false;
         if (!moment && is_against_line(sides, support, fitting, k)) return false;
@@ -302,7 +303,7 @@ static bool senses_agree(const struct sides *sides, const struct support *suppor
 
 /* ---- supports */
 
-static bool is_couple_at(const struct sides *sides, const struct item *item, size_t s)
+bool reaction_is_couple(const struct sides *sides, const struct item *item, size_t s)
 {
     return vec_norm(item->at[s].force) <= (item->unknown ? 0 : 1e-9 * sides->force);
 }
@@ -322,12 +323,12 @@ static bool may_be_drawn_so(const struct sides *sides, const struct support *sup
     bool follows = false, couples = false;
     for (size_t i = 0; i < support->key_count; i++) {
         follows = follows || support->key[i]->source;
-        couples = couples || support->key[i]->couples || is_couple_at(sides, support->key[i], s);
+        couples = couples || support->key[i]->couples || reaction_is_couple(sides, support->key[i], s);
     }
     if (follows && unknowns == 0) return false; /* compared by value at all states (verdict.c) */
     for (size_t j = 0; j < support->count; j++) {
         const struct item *part = support->parts[j];
-        bool couple = is_couple_at(sides, part, s);
+        bool couple = reaction_is_couple(sides, part, s);
         if (part->free && support->count > 1) return false;
         if (couple && part->unknown && !couples) return false;
         if (!couple && support->count > 1 && !is_drawn_there(sides, support, part, s)) return false;
@@ -338,7 +339,7 @@ static bool may_be_drawn_so(const struct sides *sides, const struct support *sup
 static bool is_right(const struct sides *sides, const struct support *support)
 {
     struct fitting fitting;
-    size_t s = when_of(sides, support->key[0]), unknowns = 0;
+    size_t s = reaction_when(sides, support->key[0]), unknowns = 0;
     for (size_t j = 0; j < support->count; j++) unknowns += support->parts[j]->unknown;
     return may_be_drawn_so(sides, support, s, unknowns) && fit(sides, support, s, &fitting) &&
            senses_agree(sides, support, &fitting);
@@ -348,14 +349,14 @@ void support_solve(const struct sides *sides, const struct support *support, dou
 {
     struct fitting fitting;
     for (size_t j = 0; j < most_components; j++) values[j] = NAN;
-    if (!fit(sides, support, when_of(sides, support->key[0]), &fitting)) return;
+    if (!fit(sides, support, reaction_when(sides, support->key[0]), &fitting)) return;
     for (size_t k = 0; k < fitting.count; k++)
         if (!fitting.columns[k].any) values[fitting.columns[k].part] = fitting.values[k];
 }
 
 /* Number k of what can be a reaction: those of couplings and joints, then normal forces and friction that the key lists.
  * NULL for what is used or zero. */
-static struct item *candidate(const struct sides *sides, size_t k)
+struct item *reaction_candidate(const struct sides *sides, size_t k)
 {
     bool reaction = k < sides->reaction_count;
     struct item *item = reaction ? &sides->reactions[k] : &sides->key[k - sides->reaction_count];
@@ -366,7 +367,7 @@ static struct item *candidate(const struct sides *sides, size_t k)
 /* Do two act at one point, or in one contact? */
 static bool share_support(const struct sides *sides, const struct item *a, const struct item *b)
 {
-    size_t s = when_of(sides, a);
+    size_t s = reaction_when(sides, a);
     if ((a->source != NULL) != (b->source != NULL)) return false;
     if (a->source || (a->contact >= 0 && a->contact == b->contact)) return true;
     return vec_norm(vec_sub(a->at[s].point, b->at[s].point)) <= reach_of(sides);
@@ -381,7 +382,7 @@ static bool choose_parts(struct sides *sides, const struct search *search, struc
     size_t left = 0;
     for (size_t j = from; j < sides->count && (search->parts == 1 || left < most_left); j++) {
         struct item *item = &sides->items[j];
-        if (item->used || !item->source || is_zero_at(sides, item, 0) || item->free != search->free ||
+        if (item->used || !item->source || reaction_is_zero(sides, item, 0) || item->free != search->free ||
             (search->valued && item->unknown))
             continue;
         left++;
@@ -404,10 +405,10 @@ static bool try_support(struct sides *sides, const struct search *search, struct
 static bool find_group(struct sides *sides, size_t k, const struct search *search, struct support *support)
 {
     size_t all = sides->reaction_count + sides->key_count, shared = 1;
-    struct item *first = candidate(sides, k), *others[most_support];
+    struct item *first = reaction_candidate(sides, k), *others[most_support];
     others[0] = support->key[0] = first;
     for (size_t j = k + 1; j < all && shared < most_support; j++) {
-        struct item *other = candidate(sides, j);
+        struct item *other = reaction_candidate(sides, j);
         if (!other || !share_support(sides, first, other)) continue;
         support->key[1] = others[shared++] = other;
         if (try_support(sides, search, support, 2)) return true;
@@ -420,7 +421,7 @@ static bool find_group(struct sides *sides, size_t k, const struct search *searc
 bool support_find(struct sides *sides, const struct search *search, struct support *support)
 {
     for (size_t k = 0; k < sides->reaction_count + sides->key_count; k++) {
-        struct item *key = candidate(sides, k);
+        struct item *key = reaction_candidate(sides, k);
         if (!key || (search->keys == keys_of_one_line && key->any) ||
             (search->keys == keys_of_any_line && !key->any))
             continue;
@@ -435,10 +436,10 @@ bool support_find(struct sides *sides, const struct search *search, struct suppo
 /* The component of a reaction that may point anywhere, beside one that is right by itself. */
 static bool is_beside(const struct sides *sides, const struct item *item, struct item *key)
 {
-    size_t s = when_of(sides, key);
+    size_t s = reaction_when(sides, key);
     bool small = vec_norm(item->at[s].force) <= sides->tolerance * vec_norm(key->at[s].force);
     if (!key->any || !key->single || !(item->unknown || small)) return false;
-    if (is_couple_at(sides, item, s) ||
+    if (reaction_is_couple(sides, item, s) ||
         (sides->turns && vec_norm(vec_sub(item->at[s].point, key->at[s].point)) > reach_of(sides)))
         return false;
     key->single = false;
@@ -455,110 +456,11 @@ bool is_of_nothing(struct sides *sides, const struct item *item)
             continue;
         }
         if (!item->unknown) continue;
-        if (is_couple_at(sides, item, 0)
+        if (reaction_is_couple(sides, item, 0)
                 ? key->couples
-                : passes(sides, &item->at[0], key->at[0].point) &&
-                      (key->any || is_parallel(sides, key->across, item->at[0].force)))
+                : reaction_passes(sides, &item->at[0], key->at[0].point) &&
+                      (key->any || reaction_is_parallel(sides, key->across, item->at[0].force)))
             return true;
     }
     return false;
-}
-
-/* ---- what is not right */
-
-static struct action times(double factor, struct action wrench)
-{
-    wrench.force = vec_scale(factor, wrench.force);
-    wrench.moment *= factor;
-    return wrench;
-}
-
-static enum relation relation_of_couples(const struct sides *sides, const struct action *key,
-                                         const struct item *item, const struct action *at)
-{
-    const struct action other = times(-1, *at);
-    if (item->unknown ? at->moment * key->moment < 0 : is_near(sides, key, &other)) return is_opposite;
-    return at->moment * key->moment > 0 ? is_scaled : is_other;
-}
-
-/* How an item differs from `key`, a reaction or the component of one. */
-static enum relation relation_of(const struct sides *sides, const struct action *key, const struct item *item,
-                                 size_t s)
-{
-    const struct action *at = &item->at[s];
-    double size = vec_norm(key->force), own = vec_norm(at->force);
-    bool couple = size <= zero_share * sides->force;
-    if (couple != is_couple_at(sides, item, s)) return is_other;
-    if (couple) return relation_of_couples(sides, key, item, at);
-    bool same = item->unknown || fabs(own - size) <= sides->tolerance * size;
-    bool there = passes(sides, at, key->point), parallel = is_parallel(sides, key->force, at->force);
-    double sense = vec_dot(key->force, at->force);
-    if (item->free) return is_elsewhere;
-    if (parallel && same && there && sense < 0) return is_opposite;
-    if (parallel && same && !there && sense > 0) return is_elsewhere;
-    if (parallel && there && sense > 0) return is_scaled;
-    return same && there ? is_turned : is_other;
-}
-
-/* Is an item, at least when its magnitude is right, a component of this wrench at right angles to the rest? *rest. */
-static bool is_component(const struct sides *sides, const struct action *key, const struct item *item,
-                         size_t s, struct action *rest)
-{
-    struct action at = item->at[s];
-    double size = vec_norm(at.force), along = size > 0 ? vec_dot(key->force, at.force) / size : 0;
-    if (item->free || is_couple_at(sides, item, s) || !passes(sides, &at, key->point)) return false;
-    double factor = item->unknown ? along / size : 1;
-    if (!item->unknown && fabs(along - size) > sides->tolerance * vec_norm(key->force)) return false;
-    *rest = *key;
-    rest->force = vec_sub(key->force, vec_scale(factor, at.force));
-    rest->moment = key->moment - factor * at.moment;
-    return vec_norm(rest->force) > sides->tolerance * vec_norm(key->force);
-}
-
-static int rank_of(const struct item *key, const struct item *item, enum relation relation)
-{
-    static const int ranks[] = {[is_same] = 9,   [is_opposite] = 0, [is_elsewhere] = 1, [is_rougher] = 9,
-                                [is_turned] = 2, [is_scaled] = 3,   [is_other] = 9};
-    return ranks[relation] + (strcmp(key->name, item->name) == 0 ? 0 : 4);
-}
-
-static void consider(struct misdrawn *best, struct item *key, struct item *item, struct item *other,
-                     enum relation relation)
-{
-    int rank = rank_of(key, item, relation) + (other ? -4 : 0);
-    if (rank >= best->rank) return;
-    *best = (struct misdrawn){key, item, other, relation, rank};
-}
-
-/* An item by itself, or beside a component that is right. */
-static void consider_item(struct sides *sides, struct item *key, struct item *item, struct misdrawn *best)
-{
-    size_t s = when_of(sides, key);
-    const struct action *wanted = &key->at[s];
-    struct action rest;
-    if (is_zero_at(sides, item, s)) return;
-    enum relation relation = relation_of(sides, wanted, item, s);
-    if (relation == is_other && is_component(sides, wanted, item, s, &rest)) relation = is_turned;
-    consider(best, key, item, NULL, relation);
-    for (size_t j = 0; j < sides->count; j++) {
-        struct item *other = &sides->items[j];
-        if (other == item || other->used || !other->source) continue;
-        if (!is_component(sides, wanted, other, s, &rest)) continue;
-        relation = relation_of(sides, &rest, item, s);
-        if (relation != is_other && relation != is_turned) consider(best, key, item, other, relation);
-    }
-}
-
-bool reactions_closest(struct sides *sides, int below, struct misdrawn *found)
-{
-    found->rank = below;
-    for (size_t k = 0; k < sides->reaction_count + sides->key_count; k++) {
-        struct item *key = candidate(sides, k);
-        for (size_t j = 0; key && j < sides->count; j++) {
-            struct item *item = &sides->items[j];
-            if (item->used || !item->source || (key->source ? !item->unknown : !key->asked)) continue;
-            consider_item(sides, key, item, found);
-        }
-    }
-    return found->rank < below;
 }

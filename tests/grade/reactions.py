@@ -234,7 +234,11 @@ class Piece:
 def draw_reaction(rng, name, arrow, turns, one_sided):
     fx, fy, place = arrow["fx"], arrow["fy"], (arrow["x"], arrow["y"])
     size, angle = math.hypot(fx, fy), math.atan2(fy, fx)
-    form = rng.choice(("value", "value", "parts", "unknown", "unknown", "unknown parts") + (("free",) if "pin" in name or name in PINS else ()))
+    # Where places do not matter, an unknown component might be another force on the same line.
+    if not turns and name != "cord":
+        form = rng.choice(("value", "unknown"))
+    else:
+        form = rng.choice(("value", "value", "parts", "unknown", "unknown", "unknown parts") + (("free",) if "pin" in name or name in PINS else ()))
     label = f"own_{name.replace('.', '_')}"
     if form in ("value", "unknown"):
         along = rng.uniform(-0.5, 0.5) if turns else 0
