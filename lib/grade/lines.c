@@ -306,19 +306,10 @@ static double share_met(const struct line *key, struct line *own, size_t count)
 static bool find_line_of_rest(const struct lines *lines, struct line *own, size_t count, double *base,
                               size_t *met)
 {
-    const int draws = rest_draws(lines);
-    const double apart = 0.03;
     for (size_t i = 0; i < count; i++) {
         if (!own[i].rest || own[i].met != 0) continue;
-        double *changes = base + *met * 32;
-        memcpy(changes, own[i].rest, (size_t)draws * sizeof *changes);
-        double before = rest_norm(changes, draws), after = before;
-        for (size_t k = 0; k < *met; k++) after = rest_beyond(changes, base + k * 32, draws);
         own[i].met = 1;
-        if (!(after > apart * before)) continue;
-        for (int k = 0; k < draws; k++) changes[k] /= after;
-        (*met)++;
-        return true;
+        if (rest_is_new(lines, own[i].rest, base, *met)) return ++*met > 0;
     }
     return false;
 }
@@ -434,7 +425,7 @@ static bool grade_body(struct lines *lines, struct lines *plain, struct lines *s
             note_student_line(lines, body, (int)i, &found->own[i],
                               is_asked(&found->own[i], found->key, found->key_count));
     }
-    double *base = ARENA_ARRAY(&lines->grade->arena, (found->key_count + 1) * 32, double);
+    double *base = ARENA_ARRAY(&lines->grade->arena, (found->key_count + 1) * rest_room, double);
     done = done && base;
     for (size_t k = 0, met = 0; done && k < found->key_count; k++) {
         struct line *key = &found->key[k];

@@ -65,10 +65,9 @@ bool lines_one_freedom(struct lines *lines);
  * False when memory is out. */
 bool line_is_of_rest(struct lines *lines, int body, const char *text, const double **changes);
 
-/* How many numbers changes are; their norm; and what they are beyond a direction (of norm 1). */
-int rest_draws(const struct lines *lines);
-double rest_norm(const double *a, int count);
-double rest_beyond(double *a, const double *base, int count);
+/* Do changes not follow from `count` others? `base` has these (orthonormal, rest_room numbers each), and gets one more. */
+enum { rest_room = 32 };
+bool rest_is_new(const struct lines *lines, const double *changes, double *base, size_t count);
 
 /* An equation with the parameters of reactions for the names of what is drawn. */
 const struct node *line_over_parameters(struct fbd_grade *grade, const struct node *answer,

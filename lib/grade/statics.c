@@ -279,6 +279,21 @@ static const struct node *root_of_line(struct lines *lines, int body, const char
     return root && lines->answer ? with_reactions(grade, root) : root;
 }
 
+static double rest_norm(const double *a, int count)
+{
+    double sum = 0;
+    for (int i = 0; i < count; i++) sum += a[i] * a[i];
+    return sqrt(sum);
+}
+
+static double rest_beyond(double *a, const double *base, int count)
+{
+    double along = 0;
+    for (int i = 0; i < count; i++) along += a[i] * base[i];
+    for (int i = 0; i < count; i++) a[i] -= along * base[i];
+    return rest_norm(a, count);
+}
+
 static double lack_of(const fbd_model *model, int body, double *size)
 {
     fbd_state *state = model ? start_of(model) : NULL;
@@ -309,21 +324,6 @@ static bool find_changes(struct lines *lines, int body, const char *text, double
     fbd_errors_free(errors);
     const double rounding = 1e-9;
     return done && rest_norm(changes, lines->rest->draws) > rounding * size;
-}
-
-double rest_norm(const double *a, int count)
-{
-    double sum = 0;
-    for (int i = 0; i < count; i++) sum += a[i] * a[i];
-    return sqrt(sum);
-}
-
-double rest_beyond(double *a, const double *base, int count)
-{
-    double along = 0;
-    for (int i = 0; i < count; i++) along += a[i] * base[i];
-    for (int i = 0; i < count; i++) a[i] -= along * base[i];
-    return rest_norm(a, count);
 }
 
 /* Are the changes a combination of those of the sums that are zero? */
@@ -358,7 +358,14 @@ bool line_is_of_rest(struct lines *lines, int body, const char *text, const doub
     return !lines->grade->arena.failed;
 }
 
-int rest_draws(const struct lines *lines)
+bool rest_is_new(const struct lines *lines, const double *changes, double *base, size_t count)
 {
-    return lines->rest ? lines->rest->draws : 0;
+    const int draws = lines->rest->draws;
+    const double apart = 0.03;
+    double *made = base + count * rest_room;
+    memcpy(made, changes, (size_t)draws * sizeof *made);
+    double before = rest_norm(made, draws), after = before;
+    for (size_t k = 0; k < count; k++) after = rest_beyond(made, base + k * rest_room, draws);
+    for (int k = 0; k < draws; k++) made[k] /= after;
+    return after > apart * before;
 }
