@@ -48,7 +48,7 @@ mkdir folder.yaml
 for answer in empty blank broken list folder; do
     check "$answer.yaml too" exits 4 "$FBD_RUN" --grade key.yaml $answer.yaml
     check "$answer.yaml has no points" test "$("$FBD_RUN" --grade key.yaml --quiet --csv - $answer.yaml | tail -1)" = \
-        "$answer,$answer.yaml,0,4,0,no"
+        "$answer,$answer.yaml,0,5,0,no"
 done
 check 'one that passes beside one that is missing is 4' exits 4 "$FBD_RUN" --grade key.yaml key.yaml nowhere.yaml
 check 'one that passes is 0' exits 0 "$FBD_RUN" --grade key.yaml --student key key.yaml
