@@ -201,7 +201,7 @@ def double_pendulum(rng):
     mass: {rng.uniform(1, 3):.3g} kg
     from: [0, 0]
     to: [{rng.uniform(0.5, 1):.3g} m, 0]
-    motion: {{pivot: {{on: upper, point: right}}}}
+    motion: {{pivot: {{on: upper, at: right}}}}
     initial: {{theta: {rng.uniform(-170, 170):.4g} deg}}
     LOADS_lower
 simulate: {{until: 0.1 s}}
