@@ -181,7 +181,7 @@ static double dot(const double *a, const double *b)
 /* Least squares by Gram-Schmidt; false where columns depend on each other. */
 static bool solve(struct column *columns, size_t count, const double *right, double *values)
 {
-    double base[most_columns][3], factor[most_columns][most_columns] = {{0}}, along[most_columns];
+    double base[most_columns][3], factor[most_columns][most_columns] = {{0}}, along[most_columns] = {0};
     for (size_t k = 0; k < count; k++) {
         memcpy(base[k], columns[k].row, sizeof base[k]);
         double before = sqrt(dot(base[k], base[k]));
