@@ -7,7 +7,7 @@
 #include <sys/stat.h>
 
 #include "base/file.h"
-#include "grade/grade.h"
+#include "grade/lines.h"
 #include "scene/node_edit.h"
 
 fbd_model *grade_compile(struct fbd_grade *grade, const struct node *root, const char *file, bool hands,
@@ -207,6 +207,29 @@ static const struct node *shorten_lists(struct fbd_grade *grade, const struct no
     return made ? node_with(&grade->arena, root, "bodies", made) : root;
 }
 
+/* Each derivation is evaluated under many values of the parameters: so many are looked at in all. */
+static const struct node *shorten_hands(struct fbd_grade *grade, const struct node *root)
+{
+    size_t left = most_entries + 2 * grade->key->lines;
+    const struct node *bodies = lines_value(root, "bodies"), *made = bodies;
+    for (size_t b = 0; made && bodies->kind == node_map && b < bodies->count; b++) {
+        const char *name = bodies->pairs[b].key;
+        const struct node *body = bodies->pairs[b].value, *hand = lines_value(body, "hand");
+        size_t count = !hand ? 0 : hand->kind == node_list ? hand->count : 1;
+        if (count <= left) {
+            left -= count;
+            continue;
+        }
+        fbd_finding *finding = finding_add(grade, FBD_FINDING_UNREADABLE, name, "hand", hand->at);
+        finding_say(grade, finding, "the answer has more derivations than are looked at: the rest is not");
+        const struct node *list = hand->kind == node_list ? node_shortened(&grade->arena, hand, left) : NULL;
+        body = node_with(&grade->arena, body, "hand", list);
+        made = body ? node_with(&grade->arena, made, name, body) : NULL;
+        left = 0;
+    }
+    return made ? node_with(&grade->arena, root, "bodies", made) : root;
+}
+
 /* Does any body have a list that is not empty? */
 static bool says_something(const struct node *root)
 {
@@ -218,6 +241,15 @@ static bool says_something(const struct node *root)
             if (pair && (pair->value->count > 0 || pair->value->kind == node_scalar)) return true;
         }
     return false;
+}
+
+static const struct node *take_root(struct fbd_grade *grade, const struct node *root)
+{
+    root = shorten_lists(grade, strip(grade, root));
+    root = root ? shorten_hands(grade, root) : NULL;
+    root = root ? answer_take_drawn(grade, root) : NULL;
+    if (!root) grade->arena.failed = true;
+    return root;
 }
 
 static void note_absent(struct fbd_grade *grade, const char *message)
@@ -232,14 +264,43 @@ static bool is_there(const char *path)
     return strcmp(path, "-") == 0 || (stat(path, &status) == 0 && !S_ISDIR(status.st_mode));
 }
 
+/* An answer takes as long as it is large: of strangers' ones that is bounded. */
+enum { most_bytes = 64000, most_more = 20 };
+
+static bool has_more(const struct node *root, const struct node *key, const char *list)
+{
+    const struct node *own = lines_value(root, list), *other = lines_value(key, list);
+    return own && own->count > (other ? other->count : 0) + most_more;
+}
+
+static bool is_too_large(const struct fbd_grade *grade, const struct node *root)
+{
+    const struct node *key = grade->key->document.root;
+    return has_more(root, key, "bodies") || has_more(root, key, "couplings") ||
+           has_more(root, key, "contacts");
+}
+
+static char *copy_of_key(const struct fbd_key *key, size_t *length)
+{
+    char *text = malloc(key->length + 1);
+    if (text) memcpy(text, key->source, key->length + 1);
+    *length = key->length;
+    return text;
+}
+
 static void open_answer(struct fbd_grade *grade, const char *path, struct answer *answer, fbd_errors *errors,
                         fbd_errors *failures)
 {
     size_t length = 0;
-    bool there = is_there(path);
-    if (there) answer->text = file_text(path, &length, failures);
+    bool there = !path || is_there(path);
+    if (path && there) answer->text = file_text(path, &length, failures);
+    if (!path) answer->text = copy_of_key(grade->key, &length);
     if (!there) note_absent(grade, "there is no answer to read");
     if (!answer->text) return;
+    if (length > most_bytes + 4 * grade->key->length) {
+        note_absent(grade, "the answer is longer than 64 kB and four times the key: it is not read");
+        return;
+    }
     grade->submitted = strspn(answer->text, " \t\r\n") < length;
     if (!grade->submitted) {
         note_absent(grade, "the answer is empty");
@@ -247,8 +308,10 @@ static void open_answer(struct fbd_grade *grade, const char *path, struct answer
     }
     answer_mend(grade, answer->text, length);
     bool open = document_open(&answer->document, answer->text, length, grade->file, errors);
-    if (open && fbd_errors_failed_count(errors) == 0 && answer->document.root->kind == node_map)
-        answer->root = shorten_lists(grade, strip(grade, answer->document.root));
+    if (open && fbd_errors_failed_count(errors) == 0 && is_too_large(grade, answer->document.root))
+        note_absent(grade, "the answer has far more bodies or couplings than the sheet: it is not read");
+    else if (open && fbd_errors_failed_count(errors) == 0 && answer->document.root->kind == node_map)
+        answer->root = take_root(grade, answer->document.root);
     else if (first_error(errors))
         note_unreadable(grade, "", NULL, first_error(errors));
     else

@@ -10,6 +10,7 @@
 #include "dynamics/kinematics.h"
 #include "dynamics/project.h"
 #include "grade/compare.h"
+#include "grade/reactions.h"
 #include "grade/verdict.h"
 #include "output/random_state.h"
 
@@ -31,7 +32,7 @@ struct comparison {
     gsl_rng *rng;
     struct random_path path; /* from the start */
     double length, force;    /* units of the answer in those of the key */
-    bool possible;           /* the state of the key */
+    bool possible, starts;   /* the state of the key: it can be; it is the start, perhaps at another time */
 };
 
 /* ---- states */
@@ -98,6 +99,7 @@ static void next_state(struct comparison *comparison, size_t s)
     enum { tries = 12 };
     fbd_state *state = comparison->key_state;
     bool found = false;
+    comparison->starts = s == 0;
     if (s == 0) {
         state_copy(state, comparison->fresh);
         if (comparison->key->assembles) state_project(state, true);
@@ -106,7 +108,7 @@ static void next_state(struct comparison *comparison, size_t s)
         comparison->path.ends = false;
         found = random_admissible(state);
     } else if (s % 2 == 0) {
-        found = start_at_another_time(comparison);
+        found = comparison->starts = start_at_another_time(comparison);
     }
     for (int k = 0; s > 0 && !found && k < tries; k++)
         found = random_state(comparison->rng, state, &comparison->path) && random_admissible(state);
@@ -277,35 +279,51 @@ static double coefficient(const struct value *value, const fbd_state *state)
 static void take_item(struct item *item, size_t s, const struct arrow *arrow, struct vec G,
                       const fbd_state *state, double force, double length)
 {
-    struct wrench *at = &item->at[s];
+    struct action *at = &item->at[s];
     at->force = vec_scale(force, arrow->force);
     at->point = vec_scale(length, arrow->point);
+    item->about[s] = G;
     struct vec lever = vec_sub(at->point, G);
     double size = vec_norm(at->force);
     at->arm = size > 0 ? fabs(vec_cross(lever, at->force)) / size : 0;
     at->moment = force * length * arrow->couple + vec_cross(lever, at->force);
+    if (!item->source) return;
     at->mu_s = coefficient(&item->source->mu_s, state);
     at->mu_k = coefficient(&item->source->mu_k, state);
     at->surface = coefficient(&item->source->surface_speed, state);
 }
 
-/* What the body lists itself, among its arrows. */
+/* What an entry of the answer without a magnitude is. */
+static void note_unknown(const struct comparison *comparison, struct item *item)
+{
+    const struct drawn *drawn = drawn_at(comparison->grade, item->source->at);
+    item->unknown = drawn && drawn->unknown;
+    item->free = item->unknown && drawn->free;
+}
+
+/* What the body lists itself, among its arrows, and where `reactions` is given, what else acts on it. */
 static void take_items(const struct comparison *comparison, fbd_state *state, int b, struct item *items,
-                       size_t s, struct vec G)
+                       struct item *reactions, size_t s, struct vec G)
 {
     const fbd_model *model = state->model;
     const struct model_body *body = &model->bodies[b];
     struct instant at = state_instant(state);
-    bool own = model == comparison->key;
+    bool own = reactions != NULL;
+    double force = own ? 1 : comparison->force, length = own ? 1 : comparison->length;
     size_t count = diagram_fill(model, b, &at, state->a, state->slots, comparison->arrows);
     for (size_t i = 0; i < count; i++) {
         const struct arrow *arrow = &comparison->arrows[i];
-        int index = arrow->load - body->first_load;
-        if (arrow->load < 0 || index < 0 || index >= (int)body->source->load_count) continue;
-        items[index].source = model->loads[arrow->load].source;
-        items[index].follows = arrow_is_reaction(model, arrow);
-        take_item(&items[index], s, arrow, G, state, own ? 1 : comparison->force,
-                  own ? 1 : comparison->length);
+        bool listed = i < body->source->load_count;
+        if (!listed && !own) break;
+        struct item *item = listed ? &items[i] : &reactions[i - body->source->load_count];
+        item->source = listed ? model->loads[arrow->load].source : NULL;
+        item->name = arrow->name;
+        item->follows = arrow_is_reaction(model, arrow);
+        take_item(item, s, arrow, G, state, force, length);
+        if (!listed && s == 0) reaction_describe(model, b, arrow, &at, item);
+        if (listed && !own) note_unknown(comparison, item);
+        if (listed && s == 0 && item->source->kind == load_normal)
+            item->across = surface_normal(model, body, &at);
     }
 }
 
@@ -319,13 +337,15 @@ static void take_state(struct comparison *comparison, size_t s)
         struct instant at = state_instant(comparison->key_state);
         struct pose pose = body_pose(body, &at);
         struct vec G = point_motion(body, &pose, body->inertia.G).p;
-        take_items(comparison, comparison->key_state, (int)b, twin->sides.key, s, G);
-        take_items(comparison, comparison->state, twin->other, twin->sides.items, s, G);
+        struct sides *sides = &twin->sides;
+        take_items(comparison, comparison->key_state, (int)b, sides->key, sides->reactions, s, G);
+        take_items(comparison, comparison->state, twin->other, sides->items, NULL, s, G);
         int slip = body->friction >= 0 ? comparison->key_state->slip[body->friction] : 0;
         if (s == 0) twin->slip = slip;
-        twin->sides.like_start[s] = twin->slip == slip;
-        twin->sides.possible[s] = comparison->possible;
-        twin->sides.samples = s + 1;
+        sides->like_start[s] = twin->slip == slip;
+        sides->possible[s] = comparison->possible;
+        sides->starts[s] = comparison->starts;
+        sides->samples = s + 1;
     }
 }
 
@@ -340,24 +360,33 @@ static bool make_sides(struct comparison *comparison)
         sides->count = comparison->answer->bodies[twin->other].source->load_count;
         sides->tolerance = comparison->key->scene->grading.tolerance;
         sides->turns = body->kind != motion_slide && body->kind != motion_particle;
-        sides->key = calloc(sides->key_count + sides->count + 1, sizeof *sides->key);
+        sides->reaction_count = diagram_arrows(comparison->key, (int)b) - sides->key_count;
+        sides->key = calloc(sides->key_count + sides->count + sides->reaction_count + 1, sizeof *sides->key);
         if (!sides->key) return false;
         sides->items = sides->key + sides->key_count;
+        sides->reactions = sides->items + sides->count;
     }
     return true;
+}
+
+static void measure_item(struct sides *sides, const struct item *item)
+{
+    for (size_t s = 0; s < sides->samples; s++) {
+        if (item->follows && !sides->possible[s]) continue;
+        const struct action *at = &item->at[s];
+        sides->force = fmax(sides->force, vec_norm(at->force));
+        sides->moment = fmax(sides->moment, fabs(at->moment));
+        sides->arm = fmax(sides->arm, at->arm);
+        sides->reach =
+            fmax(sides->reach, item->source ? at->arm : vec_norm(vec_sub(at->point, item->about[s])));
+    }
 }
 
 /* How large what is compared is, over all states: by the key, since an answer may have forces of any size. */
 static void measure(struct sides *sides)
 {
-    for (size_t i = 0; i < sides->key_count; i++)
-        for (size_t s = 0; s < sides->samples; s++) {
-            if (sides->key[i].follows && !sides->possible[s]) continue;
-            const struct wrench *at = &sides->key[i].at[s];
-            sides->force = fmax(sides->force, vec_norm(at->force));
-            sides->moment = fmax(sides->moment, fabs(at->moment));
-            sides->arm = fmax(sides->arm, at->arm);
-        }
+    for (size_t i = 0; i < sides->key_count; i++) measure_item(sides, &sides->key[i]);
+    for (size_t i = 0; i < sides->reaction_count; i++) measure_item(sides, &sides->reactions[i]);
     sides->moment = fmax(sides->moment, sides->force * sides->arm);
     if (sides->force == 0) sides->force = sides->moment; /* of moments alone: that of forces a unit apart */
 }
@@ -409,20 +438,54 @@ static void look_at_states(struct comparison *comparison)
     }
 }
 
+bool compare_with_itself(struct fbd_key *key)
+{
+    struct fbd_grade grade = {.key = key, .sheet = key->model};
+    struct comparison comparison = {.grade = &grade, .key = key->model, .answer = key->model};
+    bool open = open_comparison(&comparison);
+    for (size_t b = 0; open && b < key->model->body_count; b++) find_twin(&comparison, b);
+    open = open && make_sides(&comparison);
+    if (open) look_at_states(&comparison);
+    for (size_t b = 0; open && b < key->model->body_count; b++) {
+        struct sides *sides = &comparison.twins[b].sides;
+        if (comparison.twins[b].other < 0) continue;
+        measure(sides);
+        open = reactions_note_asked(key, b, sides);
+    }
+    close_comparison(&comparison);
+    bool done = open && !grade.arena.failed;
+    arena_free(&grade.arena);
+    return done;
+}
+
+/* Gravity belongs to the sheet. */
+static bool same_gravity(const struct comparison *comparison)
+{
+    struct vec key = comparison->key->scene->gravity, own = comparison->answer->scene->gravity;
+    struct vec apart = vec_sub(vec_scale(comparison->length, own), key);
+    return vec_norm(apart) <= comparison->key->scene->grading.tolerance * vec_norm(key);
+}
+
 void grade_bodies(struct fbd_grade *grade, const fbd_model *answer)
 {
     struct comparison comparison = {.grade = grade, .key = grade->sheet, .answer = answer};
     bool open = open_comparison(&comparison);
-    for (size_t b = 0; open && b < comparison.key->body_count; b++) find_twin(&comparison, b);
-    if (open && make_sides(&comparison)) {
+    bool same = open && same_gravity(&comparison);
+    for (size_t b = 0; open && !same && b < comparison.key->body_count; b++)
+        verdict_gravity(grade, &comparison.key->bodies[b]);
+    for (size_t b = 0; same && b < comparison.key->body_count; b++) find_twin(&comparison, b);
+    if (open && !same) {
+        verdict_on_others(grade, answer);
+    } else if (open && make_sides(&comparison)) {
         look_at_states(&comparison);
         for (size_t b = 0; b < comparison.key->body_count; b++) {
             struct twin *twin = &comparison.twins[b];
             const struct model_body *body = &comparison.key->bodies[b];
             if (twin->other < 0) continue;
             measure(&twin->sides);
+            reactions_take_asked(grade->key, b, &twin->sides);
             if (body->kind == motion_pivot) twin->sides.turned = twin->offset;
-            verdict_on(grade, body, &answer->bodies[twin->other], &twin->sides, comparison.length,
+            verdict_on(grade, answer, body, &answer->bodies[twin->other], &twin->sides, comparison.length,
                        comparison.force);
         }
         verdict_on_others(grade, answer);

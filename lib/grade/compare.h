@@ -8,19 +8,33 @@
 #include "grade/grade.h"
 
 /* A force and a moment at one state: in the world, in the units of the key, about the key's centre of mass. */
-struct wrench {
+struct action {
     struct vec force, point;
     double moment;
     double arm;                 /* of its line of action from there */
     double mu_s, mu_k, surface; /* of friction */
 };
 
-/* One force or moment that a body lists, at every state. */
+/* One force or moment of a body at every state: one that it lists, or a reaction of the key. */
 struct item {
-    const struct load *source;
+    const struct load *source; /* NULL for a reaction */
+    const char *name;
     bool follows; /* from the other forces */
     bool used;    /* paired */
-    struct wrench at[most_grade_samples];
+    bool unknown; /* of an answer: without a magnitude; `at` has that of 1 N or 1 N m, */
+    bool free;    /* and without a direction */
+
+    /* of a reaction */
+    bool asked;     /* it has to be drawn */
+    bool one_sided; /* it only pulls, or only presses */
+    bool couples;   /* it may be a force with a moment: of a weld or a guide */
+    int contact;    /* the contact that it is part of, or -1 */
+
+    bool any;          /* it may point anywhere, as that of a pin; */
+    bool single;       /* one force alone is right for it, without a component that is zero */
+    struct vec across; /* else its line, at the start; of a normal force: where its surface pushes to */
+    struct action at[most_grade_samples];
+    struct vec about[most_grade_samples]; /* the centre of mass of the key's body */
 };
 
 /* Both sides of a body. */
@@ -28,12 +42,20 @@ struct sides {
     size_t samples;
     bool like_start[most_grade_samples];  /* the body slips as it does at the start */
     bool possible[most_grade_samples];    /* the key can move on from there: its reactions mean something */
+    bool starts[most_grade_samples];      /* it is the start, perhaps at another time */
     bool turns;                           /* moments about G matter */
     double turned;                        /* the answer's frame lies so in the body, against the key's */
     double tolerance, force, arm, moment; /* sizes of what is compared */
-    size_t key_count, count;
-    struct item *key, *items;
+    double reach; /* distance of reactions from G: a direction is off by a share of it */
+    size_t key_count, count, reaction_count;
+    struct item *key, *items, *reactions;
 };
+
+/* Is an item left to be paired by its value? */
+static inline bool is_left(const struct item *item)
+{
+    return !item->used && item->source && !item->unknown;
+}
 
 /* How a force of the answer differs from one of the key. */
 enum relation { is_same, is_opposite, is_elsewhere, is_turned, is_scaled, is_rougher, is_other };

@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Derivations in coordinates of the answer's own.
+ * Derivations in coordinates of the answer's own, and with names of forces that it has drawn.
  *
  * An answer may count x the other way or from elsewhere: x' = s x + c with s = 1 or -1. Its derivations then hold on
  * the mechanics of the sheet with s x + c written for x', s v for its rate, and s v_dot for its acceleration.
+ * The name of a force stands for its value; of an unknown that is right, for that of the reaction at the start.
  */
 #include <string.h>
 
@@ -13,7 +14,9 @@
 
 struct rewriting {
     const struct fbd_grade *grade;
+    const struct node *answer;
     const char *body; /* whose derivation it is */
+    bool varied;      /* reactions are parameters */
 };
 
 static bool is_word(const char *word, size_t length, const char *name)
@@ -51,10 +54,51 @@ static bool add_in_its_place(struct text *text, const struct own_coordinate *own
     return true;
 }
 
+static bool has_normal(const struct fbd_grade *grade, const char *body)
+{
+    const struct scene *scene = grade->sheet->scene;
+    for (size_t b = 0; b < scene->body_count; b++)
+        for (size_t i = 0; strcmp(scene->bodies[b].name, body) == 0 && i < scene->bodies[b].load_count; i++)
+            if (scene->bodies[b].loads[i].kind == load_normal) return true;
+    return false;
+}
+
+/* Has an equation, or the file, something else of this name? */
+static bool is_known(const struct rewriting *rewriting, const char *name)
+{
+    const struct fbd_grade *grade = rewriting->grade;
+    static const char *const maps[] = {"parameters", "inputs", "states", "tables"};
+    if (strcmp(name, "N") == 0) return has_normal(grade, rewriting->body);
+    for (size_t i = 0; i < sizeof maps / sizeof *maps; i++)
+        if (node_find(lines_value(grade->key->document.root, maps[i]), name) ||
+            node_find(lines_value(rewriting->answer, maps[i]), name))
+            return true;
+    return name_is_of_equations(name);
+}
+
+/* What the answer has drawn under this name, on the body at hand or else on another one; NULL for none with a value. */
+static const struct drawn *find_drawn(const struct rewriting *rewriting, const char *word, size_t length)
+{
+    const struct drawn *found = NULL;
+    for (const struct drawn *one = rewriting->grade->drawn; one; one = one->next) {
+        bool symbol = is_word(word, length, one->symbol);
+        if (!one->value || !(symbol || is_word(word, length, one->name))) continue;
+        if (is_known(rewriting, symbol ? one->symbol : one->name)) continue;
+        if (strcmp(one->body, rewriting->body) == 0) return one;
+        found = one;
+    }
+    return found;
+}
+
 /* A word with its dots: `x` of the body at hand, or `body.x`. */
 static void add_word(const struct rewriting *rewriting, struct text *text, const char *word, size_t length)
 {
     const char *dot = memchr(word, '.', length);
+    const struct drawn *drawn = dot ? NULL : find_drawn(rewriting, word, length);
+    if (drawn) {
+        text_add(text, rewriting->varied && drawn->parameter ? drawn->parameter : drawn->value);
+        return;
+    }
     for (const struct own_coordinate *own = rewriting->grade->own; own; own = own->next) {
         struct own_coordinate named = *own;
         size_t before = dot ? (size_t)(dot - word) + 1 : 0;
@@ -96,10 +140,19 @@ static const char *rewritten(struct arena *arena, const struct node *scalar, con
     return made;
 }
 
-const struct node *coordinates_of_sheet(struct fbd_grade *grade, const struct node *hand, const char *body)
+const struct node *coordinates_of_sheet(struct fbd_grade *grade, const struct node *answer,
+                                        const struct node *hand, const char *body)
 {
-    const struct rewriting rewriting = {grade, body};
-    return grade->own && hand ? node_rewritten(&grade->arena, hand, rewritten, &rewriting) : hand;
+    const struct rewriting rewriting = {grade, answer, body, false};
+    return (grade->own || grade->drawn) && hand ? node_rewritten(&grade->arena, hand, rewritten, &rewriting)
+                                                : hand;
+}
+
+const struct node *line_over_parameters(struct fbd_grade *grade, const struct node *answer,
+                                        const struct node *line, const char *body)
+{
+    const struct rewriting rewriting = {grade, answer, body, true};
+    return node_rewritten(&grade->arena, line, rewritten, &rewriting);
 }
 
 /* ---- back */

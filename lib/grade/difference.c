@@ -18,7 +18,7 @@ static bool near_moment(const struct sides *sides, double key, double other, dou
     return !sides->turns || fabs(key - other) <= sides->tolerance * size + noise * sides->moment;
 }
 
-static bool near_wrench(const struct sides *sides, const struct wrench *key, const struct wrench *other)
+static bool near_wrench(const struct sides *sides, const struct action *key, const struct action *other)
 {
     return near_force(sides, key->force, other->force) &&
            near_moment(sides, key->moment, other->moment, vec_norm(key->force));
@@ -33,7 +33,7 @@ static bool counts(const struct sides *sides, const struct item *key, const stru
     return item->follows || key->source->kind == load_normal || sides->like_start[s];
 }
 
-static struct wrench reversed(struct wrench wrench)
+static struct action reversed(struct action wrench)
 {
     wrench.force = vec_scale(-1, wrench.force);
     wrench.moment = -wrench.moment;
@@ -43,15 +43,15 @@ static struct wrench reversed(struct wrench wrench)
 static bool agree(const struct sides *sides, const struct item *key, const struct item *item, bool reverse)
 {
     for (size_t s = 0; s < sides->samples; s++) {
-        struct wrench other = reverse ? reversed(item->at[s]) : item->at[s];
+        struct action other = reverse ? reversed(item->at[s]) : item->at[s];
         if (counts(sides, key, item, s) && !near_wrench(sides, &key->at[s], &other)) return false;
     }
     return true;
 }
 
-static struct wrench sum_at(const struct item *const *items, size_t count, size_t s)
+static struct action sum_at(const struct item *const *items, size_t count, size_t s)
 {
-    struct wrench sum = {.moment = 0};
+    struct action sum = {.moment = 0};
     for (size_t i = 0; i < count; i++) {
         sum.force = vec_add(sum.force, items[i]->at[s].force);
         sum.moment += items[i]->at[s].moment;
@@ -69,7 +69,7 @@ static bool sums_agree(const struct sides *sides, const struct item *const *key,
     for (size_t i = 0; i < count; i++) follows = follows || parts[i]->follows;
     for (size_t s = 0; s < sides->samples; s++) {
         if (follows && !(sides->possible[s] && sides->like_start[s])) continue;
-        struct wrench sum = sum_at(key, key_count, s), other = sum_at(parts, count, s);
+        struct action sum = sum_at(key, key_count, s), other = sum_at(parts, count, s);
         if (!near_wrench(sides, &sum, &other)) return false;
     }
     return true;
@@ -84,14 +84,14 @@ bool is_drawn_as_such(const struct sides *sides, const struct item *key)
 {
     for (size_t i = 0; i < sides->count && key->follows; i++) {
         const struct item *item = &sides->items[i];
-        if (!item->used && item->source && item->source->kind == key->source->kind) return true;
+        if (is_left(item) && item->source->kind == key->source->kind) return true;
     }
     return false;
 }
 
 bool is_nothing(const struct sides *sides, const struct item *item)
 {
-    const struct wrench zero = {.moment = 0};
+    const struct action zero = {.moment = 0};
     for (size_t s = 0; s < sides->samples; s++)
         if (!near_wrench(sides, &zero, &item->at[s])) return false;
     return true;
@@ -103,7 +103,7 @@ static size_t take_unused(struct item *items, size_t count, struct item *left[mo
 {
     size_t found = 0;
     for (size_t i = 0; i < count && found < most_in_group; i++)
-        if (!items[i].used && items[i].source) left[found++] = &items[i];
+        if (is_left(&items[i])) left[found++] = &items[i];
     return found;
 }
 
@@ -151,7 +151,7 @@ bool group_find(struct sides *sides, struct group *group)
 static bool same_coefficients(const struct sides *sides, const struct item *key, const struct item *item)
 {
     for (size_t s = 0; s < sides->samples; s++) {
-        const struct wrench *a = &key->at[s], *b = &item->at[s];
+        const struct action *a = &key->at[s], *b = &item->at[s];
         double tolerance = sides->tolerance;
         if (!(fabs(a->mu_s - b->mu_s) <= tolerance * fabs(a->mu_s) &&
               fabs(a->mu_k - b->mu_k) <= tolerance * fabs(a->mu_k) &&
@@ -191,7 +191,7 @@ static struct difference of_reactions(const struct sides *sides, const struct it
 /* ---- forces that differ */
 
 /* The magnitude of a force, or of a moment by itself. */
-static double magnitude(const struct sides *sides, const struct wrench *wrench)
+static double magnitude(const struct sides *sides, const struct action *wrench)
 {
     double force = vec_norm(wrench->force);
     return force > noise * sides->force ? force : fabs(wrench->moment);
@@ -220,7 +220,7 @@ static bool parallel(const struct sides *sides, const struct item *key, const st
     bool couple = is_couple(sides, key), varies = false;
     if (couple != is_couple(sides, item)) return false;
     for (size_t s = 0; s < sides->samples; s++) {
-        const struct wrench *a = &key->at[s], *b = &item->at[s];
+        const struct action *a = &key->at[s], *b = &item->at[s];
         double size = magnitude(sides, a);
         if (!counts(sides, key, item, s) || size <= noise * (couple ? sides->moment : sides->force)) continue;
         double across = couple ? 0 : vec_cross(a->force, b->force) / size;

@@ -24,15 +24,31 @@ enum { most_grade_samples = 32 };
 struct fbd_key {
     struct arena arena;
     char *source; /* text of the file */
+    size_t length;
     const char *file;
     struct document document;
     fbd_model *model; /* with the values of the file */
     double most;      /* points */
     size_t lines;     /* derivations */
+    bool **asked;     /* of each body, for each arrow behind those that it lists: has it to be drawn? */
+    size_t *asked_count;
+};
+
+/* An entry of an answer under `forces` or `moments` that has a name and a value, or has no value. */
+struct drawn {
+    struct pos at;
+    const char *body, *name, *symbol; /* `symbol`: what stands for its value, or NULL */
+    const char *value;                /* as an expression; NULL where it is unknown */
+    bool unknown, free;               /* its magnitude, and its direction */
+    bool minus;                       /* unknown: drawn against its direction */
+    double size;                      /* of a reaction that is right: its value at the start; else NAN */
+    const char *parameter, *unit;     /* of that, where it is varied (statics.c) */
+    struct drawn *next;
 };
 
 struct finding {
     fbd_finding finding;
+    bool reaction; /* it is about a reaction of the key */
     struct finding *next;
 };
 
@@ -57,8 +73,12 @@ struct fbd_grade {
     /* while it is being made */
     fbd_model *sheet; /* the key with these values */
     const struct own_coordinate *own;
+    struct drawn *drawn;
     fbd_finding lost; /* what is noted when memory is out: nobody reads it */
 };
+
+/* How many reactions of a body have to be drawn. */
+size_t key_asks(const struct fbd_key *key, size_t b);
 
 /* A parameter's value for a student, as text with its unit; NULL when memory is out. */
 const char *draw_for_student(struct arena *arena, const struct grading *grading,
@@ -67,6 +87,9 @@ const char *draw_for_student(struct arena *arena, const struct grading *grading,
 /* The values of a student for those parameters that a file has. */
 size_t drawn_overrides(struct arena *arena, const struct fbd_key *key, const char *student,
                        const struct node *root, struct override **overrides);
+
+/* The key as an answer to itself; NULL when memory is out. */
+fbd_grade *grade_itself(const struct fbd_key *key);
 
 /* Compile a tree of an answer or of the key under the student's values. NULL with notes. */
 fbd_model *grade_compile(struct fbd_grade *grade, const struct node *root, const char *file, bool hands,
@@ -94,13 +117,26 @@ struct answer {
     char *text;
 };
 
+/* `path` NULL: the key itself. */
 bool answer_read(struct fbd_grade *grade, const char *path, struct answer *answer, fbd_errors *errors);
 void answer_close(struct answer *answer);
 
 /* Blank the entries for which YAML cannot read a text, each with a finding (mend.c). */
 void answer_mend(struct fbd_grade *grade, char *text, size_t length);
 
+/* Note what is drawn, and give what has no magnitude one of 1 N, or 1 N m (drawn.c). NULL when memory is out. */
+const struct node *answer_take_drawn(struct fbd_grade *grade, const struct node *root);
+
+/* The drawn entry at this place, or NULL. */
+struct drawn *drawn_at(const struct fbd_grade *grade, struct pos at);
+
+/* What the answer calls a force. */
+const char *name_as_drawn(const struct fbd_grade *grade, const struct load *load);
+
 /* ---- comparing */
+
+/* Which reactions of the key have to be drawn: those that are not zero at the start. False when memory is out. */
+bool compare_with_itself(struct fbd_key *key);
 
 /* Forces and moments of all bodies (compare.c), derivations (lines.c). */
 void grade_bodies(struct fbd_grade *grade, const fbd_model *answer);

@@ -9,6 +9,7 @@
 #include "base/call.h"
 #include "base/file.h"
 #include "base/text.h"
+#include "dynamics/diagram.h"
 #include "grade/grade.h"
 #include "study/draws.h"
 #include "study/hash.h"
@@ -37,7 +38,7 @@ size_t drawn_overrides(struct arena *arena, const struct fbd_key *key, const cha
     const struct pair *parameters = node_find(root, "parameters");
     size_t count = 0;
     *overrides = ARENA_ARRAY(arena, grading->draw_count + 1, struct override);
-    for (size_t i = 0; *overrides && i < grading->draw_count; i++) {
+    for (size_t i = 0; *overrides && student && i < grading->draw_count; i++) {
         const struct drawn_parameter *drawn = &grading->draws[i];
         if (!parameters || !node_find(parameters->value, drawn->name)) continue;
         const char *value = draw_for_student(arena, grading, drawn, student);
@@ -48,13 +49,20 @@ size_t drawn_overrides(struct arena *arena, const struct fbd_key *key, const cha
 
 /* ---- reading */
 
+size_t key_asks(const struct fbd_key *key, size_t b)
+{
+    size_t count = 0;
+    for (size_t i = 0; i < key->asked_count[b]; i++) count += key->asked[b][i];
+    return count;
+}
+
 static double points_of(const struct fbd_key *key)
 {
     const struct scene *scene = key->model->scene;
     const struct grading_points *points = &scene->grading.points;
     double most = 0;
     for (size_t b = 0; b < scene->body_count; b++)
-        most += points->force * (double)scene->bodies[b].load_count +
+        most += points->force * (double)(scene->bodies[b].load_count + key_asks(key, b)) +
                 points->derivation * (double)scene->bodies[b].hand_count + points->inertia;
     return most;
 }
@@ -71,6 +79,16 @@ static bool has_points(struct fbd_key *key, fbd_errors *errors)
     return false;
 }
 
+static bool find_asked(struct fbd_key *key)
+{
+    size_t count = key->model->body_count;
+    key->asked = ARENA_ARRAY(&key->arena, count + 1, bool *);
+    key->asked_count = ARENA_ARRAY(&key->arena, count + 1, size_t);
+    bool done = key->asked && key->asked_count && compare_with_itself(key);
+    if (!done) key->arena.failed = true;
+    return done;
+}
+
 static bool compile_key(struct fbd_key *key, fbd_errors *errors)
 {
     struct scene *scene = scene_make(&key->document, NULL, 0, errors);
@@ -79,21 +97,66 @@ static bool compile_key(struct fbd_key *key, fbd_errors *errors)
         key->model = model_compile(scene, errors);
     else
         scene_free(scene);
-    return key->model && has_points(key, errors);
+    return key->model && find_asked(key) && has_points(key, errors);
 }
 
-/* A key whose own derivations are wrong is told: students who have the right ones would be told otherwise. */
-static void check_lines(const struct fbd_key *key, size_t length, fbd_errors *errors)
+/* The reactions of a body that have to be drawn, by name. */
+static void add_names(const struct fbd_key *key, size_t b, struct text *text)
 {
-    fbd_model *model = key->lines > 0 ? fbd_model_parse(key->source, length, key->file, NULL, 0, NULL) : NULL;
-    size_t differing = 0;
-    char *text = model ? fbd_check_hand(model, 1, &differing) : NULL;
-    if (differing > 0)
-        diag_add(errors, FBD_WARNING, "key-differs", (struct pos){0, 0},
-                 "`fbd-run --check-hand` says which, and how",
-                 "a derivation of the key does not agree with its mechanics");
-    free(text);
-    fbd_model_free(model);
+    const fbd_model *model = key->model;
+    fbd_state *state = key_asks(key, b) > 0 ? state_new(model) : NULL;
+    struct arrow *arrows = calloc(diagram_arrows(model, (int)b) + 1, sizeof *arrows);
+    if (state && arrows) {
+        state_evaluate(state);
+        struct instant at = state_instant(state);
+        size_t listed = model->bodies[b].source->load_count;
+        size_t count = diagram_list(model, (int)b, &at, state->a, state->slots, arrows);
+        for (size_t i = 0; i < key->asked_count[b] && listed + i < count; i++)
+            if (key->asked[b][i])
+                text_printf(text, "%s`%s` on `%s`", text->length ? ", " : "", arrows[listed + i].name,
+                            model->bodies[b].name);
+    }
+    free(arrows);
+    state_free(state);
+}
+
+/* A model cannot list its reactions, which act already: who writes the key is told that answers have to draw them, where
+ * the key does not say so. */
+static void tell_reactions(const struct fbd_key *key, fbd_errors *errors)
+{
+    struct text text = {0};
+    if (key->model->scene->grading.reactions_given) return;
+    for (size_t b = 0; b < key->model->body_count; b++) add_names(key, b, &text);
+    if (text.length > 0)
+        diag_add(
+            errors, FBD_WARNING, "key-differs", (struct pos){0, 0},
+            "say `grading: {reactions: all}` if this is meant, else `none` or the names of those to be drawn",
+            "an answer has to draw reactions too: %.600s", text.data);
+    text_free(&text);
+}
+
+static const fbd_finding *first_fault(const fbd_grade *grade)
+{
+    for (const struct finding *one = grade->first; one; one = one->next) {
+        const fbd_finding *finding = &one->finding;
+        bool reaction = finding->kind == FBD_FINDING_MISSING && one->reaction;
+        if (!reaction && (finding->points < finding->most || finding->points < 0)) return finding;
+    }
+    return NULL;
+}
+
+/* An answer that has what the key has gets full marks, or who writes the key is told what does not. */
+static void check_itself(const struct fbd_key *key, fbd_errors *errors)
+{
+    fbd_grade *grade = grade_itself(key);
+    const fbd_finding *fault = grade ? first_fault(grade) : NULL;
+    if (fault)
+        diag_add(errors, FBD_WARNING, "key-differs", (struct pos){fault->line, fault->column},
+                 "`fbd-run --grade KEY KEY --details` says all, `--check-hand` more of derivations",
+                 "graded against itself the key has not all points: %.80s%s%.200s: %.200s", fault->body,
+                 *fault->name ? ": " : "", fault->name, fault->message);
+    fbd_grade_free(grade);
+    tell_reactions(key, errors);
 }
 
 static fbd_key *read_key(const char *path, fbd_errors *errors)
@@ -109,7 +172,8 @@ static fbd_key *read_key(const char *path, fbd_errors *errors)
     bool opened = key->source && document_open(&key->document, key->source, length, key->file, errors);
     key->document.split_hands = true;
     if (opened && key->file && compile_key(key, errors)) {
-        check_lines(key, length, errors);
+        key->length = length;
+        check_itself(key, errors);
         return key;
     }
     if (key->arena.failed) diag_out_of_memory(errors);

@@ -18,10 +18,12 @@ enum { slips = 3 }; /* of a body's friction: back, none, forth */
 struct line {
     unsigned says;
     size_t seen[slips], agreed[slips];
+    unsigned counts; /* bit k: slip k - 1 is one of the motion of the sheet, or all are */
     bool checked;
     bool dynamic;         /* it fails when other forces act: it is not of the motion alone */
     unsigned met;         /* the unknowns of the line of the key that it has met */
     bool in_numbers;      /* for the values of the sheet, not for others */
+    const double *rest;   /* an equation of rest (statics.c): how it changes with the parameters */
     double share;         /* of a line of the key: in how many of its cases it is met */
     fbd_finding *finding; /* what is said of a line of the key */
 };
@@ -31,54 +33,6 @@ struct body_lines {
     struct line *own, *key;
     size_t count, key_count;
 };
-
-/* ---- the same scene with other forces */
-
-static const struct node *pushed_body(struct arena *arena, const struct node *probes, const struct pair *body)
-{
-    const struct node *probe = lines_value(probes, body->key), *forces = lines_value(body->value, "forces");
-    if (!probe || (forces && forces->kind != node_list)) return body->value;
-    const struct node *list = node_appended(arena, forces, probe);
-    return list ? node_with(arena, body->value, "forces", list) : NULL;
-}
-
-/* A push on every body, off its centre where it can turn, by a share of its weight, so that ropes stay taut. No line is
- * at right angles to both of them. */
-static const struct vec shares[] = {{1.7, -2.9}, {-3.1, 0.8}};
-
-static void write_pushes(const fbd_model *model, struct vec share, struct text *text)
-{
-    double pounds = model->scene->units == unit_us ? 14.6 : 1;
-    for (size_t b = 0; b < model->body_count; b++) {
-        const struct model_body *body = &model->bodies[b];
-        bool turns = body->kind == motion_pivot || body->kind == motion_planar;
-        double mass = body->inertia.mass * pounds;
-        text_printf(text, "%s: {applied: {name: fbd_probe, fx: %.17g N, fy: %.17g N%s}}\n", body->name,
-                    share.x * mass, share.y * mass, turns ? ", at: [0.21 m, 0.13 m]" : "");
-    }
-}
-
-static void push(struct lines *lines, struct vec share, struct pushed *pushed)
-{
-    struct arena *arena = &lines->grade->arena;
-    const struct node *bodies = lines_value(lines->root, "bodies"), *made = bodies;
-    struct text text = {0};
-    if (pushed->made) return;
-    fbd_errors *errors = fbd_errors_new();
-    pushed->made = true;
-    write_pushes(lines->model, share, &text);
-    char *kept = errors && !text.failed ? arena_text(arena, text.data, text.length) : NULL;
-    bool open = kept && document_open(&pushed->probes, kept, text.length, NULL, errors);
-    for (size_t b = 0; open && made && b < bodies->count; b++) {
-        const struct node *body = pushed_body(arena, pushed->probes.root, &bodies->pairs[b]);
-        made = body ? node_with(arena, made, bodies->pairs[b].key, body) : NULL;
-    }
-    pushed->root = open && made ? node_with(arena, lines->root, "bodies", made) : NULL;
-    if (pushed->root) pushed->model = lines_try(lines, pushed->root, true, false, errors);
-    if (!errors || text.failed) lines->grade->arena.failed = true;
-    fbd_errors_free(errors);
-    text_free(&text);
-}
 
 /* ---- one line */
 
@@ -100,9 +54,28 @@ static bool agrees_at(const struct line *line, int slip)
     return line->seen[slip] > 0 && line->agreed[slip] == line->seen[slip];
 }
 
+/* The senses of slip of which bit k is set: those of the motion of the sheet, or where a line does not hold there, all. */
+static void count_slips(struct line *line, unsigned of_motion)
+{
+    unsigned seen = 0;
+    for (unsigned slip = 0; slip < slips; slip++) seen |= line->seen[slip] > 0 ? 1U << slip : 0;
+    line->counts = (seen & of_motion) != 0 ? seen & of_motion : seen;
+}
+
 static bool agrees_somewhere(const struct line *line)
 {
-    return agrees_at(line, 0) || agrees_at(line, 1) || agrees_at(line, 2);
+    for (int slip = 0; slip < slips; slip++)
+        if ((line->counts >> slip & 1U) && agrees_at(line, slip)) return true;
+    return false;
+}
+
+/* The senses of slip for which a line of the key has to be met: those for which it holds itself. */
+static unsigned wanted_slips(const struct line *key)
+{
+    unsigned wanted = 0;
+    for (unsigned slip = 0; slip < slips; slip++)
+        if ((key->counts >> slip & 1U) && agrees_at(key, (int)slip)) wanted |= 1U << slip;
+    return wanted ? wanted : key->counts;
 }
 
 static bool is_of_name(char c)
@@ -160,14 +133,22 @@ static bool has_own_names(const struct lines *lines, const char *text, bool *rou
     return found;
 }
 
-static bool sample_line(struct lines *lines, const struct node *root, const fbd_model *model, double spread,
-                        double tolerance, struct line *line)
+static bool sample_line(struct lines *lines, const struct node *root, double spread, double tolerance,
+                        struct line *line)
 {
-    const struct document document = {.file = lines->grade->key->file, .root = root, .split_hands = true};
-    lines->check.model = model;
-    if (!hand_take_samples(&lines->check, &document, lines->rng, spread)) return false;
+    struct document document = {.file = lines->grade->key->file, .split_hands = true};
+    fbd_errors *errors = fbd_errors_new();
+    document.root = lines_alone(lines, root, lines->check.body, lines->index);
+    fbd_model_free(lines->alone);
+    lines->alone = NULL;
+    if (document.root && errors) lines->alone = lines_try(lines, document.root, true, false, errors);
+    fbd_errors_free(errors);
+    lines->check.model = lines->alone;
+    lines->check.index = 0;
+    if (!lines->alone || !hand_take_samples(&lines->check, &document, lines->rng, spread)) return false;
     line->says = lines->check.says;
     count_samples(&lines->check, tolerance, line);
+    count_slips(line, lines->slips[lines->check.body]);
     return true;
 }
 
@@ -176,15 +157,15 @@ static bool look_at_pushed(struct lines *lines, double tolerance, struct line *l
 {
     bool seen_any = false;
     line->dynamic = false;
-    for (size_t k = 0; k < sizeof shares / sizeof *shares && !line->dynamic; k++) {
+    for (int k = 0; k < lines_pushes && !line->dynamic; k++) {
         struct line other = {.says = 0};
         struct pushed *pushed = &lines->pushed[k];
-        push(lines, shares[k], pushed);
+        lines_push(lines, k);
         if (!pushed->model) {
             line->dynamic = true;
             return !lines->grade->arena.failed;
         }
-        if (!sample_line(lines, pushed->root, pushed->model, 0, tolerance, &other)) return false;
+        if (!sample_line(lines, pushed->root, 0, tolerance, &other)) return false;
         size_t seen = other.seen[0] + other.seen[1] + other.seen[2];
         seen_any = seen_any || seen > 0;
         line->dynamic = 2 * (other.agreed[0] + other.agreed[1] + other.agreed[2]) < seen;
@@ -199,10 +180,10 @@ static bool look_at_values(struct lines *lines, const char *text, double *tolera
     const struct line general = *line;
     bool rounded = has_numbers(text), own = has_own_names(lines, text, &rounded);
     if (!rounded && !own) return true;
-    if (!sample_line(lines, lines->root, lines->model, 0, *tolerance, line)) return false;
+    if (!sample_line(lines, lines->root, 0, *tolerance, line)) return false;
     if (!agrees_somewhere(line) && rounded) {
         *tolerance = 0.3 * lines->model->scene->grading.tolerance;
-        if (!sample_line(lines, lines->root, lines->model, 0, *tolerance, line)) return false;
+        if (!sample_line(lines, lines->root, 0, *tolerance, line)) return false;
     }
     line->in_numbers = agrees_somewhere(line);
     if (!line->in_numbers) *line = general;
@@ -216,16 +197,20 @@ static bool look_at_line(struct lines *lines, int body, int index, struct line *
     double tolerance = 1e-9;
     *line = (struct line){.says = 0};
     lines->check.body = body;
-    lines->check.index = index;
+    lines->index = index;
     if (diagram_arrows(model, body) >= most_terms) return true;
     line->checked = true;
-    if (!sample_line(lines, lines->root, model, 0.3, tolerance, line)) return false;
+    if (!sample_line(lines, lines->root, 0.3, tolerance, line)) return false;
     if (!agrees_somewhere(line) &&
         !look_at_values(lines, model->scene->bodies[body].hands[index].text, &tolerance, line))
         return false;
+    const struct hand *hand = &model->scene->bodies[body].hands[index];
+    const char *text = lines->answer ? line_as_written(lines, model->bodies[body].name, hand) : hand->text;
+    bool in_general = agrees_somewhere(line) && !line->in_numbers;
+    if (line->says == 0 && !in_general && !line_is_of_rest(lines, body, text, &line->rest)) return false;
     if (agrees_somewhere(line)) return look_at_pushed(lines, tolerance, line);
     struct line again;
-    return sample_line(lines, lines->root, model, 0.3, 1e-9, &again); /* for what is said of it */
+    return sample_line(lines, lines->root, 0.3, 1e-9, &again); /* for what is said of it */
 }
 
 /* ---- what is said of it */
@@ -251,6 +236,7 @@ static void note_student_line(struct lines *lines, int body, int index, const st
     struct fbd_grade *grade = lines->grade;
     const struct body *source = &lines->model->scene->bodies[body];
     const struct hand *hand = &source->hands[index];
+    if (line->rest) return;
     bool good = agrees_somewhere(line), empty = good && !asked && (line->says == 0 || !line->dynamic);
     size_t seen = line->seen[0] + line->seen[1] + line->seen[2];
     if (good && !empty && !line->in_numbers) return;
@@ -306,13 +292,26 @@ static bool find_line(struct line *own, size_t count, const struct line *key, in
 /* By which share of its cases a line of the key is met. */
 static double share_met(const struct line *key, struct line *own, size_t count)
 {
-    int seen = 0, met = 0;
+    unsigned wanted = wanted_slips(key);
+    int cases = 0, met = 0;
     for (int slip = 0; slip < slips; slip++) {
-        bool found = key->seen[slip] > 0 && find_line(own, count, key, slip);
-        seen += key->seen[slip] > 0;
-        met += found;
+        if (!(wanted >> slip & 1U)) continue;
+        cases++;
+        met += find_line(own, count, key, slip);
     }
-    return seen ? (double)met / seen : 0;
+    return cases ? (double)met / cases : 0;
+}
+
+/* The next equation of rest that does not follow from those that have met one of the key: `base` has these. */
+static bool find_line_of_rest(const struct lines *lines, struct line *own, size_t count, double *base,
+                              size_t *met)
+{
+    for (size_t i = 0; i < count; i++) {
+        if (!own[i].rest || own[i].met != 0) continue;
+        own[i].met = 1;
+        if (rest_is_new(lines, own[i].rest, base, *met)) return ++*met > 0;
+    }
+    return false;
 }
 
 static void say_of_key_line(struct lines *lines, int body, const struct line *key)
@@ -353,14 +352,16 @@ static bool is_of_motion(const struct line *line)
     return line->dynamic && (line->says & accelerations) != 0;
 }
 
-static double share_agreed(const struct line *line)
+/* By which share of these senses of slip a line agrees. */
+static double share_agreed(unsigned wanted, const struct line *line)
 {
-    int seen = 0, agreed = 0;
+    int cases = 0, agreed = 0;
     for (int slip = 0; slip < slips; slip++) {
-        seen += line->seen[slip] > 0;
+        if (!(wanted >> slip & 1U)) continue;
+        cases++;
         agreed += agrees_at(line, slip);
     }
-    return seen ? (double)agreed / seen : 0;
+    return cases ? (double)agreed / cases : 0;
 }
 
 /* With one degree of freedom there is one equation of motion, whichever acceleration it is written for. Where none of
@@ -368,7 +369,7 @@ static double share_agreed(const struct line *line)
 static void meet_by_another(struct lines *lines, struct body_lines *bodies, size_t count)
 {
     struct line *wanted = NULL, *given = NULL;
-    size_t body = 0;
+    size_t body = 0, other = 0;
     for (size_t b = 0; b < count; b++) {
         for (size_t k = 0; k < bodies[b].key_count; k++) {
             struct line *key = &bodies[b].key[k];
@@ -379,13 +380,15 @@ static void meet_by_another(struct lines *lines, struct body_lines *bodies, size
         }
         for (size_t i = 0; i < bodies[b].count; i++) {
             struct line *own = &bodies[b].own[i];
-            if (is_of_motion(own) && own->met == 0 && agrees_somewhere(own) && !given) given = own;
+            if (!is_of_motion(own) || own->met != 0 || !agrees_somewhere(own) || given) continue;
+            given = own;
+            other = b;
         }
     }
     if (!wanted || !given) return;
-    for (size_t k = 0; k < sizeof shares / sizeof *shares; k++) push(lines, shares[k], &lines->pushed[k]);
+    for (int k = 0; k < lines_pushes; k++) lines_push(lines, k);
     if (!lines_one_freedom(lines)) return;
-    wanted->share = share_agreed(given);
+    wanted->share = share_agreed(body == other ? wanted_slips(wanted) : given->counts, given);
     say_of_key_line(lines, (int)body, wanted);
 }
 
@@ -422,8 +425,14 @@ static bool grade_body(struct lines *lines, struct lines *plain, struct lines *s
             note_student_line(lines, body, (int)i, &found->own[i],
                               is_asked(&found->own[i], found->key, found->key_count));
     }
-    for (size_t k = 0; done && k < found->key_count; k++) {
-        found->key[k].share = share_met(&found->key[k], found->own, found->count);
+    double *base = ARENA_ARRAY(&lines->grade->arena, (found->key_count + 1) * rest_room, double);
+    done = done && base;
+    for (size_t k = 0, met = 0; done && k < found->key_count; k++) {
+        struct line *key = &found->key[k];
+        if (key->rest)
+            key->share = find_line_of_rest(lines, found->own, found->count, base, &met) ? 1 : 0;
+        else
+            key->share = share_met(key, found->own, found->count);
         note_key_line(lines, body, (int)k, &found->key[k]);
     }
     return done;
@@ -452,6 +461,7 @@ static void close_lines(struct lines *lines)
         model_free(lines->pushed[k].model);
         document_close(&lines->pushed[k].probes);
     }
+    fbd_model_free(lines->alone);
     free(lines->check.samples);
     if (lines->rng) gsl_rng_free(lines->rng);
 }
@@ -472,7 +482,9 @@ void grade_lines(struct fbd_grade *grade, const struct node *root)
 {
     struct lines lines = {.grade = grade}, plain = lines, sheet = {.grade = grade, .model = grade->sheet};
     sheet.root = grade->key->document.root;
-    bool done = open_lines(&lines) && open_lines(&plain) && open_lines(&sheet);
+    unsigned *slips_of_motion = lines_slips(grade);
+    lines.slips = plain.slips = sheet.slips = slips_of_motion;
+    bool done = slips_of_motion && open_lines(&lines) && open_lines(&plain) && open_lines(&sheet);
     if (done) lines_read(&lines, root);
     done = done && lines.model != NULL && read_plain(&lines, &plain);
     done = done && grade_all(&lines, &plain, &sheet);

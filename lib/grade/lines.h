@@ -22,7 +22,13 @@ struct lines {
     const struct node *root;   /* the key with the answer's derivations */
     bool left_out;             /* all of these */
     fbd_model *model;
-    struct pushed pushed[2]; /* the same with other forces on all bodies */
+    struct pushed pushed[2];   /* the same with other forces on all bodies */
+    bool rest_made;            /* statics.c: the sums of forces and moments have been looked for, */
+    struct rest *rest;         /* these, or NULL */
+    const struct node *varied; /* the answer with a parameter for each reaction */
+    const unsigned *slips;     /* of each body: the senses of slip of the motion of the sheet */
+    int index;                 /* of the equation at hand, */
+    fbd_model *alone;          /* and the scene with it alone */
     struct hand_check check;
     gsl_rng *rng;
 };
@@ -37,13 +43,45 @@ fbd_model *lines_try(struct lines *lines, const struct node *root, bool hands, b
  * are noted. No model when memory is out. */
 void lines_read(struct lines *lines, const struct node *answer);
 
+/* ---- the scenes of a derivation (lines_scene.c) */
+
+/* A scene with one equation alone. NULL when memory is out. */
+const struct node *lines_alone(struct lines *lines, const struct node *root, int body, int index);
+
+/* Make the scene with push k. */
+enum { lines_pushes = 2 };
+void lines_push(struct lines *lines, int k);
+
+/* Of each body: in which senses its friction slips in the run of the sheet, bit k for slip k - 1; all of them where it
+ * does not. NULL when memory is out. */
+unsigned *lines_slips(struct fbd_grade *grade);
+
 /* Has the scene one degree of freedom? Its pushes are made (freedom.c). */
 bool lines_one_freedom(struct lines *lines);
 
+/* ---- equations of rest (statics.c) */
+
+/* *changes: how left less right changes with the parameters, where the equation is one of rest that is right; else NULL.
+ * False when memory is out. */
+bool line_is_of_rest(struct lines *lines, int body, const char *text, const double **changes);
+
+/* Do changes not follow from `count` others? `base` has these (orthonormal, rest_room numbers each), and gets one more. */
+enum { rest_room = 32 };
+bool rest_is_new(const struct lines *lines, const double *changes, double *base, size_t count);
+
+/* An equation with the parameters of reactions for the names of what is drawn. */
+const struct node *line_over_parameters(struct fbd_grade *grade, const struct node *answer,
+                                        const struct node *line, const char *body);
+
 /* ---- coordinates of the answer's own (coordinates.c) */
 
-/* The derivations of a body in the coordinates of the sheet. NULL when memory is out, or `hand` is. */
-const struct node *coordinates_of_sheet(struct fbd_grade *grade, const struct node *hand, const char *body);
+/* The derivations of a body in the coordinates of the sheet, with the values of the forces that they name. NULL when
+ * memory is out, or `hand` is. */
+const struct node *coordinates_of_sheet(struct fbd_grade *grade, const struct node *answer,
+                                        const struct node *hand, const char *body);
+
+/* What has this name in an equation is not for an answer to say. */
+bool name_is_of_equations(const char *name);
 
 /* The lines that were read, in the coordinates of the sheet after all: an answer may have taken its derivations from
  * there. NULL when memory is out. */

@@ -15,11 +15,10 @@ const struct node *lines_value(const struct node *map, const char *key)
     return pair ? pair->value : NULL;
 }
 
-/* What an equation calls so is not for an answer to say. */
-static bool is_taken(const char *name)
+bool name_is_of_equations(const char *name)
 {
-    static const char *const names[] = {"m",  "g",    "N",    "I_G",  "I_O",     "L",
-                                        "mu", "mu_s", "mu_k", "slip", "distance"};
+    static const char *const names[] = {"m",    "g",    "N",    "I_G",      "I_O", "L",  "mu",
+                                        "mu_s", "mu_k", "slip", "distance", "t",   "pi", "e"};
     for (size_t i = 0; i < sizeof names / sizeof *names; i++)
         if (strcmp(name, names[i]) == 0) return true;
     return false;
@@ -33,7 +32,7 @@ static const struct node *with_parameters(struct arena *arena, const struct node
     if (!more || more->kind != node_map) return root;
     const struct node *all = own && own->kind == node_map ? own : node_empty_map(arena);
     for (size_t i = 0; all && i < more->count; i++)
-        if (!node_find(all, more->pairs[i].key) && !is_taken(more->pairs[i].key))
+        if (!node_find(all, more->pairs[i].key) && !name_is_of_equations(more->pairs[i].key))
             all = node_with(arena, all, more->pairs[i].key, more->pairs[i].value);
     return all ? node_with(arena, root, "parameters", all) : NULL;
 }
@@ -47,7 +46,7 @@ static const struct node *with_lines(struct fbd_grade *grade, const struct node 
     for (size_t b = 0; made && b < bodies->count; b++) {
         const struct node *other = lines_value(others, bodies->pairs[b].key);
         const struct node *hand = lines_value(other, "hand");
-        const struct node *same = coordinates_of_sheet(grade, hand, bodies->pairs[b].key);
+        const struct node *same = coordinates_of_sheet(grade, answer, hand, bodies->pairs[b].key);
         const struct node *body = node_with(arena, bodies->pairs[b].value, "hand", same);
         made = body ? node_with(arena, made, bodies->pairs[b].key, body) : NULL;
     }

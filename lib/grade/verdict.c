@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "base/text.h"
+#include "grade/reactions.h"
 
 static const struct pos nowhere = {0, 0};
 
@@ -25,7 +26,8 @@ static bool near(double a, double b, double tolerance)
 static double worth(const struct fbd_grade *grade, const struct model_body *key)
 {
     const struct grading_points *points = &grading_of(grade)->points;
-    return points->force * (double)key->source->load_count + points->inertia;
+    size_t b = (size_t)(key - grade->sheet->bodies);
+    return points->force * (double)(key->source->load_count + key_asks(grade->key, b)) + points->inertia;
 }
 
 void verdict_body(struct fbd_grade *grade, const struct model_body *key)
@@ -43,133 +45,19 @@ void verdict_motion(struct fbd_grade *grade, const struct model_body *key, const
                 "the body moves in another way than on the sheet: its forces are not compared");
 }
 
-static void verdict_superfluous(struct fbd_grade *grade, fbd_finding_kind kind, const char *body,
-                                const char *name, struct pos at, const char *message)
+void verdict_gravity(struct fbd_grade *grade, const struct model_body *key)
+{
+    fbd_finding *finding = finding_add(grade, FBD_FINDING_MOTION, key->name, "", nowhere);
+    finding->most = worth(grade, key);
+    finding_say(grade, finding, "`gravity` is not that of the sheet: its forces are not compared");
+}
+
+void verdict_superfluous(struct fbd_grade *grade, fbd_finding_kind kind, const char *body, const char *name,
+                         struct pos at, const char *message)
 {
     fbd_finding *finding = finding_add(grade, kind, body, name, at);
     finding->points = -grading_of(grade)->points.superfluous;
     finding_say(grade, finding, message);
-}
-
-static bool has_body(const fbd_model *model, const char *name)
-{
-    for (size_t b = 0; b < model->body_count; b++)
-        if (strcmp(model->bodies[b].name, name) == 0) return true;
-    return false;
-}
-
-static const char *end_name(const struct scene *scene, int body)
-{
-    return body < 0 ? "" : scene->bodies[body].name;
-}
-
-static bool same_point(struct point a, struct point b)
-{
-    return a.kind == b.kind && vec_norm(vec_sub(a.where, b.where)) <= 1e-6 * (1e-3 + vec_norm(a.where));
-}
-
-static bool same_constraint(const struct scene *key, const struct constraint *a, const struct scene *answer,
-                            const struct constraint *b)
-{
-    if (a->kind != b->kind || a->end_count != b->end_count || a->length_given != b->length_given)
-        return false;
-    if (a->length_given && !near(a->length, b->length, 1e-6)) return false;
-    for (int i = 0; i < a->end_count; i++)
-        if (strcmp(end_name(key, a->body[i]), end_name(answer, b->body[i])) != 0 ||
-            (i < 2 && (a->wound[i] != b->wound[i] ||
-                       !(a->spare[i] == b->spare[i] || near(a->spare[i], b->spare[i], 1e-6)))) ||
-            !same_point(a->point[i], b->point[i]) || !near(a->radius[i], b->radius[i], 1e-6))
-            return false;
-    return true;
-}
-
-/* How many of the first `count` constraints of a scene are like one of another scene. */
-static size_t constraints_like(const struct scene *scene, size_t count, const struct scene *of,
-                               const struct constraint *one)
-{
-    size_t found = 0;
-    for (size_t i = 0; i < count; i++) found += same_constraint(of, one, scene, &scene->constraints[i]);
-    return found;
-}
-
-/* Is number `index` of a scene one more than the other scene has of its like? */
-static bool is_constraint_more(const struct scene *scene, size_t index, const struct scene *other)
-{
-    const struct constraint *one = &scene->constraints[index];
-    return constraints_like(scene, index + 1, scene, one) >
-           constraints_like(other, other->constraint_count, scene, one);
-}
-
-static bool same_coupling(const struct scene *key, const struct coupling *a, const struct scene *answer,
-                          const struct coupling *b)
-{
-    for (int k = 0; k < 2; k++)
-        if (strcmp(end_name(key, a->body[k]), end_name(answer, b->body[k])) != 0 ||
-            !same_point(a->point[k], b->point[k]))
-            return false;
-    return a->load.kind == b->load.kind && near(a->load.stiffness, b->load.stiffness, 1e-6) &&
-           near(a->load.coefficient, b->load.coefficient, 1e-6) &&
-           near(a->load.free_length, b->load.free_length, 1e-6);
-}
-
-static size_t couplings_like(const struct scene *scene, size_t count, const struct scene *of,
-                             const struct coupling *one)
-{
-    size_t found = 0;
-    for (size_t i = 0; i < count; i++) found += same_coupling(of, one, scene, &scene->couplings[i]);
-    return found;
-}
-
-static bool is_coupling_more(const struct scene *scene, size_t index, const struct scene *other)
-{
-    const struct coupling *one = &scene->couplings[index];
-    return couplings_like(scene, index + 1, scene, one) >
-           couplings_like(other, other->coupling_count, scene, one);
-}
-
-/* What joins bodies is given with the sheet: that it has been changed is said. */
-static void compare_couplings(struct fbd_grade *grade, const struct scene *key, const struct scene *answer)
-{
-    const char *lost = "a coupling of the sheet is not in the answer, or was changed",
-               *more = "it is not on the sheet";
-    if (key->units != answer->units) return;
-    size_t changed = 0; /* of the answer's own, so many are those of the sheet as they were changed */
-    for (size_t i = 0; i < key->constraint_count; i++) {
-        if (!is_constraint_more(key, i, answer)) continue;
-        changed++;
-        verdict_superfluous(grade, FBD_FINDING_MOTION, "", key->constraints[i].name, nowhere, lost);
-    }
-    for (size_t i = 0; i < answer->constraint_count; i++) {
-        const struct constraint *one = &answer->constraints[i];
-        if (!is_constraint_more(answer, i, key)) continue;
-        if (changed > 0)
-            changed--;
-        else
-            verdict_superfluous(grade, FBD_FINDING_SUPERFLUOUS, "", one->name, one->at, more);
-    }
-    changed = 0;
-    for (size_t i = 0; i < key->coupling_count; i++) {
-        if (!is_coupling_more(key, i, answer)) continue;
-        changed++;
-        verdict_superfluous(grade, FBD_FINDING_MOTION, "", key->couplings[i].load.name, nowhere, lost);
-    }
-    for (size_t i = 0; i < answer->coupling_count; i++) {
-        const struct load *one = &answer->couplings[i].load;
-        if (!is_coupling_more(answer, i, key)) continue;
-        if (changed > 0)
-            changed--;
-        else
-            verdict_superfluous(grade, FBD_FINDING_SUPERFLUOUS, "", one->name, one->at, more);
-    }
-}
-
-void verdict_on_others(struct fbd_grade *grade, const fbd_model *answer)
-{
-    for (size_t b = 0; b < answer->body_count; b++)
-        if (!has_body(grade->sheet, answer->bodies[b].name))
-            verdict_superfluous(grade, FBD_FINDING_BODY, answer->bodies[b].name, "",
-                                answer->bodies[b].source->at, "the body is not on the sheet");
-    compare_couplings(grade, grade->sheet->scene, answer->scene);
 }
 
 /* ---- inertia */
@@ -225,15 +113,22 @@ static void compare_inertia(struct fbd_grade *grade, const struct model_body *ke
 
 static const char *noun(const struct load *load)
 {
-    return load->kind >= moment_applied && load->kind <= moment_potential ? "moment" : "force";
+    return load && load->kind >= moment_applied && load->kind <= moment_potential ? "moment" : "force";
+}
+
+/* What the key may have drawn, or not, brings nothing. */
+static double points_of(const struct fbd_grade *grade, const struct item *key)
+{
+    return key->source || key->asked ? grading_of(grade)->points.force : 0;
 }
 
 static void add_pair(struct fbd_grade *grade, const char *body, struct item *key, struct item *item,
                      fbd_finding_kind kind, const char *message, const char *detail)
 {
     double share = kind == FBD_FINDING_RIGHT ? 1 : grading_of(grade)->partial;
-    fbd_finding *finding = finding_add(grade, kind, body, item->source->name, item->source->at);
-    finding->most = grading_of(grade)->points.force;
+    fbd_finding *finding =
+        finding_add(grade, kind, body, name_as_drawn(grade, item->source), item->source->at);
+    finding->most = points_of(grade, key);
     finding->points = share * finding->most;
     finding_say(grade, finding, message);
     finding_tell(grade, finding, detail);
@@ -244,7 +139,7 @@ static void add_right(struct fbd_grade *grade, const char *body, struct item *ke
                       const char *message)
 {
     struct text text = {0};
-    text_printf(&text, "it is `%s` of the key", key->source->name);
+    text_printf(&text, "it is `%s` of the key", key->name);
     if (text.failed) grade->arena.failed = true;
     add_pair(grade, body, key, item, FBD_FINDING_RIGHT, message, text.data ? text.data : "");
     text_free(&text);
@@ -264,7 +159,7 @@ static void pair_equal(struct fbd_grade *grade, const char *body, struct sides *
         for (size_t i = 0; i < sides->key_count; i++)
             for (size_t j = 0; j < sides->count; j++) {
                 struct item *key = &sides->key[i], *item = &sides->items[j];
-                if (key->used || item->used || !key->source || !item->source) continue;
+                if (!is_left(key) || !is_left(item)) continue;
                 if (same_kind && key->source->kind != item->source->kind) continue;
                 if (key->source->kind != item->source->kind && is_drawn_as_such(sides, key)) continue;
                 if (is_nothing(sides, item) && !is_nothing(sides, key)) continue; /* where friction rests */
@@ -278,7 +173,7 @@ static void pair_equal(struct fbd_grade *grade, const char *body, struct sides *
 static bool take_parts(const struct sides *sides, struct item **parts, size_t count, const struct item *whole)
 {
     for (size_t i = 0; i < count; i++)
-        if (parts[i]->used || !parts[i]->source) return false;
+        if (!is_left(parts[i])) return false;
     if (!adds_up(sides, (const struct item *const *)parts, count, whole)) return false;
     for (size_t i = 0; i < count; i++) parts[i]->used = true;
     return true;
@@ -307,13 +202,13 @@ static void pair_sums(struct fbd_grade *grade, const char *body, struct sides *s
     struct item *parts[3];
     for (size_t k = 0; k < sides->key_count; k++) {
         struct item *key = &sides->key[k];
-        bool asked = !key->used && key->source && !is_drawn_as_such(sides, key);
+        bool asked = is_left(key) && !is_drawn_as_such(sides, key);
         if (asked && find_parts(sides, sides->items, sides->count, key, parts) > 0)
             add_right(grade, body, key, parts[0], "right, together with its other components");
     }
     for (size_t j = 0; j < sides->count; j++) {
         struct item *item = &sides->items[j];
-        bool left = !item->used && item->source;
+        bool left = is_left(item);
         size_t found = left ? find_parts(sides, sides->key, sides->key_count, item, parts) : 0;
         for (size_t i = 0; i < found; i++) add_right(grade, body, parts[i], item, "right, as a resultant");
     }
@@ -387,6 +282,9 @@ static int unlikeness(const struct item *key, const struct item *item, const str
     bool same_kind = key->source->kind == item->source->kind;
     bool same_noun = strcmp(noun(key->source), noun(item->source)) == 0;
     if (!same_noun) return no_pair + 1;
+    /* Another size and the opposite sense: two errors are none, and nothing exerts it. */
+    if (difference->relation == is_scaled && !(difference->ratio > 0) && !same_name && !same_kind)
+        return no_pair;
     /* Any two moments are along one line: only what is a constant share of the other is like it. */
     bool alike = difference->relation != is_scaled || isfinite(difference->ratio);
     bool nothing = difference->relation == is_scaled && fabs(difference->ratio) < 1e-9;
@@ -423,56 +321,177 @@ static void say_pair(struct fbd_grade *grade, const char *body, struct item *key
     text_free(&detail);
 }
 
-/* The closest pair of those that are left. */
-static bool pair_closest(struct fbd_grade *grade, const char *body, struct sides *sides)
+/* ---- reactions */
+
+/* What a reaction is, for the derivations that name it: of an unknown the value that makes it right. */
+static void keep_values(struct fbd_grade *grade, const fbd_model *answer, const struct sides *sides,
+                        const struct support *support)
 {
-    int best = no_pair;
-    struct item *best_key = NULL, *best_item = NULL;
-    struct difference best_difference = {.relation = is_other};
+    double values[most_components];
+    support_solve(sides, support, values);
+    for (size_t j = 0; j < support->count; j++) {
+        const struct load *source = support->parts[j]->source;
+        struct drawn *drawn = drawn_at(grade, source->at);
+        bool moment = strcmp(noun(source), "moment") == 0;
+        if (!drawn) continue;
+        bool us = (drawn->unknown ? grade->sheet : answer)->scene->units == unit_us;
+        drawn->unit = moment ? (us ? "lb*ft" : "N*m") : us ? "lb" : "N";
+        bool constant = source->value.expr && expr_is_constant(source->value.expr);
+        drawn->size = drawn->unknown ? values[j] : constant ? expr_value(source->value.expr) : NAN;
+        if (drawn->unknown && isfinite(values[j]))
+            drawn->value = arena_printf(&grade->arena, "(%.17g[%s])", values[j], drawn->unit);
+    }
+}
+
+static void pair_reactions(struct fbd_grade *grade, const fbd_model *answer, const char *body,
+                           struct sides *sides, const struct search *search)
+{
+    struct support support;
+    size_t parts = search->parts;
+    while (support_find(sides, search, &support)) {
+        const char *message = parts > 1               ? "right, together with its other components"
+                              : support.key_count > 1 ? "right, as a resultant"
+                                                      : "right";
+        keep_values(grade, answer, sides, &support);
+        for (size_t i = 0; i < support.key_count; i++)
+            add_right(grade, body, support.key[i], support.parts[0], message);
+        for (size_t j = 0; j < parts; j++) support.parts[j]->used = true;
+        support.key[0]->single = parts == 1 && !support.parts[0]->free;
+    }
+}
+
+/* A `normal` of the answer for what guides the body in the key is a force across its line. */
+static void take_normals(struct sides *sides)
+{
+    for (size_t j = 0; j < sides->count; j++) {
+        struct item *item = &sides->items[j];
+        if (!is_left(item) || item->source->kind != load_normal) continue;
+        for (size_t i = 0; i < sides->reaction_count; i++) {
+            const struct item *key = &sides->reactions[i];
+            if (!key->name || !key->couples || key->used) continue;
+            item->unknown = true;
+            for (size_t s = 0; s < sides->samples; s++) item->at[s].force = item->across;
+        }
+    }
+}
+
+static void say_misdrawn(struct fbd_grade *grade, const char *body, const struct misdrawn *misdrawn)
+{
+    const char *message = "its direction is wrong, or a component of it is missing";
+    fbd_finding_kind kind = FBD_FINDING_DIRECTION;
+    struct text detail = {0};
+    if (misdrawn->relation == is_opposite) {
+        kind = FBD_FINDING_SENSE;
+        message = "it points the opposite way";
+    } else if (misdrawn->relation == is_elsewhere) {
+        kind = FBD_FINDING_PLACE;
+        message = "it acts at the wrong place: its line of action is another one";
+    } else if (misdrawn->relation == is_scaled) {
+        kind = FBD_FINDING_MAGNITUDE;
+        message = "its magnitude is wrong";
+    }
+    text_printf(&detail, "compared with `%s` of the key", misdrawn->key->name);
+    if (detail.failed) grade->arena.failed = true;
+    add_pair(grade, body, misdrawn->key, misdrawn->item, kind, message, detail.data ? detail.data : "");
+    if (misdrawn->other) misdrawn->other->used = true;
+    text_free(&detail);
+}
+
+/* What is drawn for a reaction, or a component of one, that is zero. */
+static void add_zeros(struct fbd_grade *grade, const char *body, struct sides *sides)
+{
+    for (size_t j = 0; j < sides->count; j++) {
+        struct item *item = &sides->items[j];
+        if (item->used || !item->source || !is_of_nothing(sides, item)) continue;
+        item->used = true;
+        fbd_finding *finding =
+            finding_add(grade, FBD_FINDING_RIGHT, body, name_as_drawn(grade, item->source), item->source->at);
+        finding_say(grade, finding, "right: it is zero");
+    }
+}
+
+/* The closest pair of the forces that the key lists and those of the answer that are left. */
+struct closest {
+    struct item *key, *item;
+    struct difference difference;
+    int rank;
+};
+
+static struct closest closest_pair(struct sides *sides)
+{
+    struct closest best = {.difference = {.relation = is_other}, .rank = no_pair};
     for (size_t i = 0; i < sides->key_count; i++)
         for (size_t j = 0; j < sides->count; j++) {
             struct item *key = &sides->key[i], *item = &sides->items[j];
-            if (key->used || item->used || !key->source || !item->source) continue;
+            if (!is_left(key) || !is_left(item)) continue;
             struct difference difference = difference_of(sides, key, item);
             int rank = unlikeness(key, item, &difference);
-            if (rank >= best) continue;
-            best = rank;
-            best_key = key;
-            best_item = item;
-            best_difference = difference;
+            if (rank < best.rank) best = (struct closest){key, item, difference, rank};
         }
-    if (best_key) say_pair(grade, body, best_key, best_item, &best_difference);
-    return best_key != NULL;
+    return best;
 }
 
-static void add_missing(struct fbd_grade *grade, const char *body, const struct load *load)
+static bool pair_closest(struct fbd_grade *grade, const char *body, struct sides *sides)
+{
+    struct closest best = closest_pair(sides);
+    struct misdrawn misdrawn;
+    if (reactions_closest(sides, best.rank, &misdrawn))
+        say_misdrawn(grade, body, &misdrawn);
+    else if (best.rank < no_pair)
+        say_pair(grade, body, best.key, best.item, &best.difference);
+    else
+        return false;
+    return true;
+}
+
+static void add_missing(struct fbd_grade *grade, const char *body, const struct item *key)
 {
     struct text text = {0};
     fbd_finding *finding = finding_add(grade, FBD_FINDING_MISSING, body, "", nowhere);
     finding->most = grading_of(grade)->points.force;
-    text_printf(&text, "a %s is missing", noun(load));
+    if (!key->source && grade->last) grade->last->reaction = true;
+    text_printf(&text, "a %s is missing", key->source ? noun(key->source) : "reaction");
     finding_say(grade, finding, text.data ? text.data : "");
     text.length = 0;
-    text_printf(&text, "it is `%s` of the key", load->name);
+    text_printf(&text, "it is `%s` of the key", key->name);
     finding_tell(grade, finding, text.data ? text.data : "");
     if (text.failed) grade->arena.failed = true;
     text_free(&text);
 }
 
-void verdict_on(struct fbd_grade *grade, const struct model_body *key, const struct model_body *body,
-                struct sides *sides, double length, double force)
+void verdict_on(struct fbd_grade *grade, const fbd_model *answer, const struct model_body *key,
+                const struct model_body *body, struct sides *sides, double length, double force)
 {
     double masses = force / length * body->inertia.mass / key->inertia.mass;
+    /* What can only be one thing comes first. */
+    enum { singles = 4 };
+    static const struct search searches[] = {
+        {keys_of_one_line, 1, false, true},  {keys_alone, 1, false, true},
+        {keys_of_one_line, 1, false, false}, {keys_alone, 1, false, false},
+        {keys_alone, 2, false, false},       {keys_alone, 3, false, false},
+        {keys_of_any_line, 1, true, false},  {keys_together, 1, false, false},
+        {keys_together, 1, true, false},     {keys_together, 2, false, false},
+        {keys_together, 3, false, false},    {keys_alone, 1, true, false},
+    };
     compare_inertia(grade, key, body, sides, length, force);
     pair_equal(grade, key->name, sides, masses);
+    take_normals(sides);
+    for (size_t k = 0; k < singles; k++) pair_reactions(grade, answer, key->name, sides, &searches[k]);
     pair_sums(grade, key->name, sides);
     pair_groups(grade, key->name, sides);
+    for (size_t k = singles; k < sizeof searches / sizeof *searches; k++)
+        pair_reactions(grade, answer, key->name, sides, &searches[k]);
+    add_zeros(grade, key->name, sides);
     bool paired = true;
     while (paired) paired = pair_closest(grade, key->name, sides);
     for (size_t i = 0; i < sides->key_count; i++)
-        if (!sides->key[i].used) add_missing(grade, key->name, &key->source->loads[i]);
+        if (!sides->key[i].used) add_missing(grade, key->name, &sides->key[i]);
+    for (size_t i = 0; i < sides->reaction_count; i++)
+        if (!sides->reactions[i].used && sides->reactions[i].asked)
+            add_missing(grade, key->name, &sides->reactions[i]);
     for (size_t j = 0; j < sides->count; j++)
         if (!sides->items[j].used && !is_nothing(sides, &sides->items[j]))
-            verdict_superfluous(grade, FBD_FINDING_SUPERFLUOUS, key->name, body->source->loads[j].name,
-                                body->source->loads[j].at, "nothing exerts this on the body");
+            verdict_superfluous(grade, FBD_FINDING_SUPERFLUOUS, key->name,
+                                name_as_drawn(grade, &body->source->loads[j]), body->source->loads[j].at,
+                                "nothing exerts this on the body");
 }

@@ -192,6 +192,27 @@ static void take_sample(struct hand_check *check, const struct hand *hand, struc
     check->samples[check->count++] = sample;
 }
 
+double hand_lack_at(const struct fbd_state *state, int b, int index, double *size)
+{
+    const struct fbd_model *model = state->model;
+    const struct hand *hand = &model->scene->bodies[b].hands[index];
+    struct instant at = state_instant(state);
+    size_t room = plan_size(&model->plan) + hand_slots + model->absolute_count;
+    struct arrow *arrows = calloc(diagram_arrows(model, b) + 1, sizeof *arrows);
+    double *y = calloc(room, sizeof *y), lack = NAN;
+    *size = 0;
+    if (arrows && y) {
+        size_t count = diagram_fill(model, b, &at, state->a, state->slots, arrows);
+        extend(state, b, arrows, count, y);
+        lack = expr_eval(hand->left, state->t, y, NULL) - expr_eval(hand->right, state->t, y, NULL);
+        for (size_t j = 0; j < hand->summand_count; j++)
+            *size += fabs(expr_eval(hand->summands[j].expr, state->t, y, NULL));
+    }
+    free(arrows);
+    free(y);
+    return lack;
+}
+
 /* Draw states of one model and sample every one that is admissible and moves (a body at rest has no equation
  * of motion). */
 static bool sample_model(struct hand_check *check, const fbd_model *model, gsl_rng *rng)

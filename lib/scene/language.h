@@ -117,6 +117,7 @@ struct scene_keys {
 struct grading_keys {
     double digits;
     const struct node *draw, *points;
+    const struct node *reactions;
     struct grading grading;
 };
 

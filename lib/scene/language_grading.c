@@ -30,6 +30,8 @@ static const struct field grading_fields[] = {
                  "the share of all points that an answer passes with; default 1"),
     FIELD_NODE(offsetof(struct grading_keys, points), "points", field_map, 0, &points_group,
                "what the parts of an answer are worth"),
+    FIELD_NODE(offsetof(struct grading_keys, reactions), "reactions", field_any, 0, NULL,
+               "which reactions an answer has to draw: `all`, `none`, or a list of names; default all"),
 };
 
 const struct group grading_group = {

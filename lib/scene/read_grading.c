@@ -81,6 +81,30 @@ static bool read_draws(struct reader *reader, const struct node *map, struct gra
     return fine;
 }
 
+/* `all`, `none`, or names of couplings and of their forces. */
+static bool read_reactions(struct reader *reader, const struct node *node, struct grading *grading)
+{
+    bool fine = node->kind == node_list;
+    grading->reactions_given = true;
+    if (node->kind == node_scalar && strcmp(node->text, "all") == 0) return true;
+    if (node->kind == node_scalar && strcmp(node->text, "none") == 0) {
+        grading->reactions = reactions_none;
+        return true;
+    }
+    grading->reactions = reactions_named;
+    const char **names = ARENA_ARRAY(reader->arena, node->count + 1, const char *);
+    for (size_t i = 0; fine && names && i < node->count; i++) {
+        fine = node->items[i]->kind == node_scalar && node->items[i]->length > 0;
+        if (fine) names[grading->reaction_count++] = node->items[i]->text;
+    }
+    grading->reaction_names = names;
+    if (!fine)
+        diag_add(reader->errors, FBD_ERROR, "wrong-type", node->at,
+                 "write `all`, `none`, or the names of couplings, as [A, cord]",
+                 "`reactions` must be `all`, `none` or a list of names");
+    return fine && names;
+}
+
 static bool in_range(struct reader *reader, const struct node *map, const char *key, double value,
                      double most)
 {
@@ -107,6 +131,7 @@ bool grading_read(struct reader *reader, const struct node *node)
     if (fine && keys.points)
         fine = fields_read(reader, grading_points_group, keys.points, keys.points->at, &reader->constants,
                            grading);
+    if (keys.reactions && !read_reactions(reader, keys.reactions, grading)) fine = false;
     if (keys.draw && !read_draws(reader, keys.draw, grading)) fine = false;
     if (keys.digits > most_digits) fine = in_range(reader, node, "digits", keys.digits, most_digits);
     if (!in_range(reader, node, "tolerance", grading->tolerance, 0.5)) fine = false;

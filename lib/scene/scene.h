@@ -177,6 +177,10 @@ struct grading {
     int digits;                      /* decimal ones of values that are drawn */
     double tolerance, partial, pass; /* shares */
     struct grading_points points;
+    enum { reactions_all, reactions_none, reactions_named } reactions; /* which are to be drawn */
+    size_t reaction_count;
+    const char *const *reaction_names; /* of couplings, or of their forces in a diagram */
+    bool reactions_given;
 };
 
 struct scene {

@@ -3,7 +3,8 @@
 """Usage: gallery_sheets.py FBD-RUN [SHEETS [SEED]]
 
 Models of the gallery as keys. An answer is the key written in other ways that mean the same (answers.py), and in half
-of the cases with one error of a known kind: nothing may be accused but that. Prints TAP. Needs python3-yaml.
+of the cases with one error of a known kind: nothing may be accused but that. Reactions are not asked for
+(reactions.py). Prints TAP. Needs python3-yaml.
 """
 import json
 import os
@@ -65,7 +66,9 @@ def agrees(model, sheet):
 
 def make_answer(model, rng):
     """(text, what was done to it, expected finding or None)."""
-    sheet = Sheet(read(model), rng)
+    root = read(model)
+    root.pop("grading")
+    sheet = Sheet(root, rng)
     expected, done = None, []
     if rng.random() < 0.5:
         for error in rng.sample(ERRORS, len(ERRORS)):
@@ -83,7 +86,7 @@ def make_answer(model, rng):
 
 def grade(folder, model, numbers, report):
     key = folder / model.name
-    shutil.copy(model, key)
+    key.write_text(model.read_text(encoding="utf-8") + "\ngrading: {reactions: none}\n", encoding="utf-8")
     rngs = {number: random.Random(f"{SEED} {number}") for number in numbers}
     answers = {number: make_answer(key, rng) for number, rng in rngs.items()}
     for number, (text, _, _) in answers.items():

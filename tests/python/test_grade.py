@@ -9,7 +9,8 @@ import pytest
 from conftest import SOURCE, fbd_run
 
 KEY = SOURCE / "examples/grading/key.yaml"
-RIGHT = "[gravity, applied: {name: pull, value: P, angle: beta, at: right}]"
+RIGHT = ("[gravity, applied: {name: pull, value: P, angle: beta, at: right}, "
+         "applied: {name: R, value: unknown, angle: unknown, at: left}]")
 
 
 def graded(answer, *options):

@@ -27,6 +27,7 @@ STRUCTURAL = {"unknown-key", "missing-key", "unknown-choice", "unknown-kind", "w
 
 # Of these ids, what it cannot see, with the reason.
 BEYOND = {
+    "grading_reactions_some.yaml": "one of two words, or a list",
     "applied_without_angle.yaml": "needed unless the body slides or `value` is a pair",
     "distributed_without_direction.yaml": "needed unless the body slides",
     "cylinder_lying_without_length.yaml": "needed for this axis",

@@ -1,0 +1,466 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "grade/reactions_work.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "dynamics/constraint.h"
+#include "dynamics/tree.h"
+
+/* Forces below this share of the largest one are zero: reactions are solutions of systems of equations. */
+const double reaction_zero = 1e-7;
+
+/* ---- what exerts it */
+
+/* The direction of what row `row` of a tie does at its end k; zero where that has none of its own. */
+static struct vec direction_of(const struct tie *tie, int k, int row, const struct instant *at)
+{
+    struct vec sum = {0, 0};
+    if (tie->row_count > 1 && !tie->law->end_names[1]) return sum; /* a pin */
+    const struct row *one = &at->tree->rows[tie->first_row + (row < tie->row_count ? row : 0)];
+    for (int i = 0; i < one->port_count; i++)
+        if (one->ports[i].end == k) sum = vec_add(sum, one->ports[i].force);
+    return sum;
+}
+
+void reaction_describe(const fbd_model *model, int b, const struct arrow *arrow, const struct instant *at,
+                       struct item *item)
+{
+    const struct model_body *body = &model->bodies[b];
+    bool joint = arrow->name == body->reaction;
+    bool guided = body->kind == motion_slide || body->kind == motion_track;
+    item->contact = -1;
+    item->couples = joint && body->kind != motion_pivot;
+    if (!joint && body->place.link == 0) joint = true; /* on the ground: `pin` or `guide` */
+    if (joint && guided) item->across = vec_perp(body_direction(body, at));
+    item->any = joint && !guided;
+    for (int i = 0; model->tree && i < model->tree->tie_count; i++) {
+        const struct tie *tie = &model->tree->ties[i];
+        for (int k = 0; k < tie->end_count; k++)
+            for (int row = 0; row < 2; row++) {
+                if (tie->end[k].body != b || tie->end[k].name[row] != arrow->name) continue;
+                bool rope = tie->kind == constraint_rope || tie->law->strands;
+                item->one_sided = rope || (tie_presses(tie) && row == 0);
+                if (tie->kind == constraint_contact) item->contact = tie->constraint;
+                item->across = direction_of(tie, k, row, at);
+                item->any = tie->row_count > 1 && !tie->law->end_names[1];
+                return;
+            }
+    }
+}
+
+/* ---- where it is compared */
+
+bool reaction_is_zero(const struct sides *sides, const struct item *item, size_t s)
+{
+    const struct action *at = &item->at[s];
+    if (item->unknown) return false;
+    bool moment = sides->turns && fabs(at->moment) > reaction_zero * sides->moment;
+    return vec_norm(at->force) <= reaction_zero * sides->force && !moment;
+}
+
+/* The first state where it is not zero, at the start if possible; `samples` when there is none. */
+size_t reaction_when(const struct sides *sides, const struct item *key)
+{
+    for (int start = 1; start >= 0; start--)
+        for (size_t s = 0; s < sides->samples; s++)
+            if (sides->possible[s] && (!start || sides->starts[s]) && !reaction_is_zero(sides, key, s))
+                return s;
+    return sides->samples;
+}
+
+bool reaction_is_nothing(const struct sides *sides, const struct item *key)
+{
+    return reaction_when(sides, key) == sides->samples;
+}
+
+/* Is the second wrench the first, to the tolerance? */
+bool reaction_is_near(const struct sides *sides, const struct action *key, const struct action *other)
+{
+    double size = vec_norm(key->force), off = vec_norm(vec_sub(key->force, other->force));
+    double moments = fabs(key->moment) + size * sides->reach;
+    return off <= sides->tolerance * size + reaction_zero * sides->force &&
+           (!sides->turns ||
+            fabs(key->moment - other->moment) <= sides->tolerance * moments + reaction_zero * sides->moment);
+}
+
+/* ---- which have to be drawn */
+
+/* Is this the name of the reaction, or of its coupling? */
+static bool is_named(const struct item *key, const char *name)
+{
+    size_t length = strlen(name);
+    return strncmp(key->name, name, length) == 0 && (key->name[length] == '\0' || key->name[length] == '.');
+}
+
+static bool has_to_be_drawn(const struct grading *grading, const struct sides *sides, const struct item *key)
+{
+    bool named = grading->reactions == reactions_all;
+    if (!key->name) return false;
+    for (size_t i = 0; i < grading->reaction_count; i++)
+        named = named || is_named(key, grading->reaction_names[i]);
+    size_t s = named ? reaction_when(sides, key) : sides->samples;
+    return s < sides->samples && sides->starts[s];
+}
+
+bool reactions_note_asked(struct fbd_key *key, size_t b, const struct sides *sides)
+{
+    bool *asked = ARENA_ARRAY(&key->arena, sides->reaction_count + 1, bool);
+    for (size_t i = 0; asked && i < sides->reaction_count; i++)
+        asked[i] = has_to_be_drawn(&key->model->scene->grading, sides, &sides->reactions[i]);
+    key->asked[b] = asked;
+    key->asked_count[b] = asked ? sides->reaction_count : 0;
+    return asked != NULL;
+}
+
+void reactions_take_asked(const struct fbd_key *key, size_t b, struct sides *sides)
+{
+    for (size_t i = 0; i < sides->reaction_count; i++)
+        sides->reactions[i].asked = i < key->asked_count[b] && key->asked[b][i];
+}
+
+/* ---- lines of action */
+
+static double reach_of(const struct sides *sides)
+{
+    return sides->tolerance * sides->reach + 1e-9 * (sides->reach + 1);
+}
+
+/* How far to its left a line through `item` passes `point`. */
+static double distance_to(const struct action *item, struct vec point)
+{
+    double size = vec_norm(item->force);
+    return size > 0 ? vec_cross(item->force, vec_sub(point, item->point)) / size : 0;
+}
+
+bool reaction_passes(const struct sides *sides, const struct action *item, struct vec point)
+{
+    return !sides->turns || fabs(distance_to(item, point)) <= reach_of(sides);
+}
+
+/* Does a component pass the point where the reactions act, or between their points? */
+static bool meets_support(const struct sides *sides, const struct support *support, const struct action *item,
+                          size_t s)
+{
+    double low = HUGE_VAL, high = -HUGE_VAL;
+    for (size_t i = 0; i < support->key_count; i++) {
+        double distance = distance_to(item, support->key[i]->at[s].point);
+        low = fmin(low, distance);
+        high = fmax(high, distance);
+    }
+    return !sides->turns || (low <= reach_of(sides) && high >= -reach_of(sides));
+}
+
+bool reaction_is_parallel(const struct sides *sides, struct vec a, struct vec b)
+{
+    double size = vec_norm(a) * vec_norm(b);
+    return size > 0 && fabs(vec_cross(a, b)) <= sides->tolerance * size;
+}
+
+/* ---- magnitudes of unknowns */
+
+enum { most_columns = 3 };
+
+struct column {
+    double row[3]; /* force, and moment over a length */
+    size_t part;
+    bool any; /* one of two of a force without a direction */
+};
+
+static struct column column_of(const struct sides *sides, struct vec force, double moment)
+{
+    double length = sides->reach > 0 ? sides->reach : 1;
+    return (struct column){.row = {force.x, force.y, sides->turns ? moment / length : 0}};
+}
+
+static double dot(const double *a, const double *b)
+{
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+/* Least squares by Gram-Schmidt; false where columns depend on each other. */
+static bool solve(struct column *columns, size_t count, const double *right, double *values)
+{
+    double base[most_columns][3], factor[most_columns][most_columns] = {{0}}, along[most_columns] = {0};
+    for (size_t k = 0; k < count; k++) {
+        memcpy(base[k], columns[k].row, sizeof base[k]);
+        double before = sqrt(dot(base[k], base[k]));
+        for (size_t j = 0; j < k; j++) {
+            factor[j][k] = dot(base[j], base[k]);
+            for (int i = 0; i < 3; i++) base[k][i] -= factor[j][k] * base[j][i];
+        }
+        double size = sqrt(dot(base[k], base[k]));
+        if (!(size > 1e-3 * before)) return false;
+        for (int i = 0; i < 3; i++) base[k][i] /= size;
+        factor[k][k] = size;
+        along[k] = dot(base[k], right);
+    }
+    for (size_t k = count; k-- > 0;) {
+        values[k] = along[k];
+        for (size_t j = k + 1; j < count; j++) values[k] -= factor[k][j] * values[j];
+        values[k] /= factor[k][k];
+    }
+    return true;
+}
+
+struct fitting {
+    size_t count;
+    struct column columns[most_columns];
+    double values[most_columns];
+    struct action wanted, known; /* sums */
+};
+
+static bool add_column(struct fitting *fitting, struct column column, size_t part, bool any)
+{
+    if (fitting->count == most_columns) return false;
+    column.part = part;
+    column.any = any;
+    fitting->columns[fitting->count++] = column;
+    return true;
+}
+
+static bool collect(const struct sides *sides, const struct support *support, size_t s,
+                    struct fitting *fitting)
+{
+    bool fine = true;
+    for (size_t i = 0; i < support->key_count; i++) {
+        fitting->wanted.force = vec_add(fitting->wanted.force, support->key[i]->at[s].force);
+        fitting->wanted.moment += support->key[i]->at[s].moment;
+    }
+    for (size_t j = 0; fine && j < support->count; j++) {
+        const struct item *part = support->parts[j];
+        const struct action *at = &part->at[s];
+        if (part->free) {
+            struct vec to = vec_sub(at->point, part->about[s]);
+            fine = add_column(fitting, column_of(sides, (struct vec){1, 0}, -to.y), j, true) &&
+                   add_column(fitting, column_of(sides, (struct vec){0, 1}, to.x), j, true);
+        } else if (part->unknown) {
+            fine = add_column(fitting, column_of(sides, at->force, at->moment), j, false);
+        } else {
+            fitting->known.force = vec_add(fitting->known.force, at->force);
+            fitting->known.moment += at->moment;
+        }
+    }
+    return fine;
+}
+
+/* What the parts are together, with these magnitudes of the unknowns. */
+static struct action sum_of(const struct sides *sides, const struct fitting *fitting)
+{
+    struct action sum = fitting->known;
+    double length = sides->reach > 0 ? sides->reach : 1;
+    for (size_t k = 0; k < fitting->count; k++) {
+        const double *row = fitting->columns[k].row;
+        sum.force = vec_add(sum.force, vec_scale(fitting->values[k], (struct vec){row[0], row[1]}));
+        sum.moment += fitting->values[k] * row[2] * length;
+    }
+    return sum;
+}
+
+static bool fit(const struct sides *sides, const struct support *support, size_t s, struct fitting *fitting)
+{
+    *fitting = (struct fitting){.count = 0};
+    if (!collect(sides, support, s, fitting)) return false;
+    struct vec force = vec_sub(fitting->wanted.force, fitting->known.force);
+    struct column right = column_of(sides, force, fitting->wanted.moment - fitting->known.moment);
+    if (fitting->count > 0 && !solve(fitting->columns, fitting->count, right.row, fitting->values))
+        return false;
+    struct action sum = sum_of(sides, fitting);
+    return reaction_is_near(sides, &fitting->wanted, &sum);
+}
+
+/* Is an unknown drawn along the line of one of the reactions, the other way? */
+static bool is_against_line(const struct sides *sides, const struct support *support,
+                            const struct fitting *fitting, size_t k)
+{
+    const double *row = fitting->columns[k].row;
+    struct vec along = vec_scale(fitting->values[k], (struct vec){row[0], row[1]});
+    for (size_t i = 0; i < support->key_count; i++) {
+        const struct item *key = support->key[i];
+        struct vec force = key->at[reaction_when(sides, key)].force;
+        if (!key->any && reaction_is_parallel(sides, along, force) && vec_dot(along, force) < 0) return true;
+    }
+    return false;
+}
+
+/* A sense is that of the reaction, for a single force and where the reactions only pull or press. Two components of a
+ * force that may point anywhere have any sense: their signs follow from the equations. */
+static bool senses_agree(const struct sides *sides, const struct support *support,
+                         const struct fitting *fitting)
+{
+    bool one_sided = true;
+    for (size_t i = 0; i < support->key_count; i++) one_sided = one_sided && support->key[i]->one_sided;
+    for (size_t k = 0; k < fitting->count; k++) {
+        bool moment = vec_norm((struct vec){fitting->columns[k].row[0], fitting->columns[k].row[1]}) == 0;
+        if (fitting->columns[k].any) continue;
+        double size = reaction_zero * (moment ? sides->moment : sides->force);
+        if (support->count == 1 && !(fitting->values[k] > size)) return false;
+        if (one_sided && !(fitting->values[k] > -size)) return false;
+        if (!moment && is_against_line(sides, support, fitting, k)) return false;
+    }
+    return true;
+}
+
+/* ---- supports */
+
+bool reaction_is_couple(const struct sides *sides, const struct item *item, size_t s)
+{
+    return vec_norm(item->at[s].force) <= (item->unknown ? 0 : 1e-9 * sides->force);
+}
+
+/* Components of a force that may point anywhere are drawn where it acts, others across its support. */
+static bool is_drawn_there(const struct sides *sides, const struct support *support, const struct item *part,
+                           size_t s)
+{
+    const struct item *key = support->key[0];
+    if (!key->any) return !part->unknown || meets_support(sides, support, &part->at[s], s);
+    return !sides->turns || vec_norm(vec_sub(part->at[s].point, key->at[s].point)) <= reach_of(sides);
+}
+
+static bool may_be_drawn_so(const struct sides *sides, const struct support *support, size_t s,
+                            size_t unknowns)
+{
+    bool follows = false, couples = false;
+    for (size_t i = 0; i < support->key_count; i++) {
+        follows = follows || support->key[i]->source;
+        couples = couples || support->key[i]->couples || reaction_is_couple(sides, support->key[i], s);
+    }
+    if (follows && unknowns == 0) return false; /* compared by value at all states (verdict.c) */
+    for (size_t j = 0; j < support->count; j++) {
+        const struct item *part = support->parts[j];
+        bool couple = reaction_is_couple(sides, part, s);
+        if (part->free && support->count > 1) return false;
+        if (couple && part->unknown && !couples) return false;
+        if (!couple && support->count > 1 && !is_drawn_there(sides, support, part, s)) return false;
+    }
+    return true;
+}
+
+static bool is_right(const struct sides *sides, const struct support *support)
+{
+    struct fitting fitting;
+    size_t s = reaction_when(sides, support->key[0]), unknowns = 0;
+    for (size_t j = 0; j < support->count; j++) unknowns += support->parts[j]->unknown;
+    return may_be_drawn_so(sides, support, s, unknowns) && fit(sides, support, s, &fitting) &&
+           senses_agree(sides, support, &fitting);
+}
+
+void support_solve(const struct sides *sides, const struct support *support, double values[most_components])
+{
+    struct fitting fitting;
+    for (size_t j = 0; j < most_components; j++) values[j] = NAN;
+    if (!fit(sides, support, reaction_when(sides, support->key[0]), &fitting)) return;
+    for (size_t k = 0; k < fitting.count; k++)
+        if (!fitting.columns[k].any) values[fitting.columns[k].part] = fitting.values[k];
+}
+
+/* Number k of what can be a reaction: those of couplings and joints, then normal forces and friction that the key lists.
+ * NULL for what is used or zero. */
+struct item *reaction_candidate(const struct sides *sides, size_t k)
+{
+    bool reaction = k < sides->reaction_count;
+    struct item *item = reaction ? &sides->reactions[k] : &sides->key[k - sides->reaction_count];
+    if (item->used || !item->name || (!reaction && !item->follows)) return NULL;
+    return reaction_is_nothing(sides, item) ? NULL : item;
+}
+
+/* Do two act at one point, or in one contact? */
+static bool share_support(const struct sides *sides, const struct item *a, const struct item *b)
+{
+    size_t s = reaction_when(sides, a);
+    if ((a->source != NULL) != (b->source != NULL)) return false;
+    if (a->source || (a->contact >= 0 && a->contact == b->contact)) return true;
+    return vec_norm(vec_sub(a->at[s].point, b->at[s].point)) <= reach_of(sides);
+}
+
+/* Choose parts from item `from` on until they are right. */
+static bool choose_parts(struct sides *sides, const struct search *search, struct support *support,
+                         size_t from)
+{
+    enum { most_left = 24 }; /* among so many components are looked for */
+    if (support->count == search->parts) return is_right(sides, support);
+    size_t left = 0;
+    for (size_t j = from; j < sides->count && (search->parts == 1 || left < most_left); j++) {
+        struct item *item = &sides->items[j];
+        if (item->used || !item->source || reaction_is_zero(sides, item, 0) || item->free != search->free ||
+            (search->valued && item->unknown))
+            continue;
+        left++;
+        support->parts[support->count++] = item;
+        if (choose_parts(sides, search, support, j + 1)) return true;
+        support->count--;
+    }
+    return false;
+}
+
+static bool try_support(struct sides *sides, const struct search *search, struct support *support,
+                        size_t key_count)
+{
+    support->key_count = key_count;
+    support->count = 0;
+    return choose_parts(sides, search, support, 0);
+}
+
+/* Reaction k with one other, or with all at its support. */
+static bool find_group(struct sides *sides, size_t k, const struct search *search, struct support *support)
+{
+    size_t all = sides->reaction_count + sides->key_count, shared = 1;
+    struct item *first = reaction_candidate(sides, k), *others[most_support];
+    others[0] = support->key[0] = first;
+    for (size_t j = k + 1; j < all && shared < most_support; j++) {
+        struct item *other = reaction_candidate(sides, j);
+        if (!other || !share_support(sides, first, other)) continue;
+        support->key[1] = others[shared++] = other;
+        if (try_support(sides, search, support, 2)) return true;
+    }
+    if (shared < 3) return false;
+    memcpy(support->key, others, sizeof others);
+    return try_support(sides, search, support, shared);
+}
+
+bool support_find(struct sides *sides, const struct search *search, struct support *support)
+{
+    for (size_t k = 0; k < sides->reaction_count + sides->key_count; k++) {
+        struct item *key = reaction_candidate(sides, k);
+        if (!key || (search->keys == keys_of_one_line && key->any) ||
+            (search->keys == keys_of_any_line && !key->any))
+            continue;
+        support->key[0] = key;
+        if (search->keys == keys_together ? find_group(sides, k, search, support)
+                                          : try_support(sides, search, support, 1))
+            return true;
+    }
+    return false;
+}
+
+/* The component of a reaction that may point anywhere, beside one that is right by itself. */
+static bool is_beside(const struct sides *sides, const struct item *item, struct item *key)
+{
+    size_t s = reaction_when(sides, key);
+    bool small = vec_norm(item->at[s].force) <= sides->tolerance * vec_norm(key->at[s].force);
+    if (!key->any || !key->single || !(item->unknown || small)) return false;
+    if (reaction_is_couple(sides, item, s) ||
+        (sides->turns && vec_norm(vec_sub(item->at[s].point, key->at[s].point)) > reach_of(sides)))
+        return false;
+    key->single = false;
+    return true;
+}
+
+bool is_of_nothing(struct sides *sides, const struct item *item)
+{
+    for (size_t i = 0; i < sides->reaction_count; i++) {
+        struct item *key = &sides->reactions[i];
+        if (!key->name) continue;
+        if (!reaction_is_nothing(sides, key)) {
+            if (is_beside(sides, item, key)) return true;
+            continue;
+        }
+        if (!item->unknown) continue;
+        if (reaction_is_couple(sides, item, 0)
+                ? key->couples
+                : reaction_passes(sides, &item->at[0], key->at[0].point) &&
+                      (key->any || reaction_is_parallel(sides, key->across, item->at[0].force)))
+            return true;
+    }
+    return false;
+}

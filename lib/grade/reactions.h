@@ -1,0 +1,61 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * Reactions: what couplings, contacts and guides exert, in the diagram of the key and in that of an answer.
+ *
+ * A reaction is compared at one state, the start (or where it is zero there, the first state where it is not). An entry
+ * of an answer without a magnitude is compared by its line of action and sense, one with a value by that. The diagram may
+ * have components for one reaction, or one force for reactions at one point or of one contact.
+ */
+#ifndef FBD_GRADE_REACTIONS_H
+#define FBD_GRADE_REACTIONS_H
+
+#include "dynamics/diagram.h"
+#include "grade/compare.h"
+
+/* What exerts it. */
+void reaction_describe(const fbd_model *model, int b, const struct arrow *arrow, const struct instant *at,
+                       struct item *item);
+
+/* Which of them have to be drawn: found once for the key (false when memory is out), and then taken from it. */
+bool reactions_note_asked(struct fbd_key *key, size_t b, const struct sides *sides);
+void reactions_take_asked(const struct fbd_key *key, size_t b, struct sides *sides);
+
+/* Is it zero wherever it is compared? */
+bool reaction_is_nothing(const struct sides *sides, const struct item *key);
+
+enum { most_components = 3, most_support = 4 };
+
+/* Some reactions of the key (or normal forces and friction that it lists) and what the answer has for them. */
+struct support {
+    size_t key_count, count;
+    struct item *key[most_support], *parts[most_components];
+};
+
+/* What is looked for: reactions whose line is given by what exerts them, or that may point anywhere, one by one; all one
+ * by one; or several together; drawn by so many forces, with a direction or without. */
+struct search {
+    enum { keys_of_one_line, keys_of_any_line, keys_alone, keys_together } keys;
+    size_t parts;
+    bool free, valued; /* without a direction; with a value */
+};
+
+/* The next of these that is right and not used yet. */
+bool support_find(struct sides *sides, const struct search *search, struct support *support);
+
+/* The finding about one reaction that is not drawn rightly, and what was meant by it. */
+struct misdrawn {
+    struct item *key, *item, *other; /* `other`: a component that is right, or NULL */
+    enum relation relation;
+    int rank;
+};
+
+/* The likeliest of those with a rank below `below`; false when there is none. */
+bool reactions_closest(struct sides *sides, int below, struct misdrawn *found);
+
+/* Is this drawn for a reaction that is zero, or the component that is zero of one which is right? */
+bool is_of_nothing(struct sides *sides, const struct item *item);
+
+/* The value of the unknowns that make these reactions, by the force of each, for the derivations. */
+void support_solve(const struct sides *sides, const struct support *support, double values[most_components]);
+
+#endif

@@ -1,0 +1,371 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * Equations of rest: sums of forces and moments that are zero at the start of the sheet.
+ *
+ * Such an equation names no acceleration, and is true for the values of the sheet alone. It is one where it holds there,
+ * and where it is a combination of the sums of forces and moments on the bodies: when the parameters are changed a
+ * little, it changes as a combination of these sums does. An equation that states a value (W = 400[N]) does not. What
+ * belongs to a sum is what the key lists and the reactions that the answer has drawn rightly, each of which is a
+ * parameter.
+ */
+#include <stdlib.h>
+#include <string.h>
+
+#include "dynamics/project.h"
+#include "grade/lines.h"
+#include "output/random_state.h"
+#include "scene/law.h"
+#include "scene/node_edit.h"
+#include "study/hash.h"
+
+enum { sums = 3 }; /* of a body: forces along x and y, moments about the origin */
+
+/* ---- models whose parameters are changed a little */
+
+/* A number with or without a unit: what follows from other parameters changes with them. */
+static bool is_given(const struct node *value)
+{
+    if (value->kind == node_map) value = lines_value(value, "value");
+    if (!value || value->kind != node_scalar) return false;
+    char *end;
+    strtod(value->text, &end);
+    if (end == value->text) return false;
+    return *end == '\0' || *end == ' ' || (*end >= 'A' && *end <= 'z');
+}
+
+/* Between -1 and 1, by the name and the number of the change. */
+static double change_of(const char *name, int number)
+{
+    unsigned long long mixed = (unsigned long long)hash_text(name, strlen(name)) ^
+                               (0x9e3779b97f4a7c15ULL * (unsigned long long)(number + 1));
+    mixed = (mixed ^ (mixed >> 31)) * 0xbf58476d1ce4e5b9ULL;
+    mixed = (mixed ^ (mixed >> 29)) * 0x94d049bb133111ebULL;
+    return (double)(mixed >> 11) / 4503599627370496.0 - 1;
+}
+
+/* The model of a tree with all given parameters changed: 0 as it is. */
+static fbd_model *changed_model(struct fbd_grade *grade, const struct node *root, const fbd_model *like,
+                                bool hands, int number)
+{
+    const double spread = 1e-3;
+    const struct scene *scene = like->scene;
+    const struct node *parameters = lines_value(root, "parameters");
+    const struct document document = {.file = grade->key->file,
+                                      .root = root,
+                                      .without_hands = !hands,
+                                      .split_hands = hands};
+    struct override *overrides = ARENA_ARRAY(&grade->arena, scene->parameter_count + 1, struct override);
+    fbd_errors *errors = fbd_errors_new();
+    size_t count = 0;
+    fbd_model *model = NULL;
+    for (size_t i = 0; overrides && i < scene->parameter_count; i++) {
+        const char *name = scene->parameters[i].name;
+        const struct node *value = lines_value(parameters, name);
+        if (!value || !is_given(value)) continue;
+        double factor = number > 0 ? 1 + spread * change_of(name, number) : 1;
+        const char *text = arena_printf(&grade->arena, "%.17g", factor * scene->parameters[i].value);
+        overrides[count++] = (struct override){.name = name, .value = text};
+    }
+    struct scene *made =
+        errors && !grade->arena.failed ? scene_make(&document, overrides, count, errors) : NULL;
+    if (made && fbd_errors_failed_count(errors) == 0)
+        model = model_compile(made, errors);
+    else
+        scene_free(made);
+    if (!errors || errors->out_of_memory) grade->arena.failed = true;
+    fbd_errors_free(errors);
+    return model;
+}
+
+/* The start, settled; NULL where there is none. */
+static fbd_state *start_of(const fbd_model *model)
+{
+    fbd_state *state = state_new(model);
+    if (state && model->assembles) state_project(state, true);
+    if (state && !random_admissible(state)) state_evaluate(state);
+    return state;
+}
+
+/* ---- sums */
+
+struct rest {
+    int draws;
+    size_t rows;
+    double *sum;  /* draws + 1 times rows: the first as the sheet is */
+    double *size; /* rows: of what was added up */
+};
+
+static bool counts_here(const struct fbd_grade *grade, const struct load *load, bool answer)
+{
+    if (!answer) return !load_law(load)->follows;
+    const struct drawn *drawn = drawn_at(grade, load->at);
+    return drawn && isfinite(drawn->size);
+}
+
+/* Add what the bodies of a model list to their sums. */
+static bool add_sums(struct lines *lines, const fbd_model *model, double length, double force, bool answer,
+                     double *sum, double *size)
+{
+    const fbd_model *key = lines->grade->sheet;
+    fbd_state *state = start_of(model);
+    struct arrow *arrows = calloc(diagram_most_arrows(model) + 1, sizeof *arrows);
+    struct instant at = state ? state_instant(state) : (struct instant){.t = 0};
+    for (size_t b = 0; state && arrows && b < model->body_count; b++) {
+        size_t to = 0;
+        while (to < key->body_count && strcmp(key->bodies[to].name, model->bodies[b].name) != 0) to++;
+        if (to == key->body_count) continue;
+        diagram_fill(model, (int)b, &at, state->a, state->slots, arrows);
+        for (size_t i = 0; i < model->bodies[b].source->load_count; i++) {
+            if (!counts_here(lines->grade, model->loads[arrows[i].load].source, answer)) continue;
+            const double parts[sums] = {force * arrows[i].force.x, force * arrows[i].force.y,
+                                        force * length * arrow_moment(&arrows[i], (struct vec){0, 0})};
+            for (int k = 0; k < sums; k++) {
+                sum[to * sums + (size_t)k] += parts[k];
+                size[to * sums + (size_t)k] += fabs(parts[k]);
+            }
+        }
+    }
+    bool done = state && arrows;
+    state_free(state);
+    free(arrows);
+    return done;
+}
+
+/* The sums under one change of the parameters, in the units of the key. False where a model cannot be. */
+static bool take_sums(struct lines *lines, const fbd_model *answer, int number, double *sum, double *size)
+{
+    struct fbd_grade *grade = lines->grade;
+    const double foot = 0.3048, pound = 4.4482216152605;
+    fbd_model *model = changed_model(grade, grade->key->document.root, grade->sheet, false, number);
+    bool done = model && add_sums(lines, model, 1, 1, false, sum, size);
+    fbd_model_free(model);
+    if (!answer || !done) return done;
+    bool us = answer->scene->units == unit_us, key_us = grade->sheet->scene->units == unit_us;
+    double length = us == key_us ? 1
+                    : us         ? foot
+                                 : 1 / foot,
+           force = us == key_us ? 1
+                   : us         ? pound
+                                : 1 / pound;
+    model = changed_model(grade, lines->varied, answer, false, number);
+    done = model && add_sums(lines, model, length, force, true, sum, size);
+    fbd_model_free(model);
+    return done;
+}
+
+/* ---- the answer with a parameter for each reaction */
+
+static const struct node *text_node(struct arena *arena, const struct node *like, const char *text)
+{
+    struct node *made = ARENA_NEW(arena, struct node);
+    if (!made || !text) return NULL;
+    *made = (struct node){.kind = node_scalar, .height = 1, .at = like->at, .size = 1, .text = text};
+    made->length = strlen(text);
+    made->text_at = like->at;
+    return made;
+}
+
+/* An entry of a list whose value is the parameter. */
+static const struct node *varied_entry(struct fbd_grade *grade, const struct node *entry)
+{
+    struct arena *arena = &grade->arena;
+    const struct pair *applied = entry->kind == node_map ? node_find(entry, "applied") : NULL;
+    struct drawn *drawn = applied ? drawn_at(grade, applied->at) : NULL;
+    if (!drawn || !drawn->parameter || !lines_value(applied->value, "value")) return entry;
+    const char *text = arena_printf(arena, "%s%s", drawn->minus ? "-" : "", drawn->parameter);
+    const struct node *value = text_node(arena, applied->value, text);
+    const struct node *keys = value ? node_with(arena, applied->value, "value", value) : NULL;
+    return keys ? node_with(arena, entry, "applied", keys) : NULL;
+}
+
+static const struct node *varied_list(struct fbd_grade *grade, const struct node *list)
+{
+    const struct node *made = node_shortened(&grade->arena, list, 0);
+    for (size_t i = 0; made && i < list->count; i++) {
+        const struct node *entry = varied_entry(grade, list->items[i]);
+        made = entry ? node_appended(&grade->arena, made, entry) : NULL;
+    }
+    return made;
+}
+
+static const struct node *varied_bodies(struct fbd_grade *grade, const struct node *bodies)
+{
+    static const char *const keys[] = {"forces", "moments"};
+    const struct node *made = bodies;
+    for (size_t b = 0; made && b < bodies->count; b++)
+        for (size_t k = 0; made && k < 2; k++) {
+            const char *name = bodies->pairs[b].key;
+            const struct node *body = lines_value(made, name), *list = lines_value(body, keys[k]);
+            if (!list || list->kind != node_list) continue;
+            list = varied_list(grade, list);
+            body = list ? node_with(&grade->arena, body, keys[k], list) : NULL;
+            made = body ? node_with(&grade->arena, made, name, body) : NULL;
+        }
+    return made;
+}
+
+/* The parameters of a tree, and one for each reaction that is drawn rightly. */
+static const struct node *with_reactions(struct fbd_grade *grade, const struct node *root)
+{
+    struct arena *arena = &grade->arena;
+    const struct node *all = lines_value(root, "parameters");
+    if (!all || all->kind != node_map) all = node_empty_map(arena);
+    for (struct drawn *one = grade->drawn; all && one; one = one->next) {
+        const char *name = one->name ? one->name : one->symbol;
+        if (!isfinite(one->size) || !name) continue;
+        one->parameter = arena_printf(arena, "%s__%s", name, one->body);
+        const char *text = arena_printf(arena, "%.17g %s", one->size, one->unit);
+        const struct node *value = one->parameter && text ? text_node(arena, root, text) : NULL;
+        all = value ? node_with(arena, all, one->parameter, value) : NULL;
+    }
+    return all ? node_with(arena, root, "parameters", all) : NULL;
+}
+
+static fbd_model *make_varied(struct lines *lines)
+{
+    struct fbd_grade *grade = lines->grade;
+    const struct node *root = with_reactions(grade, lines->answer);
+    const struct node *bodies = root ? varied_bodies(grade, lines_value(root, "bodies")) : NULL;
+    lines->varied = bodies ? node_with(&grade->arena, root, "bodies", bodies) : NULL;
+    if (!lines->varied) grade->arena.failed = true;
+    fbd_errors *errors = fbd_errors_new();
+    fbd_model *model = NULL;
+    if (errors && lines->varied) model = grade_compile(grade, lines->varied, grade->key->file, false, errors);
+    fbd_errors_free(errors);
+    return model;
+}
+
+/* All sums, once for all lines; false where they are not known. */
+static bool find_sums(struct lines *lines)
+{
+    struct fbd_grade *grade = lines->grade;
+    const size_t rows = sums * grade->sheet->body_count;
+    struct rest *rest = ARENA_NEW(&grade->arena, struct rest);
+    if (lines->rest_made) return lines->rest != NULL;
+    lines->rest_made = true;
+    if (!rest) return false;
+    *rest = (struct rest){.draws = rows <= 12 ? 2 * (int)rows + 6 : 30, .rows = rows};
+    rest->sum = ARENA_ARRAY(&grade->arena, (size_t)(rest->draws + 1) * rows + 1, double);
+    rest->size = ARENA_ARRAY(&grade->arena, rows + 1, double);
+    double *other = ARENA_ARRAY(&grade->arena, rows + 1, double);
+    fbd_model *answer = lines->answer ? make_varied(lines) : NULL;
+    bool done = rest->sum && rest->size && other && (answer || !lines->answer);
+    for (int k = 0; done && k <= rest->draws; k++)
+        done = take_sums(lines, answer, k, rest->sum + (size_t)k * rows, k == 0 ? rest->size : other);
+    fbd_model_free(answer);
+    if (done) lines->rest = rest;
+    return done;
+}
+
+/* ---- one equation */
+
+/* The key's scene with this equation alone, over the parameters of the reactions. */
+static const struct node *root_of_line(struct lines *lines, int body, const char *text)
+{
+    struct fbd_grade *grade = lines->grade;
+    struct arena *arena = &grade->arena;
+    const struct node *root = lines->root, *bodies = lines_value(root, "bodies"), *made = bodies;
+    const char *name = grade->sheet->bodies[body].name;
+    for (size_t b = 0; made && b < bodies->count; b++) {
+        const struct node *one = node_with(arena, bodies->pairs[b].value, "hand", NULL);
+        made = one ? node_with(arena, made, bodies->pairs[b].key, one) : NULL;
+    }
+    const struct node *line = text_node(arena, root, text);
+    if (line && lines->answer) line = line_over_parameters(grade, lines->answer, line, name);
+    const struct node *list = line ? node_appended(arena, NULL, line) : NULL;
+    const struct node *own = made && list ? node_with(arena, lines_value(made, name), "hand", list) : NULL;
+    made = own ? node_with(arena, made, name, own) : NULL;
+    root = made ? node_with(arena, root, "bodies", made) : NULL;
+    return root && lines->answer ? with_reactions(grade, root) : root;
+}
+
+static double rest_norm(const double *a, int count)
+{
+    double sum = 0;
+    for (int i = 0; i < count; i++) sum += a[i] * a[i];
+    return sqrt(sum);
+}
+
+static double rest_beyond(double *a, const double *base, int count)
+{
+    double along = 0;
+    for (int i = 0; i < count; i++) along += a[i] * base[i];
+    for (int i = 0; i < count; i++) a[i] -= along * base[i];
+    return rest_norm(a, count);
+}
+
+static double lack_of(const fbd_model *model, int body, double *size)
+{
+    fbd_state *state = model ? start_of(model) : NULL;
+    double lack = state ? hand_lack_at(state, body, 0, size) : NAN;
+    state_free(state);
+    return lack;
+}
+
+/* How left less right changes; false where it cannot be evaluated, or is not zero for the sheet. */
+static bool find_changes(struct lines *lines, int body, const char *text, double *changes)
+{
+    struct fbd_grade *grade = lines->grade;
+    const struct node *root = root_of_line(lines, body, text);
+    fbd_errors *errors = fbd_errors_new();
+    fbd_model *model = NULL;
+    if (!root || !errors) grade->arena.failed = true;
+    if (root && errors) model = grade_compile(grade, root, grade->key->file, true, errors);
+    double size, lack = lack_of(model, body, &size);
+    bool done = fabs(lack) <= 0.3 * grade->key->model->scene->grading.tolerance * size;
+    for (int k = 1; done && k <= lines->rest->draws; k++) {
+        fbd_model *changed = changed_model(grade, root, model, true, k);
+        double other;
+        changes[k - 1] = lack_of(changed, body, &other) - lack;
+        done = isfinite(changes[k - 1]);
+        fbd_model_free(changed);
+    }
+    fbd_model_free(model);
+    fbd_errors_free(errors);
+    const double rounding = 1e-9;
+    return done && rest_norm(changes, lines->rest->draws) > rounding * size;
+}
+
+/* Are the changes a combination of those of the sums that are zero? */
+static bool is_of_sums(const struct lines *lines, const double *changes)
+{
+    enum { most_rows = 30, most_draws = 30 };
+    const struct rest *rest = lines->rest;
+    const double tolerance = lines->grade->key->model->scene->grading.tolerance, apart = 1e-6, like = 0.01;
+    double base[most_rows][most_draws], left[most_draws];
+    size_t found = 0, n = (size_t)rest->draws;
+    memcpy(left, changes, n * sizeof *left);
+    for (size_t r = 0; r < rest->rows && found < most_rows && found + 4 < n; r++) {
+        if (!(fabs(rest->sum[r]) <= tolerance * rest->size[r])) continue;
+        double *column = base[found];
+        for (size_t k = 0; k < n; k++) column[k] = rest->sum[(k + 1) * rest->rows + r] - rest->sum[r];
+        double before = rest_norm(column, rest->draws), after = before;
+        for (size_t j = 0; j < found; j++) after = rest_beyond(column, base[j], rest->draws);
+        if (!(after > apart * before)) continue;
+        for (size_t k = 0; k < n; k++) column[k] /= after;
+        rest_beyond(left, column, rest->draws);
+        found++;
+    }
+    return rest_norm(left, rest->draws) <= like * rest_norm(changes, rest->draws);
+}
+
+bool line_is_of_rest(struct lines *lines, int body, const char *text, const double **changes)
+{
+    *changes = NULL;
+    if (!find_sums(lines)) return !lines->grade->arena.failed;
+    double *made = ARENA_ARRAY(&lines->grade->arena, (size_t)lines->rest->draws, double);
+    if (made && find_changes(lines, body, text, made) && is_of_sums(lines, made)) *changes = made;
+    return !lines->grade->arena.failed;
+}
+
+bool rest_is_new(const struct lines *lines, const double *changes, double *base, size_t count)
+{
+    const int draws = lines->rest->draws;
+    const double apart = 0.03;
+    double *made = base + count * rest_room;
+    memcpy(made, changes, (size_t)draws * sizeof *made);
+    double before = rest_norm(made, draws), after = before;
+    for (size_t k = 0; k < count; k++) after = rest_beyond(made, base + k * rest_room, draws);
+    for (int k = 0; k < draws; k++) made[k] /= after;
+    return after > apart * before;
+}

@@ -1,0 +1,136 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * Bodies and couplings that an answer has and the key has not, or the other way round.
+ */
+#include <string.h>
+
+#include "base/text.h"
+#include "grade/verdict.h"
+
+static const struct pos nowhere = {0, 0};
+
+static bool near(double a, double b, double tolerance)
+{
+    return fabs(a - b) <= tolerance * fmax(fabs(a), fabs(b));
+}
+
+static bool has_body(const fbd_model *model, const char *name)
+{
+    for (size_t b = 0; b < model->body_count; b++)
+        if (strcmp(model->bodies[b].name, name) == 0) return true;
+    return false;
+}
+
+static const char *end_name(const struct scene *scene, int body)
+{
+    return body < 0 ? "" : scene->bodies[body].name;
+}
+
+static bool same_point(struct point a, struct point b)
+{
+    return a.kind == b.kind && vec_norm(vec_sub(a.where, b.where)) <= 1e-6 * (1e-3 + vec_norm(a.where));
+}
+
+static bool same_constraint(const struct scene *key, const struct constraint *a, const struct scene *answer,
+                            const struct constraint *b)
+{
+    if (a->kind != b->kind || a->end_count != b->end_count || a->length_given != b->length_given)
+        return false;
+    if (a->length_given && !near(a->length, b->length, 1e-6)) return false;
+    for (int i = 0; i < a->end_count; i++)
+        if (strcmp(end_name(key, a->body[i]), end_name(answer, b->body[i])) != 0 ||
+            (i < 2 && (a->wound[i] != b->wound[i] ||
+                       !(a->spare[i] == b->spare[i] || near(a->spare[i], b->spare[i], 1e-6)))) ||
+            !same_point(a->point[i], b->point[i]) || !near(a->radius[i], b->radius[i], 1e-6))
+            return false;
+    return true;
+}
+
+/* How many of the first `count` constraints of a scene are like one of another scene. */
+static size_t constraints_like(const struct scene *scene, size_t count, const struct scene *of,
+                               const struct constraint *one)
+{
+    size_t found = 0;
+    for (size_t i = 0; i < count; i++) found += same_constraint(of, one, scene, &scene->constraints[i]);
+    return found;
+}
+
+/* Is number `index` of a scene one more than the other scene has of its like? */
+static bool is_constraint_more(const struct scene *scene, size_t index, const struct scene *other)
+{
+    const struct constraint *one = &scene->constraints[index];
+    return constraints_like(scene, index + 1, scene, one) >
+           constraints_like(other, other->constraint_count, scene, one);
+}
+
+static bool same_coupling(const struct scene *key, const struct coupling *a, const struct scene *answer,
+                          const struct coupling *b)
+{
+    for (int k = 0; k < 2; k++)
+        if (strcmp(end_name(key, a->body[k]), end_name(answer, b->body[k])) != 0 ||
+            !same_point(a->point[k], b->point[k]))
+            return false;
+    return a->load.kind == b->load.kind && near(a->load.stiffness, b->load.stiffness, 1e-6) &&
+           near(a->load.coefficient, b->load.coefficient, 1e-6) &&
+           near(a->load.free_length, b->load.free_length, 1e-6);
+}
+
+static size_t couplings_like(const struct scene *scene, size_t count, const struct scene *of,
+                             const struct coupling *one)
+{
+    size_t found = 0;
+    for (size_t i = 0; i < count; i++) found += same_coupling(of, one, scene, &scene->couplings[i]);
+    return found;
+}
+
+static bool is_coupling_more(const struct scene *scene, size_t index, const struct scene *other)
+{
+    const struct coupling *one = &scene->couplings[index];
+    return couplings_like(scene, index + 1, scene, one) >
+           couplings_like(other, other->coupling_count, scene, one);
+}
+
+/* What joins bodies is given with the sheet: that it has been changed is said. */
+static void compare_couplings(struct fbd_grade *grade, const struct scene *key, const struct scene *answer)
+{
+    const char *lost = "a coupling of the sheet is not in the answer, or was changed",
+               *more = "it is not on the sheet";
+    if (key->units != answer->units) return;
+    size_t changed = 0; /* of the answer's own, so many are those of the sheet as they were changed */
+    for (size_t i = 0; i < key->constraint_count; i++) {
+        if (!is_constraint_more(key, i, answer)) continue;
+        changed++;
+        verdict_superfluous(grade, FBD_FINDING_MOTION, "", key->constraints[i].name, nowhere, lost);
+    }
+    for (size_t i = 0; i < answer->constraint_count; i++) {
+        const struct constraint *one = &answer->constraints[i];
+        if (!is_constraint_more(answer, i, key)) continue;
+        if (changed > 0)
+            changed--;
+        else
+            verdict_superfluous(grade, FBD_FINDING_SUPERFLUOUS, "", one->name, one->at, more);
+    }
+    changed = 0;
+    for (size_t i = 0; i < key->coupling_count; i++) {
+        if (!is_coupling_more(key, i, answer)) continue;
+        changed++;
+        verdict_superfluous(grade, FBD_FINDING_MOTION, "", key->couplings[i].load.name, nowhere, lost);
+    }
+    for (size_t i = 0; i < answer->coupling_count; i++) {
+        const struct load *one = &answer->couplings[i].load;
+        if (!is_coupling_more(answer, i, key)) continue;
+        if (changed > 0)
+            changed--;
+        else
+            verdict_superfluous(grade, FBD_FINDING_SUPERFLUOUS, "", one->name, one->at, more);
+    }
+}
+
+void verdict_on_others(struct fbd_grade *grade, const fbd_model *answer)
+{
+    for (size_t b = 0; b < answer->body_count; b++)
+        if (!has_body(grade->sheet, answer->bodies[b].name))
+            verdict_superfluous(grade, FBD_FINDING_BODY, answer->bodies[b].name, "",
+                                answer->bodies[b].source->at, "the body is not on the sheet");
+    compare_couplings(grade, grade->sheet->scene, answer->scene);
+}
