@@ -62,12 +62,21 @@ static bool is_tied(const struct fbd_model *model)
     return model->tree && model->tree->tie_count > 0;
 }
 
-/* With a prescribed motion there is no state of rest. */
+/* Are coordinates no freedoms, as couplings join them or they are prescribed? */
+static bool is_reduced(const struct fbd_model *model)
+{
+    bool driven = false;
+    for (size_t i = 0; i < (size_t)model->plan.n; i++) driven |= coordinate_is_driven(model, i);
+    return driven || is_tied(model);
+}
+
+/* With a prescribed motion there is no state of rest, unless it is a place. */
 static bool refuse_driven(const struct fbd_state *state, fbd_errors *errors)
 {
     const struct fbd_model *model = state->model;
     for (size_t b = 0; b < model->body_count; b++) {
         if (model->bodies[b].drive < 0) continue;
+        if (!expr_uses_time(model->bodies[b].source->motion.prescribed.expr)) continue;
         diag_add(errors, FBD_ERROR, "not-independent", model->bodies[b].source->motion.at,
                  "simulate it, from a start near the equilibrium",
                  "the motion of `%s` is prescribed: it is never at rest", model->bodies[b].name);
@@ -191,7 +200,7 @@ static bool looking_new(struct looking *looking, struct fbd_linearization *linea
     looking->before = looking->origin + plan_rates(&state->model->plan);
     looking->beside = looking->before + n;
     looking->there = looking->beside + n;
-    if (!is_tied(state->model)) return true;
+    if (!is_reduced(state->model)) return true;
     looking->full = calloc(size * size + size + 1, sizeof *looking->full);
     return looking->full && independent_new(&looking->independent, state);
 }
@@ -270,6 +279,7 @@ static void drop_dying_slopes(const struct looking *looking, fbd_errors *errors)
 
 static void refuse_singular(const struct fbd_model *model, fbd_errors *errors)
 {
+    if (!is_tied(model)) return; /* prescribed coordinates alone are never in one */
     const struct tie *tie = &model->tree->ties[0];
     diag_add(
         errors, FBD_ERROR, "not-independent", model->scene->constraints[tie->constraint].at,
@@ -286,14 +296,18 @@ static bool choose_coordinates(struct looking *looking, fbd_errors *errors)
     struct independent *independent = &looking->independent;
     const struct tree *tree = linear->model->tree;
     if (!looking->full) return true;
-    struct pos at = linear->model->scene->constraints[tree->ties[0].constraint].at;
     if (!independent_choose(independent, looking->state)) {
         refuse_singular(linear->model, errors);
         return false;
     }
     if (independent->count == 0) {
+        const bool tied = is_tied(linear->model);
+        struct pos at = tied ? linear->model->scene->constraints[tree->ties[0].constraint].at
+                             : linear->model->bodies[0].source->motion.at;
         diag_add(errors, FBD_ERROR, "sticks", at, "leave out what holds it, to see it move",
-                 "nothing can move: the couplings, `%s` among them, leave no freedom", tree->ties[0].name);
+                 "nothing can move: %s`%s` among them, leave no freedom",
+                 tied ? "the couplings, " : "prescribed motions, that of ",
+                 tied ? tree->ties[0].name : linear->model->bodies[0].name);
         return false;
     }
     linear->count = independent->count;

@@ -80,14 +80,16 @@ bool equilibrium_refuse_reels(const struct fbd_model *model, fbd_errors *errors)
     return false;
 }
 
-/* What has no single place of rest, or none: dry friction holds in a range of places, and a prescribed motion
- * does not rest. */
+/* What has no single place of rest, or none: dry friction holds in a range of places, and a motion that is prescribed as a function of
+ * the time does not rest. */
 static bool refuse(const struct fbd_state *state, fbd_errors *errors)
 {
     const struct fbd_model *model = state->model;
     for (size_t pair = 0; pair < model->plan.mode_count; pair++) {
         const struct mode *mode = &model->plan.modes[pair];
         if (mode->tie >= 0) continue;
+        const struct expr *drive = model->bodies[mode->body].source->motion.prescribed.expr;
+        if (mode->kind == mode_drive && !expr_uses_time(drive)) continue;
         diag_add(errors, FBD_ERROR, mode->kind == mode_drive ? "not-independent" : "sticks",
                  mode->kind == mode_drive ? model->bodies[mode->body].source->motion.at
                                           : model->loads[mode->load].source->at,
