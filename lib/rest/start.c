@@ -133,11 +133,25 @@ void unsettled_words(const struct fbd_state *state, const char *when, struct tex
     }
 }
 
-static bool is_settled(const struct fbd_state *state, bool settled, struct lack *lack)
+static bool is_solved(struct fbd_state *state, struct lack *lack)
+{
+    bool masses;
+    if (!fit_unsolved(state, &masses, &lack->at, &lack->text)) return true;
+    lack->id = masses ? "masses-apart" : "singular-start";
+    return false;
+}
+
+/* Modes that are none for the forces that were found may be so since these are not told. */
+static bool is_settled(struct fbd_state *state, bool settled, struct lack *lack)
 {
     if (settled) return true;
     if (state->holds.found == holds_no_memory) return false;
-    lack->id = state->holds.found == holds_none ? "no-solution" : "unsettled";
+    const struct holds_trouble trouble = state->holds;
+    if (!is_solved(state, lack) && strcmp(lack->id, "masses-apart") == 0) return false;
+    state->holds = trouble;
+    text_free(&lack->text);
+    lack->at = (struct pos){0, 0};
+    lack->id = trouble.found == holds_none ? "no-solution" : "unsettled";
     unsettled_words(state, "at the start", &lack->text);
     return false;
 }
@@ -188,13 +202,6 @@ static bool rests_on_surfaces(const struct fbd_state *state, struct lack *lack)
         return false;
     }
     return true;
-}
-
-static bool is_solved(struct fbd_state *state, struct lack *lack)
-{
-    if (!fit_unsolved(state, &lack->at, &lack->text)) return true;
-    lack->id = "masses-apart";
-    return false;
 }
 
 static bool is_free_to_move(struct fbd_state *state, struct fbd_state *other, struct lack *lack)
