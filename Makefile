@@ -75,7 +75,7 @@ cross-check: $(BUILD)/.tests
 # Tests whose scenes, values or texts are drawn, with DRAWS times as many as in every change; some two minutes.
 DRAWS = 5
 GENERATORS = actuators cams contact_tolerances dead_centres decks driven emit_drawn hoists linearize_couplings lines \
-	long_pendulum nasty not_finite piles plane pulled_row residual rolls shelf sliding slots stick_slips stiff_motions switch_holds sweep wheels works
+	long_pendulum nasty not_finite piles plane pulled_row residual rolls scales shelf sliding slots stick_slips stiff_motions switch_holds sweep wheels works
 generators: $(BUILD)/.tests
 	ninja -C $(BUILD)
 	FBD_DRAWS=$(DRAWS) .ci/test $(BUILD) --no-rebuild --timeout-multiplier $(DRAWS) $(GENERATORS)
