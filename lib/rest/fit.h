@@ -20,7 +20,7 @@ bool fit_blocked(struct fbd_state *state, struct pos *at, struct text *lack);
 
 /* The heaviest of jointed bodies against the lightest: beyond 1e4 multipliers lose digits by that, beyond about 1e6 too many. */
 double fit_mass_ratio(const struct tree *tree);
-static const double masses_far_apart = 1e4;
+static const double masses_far_apart = 1e4, masses_too_far_apart = 1e6;
 
 /* Do the accelerations of a state, which is evaluated here, miss the couplings by more than rounding? Then no finite forces
  * hold a mechanism in its position, or, with `masses`, the masses are too far apart (a pulley of a milligram between weights

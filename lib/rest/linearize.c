@@ -1,8 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "rest/linearize.h"
 
-#include <gsl/gsl_eigen.h>
-#include <gsl/gsl_errno.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -13,47 +11,10 @@
 #include "dynamics/modes.h"
 #include "dynamics/project.h"
 #include "dynamics/tree_driven.h"
+#include "rest/eigenvalues.h"
 #include "rest/equilibrium.h"
 #include "rest/independent.h"
 #include "rest/start.h"
-
-/* ---- eigenvalues */
-
-/* By frequency, then the one with the positive imaginary part first. */
-static int by_frequency(const void *left, const void *right)
-{
-    const fbd_mode *a = left, *b = right;
-    double difference = a->frequency - b->frequency;
-    if (fabs(difference) > 1e-12 * (a->frequency + b->frequency)) return difference < 0 ? -1 : 1;
-    return a->im > b->im ? -1 : a->im < b->im ? 1 : a->re < b->re ? -1 : 1;
-}
-
-/* 1 found, 0 the iteration does not end, -1 out of memory. */
-static int find_modes(struct fbd_linearization *linear)
-{
-    size_t size = linear->size, bytes = size * size * sizeof *linear->A;
-    double *A = malloc(bytes); /* a copy, which is overwritten */
-    gsl_vector_complex *values = gsl_vector_complex_alloc(size);
-    gsl_eigen_nonsymm_workspace *work = gsl_eigen_nonsymm_alloc(size);
-    bool made = A && values && work, done = false;
-    if (made) {
-        memcpy(A, linear->A, bytes);
-        gsl_matrix_view view = gsl_matrix_view_array(A, size, size);
-        gsl_eigen_nonsymm_params(0, 1, work); /* balanced: coordinates have different units */
-        done = gsl_eigen_nonsymm(&view.matrix, values, work) == GSL_SUCCESS;
-        for (size_t i = 0; done && i < size; i++) {
-            gsl_complex lambda = gsl_vector_complex_get(values, i);
-            double re = GSL_REAL(lambda), im = GSL_IMAG(lambda), frequency = hypot(re, im);
-            linear->modes[i] = (fbd_mode){re, im, frequency, frequency > 0 ? -re / frequency : NAN};
-            done = isfinite(frequency) && (frequency == 0 || isfinite(1 / frequency));
-        }
-        if (done) qsort(linear->modes, size, sizeof *linear->modes, by_frequency);
-    }
-    if (work) gsl_eigen_nonsymm_free(work);
-    if (values) gsl_vector_complex_free(values);
-    free(A);
-    return made ? done : -1;
-}
 
 /* ---- the whole */
 
@@ -462,7 +423,7 @@ static fbd_linearization *linearize(fbd_state *state, fbd_errors *errors)
     if (linear) linear->degrees = state->degrees;
     int found = linear && settled ? find_matrix(linear, state, errors) : -1;
     bool said = found == -2 || (found > 0 && !is_finite(linear, state, errors));
-    int modes = found > 0 && !said ? find_modes(linear) : -1;
+    int modes = found > 0 && !said ? eigenvalues_find(linear->size, linear->A, linear->modes) : -1;
     if (modes > 0) return linear;
     if (!said) note_failure(model, settled, found > 0 ? modes : found, found > 0, errors);
     fbd_linearization_free(linear);

@@ -151,8 +151,17 @@ static bool is_settled(struct fbd_state *state, bool settled, struct lack *lack)
     state->holds = trouble;
     text_free(&lack->text);
     lack->at = (struct pos){0, 0};
-    lack->id = trouble.found == holds_none ? "no-solution" : "unsettled";
+    const double ratio = state->model->tree ? fit_mass_ratio(state->model->tree) : 0;
+    lack->id = ratio > masses_too_far_apart  ? "masses-apart"
+               : trouble.found == holds_none ? "no-solution"
+                                             : "unsettled";
     unsettled_words(state, "at the start", &lack->text);
+    if (ratio > masses_too_far_apart)
+        text_printf(&lack->text,
+                    ". The heaviest of the jointed bodies has %.2g times the mass of the lightest, and up to "
+                    "about 1e6 "
+                    "can be solved",
+                    ratio);
     return false;
 }
 
