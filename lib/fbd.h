@@ -647,8 +647,7 @@ FBD_API char *fbd_linearization_svg(const fbd_linearization *linearization);
  * (downhill in the sense of the masses, couplings kept), or, where that has no end because forces have no
  * potential or the file has states of its own, to the balance nearest to it. Rates become zero, those of states too. False with a note in `errors` when none was
  * found (`no-equilibrium`), dry friction of a slide or a bearing holds in a range of places (`sticks`), or a
- * motion is prescribed as a function of the time (`not-independent`); the state is then anywhere. An unstable
- * equilibrium is noted (`unstable-equilibrium`, a warning). */
+ * motion is prescribed as a function of the time (`not-independent`); the state is then anywhere. An unstable one is noted (`unstable-equilibrium`, a warning). */
 FBD_API bool fbd_find_equilibrium(fbd_state *state, fbd_errors *errors);
 
 /* The scene at rest where it is, with every reaction. */
