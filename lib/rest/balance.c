@@ -163,19 +163,23 @@ static struct grains *find_answers(const struct fbd_state *state, struct arrow *
 {
     const size_t bodies = state->model->body_count;
     struct grains *answers = zeroed((bodies + 1) * sizeof *answers);
-    struct fbd_state *there = answers ? state_new(state->model) : NULL;
-    for (size_t i = 0; there && i < plan_size(&state->model->plan); i++) {
+    struct fbd_state *here = state_new(state->model), *there = state_new(state->model);
+    const bool made = answers && here && there;
+    if (made) state_copy(here, state);
+    if (made) state_evaluate(here); /* afresh, as those beside it */
+    for (size_t i = 0; made && i < plan_size(&state->model->plan); i++) {
         state_copy(there, state);
         there->y[i] += DBL_EPSILON * fabs(state->y[i]);
         state_evaluate(there);
         for (size_t b = 0; b < bodies; b++) {
-            struct sums here = sums_of(state, (int)b, arrows), moved = sums_of(there, (int)b, arrows);
-            double force = vec_norm(vec_sub(moved.m_a, here.m_a)),
-                   moment = fabs(moved.I_alpha - here.I_alpha);
+            struct sums still = sums_of(here, (int)b, arrows), moved = sums_of(there, (int)b, arrows);
+            double force = vec_norm(vec_sub(moved.m_a, still.m_a)),
+                   moment = fabs(moved.I_alpha - still.I_alpha);
             if (isfinite(force)) answers[b].force += force;
             if (isfinite(moment)) answers[b].moment += moment;
         }
     }
+    state_free(here);
     state_free(there);
     return answers;
 }
