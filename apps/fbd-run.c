@@ -220,10 +220,15 @@ static enum exit_code check_start(const fbd_model *model, fbd_errors *errors)
     return code;
 }
 
-static enum exit_code check_hand(const fbd_model *model, const struct options *options)
+/* A derivation differs wherever the scene has no start that fits: that is said instead. */
+static enum exit_code check_hand(const fbd_model *model, const struct options *options, fbd_errors *errors)
 {
     size_t differing;
     char *text = fbd_check_hand(model, options->seed, &differing);
+    if (text && differing > 0 && check_start(model, errors) != exit_done) {
+        free(text);
+        return exit_failed;
+    }
     return print(text, differing > 0 ? exit_hand_differs : exit_done);
 }
 
@@ -324,7 +329,7 @@ static enum exit_code act(const fbd_model *model, const struct options *options,
 {
     switch (options->action) {
     case action_check: return check_start(model, errors);
-    case action_check_hand: return check_hand(model, options);
+    case action_check_hand: return check_hand(model, options, errors);
     case action_fmu: return write_fmu(model, options, errors);
     case action_emit_c: return emit_c(model, options, errors);
     case action_explain: return print(fbd_explain(model, &options->run), exit_done);

@@ -124,6 +124,9 @@ struct one_sided one_sided_at(const struct fbd_model *model, const struct instan
  * pulley beside it, or two pulleys between which it crosses and which overlap; -1 without one. */
 int rope_blocked_at(const struct fbd_model *model, const struct tree_work *work, int index);
 
+/* The first piece of a taut rope that has no length, both its ends at `where`, and so no direction; -1 without one. */
+int rope_shrunk_at(const struct fbd_model *model, const struct tree_work *work, int index, struct vec *where);
+
 /* What is left before a coupling comes to its end 0 or 1, and how fast that grows: of a rope on the disc there that it is
  * wound on, of a slot for its point. `size`: what its rounding is measured against, HUGE_VAL where there is no end. After
  * constraints_evaluate(). */

@@ -100,6 +100,13 @@ static struct jet reeled(const struct view *view, const struct tie *tie)
     return (struct jet){length - tie->length, rate, second, rate * dt, second * dt, jerk * dt};
 }
 
+/* Is a rope slack, by more than rounding? */
+static bool is_loose(double over, const struct tie_state *state)
+{
+    const double taut = 1e-9; /* of its length */
+    return over < -taut * state->zero;
+}
+
 /* A taut rope pulls along its pieces: where one of them is a point that has no direction, and no force. */
 static void refuse_direction(struct row *row)
 {
@@ -108,7 +115,6 @@ static void refuse_direction(struct row *row)
 
 void rope_row(const struct view *view, const struct tie *tie, const struct tie_state *state, struct row *row)
 {
-    const double taut = 1e-9; /* of its length */
     int last = tie->end_count - 1;
     bool shrunk = false;
     struct jet length = jet_constant(-state->zero);
@@ -124,7 +130,7 @@ void rope_row(const struct view *view, const struct tie *tie, const struct tie_s
         add_port(view, row, tie, k + 1, piece.Q2, piece.u);
     }
     row->g = tie->reels ? jet_sub(length, reeled(view, tie)) : length;
-    if (shrunk && !(length.x < -taut * state->zero)) refuse_direction(row);
+    if (shrunk && !is_loose(length.x, state)) refuse_direction(row);
 }
 
 int rope_blocked_at(const struct fbd_model *model, const struct tree_work *work, int index)
@@ -141,6 +147,21 @@ int rope_blocked_at(const struct fbd_model *model, const struct tree_work *work,
         struct vec to = jet_value(point_of(&view, &tie->end[k + 1]));
         bool rims = sR1 != 0 || sR2 != 0;
         if (rims && !(vec_norm(vec_sub(to, from)) > fabs(sR2 - sR1))) return k;
+    }
+    return -1;
+}
+
+int rope_shrunk_at(const struct fbd_model *model, const struct tree_work *work, int index, struct vec *where)
+{
+    const struct tie *tie = &model->tree->ties[index];
+    const struct tie_state *state = &work->ties[index];
+    const struct view view = view_of(model, work);
+    if (tie->kind != constraint_rope || is_loose(work->rows[tie->first_row].g.x, state)) return -1;
+    for (int k = 0; k + 1 < tie->end_count; k++) {
+        const struct piece piece = piece_of(&view, tie, state, k);
+        if (!piece.shrunk) continue;
+        *where = jet_value(piece.Q1);
+        return k;
     }
     return -1;
 }

@@ -7,8 +7,8 @@
 #include <string.h>
 
 #include "dynamics/friction.h"
+#include "dynamics/rest_memo.h"
 #include "dynamics/rest_system.h"
-#include "numeric/lcp.h"
 
 /* ---- limits */
 
@@ -200,8 +200,8 @@ static void set_inequality(struct programme *of, size_t row, size_t column, doub
 }
 
 /* The largest margin over `size`; the multipliers are left in z. */
-static double solve_programme(struct programme *of, const struct rest_system *system, const double *values,
-                              double size)
+static double solve_programme(struct programme *of, const struct rest_system *system, int which,
+                              const double *values, double size)
 {
     size_t d = of->part->size;
     double least = HUGE_VAL;
@@ -220,7 +220,8 @@ static double solve_programme(struct programme *of, const struct rest_system *sy
         of->q[of->unknowns + k] = cap ? 1 + fmax(0, -least) : values[i] / (unit * size) - least;
     }
     of->q[0] = -1;
-    enum lcp found = lcp_solve(of->unknowns + of->limits, of->M, of->q, of->z, of->w);
+    enum lcp found = rest_memo_lcp(&system->state->tree->memo, which, of->unknowns + of->limits, of->M, of->q,
+                                   of->z, of->w);
     if (found == lcp_no_memory) system->arena->failed = true;
     return found == lcp_solved ? least + of->z[0] : least;
 }
@@ -293,7 +294,7 @@ bool rest_find_margin(struct rest_system *system, bool guides, const double *slo
         struct programme of;
         if (!rest_part(system, G, which, &part) || !programme_new(&of, system, &part, guides)) return false;
         if (of.limits == 1) continue;
-        double value = solve_programme(&of, system, values, system->force) * system->force;
+        double value = solve_programme(&of, system, which, values, system->force) * system->force;
         if (arena->failed) return false;
         mark_limits(system, &of, margin);
         memset(gives, 0, pairs * sizeof *gives);

@@ -4,9 +4,9 @@
  */
 #include <math.h>
 
+#include "dynamics/rest_memo.h"
 #include "dynamics/rest_system.h"
 #include "holds/parts.h"
-#include "numeric/svd.h"
 
 /* A null vector's share in a reaction or a limit that is less than that of its largest is rounding. */
 static const double no_share = 1e-12;
@@ -66,21 +66,20 @@ static bool set_part_basis(struct rest_system *system, const double *RZ, int whi
     if (!column || !own || !y) return false;
     for (size_t i = 0; i < count; i++)
         for (size_t k = 0; k < size; k++) own[i * size + k] = RZ[i * d + column[k]];
-    struct svd least;
-    bool made = svd_decompose(&least, count, size, own);
-    if (made) svd_add_solution(&least, system->r, y);
-    for (size_t j = 0; made && j < m; j++) {
+    const struct svd *least = rest_memo_svd(&system->state->tree->memo, which, count, size, own);
+    if (!least) return false;
+    svd_add_solution(least, system->r, y);
+    for (size_t j = 0; j < m; j++) {
         double *row = system->basis + j * d;
         for (size_t k = 0; k < size; k++) z[k] = row[column[k]];
         for (size_t l = 0; l < size; l++) {
             start[j] -= z[l] * y[l];
             row[column[l]] = 0;
-            for (size_t k = 0; l < least.rank && k < size; k++)
-                row[column[l]] += z[k] * least.V[l * size + k] / least.S[l];
+            for (size_t k = 0; k < least->rank && k < size; k++)
+                row[column[l]] += z[k] * least->V[l * size + k] / least->S[l];
         }
     }
-    svd_free(&least);
-    return made;
+    return true;
 }
 
 bool rest_set_basis(struct rest_system *system, double *start)

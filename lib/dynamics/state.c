@@ -7,6 +7,7 @@
 #include "dynamics/modes.h"
 #include "dynamics/own.h"
 #include "dynamics/project.h"
+#include "dynamics/rest_memo.h"
 #include "dynamics/rest_system.h"
 #include "dynamics/tree_system.h"
 
@@ -110,6 +111,7 @@ struct fbd_state *state_new_from(const struct fbd_model *model, const struct sta
 
 void state_free(struct fbd_state *state)
 {
+    if (state && state->tree) rest_memo_free(state->tree->memo);
     free(state);
 }
 

@@ -81,6 +81,7 @@ struct tree_work {
     struct row *rows;                               /* row_count: constraints, see constraint.h */
     struct tie_state *ties;                         /* tie_count: what they keep of the start */
     double *lower, *upper, *diagonal, *inverse, *z; /* the system of tree_system.h */
+    struct rest_memo *memo;                         /* rest_memo.h */
     double *whole;                  /* lower and upper parts of the system before it was factored */
     double *right, *rest, *ordered; /* unknowns in the order of elimination */
     int *mark;                      /* count: which unknown a tree answers to */

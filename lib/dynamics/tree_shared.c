@@ -19,8 +19,17 @@ struct direction tree_evaluate(struct fbd_state *state)
     return flow;
 }
 
+static bool has_two_sided_guides(const struct plan *plan)
+{
+    bool any = false;
+    for (size_t pair = 0; pair < plan->mode_count; pair++)
+        any |= plan->modes[pair].two_sided && plan->modes[pair].normal_slot >= 0;
+    return any;
+}
+
 bool tree_choose_sides(struct fbd_state *state, const double *slots)
 {
+    if (!has_two_sided_guides(&state->model->plan)) return false;
     struct arena arena = {0};
     struct rest_system system;
     struct instant at = state_instant(state);

@@ -13,6 +13,7 @@
 #include "dynamics/tree_system.h"
 #include "loop/run.h"
 #include "rest/balance.h"
+#include "rest/fit.h"
 
 static bool has_ties(const struct run *run)
 {
@@ -271,11 +272,22 @@ void run_close_step(struct run *run)
         return;
     }
     if (nothing || left.position <= 1e3 * fmax(run->options.tolerance, 1e-12) * reach) return;
-    run_fail(run, FBD_FAILED,
-             "at t = %.9g the coupling `%s` cannot be closed any more (it is off by %.3g): the mechanism is "
-             "at the end of its reach, or the tolerance is too large",
-             run_time(run), tie_row_name(run->model->tree, misfit.row >= 0 ? misfit.row : 0),
-             misfit.position);
+    const char *row = tie_row_name(run->model->tree, misfit.row >= 0 ? misfit.row : 0);
+    const double ratio = fit_mass_ratio(run->model->tree);
+    if (ratio > masses_far_apart)
+        run_fail(
+            run, FBD_FAILED,
+            "at t = %.9g the coupling `%s` cannot be closed any more (it is off by %.3g): the heaviest of "
+            "the "
+            "jointed bodies has %.2g times the mass of the lightest, and up to about 1e6 can be solved. Give "
+            "the lightest one more mass",
+            run_time(run), row, misfit.position, ratio);
+    else
+        run_fail(
+            run, FBD_FAILED,
+            "at t = %.9g the coupling `%s` cannot be closed any more (it is off by %.3g): the mechanism is "
+            "at the end of its reach, or the tolerance is too large",
+            run_time(run), row, misfit.position);
 }
 
 /* What rounding has left of such a speed would be taken for a side that it moves to. That nothing comes of it is told by its

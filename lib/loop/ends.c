@@ -172,16 +172,17 @@ static double shortest_at(const struct end *piece, double little, double to)
     return to;
 }
 
-/* A millionth of the disc is left of a straight piece, or a thousandth of the rope that is hauled in, about whose end
- * a load turns ever faster. */
+/* What is left of a straight piece and gets less: a millionth of the disc, a thousandth of the rope that is hauled in, about
+ * whose end a load turns ever faster, or 1e-9 of the rope between points. */
 static void watch_piece(const struct end *piece, struct moment *t)
 {
     struct run *run = piece->run;
     const struct tie *tie = tie_of(piece);
-    const double little = tie->reels ? 1e-3 : 1e-6;
+    const bool disc = tie->end[piece->end].radius > 0 || tie->end[piece->end + 1].radius > 0;
+    const double little = tie->reels ? 1e-3 : disc ? 1e-6 : 1e-9;
     double when = shortest_at(piece, little, t->t);
     struct room room = room_at(piece, when);
-    if (room.left > little * room.size) { /* a number that is none has gone beyond */
+    if (room.left > little * room.size || room.rate > 0) { /* a number that is none has gone beyond */
         switcher_partial(run->stepper, *t, run->work.y, run->work.f);
         return;
     }
@@ -191,6 +192,21 @@ static void watch_piece(const struct end *piece, struct moment *t)
         "at t = %.9g the rope `%s` is at an end of its way: there is nothing left between `%s` and `%s`. End "
         "the run before, by an event",
         t->t, tie->name, name_of(run, tie, piece->end), name_of(run, tie, piece->end + 1));
+}
+
+/* Pieces of a taut rope of constant length, which become short one at the expense of another: the ends of the step
+ * show which of them have to be looked at within. */
+static void watch_shortening(struct run *run, int index, struct moment *t)
+{
+    const struct tie *tie = &run->model->tree->ties[index];
+    const double length = t->t - run->step.from;
+    for (int k = 0; k + 1 < tie->end_count && run->end.outcome == FBD_GOING; k++) {
+        const struct end piece = {run, index, k, true};
+        look(run, run->step.from, run->state->y);
+        const struct room before = room_of(&piece);
+        look(run, t->t, run->work.y);
+        if (!has_plenty(&piece, before, room_of(&piece), length)) watch_piece(&piece, t);
+    }
 }
 
 /* A rope that rubs has become straight, and comes off its drum. */
@@ -218,6 +234,7 @@ static void watch_tie(struct run *run, int i, struct moment *t)
     if (rubs) watch_wrap(run, i, *t);
     for (int k = 0; (rubs || hauls) && k + 1 < tie->end_count; k++)
         watch_piece(&(struct end){run, i, k, true}, t);
+    if (tie->kind == constraint_rope && !hauls && is_taut(state, tie)) watch_shortening(run, i, t);
 }
 
 /* ---- a point that is off its slot passes an end of it */

@@ -13,6 +13,24 @@
 #include "loop/run.h"
 #include "loop/starts.h"
 
+/* By how much the rounding of places turns the directions and the arms of a row: as many roundings as it is farther from
+ * the origin than it is long. A difference of two places, with a share of the roundings of sums of many. */
+static double turned_by_places(const struct row *row, const struct tree_state *links)
+{
+    const double share = 1.0 / 64;
+    double away = 0, reach = 0;
+    struct vec first = {0, 0};
+    for (int k = 0; k < row->port_count; k++) {
+        const struct port *port = &row->ports[k];
+        struct vec point = vec_add(links[port->link].p, port->arm);
+        if (k == 0) first = point;
+        away = fmax(away, vec_norm(point));
+        reach = fmax(reach, vec_norm(vec_sub(point, first)));
+        if (port->link > 0) reach = fmax(reach, vec_norm(port->arm));
+    }
+    return reach > 0 ? share * away / reach : 0;
+}
+
 /* How much the links from the ground to each have turned in all: an angle in the world is their sum, and has
  * its rounding. A force between two links has the larger one: `turned` has room for all links twice. */
 static void measure_turns(struct run *run, const struct instant *at)
@@ -39,6 +57,7 @@ static void measure_turns(struct run *run, const struct instant *at)
         double most = 0;
         for (int k = 0; k < row->port_count; k++)
             if (port_turns(&row->ports[k])) most = fmax(most, own[row->ports[k].link]);
+        most += turned_by_places(row, at->tree->links);
         for (int k = 0; k < row->port_count; k++) {
             double *side = &sides[row->ports[k].link];
             *side = fmax(*side, most);

@@ -163,3 +163,15 @@ void run_fail_step(struct run *run, enum stepper_status status)
                  run_time(run), body_of(run, fastest(run)));
     }
 }
+
+void run_fail_progress(struct run *run, double gain)
+{
+    run_fail(
+        run, FBD_FAILED,
+        "at t = %.9g the run makes no progress: its last steps, as many as take some seconds, have gained "
+        "%.3g s. `%s` moves the fastest there. Something in the scene is much faster than the rest, or "
+        "forces "
+        "change back and forth: end the run before, by an event, or try a larger tolerance or `--method "
+        "rodas5p`",
+        run_time(run), gain, body_of(run, fastest(run)));
+}

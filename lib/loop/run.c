@@ -164,6 +164,7 @@ static void start(struct run *run)
     run->step.restart = true;
     run->step.from = run->state->t;
     run->recent.moment = run_end(run);
+    run->progress.start = run->progress.t = run->state->t;
     if (!run_start_contacts(run, &lack)) {
         refuse(run, &lack);
         return;
@@ -313,26 +314,6 @@ static void accept(struct run *run, struct moment t)
     memcpy(run->work.y, run->state->y, size * sizeof *run->work.y);
 }
 
-/* On the brink of a place that cannot be passed, a method without a fine sense of error goes on by roundings
- * of the time for ever. */
-static bool crawls(struct run *run)
-{
-    enum { most_steps = 100 };
-    bool tiny = moment_since(run_end(run), run_start(run)) <= 8 * DBL_EPSILON * fabs(run->state->t);
-    run->step.crawl = tiny ? run->step.crawl + 1 : 0;
-    return run->step.crawl > most_steps;
-}
-
-/* A run that crawls fails: of events that crowd, where there were any. */
-static void check_crawl(struct run *run)
-{
-    if (!crawls(run)) return;
-    if (run->recent.crowd > 0)
-        run_fail_chatter(run);
-    else
-        run_fail_step(run, stepper_underflow);
-}
-
 /* Keep the next step away from where a force is infinite; false at such a place. */
 static bool heed_poles(struct run *run)
 {
@@ -441,7 +422,7 @@ static bool find_events(struct run *run, struct turn *turn)
 static bool accept_step(struct run *run, const struct turn *turn)
 {
     accept(run, turn->t);
-    check_crawl(run);
+    run_check_progress(run);
     if (run->end.outcome != FBD_GOING) return false;
     if (run->projected) counted_system_rhs(&run->system, turn->t.t, run->work.y, run->work.f);
     return true;

@@ -77,6 +77,13 @@ struct stride {
     unsigned long not_finite; /* rejections for that reason before the last step */
 };
 
+/* What the run has gained for its work: see progress.c. */
+struct progress {
+    double start;   /* the time at which the run began */
+    double t, work; /* when it was looked at last */
+    unsigned long accepted, rejected;
+};
+
 /* How it stands or has ended. */
 struct ending {
     fbd_outcome outcome;
@@ -153,6 +160,7 @@ struct run {
     struct fbd_state *state;  /* at the end of the last step, modes for what follows */
     struct fbd_state *during; /* modes of the last step; its scratch serves samples within it */
     struct stride step;
+    struct progress progress;
     struct ending end;
     bool lazy;        /* no step asks for the forces of `state` at its end */
     bool plain;       /* nor can anything cut a step or bring it back: no events and couplings */
@@ -359,10 +367,14 @@ unsigned long run_steps_to_noise(const struct run *run);
 /* The time as it is told: what is nothing beside the first step is a rounding of the start. */
 double run_time(const struct run *run);
 
+/* End the run where it gains no time for its work. (progress.c) */
+void run_check_progress(struct run *run);
+
 /* End the run with a reason. */
 void run_fail_step(struct run *run, enum stepper_status status);
 void run_fail_pole(struct run *run, const struct pole *pole);
 void run_fail_chatter(struct run *run);
+void run_fail_progress(struct run *run, double gain);
 /* What a switch belongs to: a load or a state; NULL for an event of the user. */
 const char *run_kink_name(const struct run *run, const struct kink *kink);
 

@@ -77,6 +77,24 @@ static void write_redundant(struct text *text, struct fbd_state *state)
     if (count > most_named) text_printf(text, " and %zu more", count - most_named);
 }
 
+/* The ropes that take no part as it starts. */
+static void write_slack(struct text *text, fbd_state *state)
+{
+    enum { most_named = 12 };
+    if (!state) return;
+    const struct tree *tree = state->model->tree;
+    state_ready(state);
+    const struct instant at = state_instant(state);
+    int count = 0;
+    for (int i = 0; i < tree->tie_count; i++) {
+        const struct tie *tie = &tree->ties[i];
+        if (tie->kind != constraint_rope || tree_takes_part(tree, &at, tie->first_row)) continue;
+        if (count++ < most_named)
+            text_printf(text, "%s`%s`", count > 1 ? ", " : "; slack at the start: ", tie->name);
+    }
+    if (count > most_named) text_printf(text, " and %d more", count - most_named);
+}
+
 static void write_kind(struct text *text, const struct fbd_model *model, size_t kind)
 {
     enum { most_named = 8 };
@@ -151,6 +169,7 @@ void couplings_report(struct text *text, const fbd_result *result)
         text_printf(text, ", %zu redundant at the start: ", redundant);
         write_redundant(text, result->start);
     }
+    write_slack(text, result->start);
     text_add(text, "\n");
     if (!drift.worst[0]) return;
     text_printf(

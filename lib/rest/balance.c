@@ -10,7 +10,9 @@
 #include <assert.h>
 #include <float.h>
 #include <math.h>
+#include <stdlib.h>
 
+#include "base/zeroed.h"
 #include "dynamics/mass.h"
 #include "dynamics/rest_system.h"
 #include "dynamics/tree.h"
@@ -154,10 +156,40 @@ static void say(const struct fbd_state *state, const struct worst *worst, struct
         fabs(worst->is - worst->sum), unit, worst->explained, unit);
 }
 
-/* The equation that is farthest off; none within what rounding explains, at least `joined` for a jointed
- * body. */
-static struct worst find_worst(const struct fbd_state *state, struct arrow *arrows, struct grains joined)
+/* The force and the moment by which the motion of each body answers when the numbers of the state change by one rounding each,
+ * as where stiff springs make much of the last digit of an angle: the forces of two evaluations differ by that. Zeros without
+ * memory. */
+static struct grains *find_answers(const struct fbd_state *state, struct arrow *arrows)
 {
+    const size_t bodies = state->model->body_count;
+    struct grains *answers = zeroed((bodies + 1) * sizeof *answers);
+    struct fbd_state *here = state_new(state->model), *there = state_new(state->model);
+    const bool made = answers && here && there;
+    if (made) state_copy(here, state);
+    if (made) state_evaluate(here); /* afresh, as those beside it */
+    for (size_t i = 0; made && i < plan_size(&state->model->plan); i++) {
+        state_copy(there, state);
+        there->y[i] += DBL_EPSILON * fabs(state->y[i]);
+        state_evaluate(there);
+        for (size_t b = 0; b < bodies; b++) {
+            struct sums still = sums_of(here, (int)b, arrows), moved = sums_of(there, (int)b, arrows);
+            double force = vec_norm(vec_sub(moved.m_a, still.m_a)),
+                   moment = fabs(moved.I_alpha - still.I_alpha);
+            if (isfinite(force)) answers[b].force += force;
+            if (isfinite(moment)) answers[b].moment += moment;
+        }
+    }
+    state_free(here);
+    state_free(there);
+    return answers;
+}
+
+/* The equation that is farthest off; none within what rounding explains, at least `joined` for a jointed
+ * body. `answers` may be NULL. */
+static struct worst find_worst(const struct fbd_state *state, struct arrow *arrows, struct grains joined,
+                               const struct grains *answers)
+{
+    const double roundings = 16;
     struct worst worst = {.ratio = 1};
     for (int b = 0; b < (int)state->model->body_count; b++) {
         struct sums sums = sums_of(state, b, arrows);
@@ -166,6 +198,8 @@ static struct worst find_worst(const struct fbd_state *state, struct arrow *arro
         if (jointed) force = fmax(force, joined.force);
         double moment = grain * sums.moment + force * sums.reach + 64 * sums.place;
         if (jointed) moment = fmax(moment, joined.moment);
+        if (answers) force += roundings * answers[b].force;
+        if (answers) moment += roundings * (answers[b].force * sums.reach + answers[b].moment);
         compare(&worst, b, "m a in x", false, sums.m_a.x, sums.f.x, force);
         compare(&worst, b, "m a in y", false, sums.m_a.y, sums.f.y, force);
         compare(&worst, b, "I alpha about G", true, sums.I_alpha, sums.M, moment);
@@ -179,9 +213,14 @@ bool balance_lack(struct fbd_state *state, struct arrow *arrows, struct text *la
     bool used =
         state->tree && (!state->tree->complete || (!state->tree->shared && rest_is_open(state->model, &at)));
     if (used) state_evaluate(state); /* others have used its scratch */
-    struct worst worst = find_worst(state, arrows, (struct grains){0, 0});
+    struct worst worst = find_worst(state, arrows, (struct grains){0, 0}, NULL);
     if (!worst.what) return false; /* nearly always: what the other bodies feel is not needed */
-    worst = find_worst(state, arrows, joined_grain(state, arrows));
+    const struct grains joined = joined_grain(state, arrows);
+    worst = find_worst(state, arrows, joined, NULL);
+    if (!worst.what) return false;
+    struct grains *answers = find_answers(state, arrows);
+    worst = find_worst(state, arrows, joined, answers);
+    free(answers);
     if (worst.what) say(state, &worst, lack);
     return worst.what != NULL;
 }

@@ -97,10 +97,12 @@ static double slope_of(const struct resting *balance, size_t i, size_t j)
     return slope;
 }
 
-/* A state whose rate nothing changes here stays where it is. */
+/* A prescribed coordinate, and a state whose rate nothing changes here, stay where they are. */
 static void hold_inert(const struct resting *balance, gsl_matrix *J)
 {
-    for (size_t i = (size_t)balance->state->model->plan.n; i < J->size1; i++) {
+    const size_t n = (size_t)balance->state->model->plan.n;
+    for (size_t i = 0; i < J->size1; i++) {
+        if (i < n && !coordinate_is_driven(balance->state->model, i)) continue;
         double most = 0;
         for (size_t j = 0; j < J->size2; j++) most = larger(most, fabs(gsl_matrix_get(J, i, j)));
         if (most == 0) gsl_matrix_set(J, i, i, -1);

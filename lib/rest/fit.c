@@ -6,6 +6,7 @@
 #include "dynamics/constraint.h"
 #include "dynamics/project.h"
 #include "dynamics/tree_system.h"
+#include "expr/unit.h"
 
 /* Less than this is no change of component i of a state, in a mechanism of that length: some digits of it, or
  * the rounding of where it is. */
@@ -139,6 +140,64 @@ static void pull_taut(struct fbd_state *state)
     }
 }
 
+static void add_miss(const struct fbd_model *model, const char *name, double off, bool by_velocity,
+                     struct text *text)
+{
+    char unit[24];
+    unit_name(by_velocity ? DIM_VELOCITY : DIM_LENGTH, model->scene->units, unit, sizeof unit);
+    text_printf(text, "`%s` is off by %.3g %s%s", name, off, unit, by_velocity ? " in velocity" : "");
+}
+
+/* Two pins of one point. Where they want it is as far apart as their rows differ, wherever it is. */
+static bool pins_one_point(const struct fbd_state *state, const struct tie *a, const struct tie *b,
+                           double *apart)
+{
+    const struct row *rows = state->tree->rows;
+    if (a->kind != constraint_pin || b->kind != constraint_pin) return false;
+    for (int k = 0; k < 2; k++)
+        for (int l = 0; l < 2; l++) {
+            const struct port *p = &rows[a->first_row].ports[k], *q = &rows[b->first_row].ports[l];
+            if (p->link == 0 || p->link != q->link || vec_norm(vec_sub(p->arm, q->arm)) > 0) continue;
+            const double sign = k == l ? 1 : -1;
+            *apart = hypot(rows[a->first_row].g.x - sign * rows[b->first_row].g.x,
+                           rows[a->first_row + 1].g.x - sign * rows[b->first_row + 1].g.x);
+            return true;
+        }
+    return false;
+}
+
+/* The couplings that are still off where they have been brought as near to each other as they come: they exclude each
+ * other. */
+static void list_excluded(struct fbd_state *state, double length, struct text *lack)
+{
+    enum { most_listed = 4 };
+    const double digits = 2e-6;
+    const struct tree *tree = state->model->tree;
+    const struct tie *off[most_listed];
+    int count = 0;
+    double apart;
+    state_misfit(state); /* evaluates the rows */
+    const struct instant at = state_instant(state);
+    for (int i = 0; i < tree->tie_count && count < most_listed; i++) {
+        const struct tie *tie = &tree->ties[i];
+        bool misses = false;
+        for (int j = tie->first_row; j < tie->first_row + tie->row_count; j++)
+            misses |= tree_takes_part(tree, &at, j) && fabs(state->tree->rows[j].g.x) > digits * length;
+        if (misses) off[count++] = tie;
+    }
+    if (count < 2) return;
+    text_add(lack, ": ");
+    for (int i = 0; i < count; i++)
+        text_printf(lack, "%s`%s`", i == 0 ? "" : i + 1 < count ? ", " : " and ", off[i]->name);
+    if (count == 2 && pins_one_point(state, off[0], off[1], &apart)) {
+        char unit[24];
+        unit_name(DIM_LENGTH, state->model->scene->units, unit, sizeof unit);
+        text_printf(lack, " pin one point to two places, %.6g %s apart", apart, unit);
+    } else {
+        text_add(lack, " cannot hold together");
+    }
+}
+
 /* What is wrong and what is next to it; false when that differs by rounding only, as where everything is at
  * rest but for rounding and speeds have no size to go by. */
 static bool tell(const struct fbd_state *state, struct fbd_state *other, const char *name,
@@ -151,12 +210,15 @@ static bool tell(const struct fbd_state *state, struct fbd_state *other, const c
     bool closed = state_project(other, false),
          differs = !closed || list_changes(&changes, state, other, miss->length);
     if (differs) {
-        text_printf(lack, "`%s` is off by %.3g%s. ", name, miss->off, by_velocity ? " in velocity" : "");
+        add_miss(state->model, name, miss->off, by_velocity, lack);
+        text_add(lack, ". ");
         if (closed)
             text_printf(lack, "Nearest is %s; or let bodies find their place, `initial: {assemble: true}`",
                         changes.failed ? "" : changes.data);
-        else
+        else {
             text_add(lack, "No state near it fits");
+            list_excluded(other, miss->length, lack);
+        }
     }
     text_free(&changes);
     return differs;
@@ -200,6 +262,24 @@ static bool beyond_end(const struct fbd_state *state, int index, struct pos *at,
     return false;
 }
 
+/* Two places of a taut rope's way are one: it pulls nowhere there. */
+static bool shrunk_rope(const struct fbd_state *state, int index, struct pos *at, struct text *lack)
+{
+    const struct fbd_model *model = state->model;
+    const struct tie *tie = &model->tree->ties[index];
+    struct vec where;
+    int k = rope_shrunk_at(model, state->tree, index, &where);
+    if (k < 0) return false;
+    if (at) *at = model->scene->constraints[tie->constraint].at;
+    text_printf(lack, "`%s` has no length between `%s` and `%s`: both are at (", tie->name,
+                name_at(model, tie, k), name_at(model, tie, k + 1));
+    text_number(lack, where.x, 6);
+    text_add(lack, ", ");
+    text_number(lack, where.y, 6);
+    text_add(lack, "), so that it has no direction there. Move them apart");
+    return true;
+}
+
 bool fit_blocked(struct fbd_state *state, struct pos *at, struct text *lack)
 {
     const struct fbd_model *model = state->model;
@@ -210,7 +290,7 @@ bool fit_blocked(struct fbd_state *state, struct pos *at, struct text *lack)
         const struct tie *tie = &tree->ties[i];
         if (beyond_end(state, i, at, lack)) return true;
         if (!tie->law->way) continue;
-        if (unclear_side(state, i, at, lack)) return true;
+        if (unclear_side(state, i, at, lack) || shrunk_rope(state, i, at, lack)) return true;
         int k = rope_blocked_at(model, state->tree, i);
         if (k < 0) continue;
         if (at) *at = model->scene->constraints[tie->constraint].at;
@@ -238,20 +318,43 @@ bool fit_lack(struct fbd_state *state, struct fbd_state *other, struct pos *at, 
     return true;
 }
 
-bool fit_unsolved(struct fbd_state *state, struct pos *at, struct text *lack)
+double fit_mass_ratio(const struct tree *tree)
+{
+    double heaviest = 0, lightest = HUGE_VAL;
+    for (int i = 1; i < tree->count; i++) {
+        const double mass = tree->links[i].mass;
+        heaviest = fmax(heaviest, mass);
+        if (mass > 0) lightest = fmin(lightest, mass);
+    }
+    return heaviest / lightest;
+}
+
+bool fit_unsolved(struct fbd_state *state, bool *masses, struct pos *at, struct text *lack)
 {
     const double digits = 1e-6;
     int row;
     if (!state->model->tree || state->model->tree->tie_count == 0) return false;
     state_evaluate(state);
-    double miss = state_acceleration_misfit(state, &row);
+    const double miss = state_acceleration_misfit(state, &row), ratio = fit_mass_ratio(state->model->tree);
     if (miss <= digits || row < 0) return false;
+    *masses = ratio > masses_far_apart;
     if (at) *at = place_of(state->model, row);
-    text_printf(
-        lack,
-        "the force of `%s` cannot be told: accelerations miss it by %.2g of their size, as the masses that "
-        "it joins are too far apart. Give the lightest body more mass, or let a coupling do without it",
-        tie_row_name(state->model->tree, row), miss);
+    const char *name = tie_row_name(state->model->tree, row);
+    if (*masses)
+        text_printf(
+            lack,
+            "the force of `%s` cannot be told: accelerations miss it by %.2g of their size, as the masses of "
+            "jointed bodies are too far apart: the heaviest has %.2g times the mass of the lightest, and up "
+            "to "
+            "about 1e6 can be solved. Give the lightest body more mass, or let a coupling do without it",
+            name, miss, ratio);
+    else
+        text_printf(
+            lack,
+            "no finite force of `%s` holds the mechanism: accelerations miss it by %.2g of their size. Its "
+            "couplings are in a singular position, in which they cannot carry what acts on them: give it "
+            "another support, or start elsewhere",
+            name, miss);
     return true;
 }
 

@@ -14,13 +14,18 @@
  * `lack`, when it fits to six digits, as many as files have. */
 bool fit_lack(struct fbd_state *state, struct fbd_state *other, struct pos *at, struct text *lack);
 
-/* Say of a rope that it has no way: an end lies within the rim of the pulley that it runs round. */
+/* Say of a rope that it has no way: an end lies within the rim of the pulley that it runs round, or a piece of it has no
+ * length. */
 bool fit_blocked(struct fbd_state *state, struct pos *at, struct text *lack);
 
-/* Do the accelerations of a settled state, which is evaluated here, miss the couplings by more than rounding?
- * Then masses are too far apart (a pulley of a milligram between weights of kilograms) for their forces to be
- * told; `lack` gets a sentence, and *at (may be NULL) the coupling's place in the file. */
-bool fit_unsolved(struct fbd_state *state, struct pos *at, struct text *lack);
+/* The heaviest of jointed bodies against the lightest: beyond 1e4 multipliers lose digits by that, beyond about 1e6 too many. */
+double fit_mass_ratio(const struct tree *tree);
+static const double masses_far_apart = 1e4, masses_too_far_apart = 1e6;
+
+/* Do the accelerations of a state, which is evaluated here, miss the couplings by more than rounding? Then no finite forces
+ * hold a mechanism in its position, or, with `masses`, the masses are too far apart (a pulley of a milligram between weights
+ * of kilograms) for the forces to be told; `lack` gets a sentence, and *at (may be NULL) the coupling's place in the file. */
+bool fit_unsolved(struct fbd_state *state, bool *masses, struct pos *at, struct text *lack);
 
 /* Is a settled state at rest where its couplings have no slope, and set out on a way that they do not allow?
  */

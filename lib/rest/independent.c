@@ -10,13 +10,18 @@
 static const double least_pivot =
     1e-7; /* of the sizes of coordinates: below it is rounding of the projection */
 
+bool coordinate_is_driven(const struct fbd_model *model, size_t i)
+{
+    return model->bodies[model->scene->coordinates[i].body].source->motion.prescribed.expr != NULL;
+}
+
 void independent_share(struct fbd_state *state, double *share)
 {
     size_t n = (size_t)state->model->plan.n;
     double *v = state->y + n;
     for (size_t j = 0; j < n; j++) {
         memset(v, 0, n * sizeof *v);
-        v[j] = 1;
+        v[j] = coordinate_is_driven(state->model, j) ? 0 : 1;
         state_project_velocity(state, false);
         for (size_t i = 0; i < n; i++) share[i * n + j] = v[i];
     }
@@ -47,7 +52,7 @@ void independent_free(struct independent *independent)
 static void set_sizes(struct independent *independent, const struct fbd_state *state)
 {
     double reach = 0;
-    for (int i = 1; i < state->model->tree->count; i++)
+    for (int i = 1; state->model->tree && i < state->model->tree->count; i++)
         reach = fmax(reach, vec_norm(state->tree->links[i].p));
     for (size_t i = 0; i < independent->n; i++)
         independent->size[i] = state->model->scene->coordinates[i].angle || !(reach > 0) ? 1 : reach;

@@ -25,6 +25,9 @@ struct independent {
     double *share, *size;
 };
 
+/* Is coordinate i prescribed? Nothing else moves it. */
+bool coordinate_is_driven(const struct fbd_model *model, size_t i);
+
 /* S, n x n row by row, for a state at rest on its couplings; leaves it at rest and evaluated. */
 void independent_share(struct fbd_state *state, double *share);
 

@@ -1,8 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "rest/linearize.h"
 
-#include <gsl/gsl_eigen.h>
-#include <gsl/gsl_errno.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -13,47 +11,10 @@
 #include "dynamics/modes.h"
 #include "dynamics/project.h"
 #include "dynamics/tree_driven.h"
+#include "rest/eigenvalues.h"
 #include "rest/equilibrium.h"
 #include "rest/independent.h"
 #include "rest/start.h"
-
-/* ---- eigenvalues */
-
-/* By frequency, then the one with the positive imaginary part first. */
-static int by_frequency(const void *left, const void *right)
-{
-    const fbd_mode *a = left, *b = right;
-    double difference = a->frequency - b->frequency;
-    if (fabs(difference) > 1e-12 * (a->frequency + b->frequency)) return difference < 0 ? -1 : 1;
-    return a->im > b->im ? -1 : a->im < b->im ? 1 : a->re < b->re ? -1 : 1;
-}
-
-/* 1 found, 0 the iteration does not end, -1 out of memory. */
-static int find_modes(struct fbd_linearization *linear)
-{
-    size_t size = linear->size, bytes = size * size * sizeof *linear->A;
-    double *A = malloc(bytes); /* a copy, which is overwritten */
-    gsl_vector_complex *values = gsl_vector_complex_alloc(size);
-    gsl_eigen_nonsymm_workspace *work = gsl_eigen_nonsymm_alloc(size);
-    bool made = A && values && work, done = false;
-    if (made) {
-        memcpy(A, linear->A, bytes);
-        gsl_matrix_view view = gsl_matrix_view_array(A, size, size);
-        gsl_eigen_nonsymm_params(0, 1, work); /* balanced: coordinates have different units */
-        done = gsl_eigen_nonsymm(&view.matrix, values, work) == GSL_SUCCESS;
-        for (size_t i = 0; done && i < size; i++) {
-            gsl_complex lambda = gsl_vector_complex_get(values, i);
-            double re = GSL_REAL(lambda), im = GSL_IMAG(lambda), frequency = hypot(re, im);
-            linear->modes[i] = (fbd_mode){re, im, frequency, frequency > 0 ? -re / frequency : NAN};
-            done = isfinite(frequency) && (frequency == 0 || isfinite(1 / frequency));
-        }
-        if (done) qsort(linear->modes, size, sizeof *linear->modes, by_frequency);
-    }
-    if (work) gsl_eigen_nonsymm_free(work);
-    if (values) gsl_vector_complex_free(values);
-    free(A);
-    return made ? done : -1;
-}
 
 /* ---- the whole */
 
@@ -62,12 +23,21 @@ static bool is_tied(const struct fbd_model *model)
     return model->tree && model->tree->tie_count > 0;
 }
 
-/* With a prescribed motion there is no state of rest. */
+/* Are coordinates no freedoms, as couplings join them or they are prescribed? */
+static bool is_reduced(const struct fbd_model *model)
+{
+    bool driven = false;
+    for (size_t i = 0; i < (size_t)model->plan.n; i++) driven |= coordinate_is_driven(model, i);
+    return driven || is_tied(model);
+}
+
+/* With a prescribed motion there is no state of rest, unless it is a place. */
 static bool refuse_driven(const struct fbd_state *state, fbd_errors *errors)
 {
     const struct fbd_model *model = state->model;
     for (size_t b = 0; b < model->body_count; b++) {
         if (model->bodies[b].drive < 0) continue;
+        if (!expr_uses_time(model->bodies[b].source->motion.prescribed.expr)) continue;
         diag_add(errors, FBD_ERROR, "not-independent", model->bodies[b].source->motion.at,
                  "simulate it, from a start near the equilibrium",
                  "the motion of `%s` is prescribed: it is never at rest", model->bodies[b].name);
@@ -191,7 +161,7 @@ static bool looking_new(struct looking *looking, struct fbd_linearization *linea
     looking->before = looking->origin + plan_rates(&state->model->plan);
     looking->beside = looking->before + n;
     looking->there = looking->beside + n;
-    if (!is_tied(state->model)) return true;
+    if (!is_reduced(state->model)) return true;
     looking->full = calloc(size * size + size + 1, sizeof *looking->full);
     return looking->full && independent_new(&looking->independent, state);
 }
@@ -270,6 +240,7 @@ static void drop_dying_slopes(const struct looking *looking, fbd_errors *errors)
 
 static void refuse_singular(const struct fbd_model *model, fbd_errors *errors)
 {
+    if (!is_tied(model)) return; /* prescribed coordinates alone are never in one */
     const struct tie *tie = &model->tree->ties[0];
     diag_add(
         errors, FBD_ERROR, "not-independent", model->scene->constraints[tie->constraint].at,
@@ -286,14 +257,18 @@ static bool choose_coordinates(struct looking *looking, fbd_errors *errors)
     struct independent *independent = &looking->independent;
     const struct tree *tree = linear->model->tree;
     if (!looking->full) return true;
-    struct pos at = linear->model->scene->constraints[tree->ties[0].constraint].at;
     if (!independent_choose(independent, looking->state)) {
         refuse_singular(linear->model, errors);
         return false;
     }
     if (independent->count == 0) {
+        const bool tied = is_tied(linear->model);
+        struct pos at = tied ? linear->model->scene->constraints[tree->ties[0].constraint].at
+                             : linear->model->bodies[0].source->motion.at;
         diag_add(errors, FBD_ERROR, "sticks", at, "leave out what holds it, to see it move",
-                 "nothing can move: the couplings, `%s` among them, leave no freedom", tree->ties[0].name);
+                 "nothing can move: %s`%s` among them, leave no freedom",
+                 tied ? "the couplings, " : "prescribed motions, that of ",
+                 tied ? tree->ties[0].name : linear->model->bodies[0].name);
         return false;
     }
     linear->count = independent->count;
@@ -448,7 +423,7 @@ static fbd_linearization *linearize(fbd_state *state, fbd_errors *errors)
     if (linear) linear->degrees = state->degrees;
     int found = linear && settled ? find_matrix(linear, state, errors) : -1;
     bool said = found == -2 || (found > 0 && !is_finite(linear, state, errors));
-    int modes = found > 0 && !said ? find_modes(linear) : -1;
+    int modes = found > 0 && !said ? eigenvalues_find(linear->size, linear->A, linear->modes) : -1;
     if (modes > 0) return linear;
     if (!said) note_failure(model, settled, found > 0 ? modes : found, found > 0, errors);
     fbd_linearization_free(linear);

@@ -2,6 +2,7 @@
  *
  * Questions of rest: what never comes to it, and where the scene does.
  */
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -80,14 +81,16 @@ bool equilibrium_refuse_reels(const struct fbd_model *model, fbd_errors *errors)
     return false;
 }
 
-/* What has no single place of rest, or none: dry friction holds in a range of places, and a prescribed motion
- * does not rest. */
+/* What has no single place of rest, or none: dry friction holds in a range of places, and a motion that is prescribed as a function of
+ * the time does not rest. */
 static bool refuse(const struct fbd_state *state, fbd_errors *errors)
 {
     const struct fbd_model *model = state->model;
     for (size_t pair = 0; pair < model->plan.mode_count; pair++) {
         const struct mode *mode = &model->plan.modes[pair];
         if (mode->tie >= 0) continue;
+        const struct expr *drive = model->bodies[mode->body].source->motion.prescribed.expr;
+        if (mode->kind == mode_drive && !expr_uses_time(drive)) continue;
         diag_add(errors, FBD_ERROR, mode->kind == mode_drive ? "not-independent" : "sticks",
                  mode->kind == mode_drive ? model->bodies[mode->body].source->motion.at
                                           : model->loads[mode->load].source->at,
@@ -167,11 +170,35 @@ static bool find_equilibrium(fbd_state *state, fbd_errors *errors)
     return false;
 }
 
+/* Does the linear motion about the balance that has been found grow, in one way at least? */
+static void warn_of_instability(const fbd_state *state, fbd_errors *errors)
+{
+    const double rounding = 1e-6; /* of the fastest: two zeros that rounding has parted */
+    fbd_state *there = state_new(state->model);
+    if (there) state_copy(there, state);
+    fbd_linearization *linear =
+        there ? fbd_linearize(there, NULL) : NULL; /* NULL as well where friction holds */
+    double growth = 0, fastest = 0;
+    for (size_t i = 0; i < fbd_linearization_size(linear); i++) {
+        const fbd_mode mode = fbd_linearization_mode(linear, i);
+        growth = fmax(growth, mode.re);
+        fastest = fmax(fastest, mode.frequency);
+    }
+    if (growth > rounding * fastest)
+        diag_add(errors, FBD_WARNING, "unstable-equilibrium", (struct pos){0, 0},
+                 "start beside it, with --at, to see where the scene comes to rest",
+                 "the equilibrium is unstable: a small deviation grows by a factor of e in %.3g s",
+                 1 / growth);
+    fbd_linearization_free(linear);
+    state_free(there);
+}
+
 bool fbd_find_equilibrium(fbd_state *state, fbd_errors *list)
 {
     struct diag_call call;
     fbd_errors *errors = diag_begin(&call, list);
     bool found = state ? find_equilibrium(state, errors) : call_refuse(errors, "there is no state") != NULL;
+    if (found) warn_of_instability(state, errors);
     diag_end(&call);
     return found;
 }

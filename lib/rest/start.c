@@ -133,12 +133,35 @@ void unsettled_words(const struct fbd_state *state, const char *when, struct tex
     }
 }
 
-static bool is_settled(const struct fbd_state *state, bool settled, struct lack *lack)
+static bool is_solved(struct fbd_state *state, struct lack *lack)
+{
+    bool masses;
+    if (!fit_unsolved(state, &masses, &lack->at, &lack->text)) return true;
+    lack->id = masses ? "masses-apart" : "singular-start";
+    return false;
+}
+
+/* Modes that are none for the forces that were found may be so since these are not told. */
+static bool is_settled(struct fbd_state *state, bool settled, struct lack *lack)
 {
     if (settled) return true;
     if (state->holds.found == holds_no_memory) return false;
-    lack->id = state->holds.found == holds_none ? "no-solution" : "unsettled";
+    const struct holds_trouble trouble = state->holds;
+    if (!is_solved(state, lack) && strcmp(lack->id, "masses-apart") == 0) return false;
+    state->holds = trouble;
+    text_free(&lack->text);
+    lack->at = (struct pos){0, 0};
+    const double ratio = state->model->tree ? fit_mass_ratio(state->model->tree) : 0;
+    lack->id = ratio > masses_too_far_apart  ? "masses-apart"
+               : trouble.found == holds_none ? "no-solution"
+                                             : "unsettled";
     unsettled_words(state, "at the start", &lack->text);
+    if (ratio > masses_too_far_apart)
+        text_printf(&lack->text,
+                    ". The heaviest of the jointed bodies has %.2g times the mass of the lightest, and up to "
+                    "about 1e6 "
+                    "can be solved",
+                    ratio);
     return false;
 }
 
@@ -188,13 +211,6 @@ static bool rests_on_surfaces(const struct fbd_state *state, struct lack *lack)
         return false;
     }
     return true;
-}
-
-static bool is_solved(struct fbd_state *state, struct lack *lack)
-{
-    if (!fit_unsolved(state, &lack->at, &lack->text)) return true;
-    lack->id = "masses-apart";
-    return false;
 }
 
 static bool is_free_to_move(struct fbd_state *state, struct fbd_state *other, struct lack *lack)

@@ -1,0 +1,90 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "dynamics/rest_memo.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+struct part_memo {
+    double *matrix; /* whose svd that is */
+    struct svd svd;
+    double *problem; /* M and q of n rows, then z and w */
+    size_t n;
+    enum lcp found;
+};
+
+struct rest_memo {
+    struct part_memo *parts;
+    int count;
+};
+
+/* Of part `which`; NULL when memory is out. */
+static struct part_memo *part_of(struct rest_memo **memo, int which)
+{
+    if (!*memo) *memo = calloc(1, sizeof **memo);
+    if (!*memo) return NULL;
+    if (which >= (*memo)->count) {
+        struct part_memo *parts = realloc((*memo)->parts, (size_t)(which + 1) * sizeof *parts);
+        if (!parts) return NULL;
+        (*memo)->parts = parts;
+        for (; (*memo)->count <= which; (*memo)->count++) parts[(*memo)->count] = (struct part_memo){0};
+    }
+    return &(*memo)->parts[which];
+}
+
+const struct svd *rest_memo_svd(struct rest_memo **memo, int which, size_t rows, size_t cols, const double *a)
+{
+    struct part_memo *part = part_of(memo, which);
+    const size_t bytes = rows * cols * sizeof *a;
+    if (!part) return NULL;
+    if (part->matrix && part->svd.rows == rows && part->svd.cols == cols &&
+        memcmp(part->matrix, a, bytes) == 0)
+        return &part->svd;
+    free(part->matrix);
+    svd_free(&part->svd);
+    part->matrix = malloc(bytes + 1);
+    if (part->matrix) memcpy(part->matrix, a, bytes);
+    if (part->matrix && svd_decompose(&part->svd, rows, cols, a)) return &part->svd;
+    free(part->matrix);
+    part->matrix = NULL;
+    return NULL;
+}
+
+enum lcp rest_memo_lcp(struct rest_memo **memo, int which, size_t n, const double *M, const double *q,
+                       double *z, double *w)
+{
+    struct part_memo *part = part_of(memo, which);
+    const size_t square = n * n, bytes = n * sizeof *q;
+    if (!part) return lcp_no_memory;
+    double *kept = part->problem;
+    if (kept && part->n == n && memcmp(kept, M, square * sizeof *M) == 0 &&
+        memcmp(kept + square, q, bytes) == 0) {
+        memcpy(z, kept + square + n, bytes);
+        memcpy(w, kept + square + 2 * n, bytes);
+        return part->found;
+    }
+    free(kept);
+    part->problem = NULL;
+    enum lcp found = lcp_solve(n, M, q, z, w);
+    if (found == lcp_no_memory) return found;
+    kept = malloc((square + 3 * n) * sizeof *kept + 1);
+    if (!kept) return lcp_no_memory;
+    memcpy(kept, M, square * sizeof *M);
+    memcpy(kept + square, q, bytes);
+    memcpy(kept + square + n, z, bytes);
+    memcpy(kept + square + 2 * n, w, bytes);
+    part->problem = kept;
+    part->n = n;
+    part->found = found;
+    return found;
+}
+
+void rest_memo_free(struct rest_memo *memo)
+{
+    for (int i = 0; memo && i < memo->count; i++) {
+        free(memo->parts[i].matrix);
+        svd_free(&memo->parts[i].svd);
+        free(memo->parts[i].problem);
+    }
+    if (memo) free(memo->parts);
+    free(memo);
+}

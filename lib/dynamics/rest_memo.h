@@ -1,0 +1,25 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * The last singular values and the last programme of each part of what is open (rest_system.h). A scene that settles, or stands,
+ * asks for them at the same place in the same modes again and again, and they are nearly all of its cost. Input that is the
+ * same to the bit has the same results.
+ */
+#ifndef FBD_DYNAMICS_REST_MEMO_H
+#define FBD_DYNAMICS_REST_MEMO_H
+
+#include "numeric/lcp.h"
+#include "numeric/svd.h"
+
+struct rest_memo;
+
+/* svd_decompose for part `which`; it belongs to *memo, which is made when it is NULL. NULL when memory is out. */
+const struct svd *rest_memo_svd(struct rest_memo **memo, int which, size_t rows, size_t cols,
+                                const double *a);
+
+/* lcp_solve for part `which`. */
+enum lcp rest_memo_lcp(struct rest_memo **memo, int which, size_t n, const double *M, const double *q,
+                       double *z, double *w);
+
+void rest_memo_free(struct rest_memo *memo);
+
+#endif
