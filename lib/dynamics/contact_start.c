@@ -145,7 +145,6 @@ int contacts_overlap(struct fbd_state *state, double *depth)
     for (int i = 0; i < tree->meeting_count; i++) {
         double deep = meeting_depth(state->model, &at, i);
         if (tree->meetings[i].thin) deep = fmax(deep, thin_crossing(state->model, state->tree, i));
-        if (deep <= start_share * meeting_near(state->model, state->tree, i) || deep <= *depth) continue;
         if (deep <= run_share * meeting_near(state->model, state->tree, i) || deep <= *depth) continue;
         *depth = deep;
         worst = i;

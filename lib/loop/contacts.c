@@ -166,7 +166,6 @@ static void add_to_tie(struct contacts_work *work, const struct striker *striker
     impact->v_t[1] = striker->rubs ? v[1] : 0;
 }
 
-static void note_impact(struct run *run, int i)
 /* Does point i strike, so that its impact is an event? Ropes and landings have events of their own. */
 static bool is_impact(const struct run *run, int i)
 {
@@ -195,18 +194,10 @@ static void note_impact(struct run *run, int i, int count)
     struct contacts_work *work = &run->contacts;
     const struct striker *striker = &work->strikers[i];
     const struct tie *tie = &tree_of(run)->ties[striker->tie];
-    const double *v = work->v + (ptrdiff_t)2 * i, *P = work->P + (ptrdiff_t)2 * i;
-    double p = P[0], tau = P[1];
-    double taken = striker_taken(striker, v, P);
-    run->impact_work[tie->load] += taken;
-    if (!striker->contact) add_to_tie(work, striker, v, P, taken);
-    bool struck = striker->v_n < 0 || (p > 0 && contacts_part(run, i));
-    if (!striker->contact || !struck) return; /* ropes and landings have events of their own */
-    int body = tie->end[0].body;
-    struct run_event *event = run_note(run, FBD_EVENT_IMPACT, body, tie->load, -1);
-    const double *v = work->v + (ptrdiff_t)2 * i;
+    const double *v = work->v + (ptrdiff_t)2 * i, *own = work->P + (ptrdiff_t)2 * i;
     double p = 0, tau = 0, taken = 0;
-    run->impact_work[tie->load] += striker_taken(striker, v, work->P + (ptrdiff_t)2 * i);
+    run->impact_work[tie->load] += striker_taken(striker, v, own);
+    if (!striker->contact) add_to_tie(work, striker, v, own, striker_taken(striker, v, own));
     if (!is_impact(run, i)) return;
     for (int k = 0; k < count; k++) {
         if (!strike_alike(run, i, k)) continue;
