@@ -103,7 +103,10 @@ static bool observe(void *context, struct ensemble *ensemble, size_t group)
     /* A group that is alone, in a run that stops for nothing, has no other to wait for. */
     bool alone = ensemble->count == 1 && going->whole;
     tell_progress(going, alone ? ensemble->groups[group].run->state->t : ensemble->t);
-    if (!event_states_note(&result->event_states, ensemble, group)) return false;
+    if (!event_states_note(&result->event_states, ensemble, group)) {
+        ensemble_fail(ensemble, FBD_OUT_OF_MEMORY, "out of memory");
+        return false;
+    }
     if (result->ledger.works) ledger_note(&result->ledger, &ensemble->groups[group]);
     if (!result->ledger.any || !ledger_counts(&result->ledger, &ensemble->groups[group])) return true;
     double before = processor_seconds(); /* a call of the system: not for every step of a thousand groups */

@@ -178,8 +178,8 @@ static void watch_piece(const struct end *piece, struct moment *t)
 {
     struct run *run = piece->run;
     const struct tie *tie = tie_of(piece);
-    const bool disc = tie->end[piece->end].radius > 0 || tie->end[piece->end + 1].radius > 0;
-    const double little = tie->reels ? 1e-3 : disc ? 1e-6 : 1e-9;
+    const bool at_rim = tie->end[piece->end].radius > 0 || tie->end[piece->end + 1].radius > 0;
+    const double little = tie->reels ? 1e-3 : at_rim ? 1e-6 : 1e-9;
     double when = shortest_at(piece, little, t->t);
     struct room room = room_at(piece, when);
     if (room.left > little * room.size || room.rate > 0) { /* a number that is none has gone beyond */
@@ -194,14 +194,16 @@ static void watch_piece(const struct end *piece, struct moment *t)
         t->t, tie->name, name_of(run, tie, piece->end), name_of(run, tie, piece->end + 1));
 }
 
-/* Pieces of a taut rope of constant length, which become short one at the expense of another: the ends of the step
- * show which of them have to be looked at within. */
+/* Pieces between points of a taut rope of constant length: one becomes shorter as another becomes longer. The ends of the
+ * step show which of them have to be watched within. A piece that ends on a rim passes through zero length where its
+ * other end passes the point of tangency, and the motion goes on. */
 static void watch_shortening(struct run *run, int index, struct moment *t)
 {
     const struct tie *tie = &run->model->tree->ties[index];
     const double length = t->t - run->step.from;
     for (int k = 0; k + 1 < tie->end_count && run->end.outcome == FBD_GOING; k++) {
         const struct end piece = {run, index, k, true};
+        if (tie->end[k].radius > 0 || tie->end[k + 1].radius > 0) continue;
         look(run, run->step.from, run->state->y);
         const struct room before = room_of(&piece);
         look(run, t->t, run->work.y);

@@ -170,14 +170,15 @@ static bool find_equilibrium(fbd_state *state, fbd_errors *errors)
     return false;
 }
 
-/* Does the linear motion about the balance that has been found grow, in one way at least? */
-static void warn_of_instability(const fbd_state *state, fbd_errors *errors)
+/* Warn where the linear motion about the equilibrium grows. False when memory is out. */
+static bool warn_of_instability(const fbd_state *state, fbd_errors *errors)
 {
-    const double rounding = 1e-6; /* of the fastest: two zeros that rounding has parted */
+    const double rounding = 1e-6; /* of the highest frequency: round-off parts a double eigenvalue zero */
+    fbd_errors *refusals = fbd_errors_new(); /* as where friction holds: nothing is said of these */
     fbd_state *there = state_new(state->model);
     if (there) state_copy(there, state);
-    fbd_linearization *linear =
-        there ? fbd_linearize(there, NULL) : NULL; /* NULL as well where friction holds */
+    fbd_linearization *linear = there && refusals ? fbd_linearize(there, refusals) : NULL;
+    bool done = there && refusals && !refusals->out_of_memory;
     double growth = 0, fastest = 0;
     for (size_t i = 0; i < fbd_linearization_size(linear); i++) {
         const fbd_mode mode = fbd_linearization_mode(linear, i);
@@ -191,6 +192,8 @@ static void warn_of_instability(const fbd_state *state, fbd_errors *errors)
                  1 / growth);
     fbd_linearization_free(linear);
     state_free(there);
+    fbd_errors_free(refusals);
+    return done;
 }
 
 bool fbd_find_equilibrium(fbd_state *state, fbd_errors *list)
@@ -198,7 +201,10 @@ bool fbd_find_equilibrium(fbd_state *state, fbd_errors *list)
     struct diag_call call;
     fbd_errors *errors = diag_begin(&call, list);
     bool found = state ? find_equilibrium(state, errors) : call_refuse(errors, "there is no state") != NULL;
-    if (found) warn_of_instability(state, errors);
+    if (found && !warn_of_instability(state, errors)) {
+        diag_out_of_memory(errors);
+        found = false;
+    }
     diag_end(&call);
     return found;
 }

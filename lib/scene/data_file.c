@@ -9,30 +9,9 @@
 #include "base/file.h"
 #include "expr/expr.h"
 #include "expr/glyph.h"
+#include "scene/span.h"
 
 enum { most_columns = 10000, most_complaints = 20 };
-
-struct span {
-    const char *text;
-    size_t length;
-};
-
-static bool is_blank(char c)
-{
-    return c == ' ' || c == '\t' || c == '\r';
-}
-
-static struct span trim(struct span s)
-{
-    while (s.length && is_blank(s.text[0])) s.text++, s.length--;
-    while (s.length && is_blank(s.text[s.length - 1])) s.length--;
-    return s;
-}
-
-static bool is_same(struct span a, struct span b)
-{
-    return a.length == b.length && memcmp(a.text, b.text, a.length) == 0;
-}
 
 /* ---- headings */
 

@@ -20,16 +20,18 @@ static const struct load *normal_of(const struct body *body)
     return NULL;
 }
 
-/* Do all bodies that carry it move along its own line? Then none of them presses on it. */
+/* Does a slide move along the lines of all bodies that carry it? Then none of them presses on it. */
 static bool is_carried_along(const struct scene *scene, size_t b)
 {
     const double parallel = 1e-12;
-    const struct vec e = vec_unit(start_angle(scene, (int)b));
-    for (int p = scene->bodies[b].motion.parent; p != ground_body; p = scene->bodies[p].motion.parent) {
-        enum motion_kind kind = scene->bodies[p].motion.kind;
-        if (kind == motion_weld) continue;
-        if (kind != motion_slide || fabs(vec_cross(vec_unit(start_angle(scene, p)), e)) > parallel)
-            return false;
+    const struct motion *motion = &scene->bodies[b].motion;
+    double turned = 0; /* its line, from that of the carrier */
+    if (motion->kind != motion_slide) return false;
+    while (motion->parent != ground_body) {
+        turned += motion->along;
+        motion = &scene->bodies[motion->parent].motion;
+        if (motion->kind == motion_weld) continue;
+        if (motion->kind != motion_slide || fabs(sin(turned)) > parallel) return false;
     }
     return true;
 }

@@ -2,6 +2,7 @@
  *
  * One run of a sweep, and its row.
  */
+#include "base/format.h"
 #include "base/utf8.h"
 #include "loop/options.h"
 #include "record/finite_result.h"
@@ -176,8 +177,8 @@ static bool is_balanced(struct ensemble *run, struct ledger *ledger, char *reaso
         balance.residual = ledger_energy(ledger, state, ledger->work).residual;
         balance.explained = ledger_explained(ledger, state, run->options.tolerance, steps);
     }
-    snprintf(reason, size, "the residual of the energy is %.2g, where the tolerance explains %.2g",
-             balance.residual, balance.explained);
+    format_into(reason, size, "the residual of the energy is %.2g, where the tolerance explains %.2g",
+                balance.residual, balance.explained);
     return !(fabs(balance.residual) > balance.explained);
 }
 
