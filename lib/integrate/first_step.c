@@ -29,14 +29,13 @@ static double time_of_slopes(const struct layout *layout, const double *y, const
 }
 
 /* tau_2 of the header for all components, with slopes f and f1 a time h apart. Slope and scale are those of
- * the start: an Euler step far too long makes both large. Changes that rounding explains say nothing. */
-static double time_of_change(const struct layout *layout, const gsl_odeiv2_control *control, double h,
-                             const double *f, const double *f1, const double *scale)
+ * the start: an Euler step far too long makes both large. */
+static double time_of_change(const struct layout *layout, double h, const double *f, const double *f1,
+                             const double *scale)
 {
     size_t size = layout_size(layout);
     double tau = INFINITY;
     for (size_t i = layout->pairs; i < size; i++) {
-        if (weights_is_noise(control, i, f1[i] - f[i])) continue;
         double change = fabs(f1[i] - f[i]) / h;
         if (change > 0 && (f[i] != 0 || scale[i] > 0))
             tau = fmin(tau, fmax(fabs(f[i]) / change, sqrt(scale[i] / change)));
@@ -61,16 +60,16 @@ static int euler_slopes(struct counted_system *system, double t, const double *y
 
 /* tau_2 by an Euler step of *probe, which is shortened as long as slopes change so much within it that the change says
  * nothing of the start: an exponential may be beyond all bounds there. */
-static int probe_change(struct counted_system *system, const struct layout *layout,
-                        const gsl_odeiv2_control *control, double t, const double *y, const double *f,
-                        const double *scale, double *y1, double *f1, double *probe, double *tau)
+static int probe_change(struct counted_system *system, const struct layout *layout, double t, const double *y,
+                        const double *f, const double *scale, double *y1, double *f1, double *probe,
+                        double *tau)
 {
     enum { attempts = 8 };
     const double too_long = 1e-4; /* tau_2 of the probe */
     for (int k = 0;; k++) {
         int code = euler_slopes(system, t, y, f, probe, y1, f1);
         if (code != GSL_SUCCESS) return code;
-        *tau = time_of_change(layout, control, *probe, f, f1, scale);
+        *tau = time_of_change(layout, *probe, f, f1, scale);
         double shorter = fmax(too_long * *probe, 64 * DBL_EPSILON * fabs(t));
         if (*tau >= too_long * *probe || shorter >= *probe || k == attempts) return GSL_SUCCESS;
         *probe = shorter;
@@ -88,7 +87,7 @@ int first_step(struct counted_system *system, const struct layout *layout, const
     double shortest = fmax(1e-9 * h_max, 64 * DBL_EPSILON * fabs(t));
     double probe = fmin(h_max, tau < INFINITY ? fmax(0.01 * tau, shortest) : 1e-3 * h_max);
     double change;
-    int code = probe_change(system, layout, control, t, y, f, scale, y1, f1, &probe, &change);
+    int code = probe_change(system, layout, t, y, f, scale, y1, f1, &probe, &change);
     if (code != GSL_SUCCESS) return code;
     tau = fmin(fmax(tau, probe), change);
     double part = pow(0.01 * weights_tolerance(control), 1.0 / (order + 1));

@@ -215,12 +215,6 @@ double weights_rate(const gsl_odeiv2_control *control, const double *y, const do
     return by_a > 0 && root > 0 ? 2 * by_a / root : 0;
 }
 
-bool weights_is_noise(const gsl_odeiv2_control *control, size_t i, double change)
-{
-    const struct weights *w = control->state;
-    return fabs(change) <= 8 * w->noise[i - w->pairs];
-}
-
 void weights_scales(const gsl_odeiv2_control *control, double h, const double *y, const double *f,
                     double *scales)
 {

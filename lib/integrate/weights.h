@@ -92,9 +92,6 @@ void weights_set_noise(gsl_odeiv2_control *control, size_t i, double noise, doub
  */
 bool weights_noise_counts(const gsl_odeiv2_control *control, double h);
 
-/* Is that change of the slope of component i, which is no coordinate, one that rounding explains? */
-bool weights_is_noise(const gsl_odeiv2_control *control, size_t i, double change);
-
 /* Take an accepted state y with f = f(t, y) into the running maxima. */
 void weights_update(gsl_odeiv2_control *control, const double *y, const double *f);
 
