@@ -255,7 +255,7 @@ def draw_reaction(rng, name, arrow, turns, one_sided):
         value = size * math.cos(angle - way)
         if value < 0 and (one_sided or not pin):
             way, value = way + math.pi, -value
-        if abs(value) < 0.02 * size and not pin:
+        if abs(value) < 0.004 * size and not pin:  # well below the tolerance of 0.01
             continue  # a component that is zero is drawn of what may point anywhere
         parts.append(Piece(f"{label}_{letter}", value, way, place, form == "unknown parts"))
     return parts
