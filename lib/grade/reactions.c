@@ -27,7 +27,10 @@ void reaction_describe(const fbd_model *model, int b, const struct arrow *arrow,
                        struct item *item)
 {
     const struct model_body *body = &model->bodies[b];
-    bool joint = arrow->name == body->reaction;
+    for (size_t c = 0; c < model->body_count;
+         c++) /* on a body that another one moves on: of the joint of that */
+        if (arrow->name && model->bodies[c].reaction_on_parent == arrow->name) body = &model->bodies[c];
+    bool joint = arrow->name && (arrow->name == body->reaction || arrow->name == body->reaction_on_parent);
     bool guided = body->kind == motion_slide || body->kind == motion_track;
     item->contact = -1;
     item->couples = joint && body->kind != motion_pivot;
@@ -257,6 +260,16 @@ static struct action sum_of(const struct sides *sides, const struct fitting *fit
     return sum;
 }
 
+/* Do the parts tell each of several reactions? They are nearer to all of them than to those without one. */
+static bool tells_each(const struct support *support, size_t s, struct vec off)
+{
+    for (size_t i = 0; i < support->key_count && support->key_count > 1; i++) {
+        double size = vec_norm(support->key[i]->at[s].force);
+        if (size > 0 && vec_norm(off) > 0.5 * size) return false;
+    }
+    return true;
+}
+
 static bool fit(const struct sides *sides, const struct support *support, size_t s, struct fitting *fitting)
 {
     *fitting = (struct fitting){.count = 0};
@@ -266,37 +279,42 @@ static bool fit(const struct sides *sides, const struct support *support, size_t
     if (fitting->count > 0 && !solve(fitting->columns, fitting->count, right.row, fitting->values))
         return false;
     struct action sum = sum_of(sides, fitting);
-    return reaction_is_near(sides, &fitting->wanted, &sum);
+    return reaction_is_near(sides, &fitting->wanted, &sum) &&
+           tells_each(support, s, vec_sub(sum.force, fitting->wanted.force));
 }
 
 /* Is an unknown drawn along the line of one of the reactions, the other way? */
-static bool is_against_line(const struct sides *sides, const struct support *support,
-                            const struct fitting *fitting, size_t k)
+static bool is_against_line(const struct sides *sides, const struct support *support, struct vec drawn)
 {
-    const double *row = fitting->columns[k].row;
-    struct vec along = vec_scale(fitting->values[k], (struct vec){row[0], row[1]});
     for (size_t i = 0; i < support->key_count; i++) {
         const struct item *key = support->key[i];
         struct vec force = key->at[reaction_when(sides, key)].force;
-        if (!key->any && reaction_is_parallel(sides, along, force) && vec_dot(along, force) < 0) return true;
+        if (!key->any && reaction_is_parallel(sides, drawn, force) && vec_dot(drawn, force) < 0) return true;
     }
     return false;
 }
 
 /* A sense is that of the reaction, for a single force and where the reactions only pull or press. Two components of a
- * force that may point anywhere have any sense: their signs follow from the equations. */
+ * force that may point anywhere have any sense, as their signs follow from the equations, and may be zero. */
 static bool senses_agree(const struct sides *sides, const struct support *support,
                          const struct fitting *fitting)
 {
-    bool one_sided = true;
-    for (size_t i = 0; i < support->key_count; i++) one_sided = one_sided && support->key[i]->one_sided;
+    bool one_sided = true, any = true;
+    for (size_t i = 0; i < support->key_count; i++) {
+        one_sided = one_sided && support->key[i]->one_sided;
+        any = any && support->key[i]->any;
+    }
     for (size_t k = 0; k < fitting->count; k++) {
-        bool moment = vec_norm((struct vec){fitting->columns[k].row[0], fitting->columns[k].row[1]}) == 0;
+        struct vec drawn = {fitting->columns[k].row[0], fitting->columns[k].row[1]};
+        bool moment = vec_norm(drawn) == 0;
         if (fitting->columns[k].any) continue;
         double size = reaction_zero * (moment ? sides->moment : sides->force);
         if (support->count == 1 && !(fitting->values[k] > size)) return false;
         if (one_sided && !(fitting->values[k] > -size)) return false;
-        if (!moment && is_against_line(sides, support, fitting, k)) return false;
+        if (moment) continue;
+        double least = sides->tolerance * vec_norm(fitting->wanted.force);
+        if (!any && fabs(fitting->values[k]) * vec_norm(drawn) <= least) return false;
+        if (is_against_line(sides, support, drawn)) return false;
     }
     return true;
 }
@@ -407,6 +425,21 @@ bool supports_meet(const struct support *a, const struct support *b)
     return false;
 }
 
+/* Is one of those found a part of this? What is right by itself belongs to no resultant. */
+static bool has_another(const struct supports *found, const struct support *support)
+{
+    for (size_t i = 0; i < found->count; i++) {
+        const struct support *one = &found->all[i];
+        bool within = one->count < support->count;
+        for (size_t k = 0; within && k < one->key_count; k++)
+            within = holds(support->key, support->key_count, one->key[k]);
+        for (size_t j = 0; within && j < one->count; j++)
+            within = holds(support->parts, support->count, one->parts[j]);
+        if (within) return true;
+    }
+    return false;
+}
+
 /* Choose parts from item `from` on, and note those that are right. */
 static void choose_parts(const struct sides *sides, const struct search *search, struct support *support,
                          size_t from, size_t *noted, struct supports *found)
@@ -414,7 +447,7 @@ static void choose_parts(const struct sides *sides, const struct search *search,
     enum { most_left = 24, most_noted = 6 }; /* among so many components are looked for; of one support */
     if (*noted == most_noted || found->count == most_supports) return;
     if (support->count == search->parts) {
-        if (!is_right(sides, support)) return;
+        if (!is_right(sides, support) || (support->key_count > 1 && has_another(found, support))) return;
         found->all[found->count++] = *support;
         ++*noted;
         return;
