@@ -27,7 +27,10 @@ void reaction_describe(const fbd_model *model, int b, const struct arrow *arrow,
                        struct item *item)
 {
     const struct model_body *body = &model->bodies[b];
-    bool joint = arrow->name == body->reaction;
+    for (size_t c = 0; c < model->body_count;
+         c++) /* on a body that another one moves on: of the joint of that */
+        if (arrow->name && model->bodies[c].reaction_on_parent == arrow->name) body = &model->bodies[c];
+    bool joint = arrow->name && (arrow->name == body->reaction || arrow->name == body->reaction_on_parent);
     bool guided = body->kind == motion_slide || body->kind == motion_track;
     item->contact = -1;
     item->couples = joint && body->kind != motion_pivot;
@@ -257,6 +260,16 @@ static struct action sum_of(const struct sides *sides, const struct fitting *fit
     return sum;
 }
 
+/* Do the parts tell each of several reactions? They are nearer to all of them than to those without one. */
+static bool tells_each(const struct support *support, size_t s, struct vec off)
+{
+    for (size_t i = 0; i < support->key_count && support->key_count > 1; i++) {
+        double size = vec_norm(support->key[i]->at[s].force);
+        if (size > 0 && vec_norm(off) > 0.5 * size) return false;
+    }
+    return true;
+}
+
 static bool fit(const struct sides *sides, const struct support *support, size_t s, struct fitting *fitting)
 {
     *fitting = (struct fitting){.count = 0};
@@ -266,37 +279,42 @@ static bool fit(const struct sides *sides, const struct support *support, size_t
     if (fitting->count > 0 && !solve(fitting->columns, fitting->count, right.row, fitting->values))
         return false;
     struct action sum = sum_of(sides, fitting);
-    return reaction_is_near(sides, &fitting->wanted, &sum);
+    return reaction_is_near(sides, &fitting->wanted, &sum) &&
+           tells_each(support, s, vec_sub(sum.force, fitting->wanted.force));
 }
 
 /* Is an unknown drawn along the line of one of the reactions, the other way? */
-static bool is_against_line(const struct sides *sides, const struct support *support,
-                            const struct fitting *fitting, size_t k)
+static bool is_against_line(const struct sides *sides, const struct support *support, struct vec drawn)
 {
-    const double *row = fitting->columns[k].row;
-    struct vec along = vec_scale(fitting->values[k], (struct vec){row[0], row[1]});
     for (size_t i = 0; i < support->key_count; i++) {
         const struct item *key = support->key[i];
         struct vec force = key->at[reaction_when(sides, key)].force;
-        if (!key->any && reaction_is_parallel(sides, along, force) && vec_dot(along, force) < 0) return true;
+        if (!key->any && reaction_is_parallel(sides, drawn, force) && vec_dot(drawn, force) < 0) return true;
     }
     return false;
 }
 
 /* A sense is that of the reaction, for a single force and where the reactions only pull or press. Two components of a
- * force that may point anywhere have any sense: their signs follow from the equations. */
+ * force that may point anywhere have any sense, as their signs follow from the equations, and may be zero. */
 static bool senses_agree(const struct sides *sides, const struct support *support,
                          const struct fitting *fitting)
 {
-    bool one_sided = true;
-    for (size_t i = 0; i < support->key_count; i++) one_sided = one_sided && support->key[i]->one_sided;
+    bool one_sided = true, any = true;
+    for (size_t i = 0; i < support->key_count; i++) {
+        one_sided = one_sided && support->key[i]->one_sided;
+        any = any && support->key[i]->any;
+    }
     for (size_t k = 0; k < fitting->count; k++) {
-        bool moment = vec_norm((struct vec){fitting->columns[k].row[0], fitting->columns[k].row[1]}) == 0;
+        struct vec drawn = {fitting->columns[k].row[0], fitting->columns[k].row[1]};
+        bool moment = vec_norm(drawn) == 0;
         if (fitting->columns[k].any) continue;
         double size = reaction_zero * (moment ? sides->moment : sides->force);
         if (support->count == 1 && !(fitting->values[k] > size)) return false;
         if (one_sided && !(fitting->values[k] > -size)) return false;
-        if (!moment && is_against_line(sides, support, fitting, k)) return false;
+        if (moment) continue;
+        double least = sides->tolerance * vec_norm(fitting->wanted.force);
+        if (!any && fabs(fitting->values[k]) * vec_norm(drawn) <= least) return false;
+        if (is_against_line(sides, support, drawn)) return false;
     }
     return true;
 }
@@ -317,6 +335,23 @@ static bool is_drawn_there(const struct sides *sides, const struct support *supp
     return !sides->turns || vec_norm(vec_sub(part->at[s].point, key->at[s].point)) <= reach_of(sides);
 }
 
+static bool is_right_angle(const struct sides *sides, struct vec a, struct vec b)
+{
+    return fabs(vec_dot(a, b)) <= sides->tolerance * vec_norm(a) * vec_norm(b);
+}
+
+/* Components are at right angles: with two magnitudes to choose, any two forces would do. */
+static bool are_components(const struct sides *sides, const struct support *support, size_t s)
+{
+    for (size_t i = 0; i < support->count; i++)
+        for (size_t j = i + 1; j < support->count; j++) {
+            const struct item *one = support->parts[i], *other = support->parts[j];
+            bool couple = reaction_is_couple(sides, one, s) || reaction_is_couple(sides, other, s);
+            if (!couple && !is_right_angle(sides, one->at[s].force, other->at[s].force)) return false;
+        }
+    return true;
+}
+
 static bool may_be_drawn_so(const struct sides *sides, const struct support *support, size_t s,
                             size_t unknowns)
 {
@@ -326,6 +361,7 @@ static bool may_be_drawn_so(const struct sides *sides, const struct support *sup
         couples = couples || support->key[i]->couples || reaction_is_couple(sides, support->key[i], s);
     }
     if (follows && unknowns == 0) return false; /* compared by value at all states (verdict.c) */
+    if (unknowns > 0 && !are_components(sides, support, s)) return false;
     for (size_t j = 0; j < support->count; j++) {
         const struct item *part = support->parts[j];
         bool couple = reaction_is_couple(sides, part, s);
@@ -373,36 +409,73 @@ static bool share_support(const struct sides *sides, const struct item *a, const
     return vec_norm(vec_sub(a->at[s].point, b->at[s].point)) <= reach_of(sides);
 }
 
-/* Choose parts from item `from` on until they are right. */
-static bool choose_parts(struct sides *sides, const struct search *search, struct support *support,
-                         size_t from)
+static bool holds(struct item *const *some, size_t count, const struct item *one)
 {
-    enum { most_left = 24 }; /* among so many components are looked for */
-    if (support->count == search->parts) return is_right(sides, support);
-    size_t left = 0;
-    for (size_t j = from; j < sides->count && (search->parts == 1 || left < most_left); j++) {
-        struct item *item = &sides->items[j];
-        if (item->used || !item->source || reaction_is_zero(sides, item, 0) || item->free != search->free ||
-            (search->valued && item->unknown))
-            continue;
-        left++;
-        support->parts[support->count++] = item;
-        if (choose_parts(sides, search, support, j + 1)) return true;
-        support->count--;
+    for (size_t i = 0; i < count; i++)
+        if (some[i] == one) return true;
+    return false;
+}
+
+bool supports_meet(const struct support *a, const struct support *b)
+{
+    for (size_t i = 0; i < a->key_count; i++)
+        if (holds(b->key, b->key_count, a->key[i])) return true;
+    for (size_t j = 0; j < a->count; j++)
+        if (holds(b->parts, b->count, a->parts[j])) return true;
+    return false;
+}
+
+/* Is one of those found a part of this? What is right by itself belongs to no resultant. */
+static bool has_another(const struct supports *found, const struct support *support)
+{
+    for (size_t i = 0; i < found->count; i++) {
+        const struct support *one = &found->all[i];
+        bool within = one->count < support->count;
+        for (size_t k = 0; within && k < one->key_count; k++)
+            within = holds(support->key, support->key_count, one->key[k]);
+        for (size_t j = 0; within && j < one->count; j++)
+            within = holds(support->parts, support->count, one->parts[j]);
+        if (within) return true;
     }
     return false;
 }
 
-static bool try_support(struct sides *sides, const struct search *search, struct support *support,
-                        size_t key_count)
+/* Choose parts from item `from` on, and note those that are right. */
+static void choose_parts(const struct sides *sides, const struct search *search, struct support *support,
+                         size_t from, size_t *noted, struct supports *found)
 {
+    enum { most_left = 24, most_noted = 6 }; /* among so many components are looked for; of one support */
+    if (*noted == most_noted || found->count == most_supports) return;
+    if (support->count == search->parts) {
+        if (!is_right(sides, support) || (support->key_count > 1 && has_another(found, support))) return;
+        found->all[found->count++] = *support;
+        ++*noted;
+        return;
+    }
+    size_t left = 0;
+    for (size_t j = from; j < sides->count && (search->parts == 1 || left < most_left); j++) {
+        struct item *item = &sides->items[j];
+        if (item->used || !item->source || reaction_is_zero(sides, item, 0) || item->free != search->free)
+            continue;
+        left++;
+        support->parts[support->count++] = item;
+        choose_parts(sides, search, support, j + 1, noted, found);
+        support->count--;
+    }
+}
+
+static void try_support(const struct sides *sides, const struct search *search, struct support *support,
+                        size_t key_count, struct supports *found)
+{
+    size_t noted = 0;
     support->key_count = key_count;
     support->count = 0;
-    return choose_parts(sides, search, support, 0);
+    choose_parts(sides, search, support, 0, &noted, found);
 }
 
 /* Reaction k with one other, or with all at its support. */
-static bool find_group(struct sides *sides, size_t k, const struct search *search, struct support *support)
+static void find_groups(const struct sides *sides, size_t k, const struct search *search,
+                        struct support *support, struct supports *found)
 {
     size_t all = sides->reaction_count + sides->key_count, shared = 1;
     struct item *first = reaction_candidate(sides, k), *others[most_support];
@@ -411,35 +484,32 @@ static bool find_group(struct sides *sides, size_t k, const struct search *searc
         struct item *other = reaction_candidate(sides, j);
         if (!other || !share_support(sides, first, other)) continue;
         support->key[1] = others[shared++] = other;
-        if (try_support(sides, search, support, 2)) return true;
+        try_support(sides, search, support, 2, found);
     }
-    if (shared < 3) return false;
+    if (shared < 3) return;
     memcpy(support->key, others, sizeof others);
-    return try_support(sides, search, support, shared);
+    try_support(sides, search, support, shared, found);
 }
 
-bool support_find(struct sides *sides, const struct search *search, struct support *support)
+void supports_find(const struct sides *sides, const struct search *search, struct supports *found)
 {
     for (size_t k = 0; k < sides->reaction_count + sides->key_count; k++) {
-        struct item *key = reaction_candidate(sides, k);
-        if (!key || (search->keys == keys_of_one_line && key->any) ||
-            (search->keys == keys_of_any_line && !key->any))
-            continue;
-        support->key[0] = key;
-        if (search->keys == keys_together ? find_group(sides, k, search, support)
-                                          : try_support(sides, search, support, 1))
-            return true;
+        struct support support = {.key[0] = reaction_candidate(sides, k)};
+        if (!support.key[0]) continue;
+        if (search->together)
+            find_groups(sides, k, search, &support, found);
+        else
+            try_support(sides, search, &support, 1, found);
     }
-    return false;
 }
 
-/* The component of a reaction that may point anywhere, beside one that is right by itself. */
+/* The component of a reaction that may point anywhere, at right angles to one that is right by itself. */
 static bool is_beside(const struct sides *sides, const struct item *item, struct item *key)
 {
     size_t s = reaction_when(sides, key);
     bool small = vec_norm(item->at[s].force) <= sides->tolerance * vec_norm(key->at[s].force);
     if (!key->any || !key->single || !(item->unknown || small)) return false;
-    if (reaction_is_couple(sides, item, s) ||
+    if (reaction_is_couple(sides, item, s) || !is_right_angle(sides, item->at[s].force, key->at[s].force) ||
         (sides->turns && vec_norm(vec_sub(item->at[s].point, key->at[s].point)) > reach_of(sides)))
         return false;
     key->single = false;

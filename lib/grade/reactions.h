@@ -31,16 +31,25 @@ struct support {
     struct item *key[most_support], *parts[most_components];
 };
 
-/* What is looked for: reactions whose line is given by what exerts them, or that may point anywhere, one by one; all one
- * by one; or several together; drawn by so many forces, with a direction or without. */
+/* What is looked for: reactions one by one or several together; drawn by so many forces, with a direction or without. */
 struct search {
-    enum { keys_of_one_line, keys_of_any_line, keys_alone, keys_together } keys;
+    bool together;
     size_t parts;
-    bool free, valued; /* without a direction; with a value */
+    bool free;
 };
 
-/* The next of these that is right and not used yet. */
-bool support_find(struct sides *sides, const struct search *search, struct support *support);
+/* All of these that are right; some have reactions or forces in common. */
+enum { most_supports = 160 };
+
+struct supports {
+    size_t count;
+    struct support all[most_supports];
+};
+
+void supports_find(const struct sides *sides, const struct search *search, struct supports *found);
+
+/* Do they have a reaction or a force in common? */
+bool supports_meet(const struct support *a, const struct support *b);
 
 /* The finding about one reaction that is not drawn rightly, and what was meant by it. */
 struct misdrawn {

@@ -2,12 +2,11 @@
  *
  * What is right is paired first, by numbers alone; then what is left over, by name, kind and likeness.
  */
-#include "grade/verdict.h"
 
 #include <string.h>
 
 #include "base/text.h"
-#include "grade/reactions.h"
+#include "grade/verdict_work.h"
 
 static const struct pos nowhere = {0, 0};
 
@@ -111,37 +110,37 @@ static void compare_inertia(struct fbd_grade *grade, const struct model_body *ke
 
 /* ---- pairs */
 
-static const char *noun(const struct load *load)
+const char *verdict_noun(const struct load *load)
 {
     return load && load->kind >= moment_applied && load->kind <= moment_potential ? "moment" : "force";
 }
 
 /* What the key may have drawn, or not, brings nothing. */
-static double points_of(const struct fbd_grade *grade, const struct item *key)
+double verdict_worth(const struct fbd_grade *grade, const struct item *key)
 {
     return key->source || key->asked ? grading_of(grade)->points.force : 0;
 }
 
-static void add_pair(struct fbd_grade *grade, const char *body, struct item *key, struct item *item,
-                     fbd_finding_kind kind, const char *message, const char *detail)
+void verdict_pair(struct fbd_grade *grade, const char *body, struct item *key, struct item *item,
+                  fbd_finding_kind kind, const char *message, const char *detail)
 {
     double share = kind == FBD_FINDING_RIGHT ? 1 : grading_of(grade)->partial;
     fbd_finding *finding =
         finding_add(grade, kind, body, name_as_drawn(grade, item->source), item->source->at);
-    finding->most = points_of(grade, key);
+    finding->most = verdict_worth(grade, key);
     finding->points = share * finding->most;
     finding_say(grade, finding, message);
     finding_tell(grade, finding, detail);
     key->used = item->used = true;
 }
 
-static void add_right(struct fbd_grade *grade, const char *body, struct item *key, struct item *item,
-                      const char *message)
+void verdict_right(struct fbd_grade *grade, const char *body, struct item *key, struct item *item,
+                   const char *message)
 {
     struct text text = {0};
     text_printf(&text, "it is `%s` of the key", key->name);
     if (text.failed) grade->arena.failed = true;
-    add_pair(grade, body, key, item, FBD_FINDING_RIGHT, message, text.data ? text.data : "");
+    verdict_pair(grade, body, key, item, FBD_FINDING_RIGHT, message, text.data ? text.data : "");
     text_free(&text);
 }
 
@@ -165,7 +164,7 @@ static void pair_equal(struct fbd_grade *grade, const char *body, struct sides *
                 if (is_nothing(sides, item) && !is_nothing(sides, key)) continue; /* where friction rests */
                 struct difference difference = difference_of(sides, key, item);
                 if (difference.relation == is_same || follows_mass(key, item, &difference, masses))
-                    add_right(grade, body, key, item, "right");
+                    verdict_right(grade, body, key, item, "right");
             }
 }
 
@@ -204,13 +203,14 @@ static void pair_sums(struct fbd_grade *grade, const char *body, struct sides *s
         struct item *key = &sides->key[k];
         bool asked = is_left(key) && !is_drawn_as_such(sides, key);
         if (asked && find_parts(sides, sides->items, sides->count, key, parts) > 0)
-            add_right(grade, body, key, parts[0], "right, together with its other components");
+            verdict_right(grade, body, key, parts[0], "right, together with its other components");
     }
     for (size_t j = 0; j < sides->count; j++) {
         struct item *item = &sides->items[j];
         bool left = is_left(item);
         size_t found = left ? find_parts(sides, sides->key, sides->key_count, item, parts) : 0;
-        for (size_t i = 0; i < found; i++) add_right(grade, body, parts[i], item, "right, as a resultant");
+        for (size_t i = 0; i < found; i++)
+            verdict_right(grade, body, parts[i], item, "right, as a resultant");
     }
 }
 
@@ -222,7 +222,7 @@ static void pair_groups(struct fbd_grade *grade, const char *body, struct sides 
     while (group_find(sides, &group)) {
         for (size_t j = 0; j < group.count; j++) group.items[j]->used = true;
         for (size_t i = 0; i < group.key_count; i++)
-            add_right(grade, body, group.key[i], group.items[0], "right, together with others");
+            verdict_right(grade, body, group.key[i], group.items[0], "right, together with others");
     }
 }
 
@@ -280,7 +280,7 @@ static int unlikeness(const struct item *key, const struct item *item, const str
                                 [is_turned] = 2, [is_scaled] = 3,   [is_other] = 7};
     bool same_name = strcmp(key->source->name, item->source->name) == 0;
     bool same_kind = key->source->kind == item->source->kind;
-    bool same_noun = strcmp(noun(key->source), noun(item->source)) == 0;
+    bool same_noun = strcmp(verdict_noun(key->source), verdict_noun(item->source)) == 0;
     if (!same_noun) return no_pair + 1;
     /* Another size and the opposite sense: two errors are none, and nothing exerts it. */
     if (difference->relation == is_scaled && !(difference->ratio > 0) && !same_name && !same_kind)
@@ -317,98 +317,11 @@ static void say_pair(struct fbd_grade *grade, const char *body, struct item *key
     case is_other: break;
     }
     if (detail.failed) grade->arena.failed = true;
-    add_pair(grade, body, key, item, kind_of(difference, g), message, detail.data ? detail.data : "");
+    verdict_pair(grade, body, key, item, kind_of(difference, g), message, detail.data ? detail.data : "");
     text_free(&detail);
 }
 
-/* ---- reactions */
-
-/* What a reaction is, for the derivations that name it: of an unknown the value that makes it right. */
-static void keep_values(struct fbd_grade *grade, const fbd_model *answer, const struct sides *sides,
-                        const struct support *support)
-{
-    double values[most_components];
-    support_solve(sides, support, values);
-    for (size_t j = 0; j < support->count; j++) {
-        const struct load *source = support->parts[j]->source;
-        struct drawn *drawn = drawn_at(grade, source->at);
-        bool moment = strcmp(noun(source), "moment") == 0;
-        if (!drawn) continue;
-        bool us = (drawn->unknown ? grade->sheet : answer)->scene->units == unit_us;
-        drawn->unit = moment ? (us ? "lb*ft" : "N*m") : us ? "lb" : "N";
-        bool constant = source->value.expr && expr_is_constant(source->value.expr);
-        drawn->size = drawn->unknown ? values[j] : constant ? expr_value(source->value.expr) : NAN;
-        if (drawn->unknown && isfinite(values[j]))
-            drawn->value = arena_printf(&grade->arena, "(%.17g[%s])", values[j], drawn->unit);
-    }
-}
-
-static void pair_reactions(struct fbd_grade *grade, const fbd_model *answer, const char *body,
-                           struct sides *sides, const struct search *search)
-{
-    struct support support;
-    size_t parts = search->parts;
-    while (support_find(sides, search, &support)) {
-        const char *message = parts > 1               ? "right, together with its other components"
-                              : support.key_count > 1 ? "right, as a resultant"
-                                                      : "right";
-        keep_values(grade, answer, sides, &support);
-        for (size_t i = 0; i < support.key_count; i++)
-            add_right(grade, body, support.key[i], support.parts[0], message);
-        for (size_t j = 0; j < parts; j++) support.parts[j]->used = true;
-        support.key[0]->single = parts == 1 && !support.parts[0]->free;
-    }
-}
-
-/* A `normal` of the answer for what guides the body in the key is a force across its line. */
-static void take_normals(struct sides *sides)
-{
-    for (size_t j = 0; j < sides->count; j++) {
-        struct item *item = &sides->items[j];
-        if (!is_left(item) || item->source->kind != load_normal) continue;
-        for (size_t i = 0; i < sides->reaction_count; i++) {
-            const struct item *key = &sides->reactions[i];
-            if (!key->name || !key->couples || key->used) continue;
-            item->unknown = true;
-            for (size_t s = 0; s < sides->samples; s++) item->at[s].force = item->across;
-        }
-    }
-}
-
-static void say_misdrawn(struct fbd_grade *grade, const char *body, const struct misdrawn *misdrawn)
-{
-    const char *message = "its direction is wrong, or a component of it is missing";
-    fbd_finding_kind kind = FBD_FINDING_DIRECTION;
-    struct text detail = {0};
-    if (misdrawn->relation == is_opposite) {
-        kind = FBD_FINDING_SENSE;
-        message = "it points the opposite way";
-    } else if (misdrawn->relation == is_elsewhere) {
-        kind = FBD_FINDING_PLACE;
-        message = "it acts at the wrong place: its line of action is another one";
-    } else if (misdrawn->relation == is_scaled) {
-        kind = FBD_FINDING_MAGNITUDE;
-        message = "its magnitude is wrong";
-    }
-    text_printf(&detail, "compared with `%s` of the key", misdrawn->key->name);
-    if (detail.failed) grade->arena.failed = true;
-    add_pair(grade, body, misdrawn->key, misdrawn->item, kind, message, detail.data ? detail.data : "");
-    if (misdrawn->other) misdrawn->other->used = true;
-    text_free(&detail);
-}
-
-/* What is drawn for a reaction, or a component of one, that is zero. */
-static void add_zeros(struct fbd_grade *grade, const char *body, struct sides *sides)
-{
-    for (size_t j = 0; j < sides->count; j++) {
-        struct item *item = &sides->items[j];
-        if (item->used || !item->source || !is_of_nothing(sides, item)) continue;
-        item->used = true;
-        fbd_finding *finding =
-            finding_add(grade, FBD_FINDING_RIGHT, body, name_as_drawn(grade, item->source), item->source->at);
-        finding_say(grade, finding, "right: it is zero");
-    }
-}
+/* ---- the rest */
 
 /* The closest pair of the forces that the key lists and those of the answer that are left. */
 struct closest {
@@ -436,7 +349,7 @@ static bool pair_closest(struct fbd_grade *grade, const char *body, struct sides
     struct closest best = closest_pair(sides);
     struct misdrawn misdrawn;
     if (reactions_closest(sides, best.rank, &misdrawn))
-        say_misdrawn(grade, body, &misdrawn);
+        verdict_misdrawn(grade, body, &misdrawn);
     else if (best.rank < no_pair)
         say_pair(grade, body, best.key, best.item, &best.difference);
     else
@@ -450,7 +363,7 @@ static void add_missing(struct fbd_grade *grade, const char *body, const struct 
     fbd_finding *finding = finding_add(grade, FBD_FINDING_MISSING, body, "", nowhere);
     finding->most = grading_of(grade)->points.force;
     if (!key->source && grade->last) grade->last->reaction = true;
-    text_printf(&text, "a %s is missing", key->source ? noun(key->source) : "reaction");
+    text_printf(&text, "a %s is missing", key->source ? verdict_noun(key->source) : "reaction");
     finding_say(grade, finding, text.data ? text.data : "");
     text.length = 0;
     text_printf(&text, "it is `%s` of the key", key->name);
@@ -459,29 +372,12 @@ static void add_missing(struct fbd_grade *grade, const char *body, const struct 
     text_free(&text);
 }
 
-void verdict_on(struct fbd_grade *grade, const fbd_model *answer, const struct model_body *key,
-                const struct model_body *body, struct sides *sides, double length, double force)
+void verdict_rest(struct fbd_grade *grade, const struct model_body *key, const struct model_body *body,
+                  struct sides *sides)
 {
-    double masses = force / length * body->inertia.mass / key->inertia.mass;
-    /* What can only be one thing comes first. */
-    enum { singles = 4 };
-    static const struct search searches[] = {
-        {keys_of_one_line, 1, false, true},  {keys_alone, 1, false, true},
-        {keys_of_one_line, 1, false, false}, {keys_alone, 1, false, false},
-        {keys_alone, 2, false, false},       {keys_alone, 3, false, false},
-        {keys_of_any_line, 1, true, false},  {keys_together, 1, false, false},
-        {keys_together, 1, true, false},     {keys_together, 2, false, false},
-        {keys_together, 3, false, false},    {keys_alone, 1, true, false},
-    };
-    compare_inertia(grade, key, body, sides, length, force);
-    pair_equal(grade, key->name, sides, masses);
-    take_normals(sides);
-    for (size_t k = 0; k < singles; k++) pair_reactions(grade, answer, key->name, sides, &searches[k]);
     pair_sums(grade, key->name, sides);
     pair_groups(grade, key->name, sides);
-    for (size_t k = singles; k < sizeof searches / sizeof *searches; k++)
-        pair_reactions(grade, answer, key->name, sides, &searches[k]);
-    add_zeros(grade, key->name, sides);
+    verdict_zeros(grade, key->name, sides);
     bool paired = true;
     while (paired) paired = pair_closest(grade, key->name, sides);
     for (size_t i = 0; i < sides->key_count; i++)
@@ -494,4 +390,13 @@ void verdict_on(struct fbd_grade *grade, const fbd_model *answer, const struct m
             verdict_superfluous(grade, FBD_FINDING_SUPERFLUOUS, key->name,
                                 name_as_drawn(grade, &body->source->loads[j]), body->source->loads[j].at,
                                 "nothing exerts this on the body");
+}
+
+void verdict_on(struct fbd_grade *grade, const fbd_model *answer, const struct model_body *key,
+                const struct model_body *body, struct sides *sides, double length, double force)
+{
+    double masses = force / length * body->inertia.mass / key->inertia.mass;
+    compare_inertia(grade, key, body, sides, length, force);
+    pair_equal(grade, key->name, sides, masses);
+    verdict_reactions(grade, answer, key, body, sides);
 }

@@ -255,8 +255,8 @@ def draw_reaction(rng, name, arrow, turns, one_sided):
         value = size * math.cos(angle - way)
         if value < 0 and (one_sided or not pin):
             way, value = way + math.pi, -value
-        if abs(value) < 0.02 * size and not pin:
-            continue  # a component that is zero is drawn of what may point anywhere
+        if abs(value) < 0.02 * size and not pin:  # a component that is zero is drawn of what may point anywhere
+            return [Piece(label, size, angle, place, form == "unknown parts")]
         parts.append(Piece(f"{label}_{letter}", value, way, place, form == "unknown parts"))
     return parts
 
@@ -270,6 +270,10 @@ def spoil(rng, drawn, points, scene):
     body, name = rng.choice(sorted(drawn))
     pieces = drawn[body, name]
     if kind == "missing":
+        contact, _, part = name.rpartition(".")
+        rest = [drawn.get((body, f"{contact}.{other}"), []) for other in ("normal", "friction") if contact and other != part]
+        if any(len(pieces) == 2 and pieces[0].unknown for pieces in rest):
+            return None  # two unknown components: they may be those of both, as one force
         drawn[body, name] = []
         return kind, body, None, 1
     if kind == "superfluous":
