@@ -148,6 +148,8 @@ bool classify_loads(struct builder *builder)
         struct verdict verdict = judge(&model->bodies[load->body], load);
         load->potential_kind = verdict.kind;
         load->why = verdict.why;
+        if (verdict.kind == potential_workless && i >= model->coupled_count) /* of a circle that rolls */
+            load->why = "does no work, except when it lands";
         if (verdict.kind == potential_quadrature) load->reference = reference_of(model, load, origin);
     }
     return true;
