@@ -178,20 +178,21 @@ static bool take_parts(const struct sides *sides, struct item **parts, size_t co
     return true;
 }
 
-/* Two or three of `items` that make one `whole`: how many, 0 when none do. */
+/* Two of `items` that make one `whole`, or else three: how many, 0 when none do. */
 static size_t find_parts(const struct sides *sides, struct item *items, size_t count,
                          const struct item *whole, struct item *parts[3])
 {
-    for (size_t i = 0; i < count; i++)
-        for (size_t j = i + 1; j < count; j++) {
-            parts[0] = &items[i];
-            parts[1] = &items[j];
-            if (take_parts(sides, parts, 2, whole)) return 2;
-            for (size_t k = j + 1; k < count; k++) {
-                parts[2] = &items[k];
-                if (take_parts(sides, parts, 3, whole)) return 3;
+    for (size_t wanted = 2; wanted <= 3; wanted++)
+        for (size_t i = 0; i < count; i++)
+            for (size_t j = i + 1; j < count; j++) {
+                parts[0] = &items[i];
+                parts[1] = &items[j];
+                if (wanted == 2 && take_parts(sides, parts, 2, whole)) return 2;
+                for (size_t k = j + 1; wanted == 3 && k < count; k++) {
+                    parts[2] = &items[k];
+                    if (take_parts(sides, parts, 3, whole)) return 3;
+                }
             }
-        }
     return 0;
 }
 

@@ -144,6 +144,8 @@ def another_stiffness(sheet):
         return None
     load = sheet.rng.choice(loads)
     key = "stiffness" if load.kind == "spring" else "coefficient"
+    if sheet.is_zero(load.keys[key]):  # 1.7 times that is no error
+        return None
     bare = {"forces": {"spring": f"{sheet.force}/{sheet.length}", "damper": f"{sheet.force}*s/{sheet.length}"},
             "moments": {"spring": f"{sheet.force}*{sheet.length}", "damper": f"{sheet.force}*{sheet.length}*s"}}[load.group][load.kind]
     load.keys[key] = f"1.7*{expression(load.keys[key], bare)}"

@@ -156,7 +156,9 @@ class Sheet:
     def is_zero(self, value):
         """Is it zero, or does it name a parameter that is?"""
         parameters = self._root.get("parameters", {})
-        found = [QUANTITY.match(str(text)) for text in [value, *(parameters.get(word, "1") for word in words(str(value)))]]
+        given = [parameters.get(word, "1") for word in words(str(value))]
+        texts = [value, *(one["value"] if isinstance(one, dict) and "value" in one else one for one in given)]
+        found = [QUANTITY.match(str(text)) for text in texts]
         return any(one and float(one[1]) == 0 for one in found)
 
 
