@@ -27,7 +27,7 @@ check 'a normal force of the file' exits 1 run lifted.yaml
 check 'may be declared two_sided' says 'two_sided' err
 
 check 'a rope that reaches its pulley ends the run' exits 1 run "$faults/weight_reaches_pulley.yaml"
-check 'and is named' says 'the rope `cord` is at an end of its way: there is nothing left between `up` and `pulley`' err
+check 'and is named' says 'a rope reaches its pulley: `cord` has no way from `up` to `pulley`' err
 check 'no expression is blamed' never domain err
 
 long_run() { # a pendulum that passes its lowest point every second
