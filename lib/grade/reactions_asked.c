@@ -1,0 +1,126 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * What exerts a reaction, at which state it is compared, and which reactions have to be drawn.
+ */
+#include "grade/reactions_work.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "dynamics/constraint.h"
+#include "dynamics/tree.h"
+
+/* Forces below this share of the largest one are zero: reactions are solutions of systems of equations. */
+const double reaction_zero = 1e-7;
+
+/* ---- what exerts it */
+
+/* The direction of what row `row` of a tie does at its end k; zero where that has none of its own. */
+static struct vec direction_of(const struct tie *tie, int k, int row, const struct instant *at)
+{
+    struct vec sum = {0, 0};
+    if (tie->row_count > 1 && !tie->law->end_names[1]) return sum; /* a pin */
+    const struct row *one = &at->tree->rows[tie->first_row + (row < tie->row_count ? row : 0)];
+    for (int i = 0; i < one->port_count; i++)
+        if (one->ports[i].end == k) sum = vec_add(sum, one->ports[i].force);
+    return sum;
+}
+
+void reaction_describe(const fbd_model *model, int b, const struct arrow *arrow, const struct instant *at,
+                       struct item *item)
+{
+    const struct model_body *body = &model->bodies[b];
+    for (size_t c = 0; c < model->body_count;
+         c++) /* on a body that another one moves on: of the joint of that */
+        if (arrow->name && model->bodies[c].reaction_on_parent == arrow->name) body = &model->bodies[c];
+    bool joint = arrow->name && (arrow->name == body->reaction || arrow->name == body->reaction_on_parent);
+    bool guided = body->kind == motion_slide || body->kind == motion_track;
+    item->contact = -1;
+    item->couples = joint && body->kind != motion_pivot;
+    if (!joint && body->place.link == 0) joint = true; /* on the ground: `pin` or `guide` */
+    if (joint && guided) item->across = vec_perp(body_direction(body, at));
+    item->any = joint && !guided;
+    for (int i = 0; model->tree && i < model->tree->tie_count; i++) {
+        const struct tie *tie = &model->tree->ties[i];
+        for (int k = 0; k < tie->end_count; k++)
+            for (int row = 0; row < 2; row++) {
+                if (tie->end[k].body != b || tie->end[k].name[row] != arrow->name) continue;
+                bool rope = tie->kind == constraint_rope || tie->law->strands;
+                item->one_sided = rope || (tie_presses(tie) && row == 0);
+                if (tie->kind == constraint_contact) item->contact = tie->constraint;
+                item->across = direction_of(tie, k, row, at);
+                item->any = tie->row_count > 1 && !tie->law->end_names[1];
+                return;
+            }
+    }
+}
+
+/* ---- where it is compared */
+
+bool reaction_is_zero(const struct sides *sides, const struct item *item, size_t s)
+{
+    const struct action *at = &item->at[s];
+    if (item->unknown) return false;
+    bool moment = sides->turns && fabs(at->moment) > reaction_zero * sides->moment;
+    return vec_norm(at->force) <= reaction_zero * sides->force && !moment;
+}
+
+/* The first state where it is not zero, at the start if possible; `samples` when there is none. */
+size_t reaction_when(const struct sides *sides, const struct item *key)
+{
+    for (int start = 1; start >= 0; start--)
+        for (size_t s = 0; s < sides->samples; s++)
+            if (sides->possible[s] && (!start || sides->starts[s]) && !reaction_is_zero(sides, key, s))
+                return s;
+    return sides->samples;
+}
+
+bool reaction_is_nothing(const struct sides *sides, const struct item *key)
+{
+    return reaction_when(sides, key) == sides->samples;
+}
+
+/* Is the second wrench the first, to the tolerance? */
+bool reaction_is_near(const struct sides *sides, const struct action *key, const struct action *other)
+{
+    double size = vec_norm(key->force), off = vec_norm(vec_sub(key->force, other->force));
+    double moments = fabs(key->moment) + size * sides->reach;
+    return off <= sides->tolerance * size + reaction_zero * sides->force &&
+           (!sides->turns ||
+            fabs(key->moment - other->moment) <= sides->tolerance * moments + reaction_zero * sides->moment);
+}
+
+/* ---- which have to be drawn */
+
+/* Is this the name of the reaction, or of its coupling? */
+static bool is_named(const struct item *key, const char *name)
+{
+    size_t length = strlen(name);
+    return strncmp(key->name, name, length) == 0 && (key->name[length] == '\0' || key->name[length] == '.');
+}
+
+static bool has_to_be_drawn(const struct grading *grading, const struct sides *sides, const struct item *key)
+{
+    bool named = grading->reactions == reactions_all;
+    if (!key->name) return false;
+    for (size_t i = 0; i < grading->reaction_count; i++)
+        named = named || is_named(key, grading->reaction_names[i]);
+    size_t s = named ? reaction_when(sides, key) : sides->samples;
+    return s < sides->samples && sides->starts[s];
+}
+
+bool reactions_note_asked(struct fbd_key *key, size_t b, const struct sides *sides)
+{
+    bool *asked = ARENA_ARRAY(&key->arena, sides->reaction_count + 1, bool);
+    for (size_t i = 0; asked && i < sides->reaction_count; i++)
+        asked[i] = has_to_be_drawn(&key->model->scene->grading, sides, &sides->reactions[i]);
+    key->asked[b] = asked;
+    key->asked_count[b] = asked ? sides->reaction_count : 0;
+    return asked != NULL;
+}
+
+void reactions_take_asked(const struct fbd_key *key, size_t b, struct sides *sides)
+{
+    for (size_t i = 0; i < sides->reaction_count; i++)
+        sides->reactions[i].asked = i < key->asked_count[b] && key->asked[b][i];
+}
