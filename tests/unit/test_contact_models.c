@@ -160,8 +160,7 @@ static void a_box_on_a_shaken_table_flies_once_a_period(void **unused)
     for (int k = 0; k < 4; k++) {
         double from = leaves + k * period;
         check_close(&checks, "leaves", trial_event(&trial, FBD_EVENT_LIFT_OFF, NULL, k), from, 1e-9);
-        check_close(&checks, "lands", trial_event(&trial, FBD_EVENT_IMPACT, NULL, k), low + k * period,
-                    1e-9);
+        check_close(&checks, "lands", trial_event(&trial, FBD_EVENT_IMPACT, NULL, k), low + k * period, 1e-9);
     }
     check_that(&checks, "lies flat", fabs(trial_get(&trial, "box.theta")) < 1e-9);
     trial_close(&trial);
