@@ -539,7 +539,7 @@ FBD_API double fbd_result_residual_explained(fbd_result *result);
 /* Does the energy show that the motion is that of the scene? Looked at in every run, whatever is wanted of it: where kinetic
  * energy changes at events, by the work of the impacts; from the start to the end of bodies whose forces all have
  * potentials; and of all bodies where the works of all forces are integrated. `residual` and `explained`, which may be
- * NULL: what is left over, and the most that tolerance and rounding explain [the scene's unit of energy]. */
+ * NULL: the residual, and the largest one that tolerance and rounding explain [the scene's unit of energy]. */
 FBD_API bool fbd_result_balanced(fbd_result *result, double *residual, double *explained);
 
 /* The work that a force or moment of a body has done since the start; NAN when there is no such name. */

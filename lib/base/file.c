@@ -56,7 +56,7 @@ static char *read_stream(FILE *stream, size_t *length, const char **why)
     return NULL;
 }
 
-/* The number of what is open already under a path, as of `<(...)` in a shell; -1 for any other path. */
+/* The descriptor of an open file under this path, as of `<(...)` in a shell; -1 for any other path. */
 static int number_of(const char *path)
 {
     static const char *const folders[] = {"/dev/fd/", "/proc/self/fd/"};
@@ -87,7 +87,7 @@ static FILE *open_plain(const char *path, const char **why)
     return stream;
 }
 
-/* What is open is not opened again: a pipe whose writer has ended would wait for another. */
+/* Do not open an open file again: a pipe whose writer has ended would wait for another. */
 static FILE *open_stream(const char *path, const char **why)
 {
     int number = number_of(path), copy = number < 0 ? -1 : dup(number);

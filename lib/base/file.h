@@ -7,7 +7,7 @@
 
 #include "fbd.h"
 
-/* The whole of a plain file, of standard input ("-") or of what is open already (/dev/fd/3), with a zero behind it, to be
+/* The whole of a plain file, of standard input ("-") or of an open file (/dev/fd/3), with a zero behind it, to be
  * freed with free(); NULL with a note `cannot-read`. */
 char *file_text(const char *path, size_t *length, fbd_errors *errors);
 

@@ -5,7 +5,7 @@
 #include <stdbool.h>
 #include <string.h>
 
-/* 128 bits hold all that is multiplied here. Compilers for 32 bits have no such integer; there every fraction is left to
+/* 128 bits hold all products here. Compilers for 32 bits have no such integer; there every fraction is left to
  * others. */
 #ifdef __SIZEOF_INT128__
 __extension__ typedef unsigned __int128 wide;

@@ -80,7 +80,7 @@ void panel_body(struct panel *panel);
 void panel_fixtures(struct panel *panel);
 bool panel_fixtures_in_front(const struct panel *panel);
 
-/* What an arrow, or arc, is called in symbols. */
+/* The symbol of an arrow or arc. */
 const char *panel_symbol(const struct panel *panel, const struct panel_arrow *arrow);
 
 /* Lay the arrows out, then write them with their labels, after labelling_solve. */

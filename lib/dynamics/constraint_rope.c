@@ -100,7 +100,7 @@ static struct jet reeled(const struct view *view, const struct tie *tie)
     return (struct jet){length - tie->length, rate, second, rate * dt, second * dt, jerk * dt};
 }
 
-/* Is a rope slack, by more than rounding? */
+/* Is a rope slack by more than rounding? */
 static bool is_loose(double over, const struct tie_state *state)
 {
     const double taut = 1e-9; /* of its length */

@@ -198,7 +198,7 @@ static int beside(const struct contact_shape *shape, int corner, int step)
 }
 
 /* Is the corner of a feature, or its side next to it, inside of the parts of a body or of the ground? At the joint of two
- * tiles it is the surface of both that is struck, and not where they touch each other. */
+ * tiles the surface of both is in contact, not the sides on which they touch each other. */
 static bool is_inner(const struct fbd_model *model, const struct tree_work *work, int index, int feature)
 {
     const struct meeting *meeting = &model->tree->meetings[index];

@@ -42,7 +42,7 @@ double meeting_depth(const struct fbd_model *model, const struct instant *at, in
 int meeting_touching(const struct fbd_model *model, const struct tree_work *work, int index, double near,
                      int features[2]);
 
-/* Corners of a thin meeting (dynamics/contact_thin.h) that come into the circle round the bar get the side on which they
+/* Corners of a thin contact pair (dynamics/contact_thin.h) that come into the circle round the bar get the side on which they
  * are; those outside have none. */
 void meeting_turn_sides(const struct fbd_model *model, struct tree_work *work, int index, double near);
 

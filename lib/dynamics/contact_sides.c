@@ -1,15 +1,15 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * On which sides of bars points and other bars start. Where a corner is tells; on the bar itself, the middle of its
- * shape or body; else the side on which it has been, in a motion that goes on; else its velocity, towards that side;
- * and at rest one of both lies on the other, by what pulls it there.
+ * The sides of bars on which points and other bars start: the side of the corner; for a corner on the bar itself the
+ * side of the middle of its shape or body; else its previous side, in a motion that goes on; else the side to which
+ * it moves; at rest one of both lies on the other, pressed there by its forces.
  */
 #include "dynamics/constraint.h"
 #include "dynamics/contact_thin.h"
 #include "dynamics/state.h"
 
-/* What lies on the other: what moves freely lies on what is mounted, and that on the ground; of equals the point lies on
- * the bar, and the first of `between` on the second. */
+/* The shape that lies on the other: a freely moving body on one guided by a slide or pivot, and that on the ground; of
+ * equals the point on the bar, and the first of `between` on the second. */
 static int upper_of(const struct fbd_model *model, const struct meeting *meeting)
 {
     int rank[2];
@@ -32,8 +32,8 @@ static struct vec acceleration_of(const struct tree_work *work, int link, struct
     return vec_add(s->A.a, turning);
 }
 
-/* In which sense along n the upper one lies on the other one: against its acceleration, or along that of the lower one;
- * where nothing pulls, up. */
+/* The sense along n from the lower to the upper one: opposite to the upper one's acceleration, or along the lower one's;
+ * without accelerations up. */
 static int sense_of_upper(const struct fbd_model *model, const struct tree_work *work,
                           const struct meeting *meeting, struct vec place, struct vec n)
 {
@@ -68,7 +68,7 @@ static double side_of_mass(const struct fbd_model *model, const struct tree_work
     return vec_dot(n, vec_turn(work->links[shape->link].turn, arm));
 }
 
-/* Above zero on the left, below on the right; 0 where only forces tell. */
+/* Positive on the left, negative on the right; 0 where only forces decide. */
 static double side_at_start(const struct fbd_model *model, const struct tree_work *work, int index, int probe,
                             double near)
 {

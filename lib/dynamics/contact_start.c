@@ -15,10 +15,10 @@ static struct vec in_world(const struct tree_work *work, int link, struct vec ow
     return vec_add(work->links[link].p, vec_turn(work->links[link].turn, own));
 }
 
-/* Of a start numbers are as exact as a file has them: to the level of surfaces. */
+/* Numbers of a start are as exact as those of a file: to the level of surfaces. */
 static const double start_share = contact_level / contact_near;
 
-/* What shapes may be in each other by in a run, before it has missed an impact. */
+/* The largest overlap of shapes in a run; a larger one shows that it has missed an impact. */
 static const double run_share = 1e3;
 
 /* The side of a line that a body stays on: the one that it says, or that its shape's middle is on. A point

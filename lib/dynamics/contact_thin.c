@@ -64,7 +64,7 @@ static bool is_closed(const struct fbd_model *model, const struct instant *at, i
     return false;
 }
 
-/* An end that is met by a rounding is met: the circle is smaller by what counts as touching. */
+/* The circle is smaller by the touching distance, so that an end reached to rounding counts as touched. */
 struct gap thin_probe(const struct fbd_model *model, const struct instant *at, int index, int probe)
 {
     if (is_closed(model, at, index, probe)) return (struct gap){HUGE_VAL, 0, no_feature};
@@ -75,9 +75,9 @@ struct gap thin_probe(const struct fbd_model *model, const struct instant *at, i
     return circle.x > side.x ? circle : side;
 }
 
-/* ---- what touches */
+/* ---- touching features */
 
-/* The other corner of the shape of the one of a probe, or -1 of a point. */
+/* The other corner of the probe's shape; -1 for a point. */
 static int beside(const struct meeting *meeting, int probe)
 {
     return meeting->shape[thin_corner_of(meeting, probe).moving].count > 1 ? probe ^ 1 : -1;
@@ -93,7 +93,7 @@ bool thin_is_in_line(const struct fbd_model *model, const struct tree_work *work
            gap_at_ends(model, work, index, other).x > near;
 }
 
-/* On the line of the bar at an end: is it the end face that is met, by what comes or lies along that line? */
+/* Does a corner at an end of the bar touch the end face, as it approaches or lies along the bar's line? */
 static bool meets_end_face(const struct fbd_model *model, const struct tree_work *work, int index, int probe,
                            double near)
 {
@@ -113,7 +113,7 @@ static struct gap touching_at(const struct fbd_model *model, const struct tree_w
     struct gap side = gap_at_side(model, work, index, probe), ends = gap_at_ends(model, work, index, probe);
     if (fabs(side.x) > near || ends.x > near) return none;
     if (meets_end_face(model, work, index, probe, near)) return ends;
-    return ends.x >= -near && ends.rate > speed ? none : side; /* what leaves over the end */
+    return ends.x >= -near && ends.rate > speed ? none : side; /* it leaves over the end */
 }
 
 /* Of corners at one place the one that closes fastest, and the outermost two. */

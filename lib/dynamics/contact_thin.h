@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Thin meetings: two bars, or a point and a bar. Each corner has a side of the other's bar, which is part of the state,
+ * Thin contact pairs: two bars, or a point and a bar. Each corner has a side of the other's bar, which is part of the state,
  * and a gap: the larger one of its distances from the bar's line, positive on that side, and from the circle that has the
  * bar as its diameter. It has a sign wherever the corner is. Outside of the circle, and at the end face of the bar, there
- * is no side (0), and the gap is that from the circle; where the corner comes in it gets its side, or meets the end face.
+ * is no side (0), and the gap is that from the circle; as the corner enters the circle it gets a side, or touches the end face.
  */
 #ifndef FBD_DYNAMICS_CONTACT_THIN_H
 #define FBD_DYNAMICS_CONTACT_THIN_H
@@ -15,7 +15,7 @@ struct gap thin_probe(const struct fbd_model *model, const struct instant *at, i
 int thin_touching(const struct fbd_model *model, const struct tree_work *work, int index, double near,
                   int features[2]);
 
-/* How deep two bars that cross are in each other; else 0. */
+/* The depth by which two bars cross; else 0. */
 double thin_crossing(const struct fbd_model *model, const struct tree_work *work, int index);
 
 /* The side on which the corner of a probe is: +1 to the left of the bar's direction, -1 to its right, 0 none. */
@@ -24,11 +24,11 @@ int *thin_side_of(const struct fbd_model *model, const struct tree_work *work, i
 /* Where the middle of the corner's shape lies, on the left of the bar: a point has no other middle, 0. */
 double thin_middle(const struct fbd_model *model, const struct tree_work *work, int index, int probe);
 
-/* Is the corner at an end of the bar, and lies its own bar beyond that on the same line? */
+/* Is the corner at an end of the bar, and does its own bar lie beyond that end on the same line? */
 bool thin_is_in_line(const struct fbd_model *model, const struct tree_work *work, int index, int probe,
                      double near);
 
-/* Set the sides on which a motion starts (contact_sides.c); `near` is what counts as touching there. Contacts that have
+/* Set the sides on which a motion starts (contact_sides.c); `near` is the touching distance. Contacts that have
  * not started are open. */
 void thin_choose_sides(struct fbd_state *state, int index, double near);
 

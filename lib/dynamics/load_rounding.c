@@ -50,7 +50,7 @@ double load_power_rounding(const struct fbd_model *model, size_t index, const st
     return vec_norm(of.force) * speed + fabs(of.couple * pose.omega);
 }
 
-/* How far couplings reach: by that much they know where a body is, wherever that may be. */
+/* The reach of couplings: they determine the position of a body relative to that, not to the origin. */
 static double reach_of_couplings(const struct tree *tree)
 {
     double reach = 0;

@@ -24,7 +24,7 @@ double formula_rounding(const struct formula *formula, const struct instant *at)
 /* That of the power of load `index` [W]. */
 double load_power_rounding(const struct fbd_model *model, size_t index, const struct instant *at);
 
-/* What roundings do at a state of a group or of the whole, as energies. */
+/* The effect of rounding at a state of a group or of the whole, as energies. */
 struct rounded {
     double
         places; /* every force times the distance of its point, and every couple: one rounding of all places */

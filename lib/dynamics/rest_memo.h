@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * The last singular values and the last programme of each part of what is open (rest_system.h). A scene that settles, or stands,
- * asks for them at the same place in the same modes again and again, and they are nearly all of its cost. Input that is the
- * same to the bit has the same results.
+ * The last singular value decomposition and the last complementarity problem of each part of the open system
+ * (rest_system.h). A scene at rest needs them at the same position in the same modes repeatedly, at nearly all of its
+ * cost. Input that is the same to the bit has the same results.
  */
 #ifndef FBD_DYNAMICS_REST_MEMO_H
 #define FBD_DYNAMICS_REST_MEMO_H

@@ -205,7 +205,7 @@ static void many_parts(struct emitter *emitter, const char *body, int b)
     }
 }
 
-/* How the frame of what carries a slide is turned at the start, by the angles of slides that may be set. */
+/* The angle of the frame of a slide's parent at the start, by the angles of slides that may be set. */
 static const char *carrier_angle(struct emitter *emitter, const struct fbd_model *model, int carrier)
 {
     double turned = start_angle(model->scene, carrier);

@@ -85,7 +85,7 @@ bool compile_would_do(const struct parser *p, const char *text)
 {
     struct arena scratch = {0};
     struct expr_want want = *p->want;
-    want.in_braces = false; /* what is shown is in quotes there */
+    want.in_braces = false; /* the expression shown is in quotes there */
     fbd_errors *errors = fbd_errors_new();
     bool right = errors && expr_compile(&scratch, text, p->lexer.start, p->scope, &want, errors) != NULL;
     if (!errors || errors->out_of_memory || scratch.failed) diag_out_of_memory(p->errors);
@@ -94,7 +94,7 @@ bool compile_would_do(const struct parser *p, const char *text)
     return right;
 }
 
-/* The unit before a name that makes the whole what is wanted: its own, where that does, or none, since the bare number
+/* The unit before a name that gives the expression the wanted dimension: its own, or none, since the bare number
  * before a variable takes any dimension. False for a constant alone of another dimension. */
 static bool unit_before(const struct parser *p, const struct quantity *q, size_t before, size_t name,
                         size_t end, bool over, char *text, size_t size)

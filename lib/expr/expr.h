@@ -94,11 +94,12 @@ struct scope {
 /* What the caller expects. */
 struct expr_want {
     struct dim dim;
-    bool any_dim;   /* take any dimension (it is reported by expr_dim) */
-    bool constant;  /* variables are an error (id `not-constant`) */
-    bool angle;     /* warn about a bare number beyond one turn, as `30` for `30 deg` (id `bare-angle`) */
-    bool in_braces; /* the text stands in braces without quotes: what a hint puts into its place has quotes */
-    bool condition; /* a truth value is wanted (for if); otherwise a truth value is an error */
+    bool any_dim;  /* take any dimension (it is reported by expr_dim) */
+    bool constant; /* variables are an error (id `not-constant`) */
+    bool angle;    /* warn about a bare number beyond one turn, as `30` for `30 deg` (id `bare-angle`) */
+    bool
+        in_braces; /* the text stands in braces without quotes: an expression that a hint suggests has quotes */
+    bool condition;   /* a truth value is wanted (for if); otherwise a truth value is an error */
     const char *what; /* for messages: "mass", "friction.static" */
 };
 

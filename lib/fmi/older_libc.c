@@ -2,7 +2,7 @@
  *
  * The binary of an FMU goes to other machines. The linker takes the newest version of each function of the C library,
  * and would ask for glibc 2.35 for `hypot` and 2.33 for `stat64` alone; the link option --wrap leads both here, to their
- * first versions, which every glibc for x86-64 has. What remains needs 2.29 (lib/meson.build).
+ * first versions, which every glibc for x86-64 has. The other functions need 2.29 (lib/meson.build).
  */
 #include <sys/stat.h>
 

@@ -264,7 +264,7 @@ static bool is_there(const char *path)
     return strcmp(path, "-") == 0 || (stat(path, &status) == 0 && !S_ISDIR(status.st_mode));
 }
 
-/* An answer takes as long as it is large: of strangers' ones that is bounded. */
+/* Grading time grows with the size of the answer, which is therefore bounded. */
 enum { most_bytes = 64000, most_more = 20 };
 
 static bool has_more(const struct node *root, const struct node *key, const char *list)

@@ -293,7 +293,7 @@ static void take_item(struct item *item, size_t s, const struct arrow *arrow, st
     at->surface = coefficient(&item->source->surface_speed, state);
 }
 
-/* What an entry of the answer without a magnitude is. */
+/* An entry of the answer without a magnitude. */
 static void note_unknown(const struct comparison *comparison, struct item *item)
 {
     const struct drawn *drawn = drawn_at(comparison->grade, item->source->at);

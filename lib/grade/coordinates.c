@@ -76,7 +76,7 @@ static bool is_known(const struct rewriting *rewriting, const char *name)
     return name_is_of_equations(name);
 }
 
-/* What the answer has drawn under this name, on the body at hand or else on another one; NULL for none with a value. */
+/* The drawn entry of this name, on this body or else on another one; NULL for none with a value. */
 static const struct drawn *find_drawn(const struct rewriting *rewriting, const char *word, size_t length)
 {
     const struct drawn *found = NULL;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * What an answer draws: entries with a value, and unknowns.
+ * The drawn entries of an answer: those with a value, and unknowns.
  *
  * An unknown has no `value`, `value: unknown`, or a name for its value that nothing else has, as `value: N`. A force
  * without a magnitude and without `angle`, on a body that does not slide, has no direction either; so has one with
@@ -56,7 +56,7 @@ static bool has_value(const struct fbd_grade *grade, const struct node *root, co
     return false;
 }
 
-/* Is it no magnitude? *symbol: what it is called, or NULL; *sign: which way it is drawn. */
+/* Is it unknown? *symbol: its name, or NULL; *sign: its sense. */
 static bool is_unknown(const struct fbd_grade *grade, const struct node *root, const struct node *value,
                        const char **symbol, bool *minus)
 {

@@ -37,7 +37,7 @@ struct fbd_key {
 /* An entry of an answer under `forces` or `moments` that has a name and a value, or has no value. */
 struct drawn {
     struct pos at;
-    const char *body, *name, *symbol; /* `symbol`: what stands for its value, or NULL */
+    const char *body, *name, *symbol; /* `symbol`: the name for its value, or NULL */
     const char *value;                /* as an expression; NULL where it is unknown */
     bool unknown, free;               /* its magnitude, and its direction */
     bool minus;                       /* unknown: drawn against its direction */
@@ -124,13 +124,13 @@ void answer_close(struct answer *answer);
 /* Blank the entries for which YAML cannot read a text, each with a finding (mend.c). */
 void answer_mend(struct fbd_grade *grade, char *text, size_t length);
 
-/* Note what is drawn, and give what has no magnitude one of 1 N, or 1 N m (drawn.c). NULL when memory is out. */
+/* Note the drawn entries, and give unknown magnitudes 1 N or 1 N m (drawn.c). NULL when memory is out. */
 const struct node *answer_take_drawn(struct fbd_grade *grade, const struct node *root);
 
 /* The drawn entry at this place, or NULL. */
 struct drawn *drawn_at(const struct fbd_grade *grade, struct pos at);
 
-/* What the answer calls a force. */
+/* The answer's name of a force. */
 const char *name_as_drawn(const struct fbd_grade *grade, const struct load *load);
 
 /* ---- comparing */

@@ -120,7 +120,7 @@ static void add_names(const struct fbd_key *key, size_t b, struct text *text)
     state_free(state);
 }
 
-/* A model cannot list its reactions, which act already: who writes the key is told that answers have to draw them, where
+/* A model cannot list its reactions, which act already: warn the author that answers have to draw them, where
  * the key does not say so. */
 static void tell_reactions(const struct fbd_key *key, fbd_errors *errors)
 {
@@ -145,7 +145,7 @@ static const fbd_finding *first_fault(const fbd_grade *grade)
     return NULL;
 }
 
-/* An answer that has what the key has gets full marks, or who writes the key is told what does not. */
+/* Grade the key with itself, and warn of the entries that do not get full marks. */
 static void check_itself(const struct fbd_key *key, fbd_errors *errors)
 {
     fbd_grade *grade = grade_itself(key);

@@ -69,7 +69,7 @@ static bool agrees_somewhere(const struct line *line)
     return false;
 }
 
-/* The senses of slip for which a line of the key has to be met: those for which it holds itself. */
+/* The senses of slip for which a line of the key has to be matched: those for which it holds itself. */
 static unsigned wanted_slips(const struct line *key)
 {
     unsigned wanted = 0;
@@ -302,7 +302,7 @@ static double share_met(const struct line *key, struct line *own, size_t count)
     return cases ? (double)met / cases : 0;
 }
 
-/* The next equation of rest that does not follow from those that have met one of the key: `base` has these. */
+/* The next equation of rest that does not follow from those that have matched one of the key: `base` has these. */
 static bool find_line_of_rest(const struct lines *lines, struct line *own, size_t count, double *base,
                               size_t *met)
 {

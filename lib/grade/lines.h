@@ -69,7 +69,7 @@ bool line_is_of_rest(struct lines *lines, int body, const char *text, const doub
 enum { rest_room = 32 };
 bool rest_is_new(const struct lines *lines, const double *changes, double *base, size_t count);
 
-/* An equation with the parameters of reactions for the names of what is drawn. */
+/* An equation with the parameters of reactions for the names of drawn forces. */
 const struct node *line_over_parameters(struct fbd_grade *grade, const struct node *answer,
                                         const struct node *line, const char *body);
 
@@ -80,7 +80,7 @@ const struct node *line_over_parameters(struct fbd_grade *grade, const struct no
 const struct node *coordinates_of_sheet(struct fbd_grade *grade, const struct node *answer,
                                         const struct node *hand, const char *body);
 
-/* What has this name in an equation is not for an answer to say. */
+/* Is this a name that an answer must not define? */
 bool name_is_of_equations(const char *name);
 
 /* The lines that were read, in the coordinates of the sheet after all: an answer may have taken its derivations from

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Reactions that an answer has drawn, but not rightly.
+ * Reactions that an answer has drawn wrongly.
  */
 #include <string.h>
 

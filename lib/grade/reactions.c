@@ -126,7 +126,7 @@ static bool collect(const struct sides *sides, const struct support *support, si
     return fine;
 }
 
-/* What the parts are together, with these magnitudes of the unknowns. */
+/* The sum of the parts, with these magnitudes of the unknowns. */
 static struct action sum_of(const struct sides *sides, const struct fitting *fitting)
 {
     struct action sum = fitting->known;
@@ -304,7 +304,7 @@ bool supports_meet(const struct support *a, const struct support *b)
     return false;
 }
 
-/* Is one of those found a part of this? What is right by itself belongs to no resultant. */
+/* Is one of those found a part of this? A force that is right by itself belongs to no resultant. */
 static bool has_another(const struct supports *found, const struct support *support)
 {
     for (size_t i = 0; i < found->count; i++) {

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Reactions: what couplings, contacts and guides exert, in the diagram of the key and in that of an answer.
+ * Reactions: forces of couplings, contacts and guides, in the diagram of the key and in that of an answer.
  *
  * A reaction is compared at one state, the start (or where it is zero there, the first state where it is not). An entry
  * of an answer without a magnitude is compared by its line of action and sense, one with a value by that. The diagram may
@@ -12,7 +12,7 @@
 #include "dynamics/diagram.h"
 #include "grade/compare.h"
 
-/* What exerts it. */
+/* The coupling, contact or guide that exerts it. */
 void reaction_describe(const fbd_model *model, int b, const struct arrow *arrow, const struct instant *at,
                        struct item *item);
 
@@ -25,13 +25,13 @@ bool reaction_is_nothing(const struct sides *sides, const struct item *key);
 
 enum { most_components = 3, most_support = 4 };
 
-/* Some reactions of the key (or normal forces and friction that it lists) and what the answer has for them. */
+/* Some reactions of the key (or normal forces and friction that it lists) and the answer's entries for them. */
 struct support {
     size_t key_count, count;
     struct item *key[most_support], *parts[most_components];
 };
 
-/* What is looked for: reactions one by one or several together; drawn by so many forces, with a direction or without. */
+/* A kind of match: reactions one by one or several together; drawn by so many forces, with a direction or without. */
 struct search {
     bool together;
     size_t parts;
@@ -51,7 +51,7 @@ void supports_find(const struct sides *sides, const struct search *search, struc
 /* Do they have a reaction or a force in common? */
 bool supports_meet(const struct support *a, const struct support *b);
 
-/* The finding about one reaction that is not drawn rightly, and what was meant by it. */
+/* The finding about one wrongly drawn reaction, and the reaction that it stands for. */
 struct misdrawn {
     struct item *key, *item, *other; /* `other`: a component that is right, or NULL */
     enum relation relation;

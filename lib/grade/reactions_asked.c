@@ -13,9 +13,9 @@
 /* Forces below this share of the largest one are zero: reactions are solutions of systems of equations. */
 const double reaction_zero = 1e-7;
 
-/* ---- what exerts it */
+/* ---- the coupling, contact or guide that exerts it */
 
-/* The direction of what row `row` of a tie does at its end k; zero where that has none of its own. */
+/* The direction of the force of row `row` of a tie at its end k; zero where that has none of its own. */
 static struct vec direction_of(const struct tie *tie, int k, int row, const struct instant *at)
 {
     struct vec sum = {0, 0};

@@ -22,7 +22,7 @@ enum { sums = 3 }; /* of a body: forces along x and y, moments about the origin 
 
 /* ---- models whose parameters are changed a little */
 
-/* A number with or without a unit: what follows from other parameters changes with them. */
+/* A number with or without a unit; parameters that follow from others change with them. */
 static bool is_given(const struct node *value)
 {
     if (value->kind == node_map) value = lines_value(value, "value");

@@ -115,7 +115,7 @@ const char *verdict_noun(const struct load *load)
     return load && load->kind >= moment_applied && load->kind <= moment_potential ? "moment" : "force";
 }
 
-/* What the key may have drawn, or not, brings nothing. */
+/* Entries that are optional in the key earn no points. */
 double verdict_worth(const struct fbd_grade *grade, const struct item *key)
 {
     return key->source || key->asked ? grading_of(grade)->points.force : 0;

@@ -90,7 +90,7 @@ static bool is_coupling_more(const struct scene *scene, size_t index, const stru
            couplings_like(other, other->coupling_count, scene, one);
 }
 
-/* What joins bodies is given with the sheet: that it has been changed is said. */
+/* Couplings are given with the sheet: report that one was changed. */
 static void compare_couplings(struct fbd_grade *grade, const struct scene *key, const struct scene *answer)
 {
     const char *lost = "a coupling of the sheet is not in the answer, or was changed",

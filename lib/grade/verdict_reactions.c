@@ -9,7 +9,7 @@
 #include "grade/reactions_work.h"
 #include "grade/verdict_work.h"
 
-/* What a reaction is, for the derivations that name it: of an unknown the value that makes it right. */
+/* The value of a reaction for derivations that name it: of an unknown the value that makes it right. */
 static void keep_values(struct fbd_grade *grade, const fbd_model *answer, const struct sides *sides,
                         const struct support *support)
 {
@@ -40,7 +40,7 @@ static void take_support(struct fbd_grade *grade, const fbd_model *answer, const
         verdict_right(grade, body, support->key[i], support->parts[0], message);
 }
 
-/* A `normal` of the answer for what guides the body in the key is a force across its line. */
+/* A `normal` of the answer for a guide of the key is a force across the body's line. */
 static void take_normals(struct sides *sides)
 {
     for (size_t j = 0; j < sides->count; j++) {
@@ -77,7 +77,7 @@ void verdict_misdrawn(struct fbd_grade *grade, const char *body, const struct mi
     text_free(&detail);
 }
 
-/* What is drawn for a reaction, or a component of one, that is zero. */
+/* Entries drawn for a reaction, or a component of one, that is zero. */
 void verdict_zeros(struct fbd_grade *grade, const char *body, struct sides *sides)
 {
     for (size_t j = 0; j < sides->count; j++) {
@@ -92,7 +92,7 @@ void verdict_zeros(struct fbd_grade *grade, const char *body, struct sides *side
 
 /* ---- the reading with the most points */
 
-/* What items were before a reading was weighed. */
+/* The items before a reading was graded. */
 struct state {
     bool used, single;
 };
@@ -146,8 +146,8 @@ static void exchange_all(struct reading *reading, bool back)
     struct sides *sides = reading->sides;
     struct state *states = reading->states;
     exchange(states, sides->key, sides->key_count, back);
-    exchange(states += sides->key_count, sides->items, sides->count, back);
-    exchange(states += sides->count, sides->reactions, sides->reaction_count, back);
+    exchange(states + sides->key_count, sides->items, sides->count, back);
+    exchange(states + sides->key_count + sides->count, sides->reactions, sides->reaction_count, back);
 }
 
 static double points_from(const struct finding *finding)
@@ -157,7 +157,7 @@ static double points_from(const struct finding *finding)
     return points;
 }
 
-/* What the reading brings with all that is left. */
+/* The points of a reading with all remaining items. */
 static void weigh(struct reading *reading)
 {
     struct fbd_grade *grade = reading->grade;
@@ -208,7 +208,7 @@ static double most_from(const struct reading *reading, size_t from)
     return most;
 }
 
-/* Is it certain that a support brings more than what else its forces may be? */
+/* Does a support certainly earn more points than any other reading of its forces? */
 static bool stands_alone(const struct reading *reading, size_t index)
 {
     const struct support *support = &reading->supports.all[index];

@@ -20,11 +20,11 @@ double verdict_worth(const struct fbd_grade *grade, const struct item *key);
 /* `force` or `moment`. */
 const char *verdict_noun(const struct load *load);
 
-/* The reactions, and then the rest: of all readings of what is drawn the one with the most points. */
+/* The reactions, and then the rest: of all readings of the drawn forces the one with the most points. */
 void verdict_reactions(struct fbd_grade *grade, const fbd_model *answer, const struct model_body *key,
                        const struct model_body *body, struct sides *sides);
 
-/* All that is left: what the key lists by components, and what is not right. */
+/* The remaining items: forces that the key lists by components, and wrong ones. */
 void verdict_rest(struct fbd_grade *grade, const struct model_body *key, const struct model_body *body,
                   struct sides *sides);
 

@@ -393,8 +393,8 @@ static void found_restore(struct found *found, struct hold_problem *problem)
     free(found->guides);
 }
 
-/* Can there be other solutions? Only with friction on what it presses itself, or that holds more than it rubs beside
- * others. */
+/* Can there be other solutions? Only with friction that changes its own normal force, or with mu_s > mu_k beside other
+ * constraints. */
 static bool may_have_others(const struct hold_problem *problem)
 {
     bool may = false;

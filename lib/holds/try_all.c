@@ -146,7 +146,7 @@ static bool sides_agree(const struct trial *trial)
     return true;
 }
 
-/* Are the accelerations c those of `other`, to what counts as one motion? */
+/* Do the accelerations c agree with those of `other` to the tolerance of one motion? */
 static bool same_motion(const struct hold_problem *problem, const double *c, const double *other)
 {
     const double near = 1e-6;
@@ -241,7 +241,7 @@ int holds_try_all(struct hold_problem *problem, size_t most)
 
 /* ---- is a solution unique? */
 
-/* Solutions one behind the other: modes and accelerations of each hold. */
+/* Solutions in sequence: modes and accelerations of each constraint. */
 struct solutions {
     size_t count, room;
     int *modes;
@@ -266,8 +266,8 @@ static bool keep_solution(struct solutions *solutions, const struct hold_problem
     return true;
 }
 
-/* Does friction stick in `more` that slips in `less`, and none the other way round? With mu_k < mu_s what sticks might as well
- * slip, by the law alone; but friction that holds at rest holds. */
+/* Does some friction stick in `more` that slips in `less`, and none conversely? With mu_k < mu_s the law alone also permits
+ * slip where friction sticks; but friction that can stick at rest does. */
 static bool holds_more(const struct hold_problem *problem, const int *more, const int *less)
 {
     bool longer = false;
@@ -280,7 +280,7 @@ static bool holds_more(const struct hold_problem *problem, const int *more, cons
     return longer;
 }
 
-/* Does a solution count beside the first one: with another motion, and none that holds more? */
+/* Does a solution count beside the first one: with another motion, and without sticking contacts in addition? */
 static bool counts_beside(const struct solutions *solutions, const struct hold_problem *problem, size_t which)
 {
     size_t n = problem->count;

@@ -152,7 +152,7 @@ bool contacts_part(const struct run *run, int i)
     return run->contacts.v[(ptrdiff_t)2 * i] > contacts_no_speed(run, row);
 }
 
-/* The impacts of a rope, or of what lands, in the present events: one may follow another. */
+/* The impacts of a rope, or of a landing, in the present events: one may follow another. */
 static void add_to_tie(struct contacts_work *work, const struct striker *striker, const double *v,
                        const double *P, double taken)
 {
@@ -166,7 +166,7 @@ static void add_to_tie(struct contacts_work *work, const struct striker *striker
     impact->v_t[1] = striker->rubs ? v[1] : 0;
 }
 
-/* Does point i strike, so that its impact is an event? Ropes and landings have events of their own. */
+/* Is the impact at point i an event? Ropes and landings have events of their own. */
 static bool is_impact(const struct run *run, int i)
 {
     const struct contacts_work *work = &run->contacts;
@@ -175,7 +175,7 @@ static bool is_impact(const struct run *run, int i)
     return striker->contact && struck;
 }
 
-/* Do points i and j belong to one contact, and strike at the same speeds, as the corners of a side that falls flat do? */
+/* Do points i and j of one contact have the same impact velocities, as the corners of a side that lands flat? */
 static bool strike_alike(const struct run *run, int i, int j)
 {
     const struct contacts_work *work = &run->contacts;
@@ -188,7 +188,7 @@ static bool strike_alike(const struct run *run, int i, int j)
            fabs(v[1] - w[1]) <= same;
 }
 
-/* One event for all points that strike alike, with the sums of their impulses. */
+/* One event for all points with equal impact velocities, with the sums of their impulses. */
 static void note_impact(struct run *run, int i, int count)
 {
     struct contacts_work *work = &run->contacts;
@@ -249,7 +249,7 @@ static void open_or_close_contact(struct run *run, int index, int i, bool leaves
         return;
     }
     if (tie->pair < 0) return;
-    /* What sticks from here on does so where it is. */
+    /* Friction that sticks from here on sticks at this position. */
     if (v_t == 0 && run->state->slip[tie->pair] != stick) tie_rezero(run->model, run->state->tree, index);
     run->state->slip[tie->pair] = v_t > 0 ? slip_plus : v_t < 0 ? slip_minus : stick;
 }

@@ -61,21 +61,21 @@ static inline double striker_taken(const struct striker *striker, const double v
     return striker->rubs ? across + P[1] * (striker->v_t + v[1]) / 2 : across;
 }
 
-/* What an impact was: impulses along normal and tangent, the work that they did, and the velocities of the
+/* A past impact: impulses along normal and tangent, their work, and the velocities of the
  * point before and after: of a rope the rate of its length, below zero while it lengthens. */
 struct impact_record {
     double p, tau, work;
     double v_n[2], v_t[2];
-    bool makes;   /* all impacts of the instant have made energy, and this one has */
+    bool makes;   /* all impacts of the instant have gained energy, this one too */
     bool several; /* other velocities agree with the laws, too */
-    bool in_turn; /* they are of one point after the other, where all together were asked for */
+    bool in_turn; /* points one after the other, where simultaneous impacts were requested */
 };
 
 struct contacts_work {
     struct striker *strikers; /* room for all that may take part, each point once */
     struct striker_twin *twins;
     int twin_count; /* of the last look by contacts_find_strikers */
-    int struck;     /* how many took part in the last impact */
+    int struck;     /* number of points of the last impact */
     struct impacts_point *points;
     int *rows, *modes;
     int *slides;     /* pairs whose friction takes part, behind the strikers; */
@@ -93,7 +93,7 @@ struct contacts_work {
     bool *moves;    /* and: for put_down.c */
     bool *was_closed; /* of each tie, when it was looked at last */
     struct fbd_state *trial;
-    double speed;                  /* the largest of what has touched so far */
+    double speed;                  /* the largest of the shapes that have touched so far */
     struct impact_record *of_ties; /* of each tie that is no contact: its impacts in the present events */
     bool due;                      /* shapes have met, or what touches has come to the end of a side */
     bool makes;                    /* the last impacts have made energy */
@@ -109,7 +109,7 @@ bool contacts_work_init(struct contacts_work *work, const struct fbd_model *mode
 /* Find what touches, let it have its impacts, and close what stays. To be called before the modes settle. */
 void run_contacts(struct run *run);
 
-/* Before events are applied: forget the impacts of ropes and of what lands (contacts_work.of_ties). */
+/* Before events are applied: clear the impacts of ropes and landings (contacts_work.of_ties). */
 void contacts_begin_events(struct run *run);
 
 /* The first look: what a file's digits have put into each other is moved out before. False, with what is lacking,

@@ -241,7 +241,7 @@ static bool projected_in(struct run *run)
     return in;
 }
 
-/* At how many places the shapes of a meeting touch. */
+/* The number of places at which the shapes of a contact pair touch. */
 static int count_touching(const struct run *run, int index)
 {
     const struct tree_work *work = run->state->tree;

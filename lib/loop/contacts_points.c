@@ -34,7 +34,7 @@ static double normal_rate(const struct run *run, const struct striker *striker)
     return striker->rope ? -rate : rate;
 }
 
-/* Does it take part as things are? */
+/* Does it take part in its present mode? */
 static bool is_striker(const struct run *run, int i)
 {
     const struct tie *tie = &tree_of(run)->ties[i];
@@ -98,7 +98,7 @@ static void set_striker(struct run *run, int i, struct striker *striker)
     run->contacts.speed = fmax(run->contacts.speed, speed_at(run, rows));
 }
 
-/* Rounding of redundant points contradicts itself, and next to a slow impact that is not little. */
+/* Round-off of redundant points is inconsistent, which matters beside a slow impact. */
 static void drop_no_speeds(const struct run *run, struct striker *striker)
 {
     double least =

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * The points of an impact: what touches, each place once.
+ * The points of an impact: all touching points, each place once.
  */
 #ifndef FBD_LOOP_CONTACTS_POINTS_H
 #define FBD_LOOP_CONTACTS_POINTS_H

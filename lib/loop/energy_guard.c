@@ -34,7 +34,7 @@ double energy_of_impacts(const struct run *run)
     return sum;
 }
 
-/* In the scratch of `during`, which nothing looks at then. `branch`: of masses that vary. */
+/* In the scratch of `during`, which is unused then. `branch`: of masses that vary. */
 static double kinetic_at(struct run *run, double t, const double *y, const int *branch)
 {
     const struct fbd_model *model = run->model;

@@ -20,7 +20,7 @@ struct run;
 
 struct energy_guard {
     double t, *y; /* where the run began */
-    double jumps; /* what kinetic energy has changed by at events, beyond the work of impacts */
+    double jumps; /* changes of kinetic energy at events beyond the work of impacts */
 };
 
 /* A residual of the energy, and the largest one that tolerance and rounding explain. */
@@ -37,7 +37,7 @@ double energy_of_impacts(const struct run *run);
 /* Events have been applied; impacts had done `before` until then. */
 void energy_guard_events(struct run *run, double before);
 
-/* Of the group that is farthest beyond what explains its residual. */
+/* Of the group with the largest ratio of residual to explained residual. */
 struct energy_balance ensemble_energy_balance(struct ensemble *ensemble);
 
 /* The largest residual that so many steps at a tolerance explain: four tolerances of the energy in motion in each, and the

@@ -13,8 +13,8 @@
 #include "loop/run.h"
 #include "loop/starts.h"
 
-/* By how much the rounding of places turns the directions and the arms of a row: as many roundings as it is farther from
- * the origin than it is long. A difference of two places, with a share of the roundings of sums of many. */
+/* Relative round-off error of the directions and arms of a row: round-off times distance from the origin over length. A
+ * difference of two positions, with a share of the round-off of long sums. */
 static double turned_by_places(const struct row *row, const struct tree_state *links)
 {
     const double share = 1.0 / 64;

@@ -32,7 +32,7 @@ static double work_done(const struct run *run)
     return evaluations * (double)plan_size(&run->model->plan);
 }
 
-/* Is what it has gained since it was looked at last next to nothing? Beside the time that has passed, or the first step where
+/* Is the time gained since the last check negligible? Beside the time that has passed, or the first step where
  * that is longer, and the length of the run, which may be very long as an event is to end it: `stands` ten million times as
  * much work gains no more than has passed; `struggles` a thousand times as much, of steps most of which are rejected;
  * `is_endless` after a hundred times as much work as this, a million times as much would be left. */

@@ -77,10 +77,10 @@ struct stride {
     unsigned long not_finite; /* rejections for that reason before the last step */
 };
 
-/* What the run has gained for its work: see progress.c. */
+/* The time gained by the run for its work: see progress.c. */
 struct progress {
     double start;   /* the time at which the run began */
-    double t, work; /* when it was looked at last */
+    double t, work; /* at the last check */
     unsigned long accepted, rejected;
 };
 
@@ -332,7 +332,7 @@ void run_note_happened(struct run *run, size_t first, const bool *moving);
 /* Note that several motions agree with the forces, where the last settling has found that. */
 void run_note_several(struct run *run);
 
-/* Note the lift-off of what rests on its line at the start (a wheel that rolls, a follower of a cam) and is lifted at once. */
+/* Note the lift-off of a body on its line at the start (a rolling wheel, a cam follower) that is lifted at once. */
 void run_note_lifts_at_start(struct run *run);
 
 /* What counts as no time: against the time that has passed and steps of this run, for its end may be very far away. */

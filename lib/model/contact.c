@@ -260,7 +260,7 @@ bool meeting_is_of_points(const struct meeting *meeting)
     return a->kind == contact_corners && b->kind == contact_corners && a->count + b->count == 2;
 }
 
-/* Has the body, or what it meets, no shape but points? */
+/* Does the body, or the other one of the pair, have only points? */
 static bool is_of_points(const struct fbd_model *model, const struct constraint *source, int k)
 {
     if (source->contact.stop != 0) return false;
@@ -272,7 +272,7 @@ static bool is_of_points(const struct fbd_model *model, const struct constraint 
     return true;
 }
 
-/* Meeting number `i` of the shapes of both sides. */
+/* Contact pair number `i` of the shapes of both sides. */
 static bool set_meeting(struct fbd_model *model, int index, int i, struct meeting *meeting)
 {
     const struct constraint *source = &model->scene->constraints[index];
@@ -302,7 +302,7 @@ bool meetings_add(struct fbd_model *model, int index)
     for (int i = 0; i < count; i++) {
         struct meeting *meeting = &tree->meetings[tree->meeting_count];
         if (!set_meeting(model, index, i, meeting)) return false;
-        /* Points of bodies that have more than points pass each other. */
+        /* Points of bodies that also have shapes have no contact with each other. */
         if (!points && meeting_is_of_points(meeting)) continue;
         tree->meeting_count++;
         for (int k = 0; k < meeting->tie_count; k++) tie_of_contact(model, index, tree->meeting_count - 1);

@@ -17,8 +17,8 @@
 
 struct fbd_model;
 
-/* Of the scene: places that count as touching, and heights that count as level. What bounces within 2e-9 is put on its
- * surface (loop/put_down.c), so that smaller steps are not told from contact. */
+/* Share of the scene's size: tolerance of touching, and of level heights. A bounce within 2e-9 ends in rest
+ * (loop/put_down.c), so that smaller steps cannot be distinguished from contact. */
 #define contact_near  1e-12
 #define contact_level 1e-8
 
@@ -29,12 +29,11 @@ struct contact_shape {
         contact_corners,
         contact_stop /* no shape: the joint of the link, or what it moves on */
     } kind;
-    int link;            /* 0: the ground */
-    const void *source;  /* what it is made of: a part or a polygon; NULL for others */
-    int count;           /* corners */
-    struct vec *corners; /* in the frame of the link */
-    unsigned char
-        *inner; /* of each corner: what other shapes of the link cover there (enum contact_inner), or NULL */
+    int link;             /* 0: the ground */
+    const void *source;   /* its part or polygon; NULL for others */
+    int count;            /* corners */
+    struct vec *corners;  /* in the frame of the link */
+    unsigned char *inner; /* of each corner: sides covered by other shapes (enum contact_inner), or NULL */
     struct vec center, e; /* disc; line: a point of it and its direction; corners: their mean */
     double radius;        /* disc; corners: the farthest from `center` */
 };
@@ -84,7 +83,7 @@ struct thin_corner thin_corner_of(const struct meeting *meeting, int probe);
 enum thin_side { thin_right, thin_left, thin_end, thin_begin, thin_round };
 int thin_feature(struct thin_corner corner, enum thin_side side);
 
-/* The corner of a feature of a thin meeting. */
+/* The corner of a feature of a thin contact pair. */
 struct thin_corner thin_corner_at(int feature);
 
 /* How many sides: none of a point, two of a bar. */
@@ -96,10 +95,10 @@ bool meetings_add(struct fbd_model *model, int index);
 /* Two points: make the second the line across the one line on which both move. False where there is none. */
 bool points_meet_on_line(const struct fbd_model *model, struct meeting *meeting);
 
-/* The meeting has two points, and no line on which both move. */
+/* The contact pair has two points, and no line on which both move. */
 bool meeting_is_of_points(const struct meeting *meeting);
 
-/* Level the surfaces of all meetings (contact_level.c). False when memory is out. */
+/* Level the surfaces of all contact pairs (contact_level.c). False when memory is out. */
 bool meetings_level(struct fbd_model *model);
 
 /* At most how many meetings and ties the contact will have. */

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Level surfaces, and what is inside of them: of shapes that move as one, which are the parts of a body or all of the ground, corners closer to each
- * other than the level are one place, and corners closer to the line of a side are on it.
+ * Level surfaces, and corners inside of them: of shapes that move as one (the parts of a body, or all of the ground),
+ * corners closer to each other than the level are one place, and corners closer to the line of a side are on it.
  */
 #include "model/contact.h"
 
@@ -83,7 +83,7 @@ static void level_shape(struct levelled *done, struct contact_shape *shape)
     if (!same) done->shapes[done->count++] = shape;
 }
 
-/* ---- what is inside */
+/* ---- corners inside other shapes */
 
 /* The direction from corner k of a shape to the next one or the one before. */
 static struct vec ray(const struct contact_shape *shape, int k, int step)
@@ -98,7 +98,7 @@ static bool is_along(struct vec a, struct vec b, double sense)
     return fabs(vec_cross(a, b)) <= direction && sense * vec_dot(a, b) > 0;
 }
 
-/* What shape `other` covers at corner k of a shape, where it has a corner as well. A bar covers nothing. */
+/* The sides at corner k of a shape that `other` covers, where it has a corner as well. A bar covers nothing. */
 static unsigned char inner_at(const struct contact_shape *shape, int k, const struct contact_shape *other)
 {
     unsigned char inner = 0;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Points that meet points: only where both move on one line, by slides along it, is there a side on which each is.
+ * Contacts of two points: each has a side only where both move on one line, by slides along it.
  */
 #include "model/builder.h"
 

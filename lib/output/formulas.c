@@ -39,7 +39,7 @@ static const char *law_of(struct formulas *formulas, const struct equation *equa
     const int load = equation->loads[term];
     const struct fbd_model *model = formulas->state->model;
     switch (load < 0 ? load_gravity : model->loads[load].source->kind) {
-    case load_gravity: /* and what has no load */
+    case load_gravity: /* and terms without a load */
     case load_spring:
     case load_damper:
     case load_drag:
@@ -100,7 +100,7 @@ static bool turns_along(const struct formulas *formulas, const struct equation *
     return !equation->cut_free && body->kind == motion_track && body->source->motion.turns;
 }
 
-/* The component or moment of a force that an equation has: R_1x, M_G(R_1); of what turns along a curve its generalized
+/* The component or moment of a force that an equation has: R_1x, M_G(R_1); of a body that turns along a curve its generalized
  * force. */
 static const char *part_by_symbol(struct formulas *formulas, const struct equation *equation,
                                   const char *symbol)

@@ -69,7 +69,7 @@ struct hand_check {
 bool hand_take_samples(struct hand_check *check, const struct document *document, gsl_rng *rng,
                        double spread);
 
-/* Left less right of one equation at a state; *size: what was added up. NAN when memory is out. */
+/* Left less right of one equation at a state; *size: the sum of absolute terms. NAN when memory is out. */
 double hand_lack_at(const struct fbd_state *state, int body, int index, double *size);
 
 /* Say in which term the samples that have slip `slip` differ from the assembly, or that no single term

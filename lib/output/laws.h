@@ -14,7 +14,7 @@
 
 #include "output/equations.h"
 
-/* How the mass and the slope of a slide are called. */
+/* The names of the mass and the slope of a slide. */
 struct law_names {
     const char *mass, *along;
 };

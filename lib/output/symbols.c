@@ -48,7 +48,7 @@ static int owner_of_tie(const struct tie *tie, int strand)
     return owner;
 }
 
-/* Where a rope goes round a point of the body: what it does there is the sum of two pulls. */
+/* Where a rope goes round a point of the body: its force there is the sum of two pulls. */
 static bool is_corner(const struct tie *tie, int k)
 {
     return tie->law->way && !tie->law->strands && k > 0 && k + 1 < tie->end_count;
@@ -86,7 +86,7 @@ static bool key_of_tie(const struct fbd_model *model, int b, const char *name, s
     return false;
 }
 
-/* A normal force stands for what a slide without one calls its guide. */
+/* A normal force replaces the force `guide` of a slide without one. */
 static struct force_key key_of_load(const struct fbd_model *model, int index)
 {
     const struct model_load *load = &model->loads[index];
@@ -181,7 +181,7 @@ static const char *slipping(struct naming *naming, const struct model_load *load
     return NULL;
 }
 
-/* What the file calls by a name of its own keeps it, unless two bodies have that name. */
+/* A force with a name in the file keeps it, unless two bodies have that name. */
 static bool is_named_once(const struct naming *naming, const struct force_key *key,
                           const struct model_load *load)
 {

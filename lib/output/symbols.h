@@ -4,8 +4,8 @@
  *
  * A force and its opposite on another body have one symbol. It stands for the force on the body whose joint or list it is
  * in, of a coupling for that on the first of its bodies. A rope that turns corners has one symbol for its pulls, and `F` for
- * what it does where it goes round a point of a body. Letters that stand for several forces are numbered in the order of
- * the bodies; so are masses where there are several bodies. What the file calls by a name of its own (an applied force)
+ * its force where it goes round a point of a body. Letters that stand for several forces are numbered in the order of
+ * the bodies; so are masses where there are several bodies. A force with a name in the file (an applied force)
  * keeps that name.
  *
  * Written plainly: factors apart by blanks, an index behind `_`, Greek letters by name.
@@ -20,7 +20,7 @@
 
 struct force_symbol {
     const char *text;     /* N, T_1, m g */
-    const char *slipping; /* mu_k N, while that is what it is; else NULL */
+    const char *slipping; /* mu_k N while it slips; else NULL */
     bool moment;          /* it is a moment at all times, and no force */
     bool opposite;        /* the arrow is minus that for which it stands */
 };

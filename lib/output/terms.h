@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * What a term is, by its law (laws.h) or in a few words: the remark beside its value.
+ * The remark beside the value of a term: its law (laws.h) or a few words.
  */
 #ifndef FBD_OUTPUT_TERMS_H
 #define FBD_OUTPUT_TERMS_H

@@ -82,15 +82,16 @@ static void rope_taut_detail(const struct fbd_model *model, const struct run_eve
     const struct impact_record *impact = &event->impact;
     const char *speed = model->scene->units == unit_si ? "m/s" : "ft/s";
     if (impact->p == 0)
-        format_into(detail, size, "%s snaps taut; the impact takes %.6g %s", name, event->force,
+        format_into(detail, size, "%s becomes taut; the impact takes %.6g %s", name, event->force,
                     energy_unit(model));
     else
-        format_into(detail, size,
-                    "%s snaps taut: it lengthens by %.6g %s before and %.6g %s after; impulse %.6g %s*s; the "
-                    "impact takes "
-                    "%.6g %s",
-                    name, -impact->v_n[0], speed, impact->v_n[1] == 0 ? 0 : -impact->v_n[1], speed, impact->p,
-                    force_unit(model), event->force, energy_unit(model));
+        format_into(
+            detail, size,
+            "%s becomes taut: it lengthens by %.6g %s before and %.6g %s after; impulse %.6g %s*s; the "
+            "impact takes "
+            "%.6g %s",
+            name, -impact->v_n[0], speed, impact->v_n[1] == 0 ? 0 : -impact->v_n[1], speed, impact->p,
+            force_unit(model), event->force, energy_unit(model));
 }
 
 static void jam_detail(const struct fbd_model *model, const struct run_event *event, const char *name,

@@ -148,7 +148,7 @@ static void add_miss(const struct fbd_model *model, const char *name, double off
     text_printf(text, "`%s` is off by %.3g %s%s", name, off, unit, by_velocity ? " in velocity" : "");
 }
 
-/* Two pins of one point. Where they want it is as far apart as their rows differ, wherever it is. */
+/* Two pins of one point. The distance of their other ends is the difference of their rows, wherever the point is. */
 static bool pins_one_point(const struct fbd_state *state, const struct tie *a, const struct tie *b,
                            double *apart)
 {
@@ -262,7 +262,7 @@ static bool beyond_end(const struct fbd_state *state, int index, struct pos *at,
     return false;
 }
 
-/* Two places of a taut rope's way are one: it pulls nowhere there. */
+/* Two points of a taut rope's path coincide: its force has no direction there. */
 static bool shrunk_rope(const struct fbd_state *state, int index, struct pos *at, struct text *lack)
 {
     const struct fbd_model *model = state->model;

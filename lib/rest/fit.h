@@ -14,11 +14,11 @@
  * `lack`, when it fits to six digits, as many as files have. */
 bool fit_lack(struct fbd_state *state, struct fbd_state *other, struct pos *at, struct text *lack);
 
-/* Say of a rope that it has no way: an end lies within the rim of the pulley that it runs round, or a piece of it has no
+/* Report a rope that has no path: an end lies within the rim of the pulley that it runs round, or a piece of it has no
  * length. */
 bool fit_blocked(struct fbd_state *state, struct pos *at, struct text *lack);
 
-/* The heaviest of jointed bodies against the lightest: beyond 1e4 multipliers lose digits by that, beyond about 1e6 too many. */
+/* Mass ratio of the heaviest and the lightest of jointed bodies: beyond 1e4 multipliers lose digits by that, beyond about 1e6 too many. */
 double fit_mass_ratio(const struct tree *tree);
 static const double masses_far_apart = 1e4, masses_too_far_apart = 1e6;
 

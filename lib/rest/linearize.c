@@ -23,7 +23,7 @@ static bool is_tied(const struct fbd_model *model)
     return model->tree && model->tree->tie_count > 0;
 }
 
-/* Are coordinates no freedoms, as couplings join them or they are prescribed? */
+/* Are coordinates dependent, by couplings or as prescribed? */
 static bool is_reduced(const struct fbd_model *model)
 {
     bool driven = false;

@@ -200,10 +200,12 @@ bool fbd_find_equilibrium(fbd_state *state, fbd_errors *list)
 {
     struct diag_call call;
     fbd_errors *errors = diag_begin(&call, list);
-    bool found = state ? find_equilibrium(state, errors) : call_refuse(errors, "there is no state") != NULL;
-    if (found && !warn_of_instability(state, errors)) {
-        diag_out_of_memory(errors);
-        found = false;
+    bool found = false;
+    if (!state) {
+        call_refuse(errors, "there is no state");
+    } else if (find_equilibrium(state, errors)) {
+        found = warn_of_instability(state, errors);
+        if (!found) diag_out_of_memory(errors);
     }
     diag_end(&call);
     return found;

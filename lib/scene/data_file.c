@@ -124,7 +124,7 @@ static bool has_number(char separator, struct span line)
     return false;
 }
 
-/* Are all rows from `line` on numbers? What stands in a file that is no table is not shown: whoever wrote the model may
+/* Are all rows from `line` on numbers? The text of a file that is not a table is not shown: the author of the model may
  * have no right to read it. */
 static bool is_table(struct data_reader reader, struct span line)
 {

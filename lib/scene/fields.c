@@ -85,7 +85,7 @@ static const char *misplaced(fbd_errors *errors, const struct group *group, cons
     return NULL;
 }
 
-/* What textbooks and other programs call keys, and what there is to say of those that mean something else. */
+/* Names of keys in textbooks and other programs, with hints for those of another meaning. */
 static const char *const usual_keys[][3] = {
     {"mu_s", "static"},
     {"mu_k", "kinetic"},

@@ -36,7 +36,7 @@ static bool is_carried_along(const struct scene *scene, size_t b)
     return true;
 }
 
-/* Mark the bodies that others may press on their surface: what carries them moves across it, they carry one, or they are
+/* Mark the bodies that others may press on their surface: their parent moves across it, they carry one, or they are
  * joined. */
 static void mark_joined(const struct scene *scene, bool *joined)
 {
@@ -54,7 +54,7 @@ static void mark_joined(const struct scene *scene, bool *joined)
             if (scene->constraints[c].body[end] >= 0) joined[scene->constraints[c].body[end]] = true;
 }
 
-/* On a vertical line the one side is as much up as the other. A guide does not care. */
+/* No side of a vertical line is up. A guide needs none. */
 static void note_no_side_up(struct reader *reader, const struct load *normal, double along)
 {
     const double upright = 1e-12; /* as where the side is chosen, in model/compile.c */

@@ -38,7 +38,7 @@ static bool check_body_name(struct reader *reader, const struct body *body)
     return false;
 }
 
-/* What stands among the bodies by the name of a key of a body, and is none: `forces` in the column of `block`. */
+/* A key of a body that stands among the bodies by wrong indentation: `forces` in the column of `block`. */
 static bool is_key_of_body(const struct pair *pair)
 {
     const struct node *node = pair->value;

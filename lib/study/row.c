@@ -165,7 +165,7 @@ static bool carry(struct row_maker *maker, struct ensemble *run, struct ledger *
     return true;
 }
 
-/* Does the energy show that the motion is that of the scene? `ledger` may be NULL. */
+/* Does energy balance? `ledger` may be NULL. */
 static bool is_balanced(struct ensemble *run, struct ledger *ledger, char *reason, size_t size)
 {
     struct energy_balance balance = ensemble_energy_balance(run);

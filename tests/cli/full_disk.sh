@@ -46,7 +46,7 @@ to_closed_stream() {
     "$apps/$@" >&- 2>err
 }
 
-to_nobody() { # where the signal is ignored, an error is told
+to_nobody() { # where the signal is ignored, an error is reported
     "$FBD_SOURCE_ROOT/tests/tools/to_nobody" --ignored "$apps/$@" 2>err
 }
 

@@ -23,7 +23,7 @@ from library import LIBRARY, Model, Refused, taken  # noqa: E402
 from scenes import random_scene  # noqa: E402
 from truth import Scene, judge_page, judge_state  # noqa: E402
 
-# What the files of the gallery and of the books have in symbols and a number is held against, at least. Fewer formulas than
+# What the files of the gallery and of the books have in symbols and a number is compared with, at least. Fewer formulas than
 # that are formulas lost.
 LEAST = {"lines": 1930, "symbols": 1410, "laws": 450, "remarks": 350, "page symbols": 3600, "page laws": 590}
 PAGES = 3  # of so many files the page of one

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Is every symbolic line of a scene true? Each term in symbols is read back and evaluated by numbers, and held against
+"""Is every symbolic line of a scene true? Each term in symbols is read back, evaluated by numbers, and compared with
 the number beside it.
 
 What a symbol means is in docs/output.md. At one state: N_1 alone is the length of the arrow that the drawing labels so,

@@ -289,7 +289,8 @@ def check_all(browser, folder):
         run("--quiet", "--html", path, *options, model)
         browser.open(path)
         plots, strange = browser.run("""fbd.seek(run.end * 0.3); fbd.setPlaying(true);
-            await new Promise((done) => setTimeout(done, 40)); fbd.setPlaying(false);
+            const before = fbd.player.frames; while (fbd.player.playing && fbd.player.frames === before) await new Promise((done) => setTimeout(done, 10));
+            fbd.setPlaying(false);
             return [charts.length, charts.filter((c) => c.graph && !c.graph.yAxisRange().every(Number.isFinite)).length];""")
         if faults := browser.run(CROWDING):
             crowded[model.stem] = faults

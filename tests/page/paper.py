@@ -143,13 +143,14 @@ def check_hands(browser, folder):
         assert zoomed > 1.2 * before and same < 2 and after == before, (before, same, zoomed, after)
     with claim("a plot of rounding is folded away and opens"):
         folded, opened = browser.run("""const chart = charts[charts.length - 1], folded = [chart.box.open, chart.graph === null];
-            chart.box.open = true; await new Promise((done) => setTimeout(done, 100)); return [folded, chart.graph !== null];""")
+            chart.box.open = true; while (chart.graph === null) await new Promise((done) => setTimeout(done, 10)); return [folded, chart.graph !== null];""")
         assert folded == [False, True] and opened, (folded, opened)
     with claim("a loop begins anew at the end"):
+        # However late the browser draws: until it has begun anew, or has stopped.
         t = browser.run("""document.getElementById('loop').checked = true; fbd.seek(2.99); fbd.setPlaying(true);
-            await new Promise((done) => setTimeout(done, 150)); const t = fbd.player.t, playing = fbd.player.playing;
-            fbd.setPlaying(false); return playing ? t : -1;""")
-        assert 0 <= t < 1, t
+            while (fbd.player.playing && fbd.player.t >= 2.99) await new Promise((done) => setTimeout(done, 10));
+            const t = fbd.player.t, playing = fbd.player.playing; fbd.setPlaying(false); return playing ? t : -1;""")
+        assert 0 <= t < 2.99, t
 
 
 def check_zero(browser, folder):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Limits that a loaded machine does not meet: what computes is bounded by processor time, and what waits by a long
+"""Limits that hold on a loaded machine: computing is bounded by processor time, and waiting by a long
 time of the clock. The environment variable FBD_TEST_TIMEOUT multiplies both."""
 import math
 import os

@@ -26,7 +26,7 @@ struct assembly {
 /* Two to four prisms in one place; a frame of rods; rods that part from a point; a prism with rods on its sides. */
 void assembly_draw(struct random_numbers *numbers, struct assembly *body);
 
-/* What is struck where its parts meet, at its origin: a block below. */
+/* The block below, struck at its origin, where its parts join. */
 void assembly_draw_block(struct random_numbers *numbers, struct assembly *body);
 
 /* A box a by b of mass m and even density, as columns and rows of prisms. */

@@ -175,7 +175,7 @@ static void a_rod_slides_on_along_a_wall(void **unused)
 #define BEAM "  beam: {shape: rod, mass: 1 kg, length: 2 m, motion: {pivot: {theta: 0}}}\n"
 #define BALL "  ball: {mass: 1 kg, motion: particle, initial: {x: 0.3 m"
 
-/* Exactly on a bar, at rest: what is pulled onto it lies there; what moves goes to the side that it moves to. */
+/* Exactly on a bar: at rest a body that is pulled onto it lies there; a moving one is on the side to which it moves. */
 static void what_starts_on_a_bar_has_a_side(void **unused)
 {
     static const struct {
@@ -218,7 +218,7 @@ static void what_starts_on_a_bar_has_a_side(void **unused)
 }
 
 /* A ball that has come to rest at a bar from below, where nothing pulls it, falls off it when it is pulled down 0.2 s later,
- * also in a motion that goes on from numbers: x = F t^2 / (2 m). Nothing but the state knows the side. */
+ * also in a motion that goes on from numbers: x = F t^2 / (2 m). Only the state holds the side. */
 static void a_side_goes_with_the_state(void **unused)
 {
     enum { most_numbers = 200 };

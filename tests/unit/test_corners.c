@@ -59,7 +59,7 @@ static struct vec turned(double angle, struct vec p)
     return (struct vec){c * p.x - s * p.y, s * p.x + c * p.y};
 }
 
-/* Where a corner is, seen from the one that strikes, at a time before the impact; nothing has a force. */
+/* The position of a corner relative to the impact point at a time before the impact, without forces. */
 static struct vec seen_before(const struct meeting_scene *scene, struct vec corner, double before)
 {
     struct vec arm = turned(scene->theta, vec_sub(scene->body.G, scene->P));
@@ -67,7 +67,7 @@ static struct vec seen_before(const struct meeting_scene *scene, struct vec corn
     return vec_add(G, turned(scene->theta - scene->omega * before, vec_sub(corner, scene->body.G)));
 }
 
-/* Is P the only corner that strikes? */
+/* Is P the only corner with an impact? */
 static bool strikes_alone(const struct meeting_scene *scene)
 {
     const double clear = 0.01;

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What differs between two outputs of one scene. Nothing here starts a program."""
+"""Differences between two outputs of one scene. Nothing here starts a program."""
 import csv
 import json
 import math
