@@ -282,7 +282,13 @@ bool contacts_end_bounces(struct run *run, int count)
         run->contacts.bounces[index].rests_from = end;
         ended = true;
     }
-    return ended;
+    if (!ended || contacts_settle_little(run, count)) return ended;
+    for (int i = 0; i < count; i++) {
+        const struct striker *striker = &run->contacts.strikers[i];
+        if (striker->contact && striker->v_n < 0)
+            run->contacts.bounces[tree_of(run)->ties[striker->tie].meeting].rests_from = HUGE_VAL;
+    }
+    return false;
 }
 
 /* Friction -mu p sign(v_t) of what slips; what sticks does so by another row. */

@@ -216,6 +216,9 @@ void contacts_take_leaving_speeds(struct run *run, int count);
 /* Put what bounces on its surface (put_down.c); the strikers are then those that touch. Returns their number. */
 int contacts_settle_down(struct run *run, int strikers);
 
+/* Would that change the speed of any body by no more than bounces that nobody sees do? */
+bool contacts_settle_little(struct run *run, int count);
+
 /* ---- the loop */
 
 /* After the modes have settled: what they have opened touches no more. Notes what has closed and opened. */

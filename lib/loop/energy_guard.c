@@ -23,7 +23,7 @@ double energy_explained(double tolerance, double steps, double in_motion, double
 void energy_guard_begin(struct run *run)
 {
     run->energy.t = run->state->t;
-    run->energy.jumps = 0;
+    run->energy.jumps = run->energy.lowered = 0;
     memcpy(run->energy.y, run->state->y, plan_size(&run->model->plan) * sizeof *run->energy.y);
 }
 
@@ -31,6 +31,15 @@ double energy_of_impacts(const struct run *run)
 {
     double sum = 0;
     for (size_t i = 0; i < run->model->load_count; i++) sum += run->impact_work[i];
+    return sum - run->energy.lowered;
+}
+
+double energy_of_place(const struct run *run)
+{
+    const struct instant at = state_instant(run->state);
+    double sum = 0;
+    for (size_t i = 0; i < run->model->load_count; i++)
+        sum += potential_energy(run->model, &run->model->loads[i], &at, run->work.sample);
     return sum;
 }
 
@@ -100,7 +109,8 @@ static struct energy_balance look_at_run(struct run *run)
                start = kinetic_at(run, guard->t, guard->y, run->state->branch);
         moving = fmax(moving, fmax(start, end));
         balance.residual = end - start + potential_at(run, run->state->t, run->state->y, &terms) -
-                           potential_at(run, guard->t, guard->y, &terms) - energy_of_impacts(run);
+                           potential_at(run, guard->t, guard->y, &terms) -
+                           (energy_of_impacts(run) + guard->lowered);
     }
     balance.explained = energy_explained(run->options.tolerance, steps, moving, moving + terms);
     if (!(fabs(balance.residual) > balance.explained)) return balance;

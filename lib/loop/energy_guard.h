@@ -3,7 +3,7 @@
  * Energy guard: the balance of energy of every run, whatever is shown of it, at the cost of a look at its events and one at
  * its end.
  *
- * Across events kinetic energy changes by the work of the impacts that have been logged, and by nothing else: that is looked
+ * Across events energy changes by the work of the impacts that have been logged, and by nothing else: that is looked
  * at in every run. Where all forces of a run have potentials the whole balance follows from its two ends,
  *
  *     (KE + PE) - (KE + PE at the start) - work of impacts = 0.
@@ -19,8 +19,9 @@ struct ensemble;
 struct run;
 
 struct energy_guard {
-    double t, *y; /* where the run began */
-    double jumps; /* changes of kinetic energy at events beyond the work of impacts */
+    double t, *y;   /* where the run began */
+    double jumps;   /* changes of kinetic energy at events beyond the work of impacts */
+    double lowered; /* potential energy that has gone into the work of impacts: put_down.c */
 };
 
 /* A residual of the energy, and the largest one that tolerance and rounding explain. */
@@ -31,8 +32,11 @@ struct energy_balance {
 /* The run stands at its start. */
 void energy_guard_begin(struct run *run);
 
-/* The work of all impacts so far. */
+/* What impacts have added to the kinetic energy so far. */
 double energy_of_impacts(const struct run *run);
+
+/* The potential energy where the run stands, of the forces that have a potential. */
+double energy_of_place(const struct run *run);
 
 /* Events have been applied; impacts had done `before` until then. */
 void energy_guard_events(struct run *run, double before);

@@ -10,6 +10,7 @@
 #include "dynamics/project.h"
 #include "dynamics/tree_system.h"
 #include "loop/contacts.h"
+#include "loop/energy_guard.h"
 #include "loop/run.h"
 
 /* Within what a corner is about to come down; and what that moves of others, which are farther from where it turns. */
@@ -63,6 +64,75 @@ static bool stops_at_once(const struct run *run, int index, double slow)
     double mu = formula_value(&run->model->plan.modes[tie->pair].mu_k, &at);
     double v_t = run->state->tree->rows[tie->first_row + 1].g.x1;
     return v_t * v_t <= fmin(mu, 1) * slow * slow;
+}
+
+/* The largest change of speed of a shape from one state to the other. */
+static double speed_between(const struct run *run, const struct tree_work *before,
+                            const struct tree_work *after)
+{
+    const struct tree *tree = tree_of(run);
+    double most = 0;
+    for (int i = 0; i < tree->meeting_count; i++)
+        for (int k = 0; k < 2; k++) {
+            const struct contact_shape *shape = &tree->meetings[i].shape[k];
+            const struct tree_state *a = &before->links[shape->link], *b = &after->links[shape->link];
+            double turning = fabs(b->omega - a->omega) * shape->radius;
+            most = fmax(most, vec_norm(vec_sub(b->v, a->v)) + turning);
+        }
+    return most;
+}
+
+/* Does striker i belong to a series that is summed up, and leave slowly? */
+static bool is_summed_up(const struct run *run, int i, double slow)
+{
+    const struct contacts_work *work = &run->contacts;
+    const struct striker *striker = &work->strikers[i];
+    return striker->contact &&
+           work->bounces[tree_of(run)->ties[striker->tie].meeting].rests_from < HUGE_VAL &&
+           work->v[(ptrdiff_t)2 * i] <= slow;
+}
+
+/* The state after an impact, with what is summed up closed without friction, and what parts open. */
+static void try_to_close(struct run *run, int count, double slow, struct fbd_state *state)
+{
+    const struct contacts_work *work = &run->contacts;
+    const struct tree *tree = tree_of(run);
+    state_copy(state, run->state);
+    for (int i = 0; i < count; i++) {
+        const struct striker *striker = &work->strikers[i];
+        const struct tie *tie = &tree->ties[striker->tie];
+        bool parts = contacts_part(run, i) && !striker->stays && !is_summed_up(run, i, slow);
+        if (parts) state->slip[striker->rope ? tie->pair : tie->surface] = slip_plus;
+        if (striker->contact && tie->pair >= 0) state->slip[tie->pair] = slip_plus;
+    }
+    for (int k = 0; k < work->twin_count; k++) {
+        const struct tie *own = &tree->ties[work->twins[k].tie],
+                         *point = &tree->ties[work->strikers[work->twins[k].point].tie];
+        state->slip[own->surface] = state->slip[point->surface];
+        if (own->pair >= 0) state->slip[own->pair] = slip_plus;
+    }
+    state_project_velocity(state, false);
+    impulse_look(state);
+}
+
+/* Points that are close together leave slowly while their body turns fast: a hop too low to be seen at them is seen
+ * elsewhere. A trial shows it: it changes speeds by much, or does not even bring the points to rest. */
+bool contacts_settle_little(struct run *run, int count)
+{
+    const double resolved = 0.1; /* of the speed with which they leave */
+    const struct tree *tree = tree_of(run);
+    struct fbd_state *state = run->contacts.trial;
+    double slow = slow_speed(run), leaving = 0, left = 0;
+    for (int i = 0; i < count; i++)
+        if (is_summed_up(run, i, slow)) leaving = fmax(leaving, run->contacts.v[(ptrdiff_t)2 * i]);
+    if (leaving == 0) return true; /* they rest */
+    try_to_close(run, count, slow, state);
+    for (int i = 0; i < count; i++) {
+        const struct row *row = &state->tree->rows[tree->ties[run->contacts.strikers[i].tie].first_row];
+        if (is_summed_up(run, i, slow)) left = fmax(left, fabs(row->g.x1));
+    }
+    if (left > resolved * leaving) return false;
+    return speed_between(run, run->state->tree, state->tree) <= levers * fmax(slow, levers * leaving);
 }
 
 /* The longest way that shapes have gone since the look before. */
@@ -175,6 +245,15 @@ static void close_within(struct run *run, double share)
     }
 }
 
+/* The potential energy of a move onto a surface goes into the work of that contact's impacts. */
+static void book_place(struct run *run, int meeting, double before)
+{
+    const struct tree *tree = tree_of(run);
+    double change = energy_of_place(run) - before;
+    run->impact_work[tree->ties[tree->meetings[meeting].first_tie].load] += change;
+    run->energy.lowered += change;
+}
+
 /* What bounces too low to be seen is put on its surface, and its speed from there taken away: what is left of
  * the series does the same, and its impulses are those of the weight in that time. */
 int contacts_settle_down(struct run *run, int strikers)
@@ -182,7 +261,7 @@ int contacts_settle_down(struct run *run, int strikers)
     const struct tree *tree = tree_of(run);
     struct contacts_work *work = &run->contacts;
     bool *was_touching = work->touching;
-    double before = jointed_kinetic_energy(run->state);
+    double before = jointed_kinetic_energy(run->state), above = energy_of_place(run);
     contacts_take_leaving_speeds(run, strikers);
     for (int i = 0; i < tree->tie_count; i++)
         was_touching[i] = run->state->tree->ties[i].feature != no_feature;
@@ -196,6 +275,7 @@ int contacts_settle_down(struct run *run, int strikers)
     int count = contacts_find_strikers(run), last = last_at_rest(run);
     run->impact_work[tree->ties[tree->meetings[last].first_tie].load] +=
         jointed_kinetic_energy(run->state) - before;
+    book_place(run, last, above);
     for (int i = 0; i < count; i++) {
         double *v = work->v + (ptrdiff_t)2 * i;
         v[0] = 0;
@@ -204,19 +284,20 @@ int contacts_settle_down(struct run *run, int strikers)
     return count;
 }
 
-/* Have the features that touch of what is deeper than touching, by no more than what is put down moves others. */
-static bool find_deep(struct run *run)
+/* Have the features that touch of what is deeper than touching, by no more than what is put down moves others. The last
+ * of these contacts, or -1. */
+static int find_deep(struct run *run)
 {
     struct fbd_state *state = run->state;
     const struct instant at = state_instant(state);
-    bool any = false;
+    int last = -1;
     for (int i = 0; i < tree_of(run)->meeting_count; i++) {
         double near = meeting_near(run->model, state->tree, i), deep = meeting_depth(run->model, &at, i);
         if (!(deep > near && deep < levers * wide * near)) continue;
         contacts_find_touching(run, i, fmax(wide * near, 1.001 * deep));
-        any = true;
+        last = i;
     }
-    return any;
+    return last;
 }
 
 /* What is lifted out may be moved into others, which are lifted out with it. */
@@ -227,8 +308,13 @@ bool contacts_lift_others(struct run *run)
     bool *was_touching = run->contacts.touching, any = false;
     for (int i = 0; i < tree->tie_count; i++)
         was_touching[i] = run->state->tree->ties[i].feature != no_feature;
-    for (int round = 0; round < most_rounds && find_deep(run) && move_a_little(run, false); round++)
+    for (int round = 0; round < most_rounds; round++) {
+        int deep = find_deep(run);
+        double below = deep >= 0 ? energy_of_place(run) : 0;
+        if (deep < 0 || !move_a_little(run, false)) break;
+        book_place(run, deep, below);
         any = true;
+    }
     open_others(run, was_touching);
     return any;
 }
