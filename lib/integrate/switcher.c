@@ -115,11 +115,30 @@ static enum stepper_status consider(struct switcher *s, struct counted_system *s
     return stepper_ok;
 }
 
+/* Where the steps of the implicit method shrink to nothing, the explicit one may still make some: rounding in a Jacobian
+ * counts for more than in a right-hand side. Nothing has changed if it does not. */
+static enum stepper_status step_explicitly(struct switcher *s, struct counted_system *system,
+                                           struct moment *t, double *y, double *f, double *h,
+                                           struct moment t_limit)
+{
+    double first;
+    if (stepper_reset(s->steppers[0], system, *t, y, f, t_limit, &first) != GSL_SUCCESS)
+        return stepper_underflow;
+    enum stepper_status status = stepper_step(s->steppers[0], system, t, y, f, &first, t_limit);
+    if (status != stepper_ok) return stepper_underflow;
+    s->now = 0;
+    s->stiffness.implicit = false;
+    *h = first;
+    return stepper_ok;
+}
+
 enum stepper_status switcher_step(struct switcher *s, struct counted_system *system, struct moment *t,
                                   double *y, double *f, double *h, struct moment t_limit)
 {
     struct moment t0 = *t;
     enum stepper_status status = stepper_step(s->steppers[s->now], system, t, y, f, h, t_limit);
+    if (status == stepper_underflow && s->steppers[1] && s->now == 1)
+        status = step_explicitly(s, system, t, y, f, h, t_limit);
     s->made = s->now;
     if (status != stepper_ok || !s->steppers[1]) return status;
     stepper_note(s->steppers[!s->now], y, f);
