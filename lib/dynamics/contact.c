@@ -192,6 +192,20 @@ static struct pairing pairing_of(const struct meeting *meeting, int feature)
     return (struct pairing){1, feature / sides[0], feature % sides[0]};
 }
 
+/* Of corners as low over the side of a feature one that is over it, if there is one. */
+static struct gap over_as_low(const struct fbd_model *model, const struct tree_work *work, int index,
+                              struct gap lowest, double alike)
+{
+    const struct meeting *meeting = &model->tree->meetings[index];
+    if (lowest.feature == no_feature) return lowest;
+    struct pairing at = pairing_of(meeting, lowest.feature);
+    for (int i = 0; i < meeting->shape[at.moving].count; i++) {
+        struct gap gap = feature_gap(model, work, index, meeting_feature(meeting, at.moving, i, at.side));
+        if (gap.x <= lowest.x + alike && is_over(model, work, index, gap.feature)) return gap;
+    }
+    return lowest;
+}
+
 static int beside(const struct contact_shape *shape, int corner, int step)
 {
     return (corner + step + shape->count) % shape->count;
@@ -217,13 +231,15 @@ static bool is_inner(const struct fbd_model *model, const struct tree_work *work
 static struct gap separation(const struct fbd_model *model, const struct tree_work *work, int index)
 {
     const struct meeting *meeting = &model->tree->meetings[index];
-    const double alike = 1e-12 * meeting->size;
+    const double alike = contact_near * meeting->reach;
     struct gap best = {-HUGE_VAL, 0, no_feature};
     for (int moving = 0; moving < 2; moving++)
         for (int side = 0; side < shape_sides(&meeting->shape[1 - moving]); side++) {
             struct gap gap = lowest_over(model, work, index, moving, side);
             bool better = gap.x > best.x + alike;
             if (!better && gap.x > best.x - alike) {
+                gap = over_as_low(model, work, index, gap, alike);
+                best = over_as_low(model, work, index, best, alike);
                 bool over = is_over(model, work, index, gap.feature),
                      other = is_over(model, work, index, best.feature);
                 bool inner = is_inner(model, work, index, gap.feature),
@@ -233,6 +249,37 @@ static struct gap separation(const struct fbd_model *model, const struct tree_wo
             if (better) best = gap;
         }
     return best;
+}
+
+/* How deep a corner of shape `moving` is behind a side of the other along which they move; 0 where another is deeper. */
+static double depth_along(const struct fbd_model *model, const struct tree_work *work, int index, int moving,
+                          int side, double speed)
+{
+    const struct meeting *meeting = &model->tree->meetings[index];
+    const double level = contact_level * meeting->reach, near = meeting_near(model, work, index);
+    double depth = 0;
+    if (lowest_over(model, work, index, moving, side).x < -level) return 0;
+    for (int i = 0; i < meeting->shape[moving].count; i++) {
+        int feature = meeting_feature(meeting, moving, i, side);
+        struct gap gap = feature_gap(model, work, index, feature);
+        struct place_on_side at = feature_foot(model, work, index, feature);
+        bool over = at.foot >= -level && at.foot <= at.length + level;
+        if (over && gap.x < -near && fabs(gap.rate) <= speed) depth = fmax(depth, -gap.x);
+    }
+    return depth;
+}
+
+double meeting_low_step(const struct fbd_model *model, const struct tree_work *work, int index)
+{
+    const double along = 1e-3; /* of the speed of the impact */
+    const struct meeting *meeting = &model->tree->meetings[index];
+    bool corners = meeting->shape[0].kind == contact_corners && meeting->shape[1].kind == contact_corners;
+    if (meeting->thin || meeting->stop != 0 || !corners) return 0;
+    double speed = along * fabs(separation(model, work, index).rate), height = 0;
+    for (int moving = 0; moving < 2; moving++)
+        for (int side = 0; side < shape_sides(&meeting->shape[1 - moving]); side++)
+            height = fmax(height, depth_along(model, work, index, moving, side, speed));
+    return height;
 }
 
 /* ---- probes */

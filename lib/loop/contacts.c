@@ -345,6 +345,27 @@ static void find_touching(struct run *run)
     impulse_look(run->state);
 }
 
+/* Surfaces of one body, and of the ground, are level within contact_level; those of bodies that move against each other are
+ * where these are. */
+static bool refuse_low_step(struct run *run, int count)
+{
+    for (int i = 0; i < count; i++) {
+        const struct striker *striker = &run->contacts.strikers[i];
+        int index = tree_of(run)->ties[striker->tie].meeting;
+        if (!striker->contact || !(striker->v_n < 0)) continue;
+        double height = meeting_low_step(run->model, run->state->tree, index);
+        if (height == 0) continue;
+        run_fail(
+            run, FBD_FAILED,
+            "at t = %.9g the contact `%s` strikes a step of %.3g, which is lower than the numbers of a file "
+            "are exact: it would stop what slides over it. Give both surfaces the same height",
+            run_time(run), run->model->scene->constraints[tree_of(run)->meetings[index].constraint].name,
+            height);
+        return true;
+    }
+    return false;
+}
+
 /* One look at all that touches. True when shapes have been moved, and others are to be looked at. */
 static bool look_at_contacts(struct run *run)
 {
@@ -354,7 +375,7 @@ static bool look_at_contacts(struct run *run)
     bool struck = any_closes(run, count);
     if (struck && run_take_in_ropes(run)) count = contacts_find_strikers(run);
     if (struck) {
-        if (!contacts_strike(run, count)) return false;
+        if (refuse_low_step(run, count) || !contacts_strike(run, count)) return false;
         note_impacts(run, count);
         impulse_look(run->state);
         unstick(run, 0);

@@ -6,8 +6,8 @@
  *     several parts: one impact, that of Routh's diagram in small steps (impact_by_steps.h).
  *   - Boxes of parts move as the same boxes of one part.
  *   - Boxes of parts slide on boxes of parts, corners past corners, as Coulomb's law has it.
- *   - Crates slide over floors of tiles whose heights differ by less than the level, hop over others, and are stopped by
- *     higher steps.
+ *   - Crates slide over floors of tiles whose heights differ by less than the level, and over blocks whose heights differ by
+ *     rounding, hop over others, and are stopped by higher steps.
  *
  * FBD_DRAWS: times as many scenes; FBD_CORNERS_SEED begins elsewhere; FBD_CORNERS_SHOW prints the scenes.
  */
@@ -420,6 +420,64 @@ static void crates_slide_over_level_tiles(void **unused)
     checks_end(&checks);
 }
 
+/* Two heavy blocks side by side whose tops differ by h, and a crate that slides from one onto the other with v. */
+static void write_blocks(struct random_numbers *numbers, struct written *text, double h, double v, double T)
+{
+    double height[2] = {random_between(numbers, 0.3, 0.7), 0}, width = random_between(numbers, 0.9, 1.2),
+           a = random_between(numbers, 0.2, 0.5), b = random_between(numbers, 0.05, 0.15),
+           x = random_between(numbers, 0.05, 0.3);
+    height[1] = height[0] + h;
+    text->length = 0;
+    add(text, "fbd: 1\nground: {lines: {floor: {along: 0}}}\nbodies:\n");
+    for (int i = 0; i < 2; i++)
+        add(text,
+            "  block%d: {shape: prism, a: %.17g, b: %.17g, mass: 40, motion: planar, initial: {x: %.17g, y: "
+            "%.17g}, forces: [gravity]}\n",
+            i, width, height[i], (i - 0.5) * width, height[i] / 2);
+    add(text,
+        "  crate: {shape: prism, a: %.17g, b: %.17g, mass: 1, motion: planar, initial: {x: %.17g, y: %.17g, "
+        "vx: "
+        "%.17g}, forces: [gravity]}\n",
+        a, b, -x, height[x < a / 2 && h > 0] + b / 2, v);
+    add(text,
+        "contacts:\n  - {between: [block0, ground.floor], static: 0.9}\n  - {between: [block1, "
+        "ground.floor], "
+        "static: 0.9}\n  - {between: [crate, block0]}\n  - {between: [crate, block1]}\nsimulate: {until: "
+        "%.17g}\n",
+        T);
+}
+
+/* Up to rounding tops are level; a step from there to the level of surfaces is refused, and never stops the crate. */
+static void crates_slide_over_level_blocks(void **unused)
+{
+    struct checks checks = {0};
+    (void)unused;
+    for (int i = 0; i < draws_of(16); i++) {
+        struct random_numbers numbers = {first_seed() + (uint64_t)i};
+        static struct written text;
+        int decade = -17 + i % 9;
+        double h = random_between(&numbers, 1, 9) * pow(10, decade) * (random_chance(&numbers, 0.5) ? 1 : -1),
+               v = random_between(&numbers, 0.5, 2), T = random_between(&numbers, 0.1, 0.3);
+        write_blocks(&numbers, &text, h, v, T);
+        show(&text);
+        struct trial trial = trial_parse(text.all);
+        trial_start(&trial, NULL);
+        do {
+            trial.outcome = fbd_simulation_advance(trial.simulation);
+        } while (trial.outcome == FBD_GOING);
+        size_t failed = checks.failed;
+        bool refused = trial.outcome == FBD_FAILED && h > 0 && decade >= -12;
+        check_that(&checks, "it ends, or a step is refused", trial.outcome == FBD_DONE || refused);
+        if (trial.outcome == FBD_DONE) {
+            trial_finish(&trial);
+            check_close(&checks, "crate.vx", trial_get(&trial, "crate.vx"), v, 1e-3);
+        }
+        if (checks.failed > failed) printf("# h = %g\n%s\n", h, text.all);
+        trial_close(&trial);
+    }
+    checks_end(&checks);
+}
+
 /* Tiles far from level, over which a crate hops: the hops that are summed up put it down, and the balance has that. */
 static void hops_over_tiles_keep_the_balance(void **unused)
 {
@@ -496,11 +554,9 @@ static void crates_are_stopped_by_steps(void **unused)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(shared_corners_strike_once),
-        cmocka_unit_test(boxes_of_parts_move_as_one),
-        cmocka_unit_test(corners_pass_corners),
-        cmocka_unit_test(crates_slide_over_level_tiles),
-        cmocka_unit_test(hops_over_tiles_keep_the_balance),
+        cmocka_unit_test(shared_corners_strike_once),     cmocka_unit_test(boxes_of_parts_move_as_one),
+        cmocka_unit_test(corners_pass_corners),           cmocka_unit_test(crates_slide_over_level_tiles),
+        cmocka_unit_test(crates_slide_over_level_blocks), cmocka_unit_test(hops_over_tiles_keep_the_balance),
         cmocka_unit_test(crates_are_stopped_by_steps),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
