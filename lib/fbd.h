@@ -810,7 +810,7 @@ FBD_API fbd_sweep_end fbd_sweep_run(const fbd_sweep *sweep, const fbd_sweep_work
 typedef struct fbd_cost_options {
     size_t size;                /* sizeof(fbd_cost_options), or 0 */
     double until;               /* end of the run; NAN for the file's */
-    double budget;              /* how long all may take, in seconds; 0 for 6 s */
+    double budget;              /* how long all may take, in seconds (of processor time on a loaded machine); 0 for 6 s */
     const char *const *methods; /* names; NULL for all */
     size_t method_count;
     const char *const *quantities; /* coordinates and rates whose error counts, qualified; NULL for all */
