@@ -116,6 +116,7 @@ static void add_names(const struct fbd_key *key, size_t b, struct text *text)
                 text_printf(text, "%s`%s` on `%s`", text->length ? ", " : "", arrows[listed + i].name,
                             model->bodies[b].name);
     }
+    if (!arrows || (!state && key_asks(key, b) > 0)) text->failed = true;
     free(arrows);
     state_free(state);
 }
@@ -132,6 +133,7 @@ static void tell_reactions(const struct fbd_key *key, fbd_errors *errors)
             errors, FBD_WARNING, "key-differs", (struct pos){0, 0},
             "say `grading: {reactions: all}` if this is meant, else `none` or the names of those to be drawn",
             "an answer has to draw reactions too: %.600s", text.data);
+    if (text.failed) diag_out_of_memory(errors);
     text_free(&text);
 }
 
@@ -151,6 +153,7 @@ static bool check_itself(struct fbd_key *key, fbd_errors *errors)
     if (!has_points(key, errors)) return false;
     fbd_grade *grade = grade_itself(key);
     const fbd_finding *fault = grade ? first_fault(grade) : NULL;
+    if (!grade) diag_out_of_memory(errors);
     if (fault)
         diag_add(errors, FBD_WARNING, "key-differs", (struct pos){fault->line, fault->column},
                  "`fbd-run --grade KEY KEY --details` says all, `--check-hand` more of derivations",
