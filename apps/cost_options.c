@@ -16,7 +16,7 @@ static const char help[] =
     "  --methods A,B,...    these methods (default: all)\n"
     "  --fixed-steps        ladders of fixed steps in place of tolerances\n"
     "  --of A,B,...         errors of these coordinates and rates (default: all)\n"
-    "  --budget SECONDS     about how long all may take (default 6)\n"
+    "  --budget SECONDS     about how long all may take (default 6); longer where others use the processor\n"
     "  --effects            instead: leave out each effect of the scene in turn, and show how much the "
     "answer\n"
     "                       changes and how much time it saves\n"

@@ -220,6 +220,13 @@ static enum exit_code check_start(const fbd_model *model, fbd_errors *errors)
     return code;
 }
 
+/* A key is graded against itself as well. */
+static enum exit_code check(const fbd_model *model, fbd_errors *errors)
+{
+    enum exit_code code = check_start(model, errors);
+    return fbd_model_check_key(model, errors) ? code : exit_bad_model;
+}
+
 /* A derivation differs wherever the scene has no start that fits: that is said instead. */
 static enum exit_code check_hand(const fbd_model *model, const struct options *options, fbd_errors *errors)
 {
@@ -328,7 +335,7 @@ static enum exit_code emit_c(const fbd_model *model, const struct options *optio
 static enum exit_code act(const fbd_model *model, const struct options *options, fbd_errors *errors)
 {
     switch (options->action) {
-    case action_check: return check_start(model, errors);
+    case action_check: return check(model, errors);
     case action_check_hand: return check_hand(model, options, errors);
     case action_fmu: return write_fmu(model, options, errors);
     case action_emit_c: return emit_c(model, options, errors);

@@ -808,9 +808,9 @@ FBD_API fbd_sweep_end fbd_sweep_run(const fbd_sweep *sweep, const fbd_sweep_work
 /* ---------------------------------------------------------------- what accuracy costs */
 
 typedef struct fbd_cost_options {
-    size_t size;                /* sizeof(fbd_cost_options), or 0 */
-    double until;               /* end of the run; NAN for the file's */
-    double budget;              /* how long all may take, in seconds; 0 for 6 s */
+    size_t size;   /* sizeof(fbd_cost_options), or 0 */
+    double until;  /* end of the run; NAN for the file's */
+    double budget; /* seconds that all may take, of processor time where others use it too; 0: 6 s */
     const char *const *methods; /* names; NULL for all */
     size_t method_count;
     const char *const *quantities; /* coordinates and rates whose error counts, qualified; NULL for all */
@@ -951,6 +951,10 @@ typedef struct fbd_key fbd_key;
 /* Read a key. NULL with notes in `errors`: those of a wrong model file, and `nothing-to-grade`. */
 FBD_API fbd_key *fbd_key_read(const char *path, fbd_errors *errors);
 FBD_API void fbd_key_free(fbd_key *key);
+
+/* Check a model whose file says `grading` as the key that it is: the notes of fbd_key_read about marks (`key-differs`,
+ * `nothing-to-grade`) go to `errors`. True for a key that can be graded, and for every other model; false with a note. */
+FBD_API bool fbd_model_check_key(const fbd_model *model, fbd_errors *errors);
 
 /* What a student gets of it, as a model file: the scene without forces, moments, derivations and comments, with the
  * values that `grading: {draw: ...}` draws for the name of this student. To be freed with fbd_free; NULL with a note in

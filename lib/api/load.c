@@ -6,8 +6,38 @@
 
 #include "base/call.h"
 #include "base/file.h"
+#include "dynamics/contact.h"
+#include "dynamics/state.h"
 #include "model/model.h"
 #include "scene/schema.h"
+
+static bool has_thin_contact(const fbd_model *model)
+{
+    for (int i = 0; model->tree && i < model->tree->meeting_count; i++)
+        if (model->tree->meetings[i].thin) return true;
+    return false;
+}
+
+/* Warn of what starts exactly on a rod and leaves it to the side from which it is pulled; false when memory is out. */
+static bool warn_of_sides(const fbd_model *model, fbd_errors *errors)
+{
+    if (!has_thin_contact(model)) return true;
+    fbd_state *state = state_new(model);
+    fbd_errors *others = fbd_errors_new(); /* a start that does not fit is refused where it is asked for */
+    int doubtful = state && others && fbd_state_close(state, others) ? contacts_side_in_doubt(state) : -1;
+    bool done = state && others && !others->out_of_memory;
+    fbd_state_free(state);
+    fbd_errors_free(others);
+    if (doubtful < 0) return done;
+    const struct constraint *source = &model->scene->constraints[model->tree->meetings[doubtful].constraint];
+    diag_add(errors, FBD_WARNING, "side-by-motion", source->at,
+             "start it a little off the rod, on the side where it is to be",
+             "of `%s` one starts exactly on the rod and moves against its forces: it is taken to leave the "
+             "rod to the side "
+             "to which it moves",
+             source->name);
+    return done;
+}
 
 /* `text` is taken over. */
 static fbd_model *compile(char *text, size_t length, const char *name, const fbd_setting *settings,
@@ -24,6 +54,11 @@ static fbd_model *compile(char *text, size_t length, const char *name, const fbd
         diag_out_of_memory(errors);
     }
     free(overrides);
+    if (model && !warn_of_sides(model, errors)) {
+        diag_out_of_memory(errors);
+        model_free(model);
+        model = NULL;
+    }
     if (!model) {
         free(text);
         return NULL;

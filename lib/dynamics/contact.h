@@ -83,6 +83,10 @@ struct vec feature_place(const struct fbd_model *model, const struct tree_work *
 /* Close what touches and rests on each other at the start, and open all else. */
 void contacts_start(struct fbd_state *state);
 
+/* A contact pair in which something starts exactly on a bar and moves to the side from which its forces pull it; -1: none.
+ * The state is evaluated. */
+int contacts_side_in_doubt(struct fbd_state *state);
+
 /* Are shapes in each other at the start, by more than rounding? Contacts are then as contacts_start has them. */
 bool contacts_are_deep(struct fbd_state *state);
 

@@ -33,7 +33,7 @@ static struct vec acceleration_of(const struct tree_work *work, int link, struct
 }
 
 /* The sense along n from the lower to the upper one: opposite to the upper one's acceleration, or along the lower one's;
- * without accelerations up. */
+ * 0 without accelerations. */
 static int sense_of_upper(const struct fbd_model *model, const struct tree_work *work,
                           const struct meeting *meeting, struct vec place, struct vec n)
 {
@@ -47,7 +47,7 @@ static int sense_of_upper(const struct fbd_model *model, const struct tree_work 
     }
     if (fabs(a[upper]) > nothing * most) return a[upper] < 0 ? 1 : -1;
     if (fabs(a[1 - upper]) > nothing * most) return a[1 - upper] > 0 ? 1 : -1;
-    return n.y >= 0 ? 1 : -1;
+    return 0;
 }
 
 static struct vec left_of_bar(const struct tree_work *work, const struct meeting *meeting,
@@ -68,22 +68,40 @@ static double side_of_mass(const struct fbd_model *model, const struct tree_work
     return vec_dot(n, vec_turn(work->links[shape->link].turn, arm));
 }
 
+/* Positive on the left, negative on the right; 0 where place and mass do not decide. */
+static double side_by_place(const struct fbd_model *model, const struct tree_work *work, int index, int probe,
+                            double near)
+{
+    const struct meeting *meeting = &model->tree->meetings[index];
+    struct thin_corner corner = thin_corner_of(meeting, probe);
+    struct vec n = left_of_bar(work, meeting, corner);
+    double left = feature_gap(model, work, index, thin_feature(corner, thin_left)).x;
+    if (fabs(left) > near) return left;
+    double middle = thin_middle(model, work, index, probe);
+    if (fabs(middle) > near) return middle;
+    double mass = side_of_mass(model, work, meeting, corner, n);
+    return fabs(mass) > near ? mass : 0;
+}
+
+/* The rate at which the corner moves to the left of the bar; 0 at rest. */
+static double side_by_motion(const struct fbd_model *model, const struct tree_work *work, int index,
+                             int probe)
+{
+    const double rounding = 1e-10;
+    const struct meeting *meeting = &model->tree->meetings[index];
+    int feature = thin_feature(thin_corner_of(meeting, probe), thin_left);
+    double rate = feature_gap(model, work, index, feature).rate;
+    return fabs(rate) > rounding * meeting_speed(work, meeting) ? rate : 0;
+}
+
 /* Positive on the left, negative on the right; 0 where only forces decide. */
 static double side_at_start(const struct fbd_model *model, const struct tree_work *work, int index, int probe,
                             double near)
 {
-    const double rounding = 1e-10;
-    const struct meeting *meeting = &model->tree->meetings[index];
-    struct thin_corner corner = thin_corner_of(meeting, probe);
-    struct gap left = feature_gap(model, work, index, thin_feature(corner, thin_left));
-    struct vec n = left_of_bar(work, meeting, corner);
-    if (fabs(left.x) > near) return left.x;
-    double middle = thin_middle(model, work, index, probe);
-    if (fabs(middle) > near) return middle;
-    double mass = side_of_mass(model, work, meeting, corner, n);
-    if (fabs(mass) > near) return mass;
+    double side = side_by_place(model, work, index, probe, near);
+    if (side != 0) return side;
     if (work->kept) return *thin_side_of(model, work, index, probe);
-    return fabs(left.rate) > rounding * meeting_speed(work, meeting) ? left.rate : 0;
+    return side_by_motion(model, work, index, probe);
 }
 
 /* Is the corner outside of the circle round the bar, or at its end face? */
@@ -95,7 +113,7 @@ static bool has_no_side(const struct fbd_model *model, const struct tree_work *w
            thin_is_in_line(model, work, index, probe, near);
 }
 
-/* By the forces; accelerations are those of the state. */
+/* By the forces; 0 without. Accelerations are those of the state. */
 static int side_by_forces(const struct fbd_model *model, const struct tree_work *work, int index, int probe)
 {
     const struct meeting *meeting = &model->tree->meetings[index];
@@ -104,6 +122,15 @@ static int side_by_forces(const struct fbd_model *model, const struct tree_work 
     struct vec place = feature_place(model, work, index, thin_feature(corner, thin_left));
     int sense = sense_of_upper(model, work, meeting, place, n);
     return upper_of(model, meeting) == corner.moving ? sense : -sense;
+}
+
+/* Without forces that which lies on the other is above it. */
+static int upper_side(const struct fbd_model *model, const struct tree_work *work, int index, int probe)
+{
+    const struct meeting *meeting = &model->tree->meetings[index];
+    struct thin_corner corner = thin_corner_of(meeting, probe);
+    int up = left_of_bar(work, meeting, corner).y >= 0 ? 1 : -1;
+    return upper_of(model, meeting) == corner.moving ? up : -up;
 }
 
 void thin_choose_sides(struct fbd_state *state, int index, double near)
@@ -120,5 +147,20 @@ void thin_choose_sides(struct fbd_state *state, int index, double near)
         if (!evaluated) state_evaluate_unshared(state);
         evaluated = true;
         *side = side_by_forces(model, state->tree, index, probe);
+        if (*side == 0) *side = upper_side(model, state->tree, index, probe);
     }
+}
+
+bool thin_moves_against_forces(struct fbd_state *state, int index, double near)
+{
+    const struct fbd_model *model = state->model;
+    const struct tree_work *work = state->tree;
+    for (int probe = 0; probe < model->tree->meetings[index].probes; probe++) {
+        if (has_no_side(model, work, index, probe, near) ||
+            side_by_place(model, work, index, probe, near) != 0)
+            continue;
+        if (side_by_motion(model, work, index, probe) * side_by_forces(model, work, index, probe) < 0)
+            return true;
+    }
+    return false;
 }

@@ -82,6 +82,16 @@ static void start_meeting(struct fbd_state *state, int index)
     }
 }
 
+int contacts_side_in_doubt(struct fbd_state *state)
+{
+    const struct tree *tree = state->model->tree;
+    for (int i = 0; tree && i < tree->meeting_count; i++)
+        if (tree->meetings[i].thin &&
+            thin_moves_against_forces(state, i, start_share * meeting_near(state->model, state->tree, i)))
+            return i;
+    return -1;
+}
+
 void contacts_start(struct fbd_state *state)
 {
     const struct tree *tree = state->model->tree;

@@ -32,4 +32,7 @@ bool thin_is_in_line(const struct fbd_model *model, const struct tree_work *work
  * not started are open. */
 void thin_choose_sides(struct fbd_state *state, int index, double near);
 
+/* Does a corner start exactly on the bar and move to the side from which its forces pull it? The state is evaluated. */
+bool thin_moves_against_forces(struct fbd_state *state, int index, double near);
+
 #endif

@@ -136,6 +136,7 @@ static const char *rewritten(struct arena *arena, const struct node *scalar, con
     struct text text = {0};
     rewrite(context, scalar->text, &text);
     const char *made = text.failed ? NULL : arena_text(arena, text.data ? text.data : "", text.length);
+    if (!made) arena->failed = true;
     text_free(&text);
     return made;
 }

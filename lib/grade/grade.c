@@ -86,6 +86,10 @@ fbd_grade *grade_itself(const fbd_key *key)
         fbd_model_free(grade->sheet);
         grade->sheet = NULL;
     }
+    if (grade && (!errors || errors->out_of_memory || grade->arena.failed)) {
+        fbd_grade_free(grade);
+        grade = NULL;
+    }
     fbd_errors_free(errors);
     return grade;
 }

@@ -97,7 +97,7 @@ static bool compile_key(struct fbd_key *key, fbd_errors *errors)
         key->model = model_compile(scene, errors);
     else
         scene_free(scene);
-    return key->model && find_asked(key) && has_points(key, errors);
+    return key->model && find_asked(key);
 }
 
 /* The reactions of a body that have to be drawn, by name. */
@@ -116,6 +116,7 @@ static void add_names(const struct fbd_key *key, size_t b, struct text *text)
                 text_printf(text, "%s`%s` on `%s`", text->length ? ", " : "", arrows[listed + i].name,
                             model->bodies[b].name);
     }
+    if (!arrows || (!state && key_asks(key, b) > 0)) text->failed = true;
     free(arrows);
     state_free(state);
 }
@@ -132,6 +133,7 @@ static void tell_reactions(const struct fbd_key *key, fbd_errors *errors)
             errors, FBD_WARNING, "key-differs", (struct pos){0, 0},
             "say `grading: {reactions: all}` if this is meant, else `none` or the names of those to be drawn",
             "an answer has to draw reactions too: %.600s", text.data);
+    if (text.failed) diag_out_of_memory(errors);
     text_free(&text);
 }
 
@@ -145,11 +147,13 @@ static const fbd_finding *first_fault(const fbd_grade *grade)
     return NULL;
 }
 
-/* Grade the key with itself, and warn of the entries that do not get full marks. */
-static void check_itself(const struct fbd_key *key, fbd_errors *errors)
+/* Grade the key with itself, and warn of the entries that do not get full marks; false with a note when it has none. */
+static bool check_itself(struct fbd_key *key, fbd_errors *errors)
 {
+    if (!has_points(key, errors)) return false;
     fbd_grade *grade = grade_itself(key);
     const fbd_finding *fault = grade ? first_fault(grade) : NULL;
+    if (!grade) diag_out_of_memory(errors);
     if (fault)
         diag_add(errors, FBD_WARNING, "key-differs", (struct pos){fault->line, fault->column},
                  "`fbd-run --grade KEY KEY --details` says all, `--check-hand` more of derivations",
@@ -157,26 +161,35 @@ static void check_itself(const struct fbd_key *key, fbd_errors *errors)
                  *fault->name ? ": " : "", fault->name, fault->message);
     fbd_grade_free(grade);
     tell_reactions(key, errors);
+    return true;
+}
+
+/* A key that has not been checked; `source` is taken over, and may be NULL. */
+static fbd_key *make_key(char *source, size_t length, const char *name, fbd_errors *errors)
+{
+    fbd_key *key = calloc(1, sizeof *key);
+    if (!key) {
+        diag_out_of_memory(errors);
+        free(source);
+        return NULL;
+    }
+    key->source = source;
+    key->length = length;
+    key->file = arena_text(&key->arena, name, strlen(name));
+    bool opened = source && document_open(&key->document, source, length, key->file, errors);
+    key->document.split_hands = true;
+    if (opened && key->file && compile_key(key, errors)) return key;
+    if (key->arena.failed) diag_out_of_memory(errors);
+    fbd_key_free(key);
+    return NULL;
 }
 
 static fbd_key *read_key(const char *path, fbd_errors *errors)
 {
-    size_t length;
-    fbd_key *key = calloc(1, sizeof *key);
-    if (!key) {
-        diag_out_of_memory(errors);
-        return NULL;
-    }
-    key->source = file_text(path, &length, errors);
-    key->file = arena_text(&key->arena, file_name(path), strlen(file_name(path)));
-    bool opened = key->source && document_open(&key->document, key->source, length, key->file, errors);
-    key->document.split_hands = true;
-    if (opened && key->file && compile_key(key, errors)) {
-        key->length = length;
-        check_itself(key, errors);
-        return key;
-    }
-    if (key->arena.failed) diag_out_of_memory(errors);
+    size_t length = 0;
+    char *source = file_text(path, &length, errors);
+    fbd_key *key = make_key(source, length, file_name(path), errors);
+    if (key && check_itself(key, errors)) return key;
     fbd_key_free(key);
     return NULL;
 }
@@ -188,6 +201,31 @@ fbd_key *fbd_key_read(const char *path, fbd_errors *list)
     fbd_key *key = path ? read_key(path, errors) : call_refuse(errors, "there is no path");
     diag_end(&call);
     return key;
+}
+
+static bool check_source(const fbd_model *model, fbd_errors *errors)
+{
+    fbd_errors *others = fbd_errors_new(); /* what the file is warned of was said when it was read */
+    char *copy = others ? file_copy(model->source, model->source_length, others) : NULL;
+    fbd_key *key = copy ? make_key(copy, model->source_length, model->scene->file, others) : NULL;
+    bool lacking = !others || others->out_of_memory;
+    if (lacking) diag_out_of_memory(errors);
+    diag_in_file(errors, model->scene->file);
+    /* A file that is a model only by what is set for it is refused where it is graded. */
+    bool done = key ? check_itself(key, errors) : !lacking;
+    fbd_key_free(key);
+    fbd_errors_free(others);
+    return done;
+}
+
+bool fbd_model_check_key(const fbd_model *model, fbd_errors *list)
+{
+    struct diag_call call;
+    fbd_errors *errors = diag_begin(&call, list);
+    bool is_key = model && model->source && model->scene->grading.given;
+    bool done = is_key ? check_source(model, errors) : model || call_refuse(errors, "there is no model");
+    diag_end(&call);
+    return done;
 }
 
 void fbd_key_free(fbd_key *key)

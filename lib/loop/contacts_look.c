@@ -8,6 +8,7 @@
 #include "dynamics/contact.h"
 #include "dynamics/impulse.h"
 #include "dynamics/tree_system.h"
+#include "expr/unit.h"
 #include "loop/contacts.h"
 #include "loop/run.h"
 
@@ -293,10 +294,12 @@ void run_check_overlap(struct run *run)
         run->contacts.due |= come_to_touch(run) || (run->projected && projected_in(run));
         return;
     }
+    char unit[24];
+    unit_name(DIM_LENGTH, run->model->scene->units, unit, sizeof unit);
     run_fail(run, FBD_FAILED,
-             "at t = %.9g the shapes of the contact `%s` are in each other by %.3g: the instant at which "
+             "at t = %.9g the shapes of the contact `%s` are in each other by %.3g %s: the instant at which "
              "they met was "
              "missed. Try a smaller tolerance or step",
              run_time(run), run->model->scene->constraints[tree_of(run)->meetings[meeting].constraint].name,
-             depth);
+             depth, unit);
 }

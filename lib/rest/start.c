@@ -11,6 +11,7 @@
 #include "dynamics/modes.h"
 #include "dynamics/project.h"
 #include "events/watchers.h"
+#include "expr/unit.h"
 #include "model/model.h"
 #include "rest/balance.h"
 #include "rest/fit.h"
@@ -40,6 +41,9 @@ static bool overlap_lack(struct fbd_state *state, struct pos *at, struct text *w
     *at = source->at;
     text_printf(why, "the shapes of the contact `%s` are in each other by ", source->name);
     text_number(why, depth, 6);
+    char unit[24];
+    unit_name(DIM_LENGTH, model->scene->units, unit, sizeof unit);
+    text_printf(why, " %s", unit);
     return true;
 }
 

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * The side of a surface that pushes where no side is up, and a surface that nothing presses on: friction there is zero, and whoever listed `normal` and not the weight should
- * know.
+ * Warnings of surfaces: of a line of which no side is up, and of one that nothing presses on, where friction is zero.
  */
 #include "scene/reader.h"
 #include "scene/start_angle.h"
@@ -54,13 +53,29 @@ static void mark_joined(const struct scene *scene, bool *joined)
             if (scene->constraints[c].body[end] >= 0) joined[scene->constraints[c].body[end]] = true;
 }
 
+/* A hint, with what a level line has as `along` where it counts from the line of a carrier that is not level, as on a lift. */
+static const char *with_carrier(struct reader *reader, size_t b, const char *hint)
+{
+    const double level = 1e-12;
+    const struct scene *scene = reader->scene;
+    int parent = scene->bodies[b].motion.parent;
+    double turned = start_angle(scene, parent);
+    if (parent == ground_body || fabs(sin(turned)) < level) return hint;
+    double degrees = turned * 180 / acos(-1);
+    return diag_hint(
+        reader->errors,
+        "%s; `along` counts from the x axis of `%s`, which is at %.6g deg: level is `along: %.6g deg`", hint,
+        scene->bodies[parent].name, degrees, -degrees);
+}
+
 /* No side of a vertical line is up. A guide needs none. */
-static void note_no_side_up(struct reader *reader, const struct load *normal, double along)
+static void note_no_side_up(struct reader *reader, size_t b, const struct load *normal)
 {
     const double upright = 1e-12; /* as where the side is chosen, in model/compile.c */
-    if (normal->side != side_up || fabs(vec_unit(along).x) > upright) return;
+    if (normal->side != side_up || fabs(vec_unit(start_angle(reader->scene, (int)b)).x) > upright) return;
     diag_add(reader->errors, FBD_WARNING, "no-side-up", normal->at,
-             "write `normal: {side: left}` or `normal: {side: right}`, as seen along +x",
+             with_carrier(reader, b,
+                          "write `normal: {side: left}` or `normal: {side: right}`, as seen along +x"),
              "no side of a vertical line is up: the surface is taken to push to the left of +x");
 }
 
@@ -70,7 +85,7 @@ bool presses_note(struct reader *reader)
     for (size_t b = 0; b < scene->body_count; b++) {
         const struct body *body = &scene->bodies[b];
         const struct load *normal = body->motion.kind == motion_slide ? normal_of(body) : NULL;
-        if (normal) note_no_side_up(reader, normal, start_angle(scene, (int)b));
+        if (normal) note_no_side_up(reader, b, normal);
     }
     if (vec_norm(scene->gravity) == 0) return true; /* said on purpose */
     bool *joined = ARENA_ARRAY(reader->arena, scene->body_count, bool);
@@ -86,8 +101,9 @@ bool presses_note(struct reader *reader)
         for (size_t i = 0; i < body->load_count; i++) weighs |= body->loads[i].kind == load_gravity;
         if (!pressed)
             diag_add(reader->errors, FBD_WARNING, "nothing-presses", normal->at,
-                     weighs ? "gravity acts along this line; list what acts across it"
-                            : "list what does, as `gravity`; what is not listed does not exist",
+                     weighs
+                         ? with_carrier(reader, b, "gravity acts along this line; list what acts across it")
+                         : "list what does, as `gravity`; what is not listed does not exist",
                      "nothing presses `%s` on its surface: `%s` is zero, and so is friction", body->name,
                      normal->name);
     }

@@ -131,6 +131,15 @@ static bool derive(struct entry *entry, const struct names *names)
     return !load_is_placed(load) || derive_couple(entry, names->distance_named);
 }
 
+/* What is missing may be what a key was meant for that has been refused. */
+static bool has_unknown_key(const struct entry *entry)
+{
+    const struct node *node = entry->chosen.node;
+    for (size_t i = 0; node && node->kind == node_map && i < node->count; i++)
+        if (!fields_has(entry->chosen.kind->group, node->pairs[i].key)) return true;
+    return false;
+}
+
 bool applied_finish(struct entry *entry)
 {
     struct load *load = &entry->keys.load;
@@ -149,8 +158,9 @@ bool applied_finish(struct entry *entry)
         return fill_component(entry, "fx", &load->fx) && fill_component(entry, "fy", &load->fy) && fine &&
                derive(entry, names);
     if (!entry->keys.value && !entry_has(entry, "value")) {
-        entry_note(entry, "missing-key", entry->chosen.at, "add for example `value: 5 N`",
-                   "an applied force needs `value`");
+        if (!has_unknown_key(entry))
+            entry_note(entry, "missing-key", entry->chosen.at, "add for example `value: 5 N`",
+                       "an applied force needs `value`");
         return false;
     }
     return (pair || components || check_direction(entry)) && fine && derive(entry, names);

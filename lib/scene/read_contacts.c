@@ -33,6 +33,7 @@ static bool read_surface(struct reader *reader, const struct node *name, struct 
 /* `body` or `body.point` at end k. */
 static bool read_side(struct reader *reader, const struct node *node, int k, struct constraint *constraint)
 {
+    if (ground_end_refuse(reader, node, "between", true)) return false;
     if (node->kind == node_scalar && strchr(node->text, '.'))
         return coupling_end_read(reader, node, "between", &constraint->body[k], &constraint->point[k]);
     constraint->point[k] = (struct point){.at = node->at};
@@ -74,9 +75,7 @@ static bool read_sides(struct reader *reader, const struct node *list, struct co
     }
     if (!read_side(reader, first, 0, constraint)) return false;
     if (!is_ground(second)) return read_side(reader, second, 1, constraint);
-    if (!strchr(second->text, '.'))
-        return value_refuse(reader, second, "between", "`ground.line`, `ground.polygon` or `ground.point`",
-                            NULL);
+    if (ground_end_refuse(reader, second, "between", true)) return false;
     size_t skip = strlen("ground.");
     const struct node *name = text_part(reader, second, skip, second->length - skip);
     return name && read_surface(reader, name, constraint);

@@ -34,11 +34,11 @@ bool coupling_end_read(struct reader *reader, const struct node *node, const cha
     const char *dot = strchr(node->text, '.');
     size_t length = dot ? (size_t)(dot - node->text) : node->length;
     const struct node *owner = text_part(reader, node, 0, length);
+    if (!dot && ground_end_refuse(reader, node, what, false)) return false;
     if (!owner || !body_name_read(reader, owner, what, body)) return false;
     if (!dot) {
         *point = (struct point){.kind = point_G, .at = node->at};
-        if (*body != ground_body) return true;
-        return value_refuse(reader, node, what, "`ground.point`: the ground has no centre", NULL);
+        return true;
     }
     const struct node *name = text_part(reader, node, length + 1, node->length - length - 1);
     if (!name) return false;

@@ -6,6 +6,8 @@
 #include "scene/reader.h"
 #include "scene/values.h"
 
+#include <string.h>
+
 /* The names of the keys of `map`, for a hint. */
 static const char *hint_names(struct reader *reader, const struct node *map, const char *wrong,
                               const char *none)
@@ -47,6 +49,40 @@ const struct ground_line *ground_line_find(struct reader *reader, const struct n
     }
     const struct ground_line *line = &reader->ground_lines[pair - reader->lines->pairs];
     return line->valid ? line : NULL;
+}
+
+/* The first key of a map of the ground, or NULL. */
+static const char *first_of(const struct node *map)
+{
+    return map && map->count > 0 ? map->pairs[0].key : NULL;
+}
+
+static const char *hint_end(struct reader *reader, bool surfaces)
+{
+    const char *name = surfaces ? first_of(reader->lines) : NULL;
+    if (!name && surfaces) name = first_of(reader->polygons);
+    if (!name) name = first_of(reader->points);
+    if (name) return diag_hint(reader->errors, "write `ground.%s`", name);
+    return surfaces ? "name a line under `ground: {lines: {floor: {through: [0, 0], along: 0}}}`, and here "
+                      "`ground.floor`"
+                    : "name a point under `ground: {points: {A: [0, 0]}}`, and here `ground.A`";
+}
+
+bool ground_end_refuse(struct reader *reader, const struct node *node, const char *what, bool surfaces)
+{
+    if (node->kind != node_scalar || node_find(reader->bodies, node->text)) return false;
+    if (strcmp(node->text, "ground") == 0) {
+        const char *wanted =
+            surfaces ? "`ground.line`, `ground.polygon` or `ground.point`" : "`ground.point`";
+        value_refuse(reader, node, what, wanted, hint_end(reader, surfaces));
+        return true;
+    }
+    bool surface = node_find(reader->lines, node->text) || node_find(reader->polygons, node->text);
+    if (!(surface && surfaces) && !node_find(reader->points, node->text)) return false;
+    diag_add(reader->errors, FBD_ERROR, "unknown-body", node->at,
+             diag_hint(reader->errors, "write `ground.%s`", node->text),
+             "`%s`: `%s` is no body, but part of the ground", what, node->text);
+    return true;
 }
 
 static bool read_points(struct reader *reader)

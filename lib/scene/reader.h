@@ -190,6 +190,10 @@ bool ground_point_read(struct reader *reader, const struct node *node, const cha
 
 const struct ground_line *ground_line_find(struct reader *reader, const struct node *name);
 
+/* Where an end may lie on the ground: true, and noted with what to write, for `ground` alone and for the bare name of a
+ * point of the ground; of a line or polygon too where `surfaces`. */
+bool ground_end_refuse(struct reader *reader, const struct node *node, const char *what, bool surfaces);
+
 /* ---- bodies */
 
 /* What it is and how it moves (read_body.c, read_part.c, read_motion.c). */

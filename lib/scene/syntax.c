@@ -117,6 +117,41 @@ static bool explain_tab(const struct source *source, struct pos at, fbd_errors *
     return true;
 }
 
+/* The entry in which the bracket at i stands: from the last `{`, `[`, colon or comma outside of parentheses to the next
+ * comma or bracket there. */
+static struct source entry_around(struct source line, size_t i)
+{
+    size_t start = 0, stop;
+    int depth = 0;
+    for (size_t k = 0; k < i; k++) {
+        char c = line.text[k];
+        depth += (c == '(') - (c == ')');
+        if (depth == 0 && strchr("{[,:", c)) start = k + 1;
+    }
+    while (start < i && line.text[start] == ' ') start++;
+    for (stop = i; stop < line.length; stop++) {
+        char c = line.text[stop];
+        if (depth <= 0 && strchr(",}]", c)) break;
+        depth += (c == '(' || c == '[') - (c == ')' || c == ']');
+    }
+    while (stop > i && line.text[stop - 1] == ' ') stop--;
+    return (struct source){line.text + start, stop - start};
+}
+
+/* Show it in quotes, with a blank between it and the key of `value:4[N]`. */
+static const char *hint_quoted(struct source line, struct source found, fbd_errors *errors)
+{
+    const size_t longest = 100;
+    const char *key = found.text;
+    if (key > line.text && key[-1] == ':')
+        for (key--; key > line.text && scalar_is_word(key[-1]);) key--;
+    size_t word = key < found.text ? (size_t)(found.text - key) - 1 : 0;
+    if (word + found.length > longest || memchr(found.text, '"', found.length))
+        return "write for example {value: \"4[N/s]*t\"}, or give the entry lines of its own";
+    return diag_hint(errors, "write `%.*s%s\"%.*s\"`", (int)word, key, word > 0 ? ": " : "",
+                     (int)found.length, found.text);
+}
+
 /* Inside braces or brackets a plain `4[N]*t` ends at its own bracket. */
 static bool explain_unit_in_flow(const struct source *source, struct pos at, fbd_errors *errors)
 {
@@ -126,8 +161,7 @@ static bool explain_unit_in_flow(const struct source *source, struct pos at, fbd
     for (int column = 1; column < at.column && i < line.length; column++)
         i += utf8_decode(line.text + i, line.length - i, &code);
     if (i == 0 || i >= line.length || line.text[i] != '[' || strchr(" ,[{:", line.text[i - 1])) return false;
-    diag_add(errors, FBD_ERROR, "yaml-syntax", at,
-             "write for example {value: \"4[N/s]*t\"}, or give the entry lines of its own",
+    diag_add(errors, FBD_ERROR, "yaml-syntax", at, hint_quoted(line, entry_around(line, i), errors),
              "inside braces or brackets an expression with `[unit]` needs quotes");
     return true;
 }

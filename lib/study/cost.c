@@ -151,7 +151,7 @@ static bool study(struct fbd_cost *cost, const fbd_cost_options *options)
         return false;
     cost->says = reference_says(&cost->arena, &cost->reference, cost->model);
     if (!cost->says || !ladder_climb(cost)) return false;
-    if (!time_points(cost, fmax(cost->budget - stopwatch_wall(&watch), 0.3 * cost->budget))) return false;
+    if (!time_points(cost, fmax(cost->budget - stopwatch_seconds(&watch), 0.3 * cost->budget))) return false;
     cost_analyse(cost);
     return true;
 }

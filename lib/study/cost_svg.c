@@ -47,19 +47,18 @@ static double drawn_error(const fbd_cost *cost, const fbd_point *point)
 
 static bool find_axes(const fbd_cost *cost, struct axes *axes)
 {
-    double largest = 0, smallest = 1, least = HUGE_VAL, most = 0;
+    double largest = 0, least = HUGE_VAL, most = 0;
     for (size_t i = 0; i < cost->point_count; i++) {
         const fbd_point *point = &cost->points[i];
         if (!is_drawn(point)) continue;
         largest = fmax(largest, drawn_error(cost, point));
-        smallest = fmin(smallest, drawn_error(cost, point));
         least = fmin(least, point->seconds);
         most = fmax(most, point->seconds);
     }
     if (!(largest > 0)) return false;
     const double air = 0.12;
     *axes = (struct axes){.x_first = floor(-log10(largest)),
-                          .x_last = ceil(-log10(smallest) + 0.3),
+                          .x_last = ceil(-log10(cost->reference.floor) + 0.3),
                           .y_first = log10(least) - air,
                           .y_last = log10(most) + air};
     if (axes->y_last - axes->y_first < 1) { /* one labelled decade at least */
@@ -163,8 +162,6 @@ static void frame(struct text *text, const struct axes *axes)
 static void floor_band(struct text *text, const fbd_cost *cost, const struct axes *axes)
 {
     double x = across(axes, cost->reference.floor);
-    if (!(x < right)) return;
-    x = fmax(x, left);
     text_add(text, "<rect class=\"floor\" x=\"");
     place(text, x);
     text_printf(text, "\" y=\"%d\" width=\"", top);

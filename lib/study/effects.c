@@ -133,7 +133,8 @@ static bool run_all(struct fbd_effects *effects, fbd_model **models, struct time
         (struct timed){.model = effects->model, .options = options, .estimate = effects->track.seconds};
     for (size_t i = 0; i < effects->count; i++) {
         double seconds = 0;
-        if (stopwatch_wall(&watch) > effects->budget / 2) effects->edits[i].refusal = "the budget is spent";
+        if (stopwatch_seconds(&watch) > effects->budget / 2)
+            effects->edits[i].refusal = "the budget is spent";
         if (effects->edits[i].refusal) effects->effects[i].reason = effects->edits[i].refusal;
         if (!try_without(effects, i, &models[i], &seconds)) return false;
         if (models[i])

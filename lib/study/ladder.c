@@ -236,7 +236,7 @@ bool ladder_climb(struct fbd_cost *cost)
     struct climber *climbers = arena_array(&cost->arena, cost->series_count, sizeof *climbers);
     if (!climbers || !plan_steps(cost)) return false;
     for (size_t s; (s = next_series(cost, climbers)) < cost->series_count;) {
-        double spent = stopwatch_wall(&watch) / (LADDER_SHARE * cost->budget);
+        double spent = stopwatch_seconds(&watch) / (LADDER_SHARE * cost->budget);
         if (!progress_report(&cost->progress, "errors", fmin(spent, 1), cost->errors)) return false;
         if (spent > 1) break;
         if (!climb_rung(cost, &cost->series[s], &climbers[s], longest_share * cost->budget)) return false;

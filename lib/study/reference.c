@@ -45,7 +45,7 @@ static bool climb(struct search *search, int c, double seconds)
     struct stopwatch watch = stopwatch_start();
     for (int r = 0; r < rungs; r++) {
         struct attempt *attempt = &search->attempts[c][r];
-        double left = seconds - stopwatch_wall(&watch);
+        double left = seconds - stopwatch_seconds(&watch);
         if (r > 0 && (!attempt[-1].usable || expected(&attempt[-1], r - 1) > left)) break;
         attempt->setting = (struct setting){.method = candidates[c], .tolerance = tolerances[r]};
         if (!track_make(&attempt->track, search->model, &attempt->setting, &search->reference->grid,
@@ -288,7 +288,7 @@ bool reference_make(struct certified_reference *reference, const fbd_model *mode
     struct stopwatch watch = stopwatch_start();
     const struct track *first = NULL;
     for (int c = 0; c < candidate_count; c++) {
-        double left = seconds - stopwatch_wall(&watch);
+        double left = seconds - stopwatch_seconds(&watch);
         if (!climb(search, c, left / (candidate_count - c))) return false;
         for (int r = 0; r < rungs && !first; r++)
             if (search->attempts[c][r].usable) first = &search->attempts[c][r].track;

@@ -15,15 +15,10 @@ struct stopwatch stopwatch_start(void)
     return (struct stopwatch){.wall = read_clock(CLOCK_MONOTONIC), .processor = processor};
 }
 
-double stopwatch_wall(const struct stopwatch *stopwatch)
-{
-    return read_clock(CLOCK_MONOTONIC) - stopwatch->wall;
-}
-
 double stopwatch_seconds(const struct stopwatch *stopwatch)
 {
     const double had = 0.95;
-    double wall = stopwatch_wall(stopwatch),
+    double wall = read_clock(CLOCK_MONOTONIC) - stopwatch->wall,
            processor = read_clock(CLOCK_PROCESS_CPUTIME_ID) - stopwatch->processor;
     return processor > 0 && processor < had * wall ? processor : wall;
 }

@@ -12,10 +12,8 @@ struct stopwatch {
 struct stopwatch stopwatch_start(void);
 
 /* Seconds since the start: wall time, or processor time where the process was held up by others (it had the
- * processor for less than 95 % of the time). A clock of the processor that counts in ticks may not have moved: then wall time. */
+ * processor for less than 95 % of the time). A clock of the processor that counts in ticks may not have moved: then wall time.
+ * Budgets are counted by it as well, so that a study measures the same points on a loaded machine. */
 double stopwatch_seconds(const struct stopwatch *stopwatch);
-
-/* Wall time since the start. */
-double stopwatch_wall(const struct stopwatch *stopwatch);
 
 #endif

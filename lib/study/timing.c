@@ -75,7 +75,7 @@ bool timing_in_turn(struct timed *timed, size_t count, double seconds, const str
         going = false;
         for (size_t k = 0; k < count; k++) {
             struct timed *one = &timed[(k + (size_t)round * turn) % count];
-            double passed = stopwatch_wall(&watch);
+            double passed = stopwatch_seconds(&watch);
             bool late = round > 0 && passed + one->estimate > seconds;
             if (late || round >= wanted_repeats(one, seconds / (double)count)) continue;
             if (!read_once(one, errors)) return false;

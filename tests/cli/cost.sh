@@ -80,6 +80,8 @@ words = " ".join("".join(text.itertext()) for text in root.iter("{http://www.w3.
 for word in ("Fall with quadratic drag", "dop853", "rk4, fixed h", "floor of the reference", "time of a run"):
     assert word in words, word
 END
+check 'it reaches to the floor of the reference where no run does' sh -c '"$0" --budget 0.5 --fixed-steps --methods rk1imp --quiet \
+    --svg coarse.svg "$1" && grep -q "floor of the reference" coarse.svg' "$program" "$fall"
 printf 'fbd: 1\ntitle: "a < b & \\"c\\""\nbodies:\n  b: {mass: 1, motion: slide}\nsimulate: {until: 1}\n' >title.yaml
 check 'a title is data' sh -c '"$0" --budget 0.2 --quiet --svg t.svg title.yaml && python3 -c "
 import xml.dom.minidom; xml.dom.minidom.parse(\"t.svg\")"' "$program"

@@ -13,7 +13,8 @@ import tempfile
 from pathlib import Path
 
 SOURCE = Path(os.environ["FBD_SOURCE_ROOT"])
-sys.path.insert(0, str(SOURCE / "tests" / "page"))
+sys.path[:0] = [str(SOURCE / "tests" / folder) for folder in ("page", "tools")]
+import limits  # pylint: disable=wrong-import-position
 from claims import claim, finish  # pylint: disable=wrong-import-position
 
 NOTE = re.compile(r"^[^:\n]+:(\d+):(\d+): (error|warning): (.*)\n    hint: (.*)$|^[^:\n]+:(\d+):(\d+): error: (.*)$",
@@ -35,8 +36,8 @@ def notes(text, folder):
     """(line, column, severity, message, hint) of each note."""
     path = Path(folder) / "m.yaml"
     path.write_bytes(text.encode("utf-8", "surrogateescape"))
-    done = subprocess.run([os.environ["FBD_RUN"], "--check", path], capture_output=True, stdin=subprocess.DEVNULL,
-                          check=False, timeout=60)
+    done = limits.run([os.environ["FBD_RUN"], "--check", path], capture_output=True, stdin=subprocess.DEVNULL,
+                      check=False)
     for match in NOTE.finditer(done.stderr.decode("utf-8", "replace")):
         line, column, severity, message, hint, bare_line, bare_column, bare = match.groups()
         if bare:

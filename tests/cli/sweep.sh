@@ -116,16 +116,25 @@ written() {
 }
 
 # shellcheck disable=SC2086
-killed() { # killed SIGNAL CODE: start or go on, and kill it after some rows
+killed() { # killed SIGNAL CODE: start or go on, and kill it after some rows; once more where it was done before
     before=$(written)
-    "$program" $slowly --jobs 2 --csv table.csv --resume "$incline" 2>err &
-    process=$!
-    while [ "$(written)" -le $((before + 20)) ] && kill -0 $process 2>/dev/null; do
-        sleep 0.02
+    rm -rf at_first
+    mkdir at_first
+    [ "$before" -eq 0 ] || cp table.csv.part table.csv.part.key at_first
+    for _ in 1 2 3 4 5 6 7 8 9 10; do
+        "$program" $slowly --jobs 2 --csv table.csv --resume "$incline" 2>err &
+        process=$!
+        while [ "$(written)" -le $((before + 20)) ] && kill -0 $process 2>/dev/null; do
+            sleep 0.02
+        done
+        kill "-$1" $process 2>/dev/null
+        wait $process
+        code=$?
+        [ $code -eq 0 ] || break
+        rm -f table.csv
+        [ "$before" -eq 0 ] || cp at_first/* .
     done
-    kill "-$1" $process || return 1
-    wait $process
-    [ $? -eq "$2" ] && [ ! -e table.csv ] && [ -s table.csv.part ]
+    [ $code -eq "$2" ] && [ ! -e table.csv ] && [ -s table.csv.part ]
 }
 first_rows() { # what is there is the beginning of the whole
     head -c "$(wc -c <table.csv.part)" whole.csv | cmp - table.csv.part

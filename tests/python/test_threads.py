@@ -93,8 +93,8 @@ SCRIPT = """
 import sys, time, fbd
 model = fbd.Model(sys.argv[1])
 begin = time.time()
-print("ready", flush=True)
 try:
+    print("ready", flush=True)
     {slow}
     print("done")
 except KeyboardInterrupt:

@@ -125,6 +125,7 @@ void grades(void **state)
     REFUSES(fbd_key_read, !fbd_key_read(NULL, errors));
     ANSWERS(fbd_key_read, !fbd_key_read("nowhere/at/all.yaml", NULL));
     ENDURES(fbd_key_free, fbd_key_free(NULL));
+    REFUSES(fbd_model_check_key, !fbd_model_check_key(NULL, errors));
     REFUSES(fbd_key_handout, !fbd_key_handout(NULL, "anna", errors));
     ANSWERS(fbd_finding_kind_name, strcmp(fbd_finding_kind_name((fbd_finding_kind)99), "") == 0);
     ANSWERS(fbd_finding_kind_name, strcmp(fbd_finding_kind_name((fbd_finding_kind)-1), "") == 0);

@@ -217,6 +217,37 @@ static void what_starts_on_a_bar_has_a_side(void **unused)
     checks_end(&checks);
 }
 
+/* Only what moves to the side from which its forces pull it is warned of, once. */
+static void what_leaves_against_its_forces_is_warned_of(void **unused)
+{
+    static const struct {
+        const char *more;
+        size_t warnings;
+    } cases[] = {{", vy: 2 m/s}, forces: [gravity]}\n", 0},
+                 {"}, forces: [gravity]}\n", 0},
+                 {", vy: -2 m/s}}\n", 0},
+                 {", y: 1 mm, vy: -2 m/s}, forces: [gravity]}\n", 0},
+                 {", vy: -2 m/s}, forces: [gravity]}\n", 1}};
+    (void)unused;
+    struct checks checks = {0};
+    for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
+        char scene[600];
+        snprintf(scene, sizeof scene,
+                 "fbd: 1\nbodies:\n" BALL "%s" BEAM
+                 "contacts: [{between: [ball, beam]}]\nsimulate: {until: 1 s}\n",
+                 cases[k].more);
+        fbd_errors *errors = fbd_errors_new();
+        fbd_model *model = fbd_model_parse(scene, strlen(scene), "scene", NULL, 0, errors);
+        check_that(&checks, "a model", model != NULL);
+        check_that(&checks, cases[k].more, fbd_errors_count(errors) == cases[k].warnings);
+        if (cases[k].warnings > 0 && fbd_errors_count(errors) > 0)
+            check_that(&checks, "by name", strcmp(fbd_errors_get(errors, 0).id, "side-by-motion") == 0);
+        fbd_model_free(model);
+        fbd_errors_free(errors);
+    }
+    checks_end(&checks);
+}
+
 /* A ball that has come to rest at a bar from below, where nothing pulls it, falls off it when it is pulled down 0.2 s later,
  * also in a motion that goes on from numbers: x = F t^2 / (2 m). Only the state holds the side. */
 static void a_side_goes_with_the_state(void **unused)
@@ -272,6 +303,7 @@ int main(void)
         cmocka_unit_test(a_start_that_is_off_by_the_digits_of_a_file_is_moved_out),
         cmocka_unit_test(moving_out_assembles_nothing),
         cmocka_unit_test(what_starts_on_a_bar_has_a_side),
+        cmocka_unit_test(what_leaves_against_its_forces_is_warned_of),
         cmocka_unit_test(a_side_goes_with_the_state),
         cmocka_unit_test(bars_that_cross_are_refused),
     };
