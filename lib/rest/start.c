@@ -83,10 +83,11 @@ static void contradiction_words(const struct fbd_model *model, int pair, const c
 {
     const struct mode *hold = &model->plan.modes[pair];
     bool couples = hold->kind == mode_surface || hold->kind == mode_rope;
-    const char *name = couples ? model->scene->constraints[model->tree->ties[hold->tie].constraint].name
+    const struct tie *tie = couples && model->tree ? &model->tree->ties[hold->tie] : NULL;
+    const char *name = tie               ? model->scene->constraints[tie->constraint].name
                        : hold->load >= 0 ? model->loads[hold->load].source->name
                                          : "a hold";
-    bool unlimited = hold->kind == mode_surface && model->tree->ties[hold->tie].pair < 0;
+    bool unlimited = hold->kind == mode_surface && tie && tie->pair < 0;
     text_printf(
         text,
         "%s neither way agrees with the forces for `%s` of `%s`: while it holds it would have to give, "
