@@ -273,13 +273,14 @@ void run_close_step(struct run *run)
     }
     if (nothing || left.position <= 1e3 * fmax(run->options.tolerance, 1e-12) * reach) return;
     const char *row = tie_row_name(run->model->tree, misfit.row >= 0 ? misfit.row : 0);
-    const double ratio = fit_mass_ratio(run->model->tree);
+    const double ratio = run->model->tree->mass_ratio;
     if (ratio > masses_far_apart)
         run_fail(
             run, FBD_FAILED,
             "at t = %.9g the coupling `%s` cannot be closed any more (it is off by %.3g): the heaviest of "
             "the "
-            "jointed bodies has %.2g times the mass of the lightest, and up to about 1e6 can be solved. Give "
+            "jointed bodies has %.2g times the mass of the lightest, and up to about 1e12 can be solved. "
+            "Give "
             "the lightest one more mass",
             run_time(run), row, misfit.position, ratio);
     else

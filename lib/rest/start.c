@@ -152,7 +152,7 @@ static bool is_settled(struct fbd_state *state, bool settled, struct lack *lack)
     state->holds = trouble;
     text_free(&lack->text);
     lack->at = (struct pos){0, 0};
-    const double ratio = state->model->tree ? fit_mass_ratio(state->model->tree) : 0;
+    const double ratio = state->model->tree ? state->model->tree->mass_ratio : 0;
     lack->id = ratio > masses_too_far_apart  ? "masses-apart"
                : trouble.found == holds_none ? "no-solution"
                                              : "unsettled";
@@ -160,8 +160,7 @@ static bool is_settled(struct fbd_state *state, bool settled, struct lack *lack)
     if (ratio > masses_too_far_apart)
         text_printf(&lack->text,
                     ". The heaviest of the jointed bodies has %.2g times the mass of the lightest, and up to "
-                    "about 1e6 "
-                    "can be solved",
+                    "about 1e12 can be solved",
                     ratio);
     return false;
 }
