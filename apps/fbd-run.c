@@ -296,7 +296,7 @@ static enum exit_code carry_and_write(fbd_simulation *simulation, const struct o
     fbd_outcome outcome = result ? fbd_result_outcome(result) : FBD_FAILED;
     if (outcome != FBD_FAILED && outcome != FBD_INTERRUPTED && code == exit_done)
         code = accurate(result, simulation, interrupt);
-    if (code == exit_done) code = balanced(result);
+    if (outcome != FBD_FAILED && code == exit_done) code = balanced(result); /* else the reason says more */
     if (result && outcome != FBD_DONE && outcome != FBD_STOPPED) {
         if (!fbd_simulation_blame(simulation, errors))
             complain("fbd-run: %s", fbd_simulation_reason(simulation));

@@ -31,6 +31,11 @@ static uint64_t power_of_five(int exponent)
     return power;
 }
 
+static bool lies_in(int value, int low, int high)
+{
+    return low <= value && value <= high;
+}
+
 static struct scaled scale_by(double value, int scale)
 {
     enum { mantissa = 53, widest = wide_bits - 1, of_five = 63 };
@@ -38,8 +43,8 @@ static struct scaled scale_by(double value, int scale)
     struct scaled scaled = {.u = 1, .d = 1};
     scaled.m = (uint64_t)ldexp(frexp(value, &exponent), mantissa);
     int twos = exponent - mantissa + scale;
-    if (scale < least_scale || scale > greatest_scale || twos > widest - mantissa - of_five ||
-        twos < of_five - widest)
+    if (!lies_in(scale, least_scale, greatest_scale) ||
+        !lies_in(twos, of_five - widest, widest - mantissa - of_five))
         return scaled;
     scaled.known = true;
     *(scale >= 0 ? &scaled.u : &scaled.d) = power_of_five(scale >= 0 ? scale : -scale);

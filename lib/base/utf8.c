@@ -55,7 +55,7 @@ bool utf8_is_plain(unsigned code)
 
 struct utf8_shown utf8_show(const char *text)
 {
-    unsigned code;
+    unsigned code = 0;
     struct utf8_shown shown = {.taken = utf8_decode(text, strnlen(text, 4), &code)};
     if (shown.taken > 0 && utf8_is_plain(code)) {
         shown.plain = true;

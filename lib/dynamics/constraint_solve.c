@@ -29,7 +29,7 @@
  * random trees with loops (tests/unit/test_tree.c), and of rows that say nothing new (test_couplings.c).
  *
  * D is not the diagonal of S, which vanishes with the slope of a row: then nothing would be damped just where
- * it has to be. It is what the rows of a tie could have there in other positions (set_scales).
+ * it has to be. It is what the rows of a tie could have there in other positions (tree_scales.c).
  */
 #include <float.h>
 #include <string.h>
@@ -311,56 +311,6 @@ static void solve(struct tree_work *work, double *unknowns)
     for (int p = 0; p < m; p++) unknowns[work->unknown_at[p]] = z[p];
 }
 
-/* ---- how much the joints could give way */
-
-/* How much the joint of a link could move a point at `arm` from its O, by a unit force in the best direction;
- * where it cannot, the joint before it. */
-static double mobility(const struct tree *tree, const struct tree_work *work, int link, struct vec arm)
-{
-    for (; link > 0; link = tree->links[link].parent) {
-        const struct tree_state *s = &work->links[link];
-        enum motion_kind kind = tree->links[link].kind;
-        double r2 = vec_dot(arm, arm), gives = 0;
-        if (kind == motion_pivot)
-            gives = s->D * r2;
-        else if (kind == motion_slide || kind == motion_track)
-            gives = s->D;
-        else
-            gives = s->inverse[0] + s->inverse[2] + s->D * r2;
-        if (!s->locked && gives > 0) return gives;
-        arm = vec_add(arm, s->d);
-    }
-    return 0;
-}
-
-/* A row counts as weak against what its tie could do in other positions or directions: so a pin, turned in
- * the plane, is the same pin, and a rod notices when all that it joins has come in line with it.
- *
- * What nothing can move has all of that of the order of rounding, when it sits on the axis but for rounding
- * (the pin of a welded body). So whether it moves is measured against the lightest link too, as a whole. */
-static void set_scales(const struct tree *tree, struct tree_work *work)
-{
-    double most = 0, lightest = DBL_MAX;
-    for (int i = 0; i < tree->tie_count; i++) {
-        int first = tree->ties[i].first_row, end = first + tree->ties[i].row_count;
-        double scale = 0;
-        for (int j = first; j < end; j++) {
-            const struct row *row = &work->rows[j];
-            if (work->place[j] < 0) continue;
-            for (int k = 0; k < row->port_count; k++) {
-                int link = row->ports[k].link;
-                scale = fmax(scale, mobility(tree, work, link, row->ports[k].arm));
-                if (link > 0) lightest = fmin(lightest, tree->links[link].mass);
-            }
-            scale = fmax(scale, work->diagonal[j]);
-        }
-        for (int j = first; j < end; j++) work->scale[j] = work->place[j] < 0 ? 1 : scale;
-        most = fmax(most, scale);
-    }
-    for (int k = tree->row_count; k < tree_unknowns(tree); k++) work->scale[k] = work->diagonal[k];
-    work->most = fmax(most, 1 / lightest);
-}
-
 static void assemble(const struct fbd_model *model, const struct instant *at)
 {
     const struct tree *tree = model->tree;
@@ -381,7 +331,7 @@ static void assemble(const struct fbd_model *model, const struct instant *at)
             if (q > p && work->first[q] <= p) *entry_of(work, lower, q, p) = value;
         }
     }
-    set_scales(tree, work);
+    tree_set_scales(tree, work);
 }
 
 static void factor_shifted(const struct tree *tree, struct tree_work *work, double epsilon)
@@ -419,21 +369,6 @@ void tree_system_factor(const struct fbd_model *model, const struct instant *at)
     tree_system_refactor(model->tree, at->tree);
 }
 
-void tree_system_solve(const struct fbd_model *model, const struct instant *at, double *z)
-{
-    const struct tree *tree = model->tree;
-    struct tree_work *work = at->tree;
-    int m = tree_unknowns(tree);
-    for (int k = 0; k < m; k++)
-        if (work->place[k] < 0) z[k] = 0;
-    solve(work, z);
-    clear_range(work->x, 0, tree->count);
-    for (int k = 0; k < m; k++)
-        if (z[k] != 0) apply_unknown(model, at, k, z[k]);
-    tree_inward(tree, work, 1, tree->count);
-    tree_outward(tree, work, 1, tree->count, work->unit);
-}
-
 double tree_row_answer(const struct tree_work *work, int j)
 {
     const struct row *row = &work->rows[j];
@@ -445,6 +380,58 @@ double tree_row_answer(const struct tree_work *work, int j)
         sum += vec_dot(port->force, A->a) + vec_cross(port->arm, port->force) * A->alpha;
     }
     return sum;
+}
+
+/* The answer of the trees to all unknowns. */
+static void answer_all(const struct fbd_model *model, const struct instant *at, const double *z)
+{
+    const struct tree *tree = model->tree;
+    struct tree_work *work = at->tree;
+    clear_range(work->x, 0, tree->count);
+    for (int k = 0; k < tree_unknowns(tree); k++)
+        if (z[k] != 0) apply_unknown(model, at, k, z[k]);
+    tree_inward(tree, work, 1, tree->count);
+    tree_outward(tree, work, 1, tree->count, work->unit);
+}
+
+/* One rounding of a force is an acceleration of a light body that its rows do not allow. What the accelerations miss is
+ * solved for again, and its answer added to them, as a sum of forces would round once more. */
+static void refine(const struct fbd_model *model, const struct instant *at, double *z)
+{
+    enum { passes = 2 };
+    const struct tree *tree = model->tree;
+    struct tree_work *work = at->tree;
+    const size_t links = (size_t)tree->count, n = (size_t)model->plan.n;
+    double *left = work->left;
+    for (int pass = 0; pass < passes; pass++) {
+        memcpy(work->sum, work->x, links * sizeof *work->sum);
+        memcpy(work->sum_unit, work->unit, n * sizeof *work->sum_unit);
+        for (int j = 0; j < tree_unknowns(tree); j++)
+            left[j] = is_row(tree, j) && work->place[j] >= 0 ? work->wanted[j] - tree_row_answer(work, j) : 0;
+        solve(work, left);
+        answer_all(model, at, left);
+        for (size_t i = 0; i < links; i++) {
+            struct tree_rhs *x = &work->x[i];
+            const struct tree_rhs *sum = &work->sum[i];
+            x->p = (struct wrench){x->p.moment + sum->p.moment, vec_add(x->p.force, sum->p.force)};
+            x->A = (struct acceleration){x->A.alpha + sum->A.alpha, vec_add(x->A.a, sum->A.a)};
+        }
+        for (size_t i = 0; i < n; i++) work->unit[i] += work->sum_unit[i];
+        for (int j = 0; j < tree_unknowns(tree); j++) z[j] += left[j];
+    }
+}
+
+void tree_system_solve(const struct fbd_model *model, const struct instant *at, double *z)
+{
+    const struct tree *tree = model->tree;
+    struct tree_work *work = at->tree;
+    int m = tree_unknowns(tree);
+    for (int k = 0; k < m; k++)
+        if (work->place[k] < 0) z[k] = 0;
+    memcpy(work->wanted, z, (size_t)m * sizeof *z);
+    solve(work, z);
+    answer_all(model, at, z);
+    if (work->apart && !work->projecting) refine(model, at, z);
 }
 
 void tree_take_multipliers(const struct fbd_model *model, const struct instant *at)

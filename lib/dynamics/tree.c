@@ -18,7 +18,7 @@ static size_t doubles_of(const struct fbd_model *model)
 {
     const struct tree *tree = model->tree;
     size_t borne = tree->meeting_count > 0 ? (size_t)tree->count : 0;
-    return 4 * tree->envelope_size + 7 * (size_t)tree_unknowns(tree) + 4 * (size_t)model->plan.n + borne;
+    return 4 * tree->envelope_size + 9 * (size_t)tree_unknowns(tree) + 5 * (size_t)model->plan.n + borne;
 }
 
 size_t tree_work_size(const struct fbd_model *model)
@@ -26,7 +26,7 @@ size_t tree_work_size(const struct fbd_model *model)
     const struct tree *tree = model->tree;
     size_t links = (size_t)tree->count, unknowns = (size_t)tree_unknowns(tree);
     size_t ints = (links + 5 * unknowns + 2) / 2 * 2;
-    size_t link = sizeof(struct tree_state) + sizeof(struct tree_rhs) + sizeof(struct tree_variation) +
+    size_t link = sizeof(struct tree_state) + 2 * sizeof(struct tree_rhs) + sizeof(struct tree_variation) +
                   sizeof(struct tree_bare);
     return links * link + (size_t)tree->row_count * sizeof(struct row) +
            (size_t)tree->tie_count * sizeof(struct tie_state) + doubles_of(model) * sizeof(double) +
@@ -39,7 +39,8 @@ void tree_work_init(struct tree_work *work, const struct fbd_model *model, void 
     size_t links = (size_t)tree->count, unknowns = (size_t)tree_unknowns(tree), n = (size_t)model->plan.n;
     work->links = memory;
     work->x = (struct tree_rhs *)(work->links + links);
-    work->variation = (struct tree_variation *)(work->x + links);
+    work->sum = work->x + links;
+    work->variation = (struct tree_variation *)(work->sum + links);
     work->bare = (struct tree_bare *)(work->variation + links);
     work->rows = (struct row *)(work->bare + links);
     work->ties = (struct tie_state *)(work->rows + tree->row_count);
@@ -57,7 +58,10 @@ void tree_work_init(struct tree_work *work, const struct fbd_model *model, void 
     work->taken = work->a_along + n;
     work->scale = work->taken + n;
     work->ordered = work->scale + unknowns;
-    work->borne = work->ordered + unknowns;
+    work->wanted = work->ordered + unknowns;
+    work->left = work->wanted + unknowns;
+    work->sum_unit = work->left + unknowns;
+    work->borne = work->sum_unit + n;
     void *behind = work->borne + (tree->meeting_count > 0 ? links : 0);
     work->envelope = behind;
     behind = work->envelope + unknowns;

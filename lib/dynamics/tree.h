@@ -84,7 +84,10 @@ struct tree_work {
     struct rest_memo *memo;                         /* rest_memo.h */
     double *whole;                  /* lower and upper parts of the system before it was factored */
     double *right, *rest, *ordered; /* unknowns in the order of elimination */
-    int *mark;                      /* count: which unknown a tree answers to */
+    double *wanted, *left;          /* unknowns: a right-hand side, and what its solution has left of it */
+    struct tree_rhs *sum;           /* tree.count, and n: answers before a correction */
+    double *sum_unit;
+    int *mark;        /* count: which unknown a tree answers to */
     size_t *envelope; /* of the unknowns that take part in the system, see constraint_solve.c: */
     int *unknown_at, *first, *reach; /* what struct tree has of all of them */
     int *place;                      /* of an unknown, or -1 */
@@ -103,6 +106,7 @@ struct tree_work {
     bool is_loop;        /* the scene is the loop of three links that follows, see tree_loop.h */
     struct tree_loop loop;
     bool placed;        /* the places of the unknowns are known, for good: there are no modes */
+    bool apart;         /* masses are so far apart that solutions are refined by their accelerations */
     bool symmetric;     /* there is no friction in the system */
     bool direct;        /* it was factored as it stands, and its solution needs no corrections */
     bool shared;        /* what constraints leave open is shared in them, see rest_system.h */

@@ -12,6 +12,9 @@ int tree_unknowns(const struct tree *tree);
 /* Set up and factor the system from the rows' ports and the factored tree. Overwrites work->x. */
 void tree_system_factor(const struct fbd_model *model, const struct instant *at);
 
+/* Of the rows of the system, whose diagonal is known: work->scale, work->most and work->apart. */
+void tree_set_scales(const struct tree *tree, struct tree_work *work);
+
 /* Factor it once more, with another damping. */
 void tree_system_refactor(const struct tree *tree, struct tree_work *work);
 

@@ -309,7 +309,9 @@ static bool find_line_of_rest(const struct lines *lines, struct line *own, size_
     for (size_t i = 0; i < count; i++) {
         if (!own[i].rest || own[i].met != 0) continue;
         own[i].met = 1;
-        if (rest_is_new(lines, own[i].rest, base, *met)) return ++*met > 0;
+        if (!rest_is_new(lines, own[i].rest, base, *met)) continue;
+        ++*met;
+        return true;
     }
     return false;
 }

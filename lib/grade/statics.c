@@ -311,8 +311,8 @@ static bool find_changes(struct lines *lines, int body, const char *text, double
     fbd_model *model = NULL;
     if (!root || !errors) grade->arena.failed = true;
     if (root && errors) model = grade_compile(grade, root, grade->key->file, true, errors);
-    double size, lack = lack_of(model, body, &size);
-    bool done = fabs(lack) <= 0.3 * grade->key->model->scene->grading.tolerance * size;
+    double size = 0, lack = lack_of(model, body, &size);
+    bool done = model && fabs(lack) <= 0.3 * grade->key->model->scene->grading.tolerance * size;
     for (int k = 1; done && k <= lines->rest->draws; k++) {
         fbd_model *changed = changed_model(grade, root, model, true, k);
         double other;

@@ -292,7 +292,7 @@ static bool counts_beside(const struct solutions *solutions, const struct hold_p
 
 int holds_is_unique(struct hold_problem *problem, size_t most)
 {
-    struct trial trial;
+    struct trial trial = {0};
     struct solutions solutions = {0};
     if (different_modes(problem) > (double)most) return -1;
     size_t all = all_modes(problem);
@@ -302,7 +302,7 @@ int holds_is_unique(struct hold_problem *problem, size_t most)
         made = found != holds_no_memory && (found != holds_decided || keep_solution(&solutions, problem));
     }
     for (size_t k = 1; made && k < solutions.count; k++) unique &= !counts_beside(&solutions, problem, k);
-    if (solutions.count > 0) trial_free(&trial);
+    trial_free(&trial);
     free(solutions.modes);
     free(solutions.c);
     return made ? unique : -2;

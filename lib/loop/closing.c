@@ -225,6 +225,21 @@ static bool ends_reach(struct run *run)
     return true;
 }
 
+/* Of rounding of forces the lightest bodies are torn from their places: say so where the masses are that far apart. */
+static bool fail_by_masses(struct run *run, const struct misfit *misfit)
+{
+    const double ratio = run->model->tree->mass_ratio;
+    if (ratio <= masses_far_apart) return false;
+    run_fail(
+        run, FBD_FAILED,
+        "at t = %.9g the coupling `%s` cannot be closed any more (it is off by %.3g): the heaviest of the "
+        "jointed bodies has %.2g times the mass of the lightest, and up to about 1e12 can be solved. Give "
+        "the lightest one more mass",
+        run_time(run), tie_row_name(run->model->tree, misfit->row >= 0 ? misfit->row : 0), misfit->position,
+        ratio);
+    return true;
+}
+
 static void fail_singular(struct run *run, const struct misfit *misfit)
 {
     if (ends_reach(run))
@@ -233,7 +248,7 @@ static void fail_singular(struct run *run, const struct misfit *misfit)
             "at t = %.9g the mechanism is at the end of its reach: what is prescribed goes on to where the "
             "coupling `%s` cannot be closed",
             run_time(run), tie_row_name(run->model->tree, misfit->row >= 0 ? misfit->row : 0));
-    else
+    else if (!fail_by_masses(run, misfit))
         run_fail(run, FBD_FAILED,
                  "at t = %.9g the couplings pass a singular position, where the mechanism could go on in "
                  "two ways, and the step cannot tell which: try another tolerance or --method dop853",
@@ -272,22 +287,12 @@ void run_close_step(struct run *run)
         return;
     }
     if (nothing || left.position <= 1e3 * fmax(run->options.tolerance, 1e-12) * reach) return;
-    const char *row = tie_row_name(run->model->tree, misfit.row >= 0 ? misfit.row : 0);
-    const double ratio = fit_mass_ratio(run->model->tree);
-    if (ratio > masses_far_apart)
-        run_fail(
-            run, FBD_FAILED,
-            "at t = %.9g the coupling `%s` cannot be closed any more (it is off by %.3g): the heaviest of "
-            "the "
-            "jointed bodies has %.2g times the mass of the lightest, and up to about 1e6 can be solved. Give "
-            "the lightest one more mass",
-            run_time(run), row, misfit.position, ratio);
-    else
+    if (!fail_by_masses(run, &misfit))
         run_fail(
             run, FBD_FAILED,
             "at t = %.9g the coupling `%s` cannot be closed any more (it is off by %.3g): the mechanism is "
             "at the end of its reach, or the tolerance is too large",
-            run_time(run), row, misfit.position);
+            run_time(run), tie_row_name(run->model->tree, misfit.row >= 0 ? misfit.row : 0), misfit.position);
 }
 
 /* What rounding has left of such a speed would be taken for a side that it moves to. That nothing comes of it is told by its
@@ -316,6 +321,7 @@ void run_check_balance(struct run *run)
     struct text lack = {0};
     run_evaluate(run);
     if (run->end.outcome == FBD_GOING && balance_lack(run->state, run->work.arrows, &lack))
-        run_fail(run, FBD_FAILED, "%s", lack.failed ? "" : lack.data);
+        run_fail(run, lack.failed ? FBD_OUT_OF_MEMORY : FBD_FAILED, "%s",
+                 lack.failed ? "out of memory" : lack.data);
     text_free(&lack);
 }

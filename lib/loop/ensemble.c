@@ -434,7 +434,10 @@ struct fbd_state *ensemble_state(struct ensemble *ensemble)
 void ensemble_check_balance(struct ensemble *ensemble)
 {
     struct text lack = {0};
-    if (balance_lack(ensemble_state(ensemble), ensemble->arrows, &lack))
-        ensemble_spoil(ensemble, "%s", lack.failed ? "" : lack.data);
+    bool lacks = balance_lack(ensemble_state(ensemble), ensemble->arrows, &lack);
+    if (lack.failed)
+        ensemble_fail(ensemble, FBD_OUT_OF_MEMORY, "out of memory");
+    else if (lacks)
+        ensemble_spoil(ensemble, "%s", lack.data);
     text_free(&lack);
 }

@@ -460,6 +460,17 @@ bool tree_name_reactions(struct fbd_model *model)
     return !model->arena.failed;
 }
 
+static double mass_ratio(const struct tree *tree)
+{
+    double heaviest = 0, lightest = HUGE_VAL;
+    for (int i = 1; i < tree->count; i++) {
+        const double mass = tree->links[i].mass;
+        heaviest = fmax(heaviest, mass);
+        if (mass > 0) lightest = fmin(lightest, mass);
+    }
+    return heaviest / lightest;
+}
+
 bool tree_finish(struct fbd_model *model)
 {
     struct tree *tree = model->tree;
@@ -479,6 +490,7 @@ bool tree_finish(struct fbd_model *model)
     tree->loaded = tree->following_count + tree->force_count + tree->moment_count + tree->spring_count +
                        tree->drag_count + tree->bulk_count >
                    0;
+    tree->mass_ratio = mass_ratio(tree);
     tree->pivots_only = tree->watched_count == 0 && tree->bulk_count == 0;
     for (int i = 1; i < tree->count; i++) {
         if (tree->links[i].kind != motion_pivot) tree->pivots_only = false;

@@ -116,6 +116,7 @@ struct tree {
     bool loaded;              /* something of the lists above acts on links */
     bool curved;              /* there are tracks */
     bool pivots_only;         /* every joint is a pivot, and none has dry friction */
+    double mass_ratio;        /* of the heaviest link and the lightest */
     int pair_count;           /* links whose dry friction goes with a normal force */
     int *pairs;               /* their numbers */
     int watched_count;        /* links whose joint has a normal force or dry friction */

@@ -135,6 +135,27 @@ static void sliding_detail(const struct fbd_model *model, const struct run_event
         snprintf(detail, size, "%s slides on its switch", name);
 }
 
+static void several_detail(const struct run_event *event, const char *name, const char *unit, char *detail,
+                           size_t size)
+{
+    if (event->impact.several)
+        snprintf(detail, size,
+                 "%s: several velocities agree with the laws of the impact, whose impulses are not "
+                 "determined by "
+                 "rigid bodies, and one of them is taken",
+                 name);
+    else if (event->force > 1) /* friction that feeds its own normal force */
+        format_into(detail, size,
+                    "%s: several motions agree with the forces, as in Painleve's paradox, and one of them is "
+                    "taken; each %s of its normal force brings %.4g %s of it with it",
+                    name, unit, event->force, unit);
+    else
+        snprintf(detail, size,
+                 "%s: several motions agree with the law of friction, and one of them is taken; which of the "
+                 "bodies slip and which stick is not determined",
+                 name);
+}
+
 void event_detail(const struct fbd_model *model, const struct run_event *event, char *detail, size_t size)
 {
     const char *name = event_name(model, event);
@@ -156,26 +177,7 @@ void event_detail(const struct fbd_model *model, const struct run_event *event, 
     case FBD_EVENT_ROPE_TAUT: rope_taut_detail(model, event, name, detail, size); return;
     case FBD_EVENT_IMPACT: impact_detail(model, event, name, detail, size); return;
     case FBD_EVENT_CONTACT: snprintf(detail, size, "%s closes", name); return;
-    case FBD_EVENT_SEVERAL:
-        if (event->impact.several)
-            snprintf(detail, size,
-                     "%s: several velocities agree with the laws of the impact, whose impulses are not "
-                     "determined by "
-                     "rigid bodies, and one of them is taken",
-                     name);
-        else if (event->force > 1) /* friction that feeds its own normal force */
-            format_into(
-                detail, size,
-                "%s: several motions agree with the forces, as in Painleve's paradox, and one of them is "
-                "taken; each %s of its normal force brings %.4g %s of it with it",
-                name, unit, event->force, unit);
-        else
-            snprintf(
-                detail, size,
-                "%s: several motions agree with the law of friction, and one of them is taken; which of the "
-                "bodies slip and which stick is not determined",
-                name);
-        return;
+    case FBD_EVENT_SEVERAL: several_detail(event, name, unit, detail, size); return;
     case FBD_EVENT_JAM: jam_detail(model, event, name, detail, size); return;
     case FBD_EVENT_REST:
         snprintf(detail, size, "%s is closed after %d impacts and infinitely many too small to see", name,

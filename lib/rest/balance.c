@@ -157,7 +157,7 @@ static void say(const struct fbd_state *state, const struct worst *worst, struct
 }
 
 /* The force and the moment by which the motion of each body answers when the numbers of the state change by one rounding each,
- * as where stiff springs make much of the last digit of an angle: the forces of two evaluations differ by that. Zeros without
+ * as where stiff springs make much of the last digit of an angle: the forces of two evaluations differ by that. NULL without
  * memory. */
 static struct grains *find_answers(const struct fbd_state *state, struct arrow *arrows)
 {
@@ -165,8 +165,13 @@ static struct grains *find_answers(const struct fbd_state *state, struct arrow *
     struct grains *answers = zeroed((bodies + 1) * sizeof *answers);
     struct fbd_state *here = state_new(state->model), *there = state_new(state->model);
     const bool made = answers && here && there;
-    if (made) state_copy(here, state);
-    if (made) state_evaluate(here); /* afresh, as those beside it */
+    if (made) {
+        state_copy(here, state);
+        state_evaluate(here); /* afresh, as those beside it */
+    } else {
+        free(answers);
+        answers = NULL;
+    }
     for (size_t i = 0; made && i < plan_size(&state->model->plan); i++) {
         state_copy(there, state);
         there->y[i] += DBL_EPSILON * fabs(state->y[i]);
@@ -198,8 +203,10 @@ static struct worst find_worst(const struct fbd_state *state, struct arrow *arro
         if (jointed) force = fmax(force, joined.force);
         double moment = grain * sums.moment + force * sums.reach + 64 * sums.place;
         if (jointed) moment = fmax(moment, joined.moment);
-        if (answers) force += roundings * answers[b].force;
-        if (answers) moment += roundings * (answers[b].force * sums.reach + answers[b].moment);
+        if (answers) {
+            force += roundings * answers[b].force;
+            moment += roundings * (answers[b].force * sums.reach + answers[b].moment);
+        }
         compare(&worst, b, "m a in x", false, sums.m_a.x, sums.f.x, force);
         compare(&worst, b, "m a in y", false, sums.m_a.y, sums.f.y, force);
         compare(&worst, b, "I alpha about G", true, sums.I_alpha, sums.M, moment);
@@ -219,6 +226,10 @@ bool balance_lack(struct fbd_state *state, struct arrow *arrows, struct text *la
     worst = find_worst(state, arrows, joined, NULL);
     if (!worst.what) return false;
     struct grains *answers = find_answers(state, arrows);
+    if (!answers) {
+        lack->failed = true;
+        return true;
+    }
     worst = find_worst(state, arrows, joined, answers);
     free(answers);
     if (worst.what) say(state, &worst, lack);

@@ -14,7 +14,8 @@
 #include "dynamics/state.h"
 
 /* Say of the body that is farthest off which equation does not hold at the evaluated state, by how much, and
- * what rounding explains. False, with nothing added to `lack`, when all hold. `arrows` is scratch:
+ * what rounding explains. False, with nothing added to `lack`, when all hold; without memory
+ * true, and `lack` has failed. `arrows` is scratch:
  * diagram_most_arrows. */
 bool balance_lack(struct fbd_state *state, struct arrow *arrows, struct text *lack);
 

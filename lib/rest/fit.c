@@ -318,24 +318,13 @@ bool fit_lack(struct fbd_state *state, struct fbd_state *other, struct pos *at, 
     return true;
 }
 
-double fit_mass_ratio(const struct tree *tree)
-{
-    double heaviest = 0, lightest = HUGE_VAL;
-    for (int i = 1; i < tree->count; i++) {
-        const double mass = tree->links[i].mass;
-        heaviest = fmax(heaviest, mass);
-        if (mass > 0) lightest = fmin(lightest, mass);
-    }
-    return heaviest / lightest;
-}
-
 bool fit_unsolved(struct fbd_state *state, bool *masses, struct pos *at, struct text *lack)
 {
     const double digits = 1e-6;
     int row;
     if (!state->model->tree || state->model->tree->tie_count == 0) return false;
     state_evaluate(state);
-    const double miss = state_acceleration_misfit(state, &row), ratio = fit_mass_ratio(state->model->tree);
+    const double miss = state_acceleration_misfit(state, &row), ratio = state->model->tree->mass_ratio;
     if (miss <= digits || row < 0) return false;
     *masses = ratio > masses_far_apart;
     if (at) *at = place_of(state->model, row);
@@ -345,8 +334,7 @@ bool fit_unsolved(struct fbd_state *state, bool *masses, struct pos *at, struct 
             lack,
             "the force of `%s` cannot be told: accelerations miss it by %.2g of their size, as the masses of "
             "jointed bodies are too far apart: the heaviest has %.2g times the mass of the lightest, and up "
-            "to "
-            "about 1e6 can be solved. Give the lightest body more mass, or let a coupling do without it",
+            "to about 1e12 can be solved. Give the lightest body more mass, or let a coupling do without it",
             name, miss, ratio);
     else
         text_printf(

@@ -18,9 +18,9 @@ bool fit_lack(struct fbd_state *state, struct fbd_state *other, struct pos *at, 
  * length. */
 bool fit_blocked(struct fbd_state *state, struct pos *at, struct text *lack);
 
-/* Mass ratio of the heaviest and the lightest of jointed bodies: beyond 1e4 multipliers lose digits by that, beyond about 1e6 too many. */
-double fit_mass_ratio(const struct tree *tree);
-static const double masses_far_apart = 1e4, masses_too_far_apart = 1e6;
+/* tree.mass_ratio beyond which a coupling that is missed is blamed on the masses, and one beyond which rounding of forces leaves
+ * too little of accelerations. */
+static const double masses_far_apart = 1e10, masses_too_far_apart = 1e12;
 
 /* Do the accelerations of a state, which is evaluated here, miss the couplings by more than rounding? Then no finite forces
  * hold a mechanism in its position, or, with `masses`, the masses are too far apart (a pulley of a milligram between weights

@@ -87,10 +87,11 @@ static void contradiction_words(const struct fbd_model *model, int pair, const c
 {
     const struct mode *hold = &model->plan.modes[pair];
     bool couples = hold->kind == mode_surface || hold->kind == mode_rope;
-    const char *name = couples ? model->scene->constraints[model->tree->ties[hold->tie].constraint].name
+    const struct tie *tie = couples && model->tree ? &model->tree->ties[hold->tie] : NULL;
+    const char *name = tie               ? model->scene->constraints[tie->constraint].name
                        : hold->load >= 0 ? model->loads[hold->load].source->name
                                          : "a hold";
-    bool unlimited = hold->kind == mode_surface && model->tree->ties[hold->tie].pair < 0;
+    bool unlimited = hold->kind == mode_surface && tie && tie->pair < 0;
     text_printf(
         text,
         "%s neither way agrees with the forces for `%s` of `%s`: while it holds it would have to give, "
@@ -155,7 +156,7 @@ static bool is_settled(struct fbd_state *state, bool settled, struct lack *lack)
     state->holds = trouble;
     text_free(&lack->text);
     lack->at = (struct pos){0, 0};
-    const double ratio = state->model->tree ? fit_mass_ratio(state->model->tree) : 0;
+    const double ratio = state->model->tree ? state->model->tree->mass_ratio : 0;
     lack->id = ratio > masses_too_far_apart  ? "masses-apart"
                : trouble.found == holds_none ? "no-solution"
                                              : "unsettled";
@@ -163,8 +164,7 @@ static bool is_settled(struct fbd_state *state, bool settled, struct lack *lack)
     if (ratio > masses_too_far_apart)
         text_printf(&lack->text,
                     ". The heaviest of the jointed bodies has %.2g times the mass of the lightest, and up to "
-                    "about 1e6 "
-                    "can be solved",
+                    "about 1e12 can be solved",
                     ratio);
     return false;
 }

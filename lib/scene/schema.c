@@ -336,8 +336,10 @@ static void define_kinds(struct text *text, const struct kinds *kinds, bool *fir
         format_into(name, sizeof name, "%s_%s", kinds->noun, kind->name);
         add_key(text, first, name);
         bool empty = may_be_bare(kinds, kind);
-        if (empty) start_choice(text, kind->group);
-        if (empty) text_add(text, "{\"type\": \"null\"}, ");
+        if (empty) {
+            start_choice(text, kind->group);
+            text_add(text, "{\"type\": \"null\"}, ");
+        }
         add_group(text, kind->group, name);
         if (empty) text_add(text, "]}");
     }

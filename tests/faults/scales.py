@@ -22,6 +22,7 @@ from claims import claim, close, finish  # pylint: disable=wrong-import-position
 PROGRAM = os.environ["FBD_RUN"]
 G = 9.81
 APART = "[masses-apart]"
+TOO_FAR = "times the mass of the lightest"
 
 
 def ask(text, *options):
@@ -87,9 +88,9 @@ def stiff(rng):
 
 def heavy_on_light(rng):
     """The floor carries both, or it is said that the masses are too far apart; nothing else."""
-    ratio = 10 ** rng.uniform(-10, 10)
+    ratio = 10 ** rng.uniform(-14, 14)
     code, out, said = ask(stack(rng, 0, [2.0, 2.0 * ratio], 0))
-    if not 1e-5 < ratio < 1e5 and APART in said:
+    if not 1e-11 < ratio < 1e11 and APART in said:
         return
     assert code == 0, said
     carried = sum(arrow["fy"] for name, arrow in out["forces"]["b0"].items() if name.startswith("contact_b0_ground"))
@@ -99,19 +100,49 @@ def heavy_on_light(rng):
 def pulley(rng):
     """Blocks over a fixed and a hanging pulley: the exact acceleration, or the masses are too far apart."""
     m1, m2, m3 = (round(rng.uniform(1, 5), 3) for _ in range(3))
-    mp = 10 ** rng.uniform(-12, 0)
+    mp = 10 ** rng.uniform(-15, 0)
     text = "fbd: 1\nground: {points: {P: [0, 0]}}\nbodies:\n"
     for name, mass, y in (("a", m1, -1), ("p", mp, -1), ("b", m2, -2), ("c", m3, -2)):
         text += f"  {name}: {{mass: {mass!r}, motion: {{slide: {{along: -90 deg, through: [0, {y}]}}}}, forces: [gravity]}}\n"
     text += "couplings:\n  - rope: {through: [a, ground.P, p]}\n  - rope: {through: [b, p, c]}\nsimulate: {until: 0.2}\n"
     code, out, said = ask(text)
-    if mp < 1e-5 and APART in said:
+    if mp < 1e-11 and APART in said:
         return
     assert code == 0, said
     # a goes down by a, p up by it; relative to p the lower blocks go by r: T from each, 2 T on p.
     tension = 4 * m2 * m3 / (m2 + m3)
     acceleration = (m1 - mp - tension) * G / (m1 + mp + tension)
     close(out["final"]["a"]["v"], acceleration * 0.2, 1e-6)
+
+
+def chain(rng):
+    """Rods of any masses on pins move as on pivots, which have no couplings; only masses further apart are refused."""
+    count = rng.randint(1, 3)
+    masses = [10 ** rng.uniform(-12, 1) for _ in range(count)]
+    lengths = [round(rng.uniform(0.3, 1), 3) for _ in masses]
+    angles = [rng.uniform(-2, 0) for _ in masses]
+    pins, pivots, couplings, x, y = "", "", "", 0, 0
+    for i, (mass, length, angle) in enumerate(zip(masses, lengths, angles)):
+        dx, dy = length * math.cos(angle), length * math.sin(angle)
+        shape = f"shape: rod, mass: {mass!r}, length: {length!r}, forces: [gravity]"
+        pins += (f"  b{i}: {{{shape}, motion: planar, "
+                 f"initial: {{x: {x + dx / 2!r}, y: {y + dy / 2!r}, theta: {angle!r}}}}}\n")
+        on = f", on: b{i - 1}, at: right" if i else ""
+        pivots += (f"  b{i}: {{{shape}, motion: {{pivot: {{point: left{on}}}}}, "
+                   f"initial: {{theta: {angle - (angles[i - 1] if i else 0)!r}}}}}\n")
+        couplings += f"  - pin: {{between: [b{i}.left, {f'b{i - 1}.right' if i else 'ground.O'}]}}\n"
+        x, y = x + dx, y + dy
+    head, simulate = "fbd: 1\nground: {points: {O: [0, 0]}}\nbodies:\n", "simulate: {until: 0.5, tolerance: 1e-10}\n"
+    code, right, said = ask(head + pivots + simulate)
+    assert code == 0, said
+    code, out, said = ask(head + pins + "couplings:\n" + couplings + simulate)
+    if max(masses) / min(masses) > 1e10 and TOO_FAR in said:
+        return
+    assert code == 0, said
+    angle = 0
+    for i in range(count):
+        angle = right["final"][f"b{i}"]["theta"] + angle
+        close(out["final"][f"b{i}"]["theta"], angle, 1e-6)
 
 
 def frequency(rng):
@@ -130,7 +161,7 @@ def main():
     count = int(sys.argv[1]) * int(os.environ.get("FBD_DRAWS", "1")) if len(sys.argv) > 1 else 30
     first = int(sys.argv[2]) if len(sys.argv) > 2 else 1
     for seed in range(first, first + count):
-        for scene in (far_away, stiff, heavy_on_light, pulley, frequency):
+        for scene in (far_away, stiff, heavy_on_light, pulley, chain, frequency):
             with claim(f"seed {seed}: {scene.__name__}"):
                 scene(random.Random(seed))
     finish()

@@ -14,7 +14,11 @@
 #include <cmocka.h>
 #include <gsl/gsl_errno.h>
 
+#include "dynamics/tree.h"
 #include "memory_calls.h"
+#include "model/model.h"
+#include "rest/balance.h"
+#include "scene_fixture.h"
 
 static const char text[] = "fbd: 1\n"
                            "parameters: {mu: 0.3, k: 4 N/m}\n"
@@ -241,6 +245,36 @@ static void statics_without_memory_fail_and_leak_nothing(void **unused)
     fail_each(let_down, 100);
 }
 
+/* Without memory nobody can tell what rounding explains: then no equation is said to be off. */
+static void a_balance_without_memory_fails_and_leaks_nothing(void **unused)
+{
+    (void)unused;
+    struct reading reading = read_right(joined);
+    struct fbd_model *model = model_compile(reading.scene, reading.errors);
+    assert_non_null(model);
+    reading.scene = NULL;
+    struct fbd_state *state = state_new(model);
+    struct arrow *arrows = calloc(diagram_most_arrows(model), sizeof *arrows);
+    assert_true(state && arrows);
+    bool failed = true;
+    for (size_t n = 1; failed; n++) {
+        struct text lack = {0};
+        state_evaluate(state);
+        state->tree->links[1].A.a.y = NAN;
+        fail_alloc_at(n);
+        bool off = balance_lack(state, arrows, &lack);
+        failed = fail_alloc_end();
+        assert_true(off);
+        assert_int_equal(lack.failed, failed);
+        if (!failed) assert_non_null(strstr(lack.data, "do not account for its motion"));
+        text_free(&lack);
+    }
+    free(arrows);
+    state_free(state);
+    fbd_model_free(model);
+    end_reading(&reading);
+}
+
 int main(void)
 {
     gsl_set_error_handler_off();
@@ -251,6 +285,7 @@ int main(void)
         cmocka_unit_test(looking_without_memory_fails_and_leaks_nothing),
         cmocka_unit_test(linearisation_without_memory_fails_and_leaks_nothing),
         cmocka_unit_test(statics_without_memory_fail_and_leak_nothing),
+        cmocka_unit_test(a_balance_without_memory_fails_and_leaks_nothing),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
