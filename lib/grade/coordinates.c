@@ -182,7 +182,7 @@ const char *line_as_written(const struct lines *lines, const char *body, const s
 {
     const struct node *own = hand_of(lines->answer, body);
     const char *found = own ? find_text(own, hand->at) : NULL;
-    return found ? found : hand->text;
+    return found ? found : hand->written;
 }
 
 const struct node *lines_as_written(struct lines *lines)

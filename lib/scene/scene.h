@@ -36,7 +36,8 @@ struct coupling {
 
 /* A derivation by the user: an equation that must hold. */
 struct hand {
-    const char *text;
+    const char *written; /* as it stands in the file, */
+    const char *text;    /* and as the expressions that it was read as: the same bytes where it is some already */
     struct pos at;
     const struct expr *left, *right; /* over the extended slots below */
     const struct expr *when;         /* truth value: where it claims to hold; NULL everywhere */
