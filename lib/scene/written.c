@@ -32,6 +32,43 @@ void written_places(struct reader *reader, const struct node *node, const struct
     }
 }
 
+/* The names of the scope, and those that are known to who reads derivations of others. */
+struct names_and_more {
+    const struct scope *scope;
+    const struct hand_reader *reader;
+    const char *body;
+};
+
+static struct symbol look_up(void *context, const char *name, struct pos at)
+{
+    const struct names_and_more *more = context;
+    const struct symbol symbol = more->scope->lookup(more->scope->context, name, at);
+    if (symbol.kind != symbol_unknown || !more->reader->is_known(more->reader->context, more->body, name))
+        return symbol;
+    return (struct symbol){.kind = symbol_failed, .dim = DIM_INIT(1, 1, -2)};
+}
+
+static struct table_symbol look_up_table(void *context, const char *name, struct pos at)
+{
+    const struct names_and_more *more = context;
+    return more->scope->table(more->scope->context, name, at);
+}
+
+static bool read_with_more(struct reader *reader, const struct node *node, const struct scope *scope,
+                           bool equation, fbd_errors *errors, struct notation *notation)
+{
+    const struct names *names = scope->context;
+    struct names_and_more more = {scope, reader->hand_reader, reader->scene->bodies[names->body].name};
+    const struct scope wider = {.lookup = look_up,
+                                .table = look_up_table,
+                                .context = &more,
+                                .units = scope->units};
+    if (!notation_read(reader->exprs, node->text, node->text_at, &wider, equation, errors, notation))
+        return false;
+    more.reader->take(more.reader->context, node, notation->text);
+    return true;
+}
+
 /* A name that is looked up may be none: nothing is said of it, and what it asks for is not kept. */
 static bool read_silently(struct reader *reader, const struct node *node, const struct scope *scope,
                           bool equation, struct notation *notation)
@@ -42,7 +79,9 @@ static bool read_silently(struct reader *reader, const struct node *node, const 
     bool fine = false;
     if (silent) {
         reader->errors = silent;
-        fine = notation_read(reader->exprs, node->text, node->text_at, scope, equation, errors, notation);
+        fine = reader->hand_reader ? read_with_more(reader, node, scope, equation, errors, notation)
+                                   : notation_read(reader->exprs, node->text, node->text_at, scope, equation,
+                                                   errors, notation);
         if (silent->out_of_memory) diag_out_of_memory(errors);
     }
     reader->errors = errors;
