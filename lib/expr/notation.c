@@ -92,7 +92,8 @@ static void put_gap(struct writer *writer)
 {
     const struct item *item = writer->item;
     const char *from = writer->w->text + writer->behind;
-    if (!item->gap) return;
+    bool edge = writer->text.length == 0 || item->kind == item_end;
+    if (!item->gap || (edge && !item->verbatim)) return;
     if (item->verbatim)
         put(writer, from, item->start - writer->behind, writer->behind, item->start - writer->behind);
     else
@@ -421,11 +422,13 @@ static bool write_exponential(struct writer *writer)
     bool e =
         item->kind == item_name && item->length == 1 && writer->w->text[item->start] == 'e' && !item->text;
     if (!e || item[1].kind != item_power || name_is_known(writer->w, "e", &dim)) return false;
-    put_sign(writer, "exp(");
+    bool open = item[2].kind == item_open;
+    put_sign(writer, open ? "exp" : "exp(");
     pass(writer);
     pass(writer);
-    write_exponent(writer);
-    put_sign(writer, ")");
+    if (open) write_group(writer, true);
+    if (!open) write_exponent(writer);
+    if (!open) put_sign(writer, ")");
     return true;
 }
 

@@ -122,10 +122,10 @@ static const struct word commands[] = {
     {"thinspace", item_end, ""},
 };
 
-/* What is left out, up to `end`. */
-static bool leave_out(struct writing *w, size_t end)
+/* What is left out, up to `end`; `gap`: a blank for it. */
+static bool leave_out(struct writing *w, size_t end, bool gap)
 {
-    for (size_t i = w->offset; i < end; i++) w->gap |= w->text[i] == ' ';
+    w->gap |= gap;
     w->foreign = true;
     w->offset = end;
     return true;
@@ -134,7 +134,7 @@ static bool leave_out(struct writing *w, size_t end)
 static bool take_word(struct writing *w, const struct word *word, size_t length)
 {
     if (word->kind != item_end) return add(w, word->kind, length, word->text);
-    return leave_out(w, w->offset + length);
+    return leave_out(w, w->offset + length, false);
 }
 
 /* ---- commands */
@@ -143,8 +143,8 @@ static bool take_word(struct writing *w, const struct word *word, size_t length)
 static bool take_delimiter(struct writing *w, size_t length)
 {
     size_t at = writing_skip(w, w->offset + length);
-    leave_out(w, at);
-    if (writing_has(w, at, ".")) return leave_out(w, at + 1);
+    leave_out(w, at, false);
+    if (writing_has(w, at, ".")) return leave_out(w, at + 1, false);
     if (writing_has(w, at, "[")) return add(w, item_open, 1, "(");
     return writing_has(w, at, "]") ? add(w, item_close, 1, ")") : true;
 }
@@ -184,12 +184,23 @@ static bool take_root(struct writing *w, size_t length)
                           "this root has no name");
 }
 
+/* A command that is a sign ends with a blank, which is kept where one stands before it too. */
+static bool take_operator(struct writing *w, const struct word *word, size_t length)
+{
+    bool gap = w->gap;
+    if (!add(w, item_sign, length, word->text)) return false;
+    size_t behind = writing_skip(w, w->offset);
+    return behind == w->offset || leave_out(w, behind, gap);
+}
+
 static bool take_command(struct writing *w, size_t length)
 {
     if (command_is(w, w->offset, "sqrt")) return take_root(w, length);
     if (is_delimiter(w)) return take_delimiter(w, length);
     for (size_t i = 0; i < sizeof commands / sizeof *commands; i++)
-        if (command_is(w, w->offset, commands[i].word)) return take_word(w, &commands[i], length);
+        if (command_is(w, w->offset, commands[i].word))
+            return commands[i].kind == item_sign ? take_operator(w, &commands[i], length)
+                                                 : take_word(w, &commands[i], length);
     return refuse_command(w, length);
 }
 
@@ -328,7 +339,7 @@ static bool take_symbol(struct writing *w)
     bool quotient = w->text[w->offset] == 'd' && name_is_known(w, "dt", &dim);
     size_t end = quotient ? 0 : derivative_read(w, w->offset, &run);
     if (end > 0) {
-        for (size_t i = 0; i < run.count; i++) run.atoms[i].start = w->offset, run.atoms[i].end = end;
+        for (size_t i = 0; i < run.count; i++) run.atoms[i].start = run.atoms[i].end = w->offset;
     } else {
         run.count = 0;
         run.failed = false;
@@ -338,18 +349,21 @@ static bool take_symbol(struct writing *w)
     size_t start = w->offset;
     w->offset = end > w->length ? w->length : end;
     if (run.failed || run.count == 0) return writing_add(w, item_other, start, w->offset, NULL) != NULL;
+    run.atoms[0].start = start; /* with accents and braces around */
+    run.atoms[run.count - 1].end = w->offset;
     return run_add(w, &run, w->offset);
 }
 
 static bool take_sign(struct writing *w)
 {
-    if (w->latex && writing_has(w, w->offset, "&")) return leave_out(w, w->offset + 1);
+    if (w->latex && writing_has(w, w->offset, "&")) return leave_out(w, w->offset + 1, false);
     if (writing_has(w, w->offset, "{"))
         return add(w, item_open, 1, "(") && (w->items[w->count - 1].brace = true);
     if (writing_has(w, w->offset, "}"))
         return add(w, item_close, 1, ")") && (w->items[w->count - 1].brace = true);
     if (writing_has(w, w->offset, "=")) return take_equals(w);
     if (is_raised(w)) return take_raised(w);
+    if (w->equation && writing_has(w, w->offset, "|")) return add(w, item_bar, 1, NULL);
     for (size_t i = 0; i < sizeof signs / sizeof *signs; i++)
         if (writing_has(w, w->offset, signs[i].word)) return take_word(w, &signs[i], strlen(signs[i].word));
     return add(w, item_other, glyph_size(w->text + w->offset, w->length - w->offset), NULL);

@@ -175,7 +175,8 @@ struct split {
     const struct run *run;
     size_t pieces[most_pieces], kept[2][most_pieces]; /* where they end: of the one at hand, of two found */
     size_t count, found;
-    int looked; /* limit of the work */
+    bool called; /* a bracket stands behind the last */
+    int looked;  /* limit of the work */
     bool known[most_atoms][most_atoms + 1], asked[most_atoms][most_atoms + 1];
 };
 
@@ -185,8 +186,9 @@ static bool is_piece(struct split *split, size_t first, size_t end)
     if (!split->asked[first][end]) {
         split->asked[first][end] = true;
         const char *function = function_of(split->run, first, end);
-        split->known[first][end] =
-            match(split->w, split->run, first, end, names) == 1 || (function && takes_bare(function));
+        bool called = split->called && end == split->run->count;
+        split->known[first][end] = match(split->w, split->run, first, end, names) == 1 ||
+                                   (function && (called || takes_bare(function)));
     }
     return split->known[first][end];
 }
@@ -256,7 +258,8 @@ static bool add_piece(struct writing *w, const struct run *run, size_t first, si
     struct spelled names[2];
     const char *function = function_of(run, first, end);
     if (match(w, run, first, end, names) == 1) return add_item(w, item_name, run, first, end, names[0].text);
-    return function && add_item(w, item_function, run, first, end, function);
+    return function &&
+           add_item(w, takes_bare(function) ? item_function : item_call, run, first, end, function);
 }
 
 static const char *pieces_text(const struct writing *w, const struct run *run, const size_t *pieces)
@@ -327,7 +330,7 @@ bool run_add(struct writing *w, const struct run *run, size_t end)
     if (function && takes_bare(function)) return add_item(w, item_function, run, 0, run->count, function);
     struct split *split = ARENA_NEW(w->arena, struct split);
     if (!split) return false;
-    *split = (struct split){.w = w, .run = run, .looked = 4000};
+    *split = (struct split){.w = w, .run = run, .called = called, .looked = 4000};
     try_pieces(split, 0);
     bool cut = split->looked <= 0;
     return split->found > 0 && !cut ? add_product(w, split) : add_unknown(w, run, called);
