@@ -75,8 +75,8 @@ static const struct word commands[] = {
     {"gt", item_break, ">"},
     {"lparen", item_open, "("},
     {"rparen", item_close, ")"},
-    {"lvert", item_bar, NULL},
-    {"rvert", item_bar, NULL},
+
+    {"rvert", item_close, ")"},
     {"vert", item_bar, NULL},
     {"frac", item_fraction, ""},
     {"dfrac", item_fraction, ""},
@@ -139,14 +139,26 @@ static bool take_word(struct writing *w, const struct word *word, size_t length)
 
 /* ---- commands */
 
+static bool add_magnitude(struct writing *w, size_t length)
+{
+    if (!add(w, item_open, length, "abs(")) return false;
+    w->items[w->count - 1].magnitude = true;
+    return leave_out(w, writing_skip(w, w->offset), false);
+}
+
 /* `\left[`, `\bigl[`, `\left.`: the bracket is a parenthesis, the point nothing. */
 static bool take_delimiter(struct writing *w, size_t length)
 {
+    char last = w->text[w->offset + length - 1], side = '\0'; /* \left, \bigl; \right, \bigr */
+    if (command_is(w, w->offset, "left") || last == 'l') side = 'l';
+    if (command_is(w, w->offset, "right") || last == 'r') side = 'r';
     size_t at = writing_skip(w, w->offset + length);
     leave_out(w, at, false);
     if (writing_has(w, at, ".")) return leave_out(w, at + 1, false);
     if (writing_has(w, at, "[")) return add(w, item_open, 1, "(");
-    return writing_has(w, at, "]") ? add(w, item_close, 1, ")") : true;
+    if (writing_has(w, at, "]")) return add(w, item_close, 1, ")");
+    if (!writing_has(w, at, "|") || side == '\0') return true;
+    return side == 'l' ? add_magnitude(w, 1) : add(w, item_close, 1, ")");
 }
 
 static bool is_delimiter(const struct writing *w)
@@ -197,6 +209,7 @@ static bool take_command(struct writing *w, size_t length)
 {
     if (command_is(w, w->offset, "sqrt")) return take_root(w, length);
     if (is_delimiter(w)) return take_delimiter(w, length);
+    if (command_is(w, w->offset, "lvert")) return add_magnitude(w, length);
     for (size_t i = 0; i < sizeof commands / sizeof *commands; i++)
         if (command_is(w, w->offset, commands[i].word))
             return commands[i].kind == item_sign ? take_operator(w, &commands[i], length)
@@ -285,26 +298,7 @@ static size_t side_end(const struct writing *w)
     return end;
 }
 
-/* Is every name in it one of the scope? */
-static bool names_alone(const struct writing *w, const char *text, size_t length)
-{
-    bool any = false;
-    for (size_t i = 0; i < length;) {
-        size_t end = i;
-        struct dim dim;
-        while (end < length &&
-               ((text[end] >= 'a' && text[end] <= 'z') || (text[end] >= 'A' && text[end] <= 'Z')))
-            end++;
-        const char *name = end > i ? arena_text(w->arena, text + i, end - i) : NULL;
-        if (end > i && (!name || !name_is_known(w, name, &dim))) return false;
-        any |= end > i;
-        i = end > i ? end : i + 1;
-    }
-    return any;
-}
-
-/* The length of the quantity that all of this side is, or 0. One that consists of names that are known may be a
- * product: `2 m g`. */
+/* The length of the quantity that all of this side is, or 0. Where that makes no sense, it is a product: `2 m g`. */
 static size_t quantity_length(struct writing *w)
 {
     struct unit unit;
@@ -318,7 +312,6 @@ static size_t quantity_length(struct writing *w)
     char c = at < end ? w->text[at] : '\0';
     if (!((c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '1')) return 0;
     if (!unit_parse(w->text + at, end - at, w->scope->units, NULL, w->at, &unit)) return 0;
-    if (!names_alone(w, w->text + at, end - at)) return end - w->offset;
     w->doubtful = true;
     return w->products ? 0 : end - w->offset;
 }
@@ -383,7 +376,7 @@ static bool take_one(struct writing *w, bool begins)
 bool writing_read_items(struct writing *w)
 {
     bool begins = w->equation;
-    w->latex = memchr(w->text, '\\', w->length) != NULL;
+    w->latex = strpbrk(w->text, "\\${") != NULL;
     while (!w->failed && !w->arena->failed) {
         size_t blanks = writing_skip(w, w->offset);
         for (size_t i = w->offset; i < blanks; i++) {

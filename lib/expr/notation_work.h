@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
  * The parts of reading a notation: signs and commands to items (notation_items.c), symbols (notation_run.c), which
- * names they are (notation_names.c), and items to text (notation.c).
+ * names they are (notation_names.c), and items to text (notation_write.c).
  */
 #ifndef FBD_EXPR_NOTATION_WORK_H
 #define FBD_EXPR_NOTATION_WORK_H
@@ -32,6 +32,7 @@ struct item {
     bool gap;             /* a blank stands before it */
     bool verbatim;        /* that gap is blanks of the source and nothing else */
     bool brace;           /* of item_open and item_close */
+    bool magnitude;       /* of item_open: the bar of \left| */
     bool closed;          /* of a number: an exponent that ends by itself, as a superscript */
 };
 
@@ -118,5 +119,10 @@ bool run_add(struct writing *w, const struct run *run, size_t end);
 
 /* A number and a name behind it: is the name a unit as well, of the same dimension? */
 bool name_is_unit(const struct writing *w, const struct item *name);
+
+/* ---- notation_write.c */
+
+/* The text, in the arena of the writing, and where it comes from; NULL when it is refused or memory is out. */
+const char *writing_make(struct writing *w, const struct notation_stretch **stretches);
 
 #endif

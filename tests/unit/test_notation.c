@@ -129,6 +129,9 @@ static void a_block_in_many_ways(void **unused)
         {"m g sin θ_{rod2} = F", "m*g*sin(rod2.theta) = F"},
         {"v^2 = v_0^2 + 2gL", "v^2 = v_0^2 + 2*g*L"},
         {"v = \\sqrt{2gL}", "v = sqrt(2*g*L)"},
+        {"F = |v|v + k|x||v|", "F = abs(v)*v + k*abs(x)*abs(v)"},
+        {"F = \\left|v\\right|v\\lvert x\\rvert + k\\sin\\left|x\\right|",
+         "F = abs(v)*v*abs(x) + k*sin(abs(x))"},
         {"v = √(2gL)", "v = sqrt(2*g*L)"},
         {"sin²θ + cos²θ = 1", "sin(theta)^2 + cos(theta)^2 = 1"},
         {"\\sin^2\\theta + \\cos^{2}\\theta = 1", "sin(theta)^2 + cos(theta)^2 = 1"},
@@ -256,6 +259,7 @@ static void what_can_be_read_in_two_ways_is_refused(void **unused)
         {"F = x'''", 5, "derivative"},
         {"F = |v", 7, "second `|`"},
         {"F = m sin", 10, "argument"},
+        {"F = k|x|v|v|", 10, "abs(...)"},
     };
     int failed = 0;
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {

@@ -169,10 +169,11 @@ static void put_call(struct pair_of_texts *pair, int depth)
         put_symbol(pair);
         text_add(&pair->written, latex ? "}" : ")");
     } else if (which == 5) {
-        text_add(&pair->written, latex ? "\\left|" : "|");
+        text_add(&pair->written,
+                 latex ? "\\left|" : "abs("); /* two with a product between have two readings */
         text_add(&pair->plain, "abs(");
         put_symbol(pair);
-        text_add(&pair->written, latex ? "\\right|" : "|");
+        text_add(&pair->written, latex ? "\\right|" : ")");
     } else {
         text_printf(&pair->written, "%s%s", latex ? "\\" : "", functions[which]);
         text_add(&pair->plain, functions[which]);
@@ -343,8 +344,10 @@ static void random_notations_have_the_value_of_the_expression(void **unused)
         struct pair_of_texts pair = {.random = &random, .style = (enum style)(i % styles)};
         struct arena arena = {0};
         const struct values values = draw_values(&random);
-        both(&pair, "y = ");
+        text_add(&pair.written, pair.style == style_latex ? "$y = " : "y = ");
+        text_add(&pair.plain, "y = ");
         put_sum(&pair, 2);
+        if (pair.style == style_latex) text_add(&pair.written, "$");
         failed += !check_pair(&arena, &pair, &values);
         text_free(&pair.written);
         text_free(&pair.plain);
@@ -432,7 +435,8 @@ static bool check_spoiled(struct arena *arena, const char *text, const struct va
         struct notation again = read_text(arena, read.text, errors);
         fine = again.text && !again.changed;
     }
-    if (isfinite(value_of(arena, text, values))) fine = fine && read.text && !read.changed;
+    if (isfinite(value_of(arena, text, values)) && !strstr(text, "=="))
+        fine = fine && read.text && !read.changed;
     if (!fine) print_error("`%s` is read as `%s`\n", text, read.text ? read.text : "");
     for (size_t i = 0; read.text && i <= strlen(read.text); i++)
         fine = fine && notation_source(&read, i) <= strlen(text);
