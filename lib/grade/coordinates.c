@@ -179,10 +179,21 @@ static const struct node *hand_of(const struct node *root, const char *body)
     return lines_value(lines_value(lines_value(root, "bodies"), body), "hand");
 }
 
+static const char *line_of(const struct node *root, const char *body, const struct hand *hand)
+{
+    const struct node *own = hand_of(root, body);
+    return own ? find_text(own, hand->at) : NULL;
+}
+
 const char *line_as_written(const struct lines *lines, const char *body, const struct hand *hand)
 {
-    const struct node *own = hand_of(lines->answer, body);
-    const char *found = own ? find_text(own, hand->at) : NULL;
+    const char *found = line_of(lines->paper, body, hand);
+    return found ? found : hand->written;
+}
+
+const char *line_as_read(const struct lines *lines, const char *body, const struct hand *hand)
+{
+    const char *found = line_of(lines->answer, body, hand);
     return found ? found : hand->text;
 }
 

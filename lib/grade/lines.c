@@ -205,7 +205,7 @@ static bool look_at_line(struct lines *lines, int body, int index, struct line *
         !look_at_values(lines, model->scene->bodies[body].hands[index].text, &tolerance, line))
         return false;
     const struct hand *hand = &model->scene->bodies[body].hands[index];
-    const char *text = lines->answer ? line_as_written(lines, model->bodies[body].name, hand) : hand->text;
+    const char *text = lines->answer ? line_as_read(lines, model->bodies[body].name, hand) : hand->text;
     bool in_general = agrees_somewhere(line) && !line->in_numbers;
     if (line->says == 0 && !in_general && !line_is_of_rest(lines, body, text, &line->rest)) return false;
     if (agrees_somewhere(line)) return look_at_pushed(lines, tolerance, line);
@@ -231,6 +231,19 @@ static bool is_asked(const struct line *line, const struct line *keys, size_t co
     return false;
 }
 
+/* Beside it, how a line was read that is not written as an expression. */
+static void say_of_line(struct lines *lines, fbd_finding *finding, const struct hand *hand,
+                        const char *message)
+{
+    struct text text = {0};
+    const char *read = line_as_read(lines, finding->body, hand);
+    text_add(&text, message);
+    if (strcmp(read, finding->name) != 0) text_printf(&text, " (read as `%s`)", read);
+    if (text.failed) lines->grade->arena.failed = true;
+    finding_say(lines->grade, finding, text.data ? text.data : "");
+    text_free(&text);
+}
+
 static void note_student_line(struct lines *lines, int body, int index, const struct line *line, bool asked)
 {
     struct fbd_grade *grade = lines->grade;
@@ -242,14 +255,11 @@ static void note_student_line(struct lines *lines, int body, int index, const st
     if (good && !empty && !line->in_numbers) return;
     fbd_finding *finding = finding_add(grade, good && !empty ? FBD_FINDING_RIGHT : FBD_FINDING_DERIVATION,
                                        source->name, line_as_written(lines, source->name, hand), hand->at);
-    if (empty)
-        finding_say(grade, finding, "it is true whatever the forces are: it says nothing of them");
-    else if (good)
-        finding_say(grade, finding, "it is right for these numbers");
-    else if (!line->checked || seen == 0)
-        finding_say(grade, finding, "no state was found where it claims to hold");
-    else
-        finding_say(grade, finding, "it does not agree with the mechanics of the sheet");
+    say_of_line(lines, finding, hand,
+                empty                         ? "it is true whatever the forces are: it says nothing of them"
+                : good                        ? "it is right for these numbers"
+                : !line->checked || seen == 0 ? "no state was found where it claims to hold"
+                                              : "it does not agree with the mechanics of the sheet");
     if (good || seen == 0) return;
     struct text text = {0};
     hand_diagnose(&lines->check, line->seen[1] > 0 ? 0 : line->seen[2] > 0 ? 1 : -1, &text);
@@ -473,6 +483,7 @@ static bool read_plain(struct lines *lines, struct lines *plain)
 {
     if (!lines->grade->own || !lines->model) return true;
     fbd_errors *errors = fbd_errors_new();
+    plain->paper = lines->paper;
     plain->answer = lines->answer;
     plain->root = lines_as_written(lines);
     if (errors && plain->root) plain->model = lines_try(plain, plain->root, true, false, errors);

@@ -18,7 +18,8 @@ struct pushed {
 
 struct lines {
     struct fbd_grade *grade;
-    const struct node *answer; /* its tree, as it is; NULL for the key */
+    const struct node *paper;  /* the tree of the answer, as it is; NULL for the key, */
+    const struct node *answer; /* and with its derivations as they were read (lines_notation.c) */
     const struct node *root;   /* the key with the answer's derivations */
     bool left_out;             /* all of these */
     fbd_model *model;
@@ -42,6 +43,11 @@ fbd_model *lines_try(struct lines *lines, const struct node *root, bool hands, b
 /* Put the derivations of an answer into the scene of the key and compile it, without those that cannot be read, which
  * are noted. No model when memory is out. */
 void lines_read(struct lines *lines, const struct node *answer);
+
+/* An answer with its derivations in the language of expressions, as they are read in the scene `root`, which has them;
+ * those that are refused as they are. NULL when memory is out. */
+const struct node *lines_of_notation(struct fbd_grade *grade, const struct node *answer,
+                                     const struct node *root);
 
 /* ---- the scenes of a derivation (lines_scene.c) */
 
@@ -87,7 +93,8 @@ bool name_is_of_equations(const char *name);
  * there. NULL when memory is out. */
 const struct node *lines_as_written(struct lines *lines);
 
-/* A derivation as the student wrote it. */
+/* A derivation as the student wrote it, and as it was read. */
 const char *line_as_written(const struct lines *lines, const char *body, const struct hand *hand);
+const char *line_as_read(const struct lines *lines, const char *body, const struct hand *hand);
 
 #endif

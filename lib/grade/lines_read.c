@@ -37,8 +37,9 @@ static const struct node *with_parameters(struct arena *arena, const struct node
     return all ? node_with(arena, root, "parameters", all) : NULL;
 }
 
+/* The bodies of the sheet with the derivations of the answer: as they are, or in the coordinates of the sheet. */
 static const struct node *with_lines(struct fbd_grade *grade, const struct node *root,
-                                     const struct node *answer)
+                                     const struct node *answer, bool as_they_are)
 {
     struct arena *arena = &grade->arena;
     const struct node *bodies = lines_value(root, "bodies"), *others = lines_value(answer, "bodies"),
@@ -46,7 +47,8 @@ static const struct node *with_lines(struct fbd_grade *grade, const struct node 
     for (size_t b = 0; made && b < bodies->count; b++) {
         const struct node *other = lines_value(others, bodies->pairs[b].key);
         const struct node *hand = lines_value(other, "hand");
-        const struct node *same = coordinates_of_sheet(grade, answer, hand, bodies->pairs[b].key);
+        const struct node *same =
+            as_they_are ? hand : coordinates_of_sheet(grade, answer, hand, bodies->pairs[b].key);
         const struct node *body = node_with(arena, bodies->pairs[b].value, "hand", same);
         made = body ? node_with(arena, made, bodies->pairs[b].key, body) : NULL;
     }
@@ -114,8 +116,10 @@ static bool leave_out_wrong(struct lines *lines, fbd_errors *errors)
         if (error->severity != FBD_ERROR) continue;
         culprit = find_culprit(root, (struct pos){error->line, error->column});
         if (!culprit.item || culprit.item == before) continue; /* notes are in the order of their places */
+        const struct hand here = {.at = culprit.item->at, .written = culprit.item->text};
+        bool scalar = culprit.item->kind == node_scalar;
         finding_of_error(grade, FBD_FINDING_UNREADABLE, culprit.body,
-                         culprit.item->kind == node_scalar ? culprit.item->text : "", error);
+                         scalar ? line_as_written(lines, culprit.body, &here) : "", error);
         lines->root = without(&grade->arena, lines->root, &culprit);
         any = true;
     }
@@ -152,7 +156,7 @@ static void leave_out_all(struct lines *lines, fbd_errors *errors)
     const struct node *key = grade->key->document.root;
     const fbd_error *error = first_error(errors);
     if (error) finding_of_error(grade, FBD_FINDING_UNREADABLE, "", "", error);
-    lines->root = lines->left_out ? NULL : with_lines(grade, key, NULL);
+    lines->root = lines->left_out ? NULL : with_lines(grade, key, NULL, true);
     lines->left_out = true;
 }
 
@@ -173,9 +177,13 @@ static void compile_lines(struct lines *lines)
 
 void lines_read(struct lines *lines, const struct node *answer)
 {
-    struct arena *arena = &lines->grade->arena;
-    lines->answer = answer;
-    const struct node *plain = with_lines(lines->grade, lines->grade->key->document.root, answer);
+    struct fbd_grade *grade = lines->grade;
+    struct arena *arena = &grade->arena;
+    const struct node *key = grade->key->document.root, *written = with_lines(grade, key, answer, true);
+    if (written) written = with_parameters(arena, written, answer);
+    lines->paper = answer;
+    lines->answer = answer = lines_of_notation(grade, answer, written);
+    const struct node *plain = answer ? with_lines(grade, key, answer, false) : NULL;
     lines->root = plain ? with_parameters(arena, plain, answer) : NULL;
     if (lines->root) check_parameters(lines, plain);
     compile_lines(lines);

@@ -311,8 +311,9 @@ static int check_one(struct hand_check *check, const struct document *document, 
     const struct body *body = &model->scene->bodies[check->body];
     const struct hand *hand = &body->hands[check->index];
     text_printf(text, "%s: ", body->name);
-    text_shown(text, hand->text);
+    text_shown(text, hand->written);
     text_add(text, "\n");
+    if (strcmp(hand->text, hand->written) != 0) text_printf(text, "  read as: %s\n", hand->text);
     if (diagram_arrows(model, check->body) > most_terms) {
         text_printf(text, "  not checked: more than %d forces\n", most_terms);
         return 1;

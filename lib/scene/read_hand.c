@@ -7,14 +7,22 @@
 #include "scene/fields.h"
 #include "scene/reader.h"
 #include "scene/values.h"
+#include "scene/written.h"
 
 static bool read_equation(struct reader *reader, const struct node *node, const struct scope *scope,
                           struct hand *hand)
 {
     const struct expr_want want = {.any_dim = true, .what = "equation"};
+    struct notation notation;
     char relation = 0;
     if (node->length == 0) return value_refuse(reader, node, "hand", "an equation", "write left = right");
-    if (!value_relation(reader, node, &want, scope, &hand->left, &relation, &hand->right)) return false;
+    const struct node *read = written_node(reader, node, scope, true, &notation);
+    if (!read) return false;
+    hand->text = arena_text(reader->arena, read->text, read->length);
+    struct diag_note *last = reader->errors->last;
+    bool fine = value_relation(reader, read, &want, scope, &hand->left, &relation, &hand->right);
+    if (notation.changed) written_places(reader, node, &notation, last);
+    if (!fine || !hand->text) return false;
     if (relation == '=') return true;
     diag_add(reader->errors, FBD_ERROR, "no-equation", node->at,
              "write both sides, as `m*v_dot = f1 - m*g*sin(phi)`",
@@ -71,6 +79,18 @@ static bool split_equation(struct reader *reader, const struct scope *scope, str
            add_summands(reader, right, right_length, 1, scope, hand);
 }
 
+static const struct expr *read_condition(struct reader *reader, const struct node *node,
+                                         const struct scope *scope)
+{
+    const struct expr_want want = {.condition = true, .what = "when"};
+    struct notation notation;
+    const struct node *read = written_node(reader, node, scope, false, &notation);
+    struct diag_note *last = reader->errors->last;
+    const struct expr *when = read ? value_compile(reader, read, &want, scope) : NULL;
+    if (read && notation.changed) written_places(reader, node, &notation, last);
+    return when;
+}
+
 static bool read_hand(struct reader *reader, int index, const struct node *node, struct hand *hand)
 {
     struct names names = {.reader = reader, .place = place_hand, .body = index};
@@ -82,17 +102,13 @@ static bool read_hand(struct reader *reader, int index, const struct node *node,
     hand->at = node->at;
     if (keys.equation) {
         hand->at = keys.equation->at;
-        hand->text = arena_text(reader->arena, keys.equation->text, keys.equation->length);
-        if (!hand->text || !read_equation(reader, keys.equation, &scope, hand) ||
+        hand->written = arena_text(reader->arena, keys.equation->text, keys.equation->length);
+        if (!hand->written || !read_equation(reader, keys.equation, &scope, hand) ||
             (reader->split_hands && !split_equation(reader, &scope, hand)))
             fine = false;
     }
-    if (keys.when) {
-        const struct expr_want want = {.condition = true, .what = "when"};
-        hand->when = value_compile(reader, keys.when, &want, &scope);
-        if (!hand->when) fine = false;
-    }
-    return fine;
+    if (keys.when) hand->when = read_condition(reader, keys.when, &scope);
+    return fine && (!keys.when || hand->when);
 }
 
 bool body_hand_read(struct reader *reader, int index)

@@ -210,6 +210,7 @@ static void start(struct reader *reader, const struct document *document, struct
     *reader = (struct reader){.scene = scene, .arena = arena, .errors = errors, .root = document->root};
     reader->without_hands = document->without_hands;
     reader->split_hands = document->split_hands;
+    reader->hand_reader = document->hand_reader;
     reader->known = document->programs;
     reader->keep = keep;
     reader->record = record;

@@ -36,7 +36,9 @@ struct coupling {
 
 /* A derivation by the user: an equation that must hold. */
 struct hand {
-    const char *text;
+    const char *written; /* as it stands in the file, */
+    const char
+        *text; /* and as the expressions that it was read as: the same bytes where it is some already */
     struct pos at;
     const struct expr *left, *right; /* over the extended slots below */
     const struct expr *when;         /* truth value: where it claims to hold; NULL everywhere */
@@ -229,12 +231,20 @@ struct override {
 struct programs;
 struct scene;
 
+/* Who puts derivations of others into a scene, which may name more than the scene knows. */
+struct hand_reader {
+    void *context;
+    bool (*is_known)(void *context, const char *body, const char *name);    /* is this the name of a force? */
+    void (*take)(void *context, const struct node *node, const char *text); /* a text as it was read */
+};
+
 struct document {
     struct arena arena;
     const char *file; /* names the text in messages; may be NULL */
     const struct node *root;
-    bool without_hands;        /* leave the derivations by hand unread: nothing that moves depends on them */
-    bool split_hands;          /* and those that are read, into their summands: what --check-hand compares */
+    bool without_hands; /* leave the derivations by hand unread: nothing that moves depends on them */
+    bool split_hands;   /* and those that are read, into their summands: what --check-hand compares */
+    const struct hand_reader *hand_reader; /* told of them; or NULL */
     struct programs *programs; /* expressions compiled once for all readings (programs.h), or NULL */
     struct scene *first;       /* the scene that holds them */
     const struct scene

@@ -1,0 +1,82 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * The derivations of an answer as the expressions that they are read as. They may name what the answer has drawn.
+ */
+#include <string.h>
+
+#include "grade/lines.h"
+#include "scene/node_edit.h"
+
+/* A text that was read as another one. */
+struct reading {
+    const struct node *node;
+    const char *text;
+    struct reading *next;
+};
+
+struct readings {
+    struct fbd_grade *grade;
+    struct reading *first;
+};
+
+static bool is_drawn(void *context, const char *body, const char *name)
+{
+    const struct readings *readings = context;
+    (void)body; /* a force that acts on another one may be named as well */
+    for (const struct drawn *one = readings->grade->drawn; one; one = one->next)
+        if ((one->symbol && strcmp(one->symbol, name) == 0) || (one->name && strcmp(one->name, name) == 0))
+            return true;
+    return false;
+}
+
+static void take(void *context, const struct node *node, const char *text)
+{
+    struct readings *readings = context;
+    struct arena *arena = &readings->grade->arena;
+    if (strcmp(node->text, text) == 0) return;
+    struct reading *made = ARENA_NEW(arena, struct reading);
+    char *kept = arena_text(arena, text, strlen(text));
+    if (!made || !kept) return;
+    *made = (struct reading){node, kept, readings->first};
+    readings->first = made;
+}
+
+static const char *as_read(struct arena *arena, const struct node *scalar, const void *context)
+{
+    for (const struct reading *one = context; one; one = one->next)
+        if (one->node == scalar) return one->text;
+    return arena_text(arena, scalar->text, scalar->length);
+}
+
+/* Read the scene for what is said of its derivations; what is wrong with them is found again later. */
+static bool read_scene(struct fbd_grade *grade, const struct node *root, struct readings *readings)
+{
+    struct override *overrides;
+    const struct hand_reader reader = {readings, is_drawn, take};
+    const struct document document = {.file = grade->key->file, .root = root, .hand_reader = &reader};
+    size_t count = drawn_overrides(&grade->arena, grade->key, grade->student, root, &overrides);
+    fbd_errors *errors = fbd_errors_new();
+    if (errors && !grade->arena.failed) scene_free(scene_make(&document, overrides, count, errors));
+    if (!errors || errors->out_of_memory) grade->arena.failed = true;
+    fbd_errors_free(errors);
+    return !grade->arena.failed;
+}
+
+const struct node *lines_of_notation(struct fbd_grade *grade, const struct node *answer,
+                                     const struct node *root)
+{
+    struct arena *arena = &grade->arena;
+    struct readings readings = {grade, NULL};
+    const struct node *bodies = lines_value(answer, "bodies"), *made = bodies;
+    if (!root || !read_scene(grade, root, &readings)) return NULL;
+    if (!readings.first || !bodies || bodies->kind != node_map) return answer;
+    for (size_t b = 0; made && b < bodies->count; b++) {
+        const struct pair *body = &bodies->pairs[b];
+        const struct node *hand = lines_value(body->value, "hand");
+        if (!hand) continue;
+        const struct node *read = node_rewritten(arena, hand, as_read, readings.first);
+        const struct node *other = read ? node_with(arena, body->value, "hand", read) : NULL;
+        made = other ? node_with(arena, made, body->key, other) : NULL;
+    }
+    return made ? node_with(arena, answer, "bodies", made) : NULL;
+}
