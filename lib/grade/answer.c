@@ -280,22 +280,16 @@ static bool is_too_large(const struct fbd_grade *grade, const struct node *root)
            has_more(root, key, "contacts");
 }
 
-static char *copy_of_key(const struct fbd_key *key, size_t *length)
+static void open_answer(struct fbd_grade *grade, const struct submission *submission, struct answer *answer,
+                        fbd_errors *errors, fbd_errors *failures)
 {
-    char *text = malloc(key->length + 1);
-    if (text) memcpy(text, key->source, key->length + 1);
-    *length = key->length;
-    return text;
-}
-
-static void open_answer(struct fbd_grade *grade, const char *path, struct answer *answer, fbd_errors *errors,
-                        fbd_errors *failures)
-{
-    size_t length = 0;
-    bool there = !path || is_there(path);
-    if (path && there) answer->text = file_text(path, &length, failures);
-    if (!path) answer->text = copy_of_key(grade->key, &length);
-    if (!there) note_absent(grade, "there is no answer to read");
+    size_t length = submission->length;
+    if (!submission->path)
+        answer->text = file_copy(submission->text, length, failures);
+    else if (is_there(submission->path))
+        answer->text = file_text(submission->path, &length, failures);
+    else
+        note_absent(grade, "there is no answer to read");
     if (!answer->text) return;
     if (length > most_bytes + 4 * grade->key->length) {
         note_absent(grade, "the answer is longer than 64 kB and four times the key: it is not read");
@@ -318,7 +312,8 @@ static void open_answer(struct fbd_grade *grade, const char *path, struct answer
         note_absent(grade, "the answer is no model");
 }
 
-bool answer_read(struct fbd_grade *grade, const char *path, struct answer *answer, fbd_errors *failures)
+bool answer_read(struct fbd_grade *grade, const struct submission *submission, struct answer *answer,
+                 fbd_errors *failures)
 {
     fbd_errors *errors = fbd_errors_new();
     *answer = (struct answer){.text = NULL};
@@ -326,7 +321,7 @@ bool answer_read(struct fbd_grade *grade, const char *path, struct answer *answe
         grade->arena.failed = true;
         return false;
     }
-    open_answer(grade, path, answer, errors, failures);
+    open_answer(grade, submission, answer, errors, failures);
     if (answer->root && !says_something(answer->root)) {
         grade->submitted = false;
         note_absent(grade, "nothing is drawn on the sheet, and nothing derived");

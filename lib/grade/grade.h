@@ -113,6 +113,12 @@ void finding_of_error(struct fbd_grade *grade, fbd_finding_kind kind, const char
 
 /* ---- reading (answer.c): the compiled answer, without what cannot be read of it, which is noted; NULL when
  * nothing is left. `root` is its tree. `errors` has what is no fault of the answer: a file that cannot be read. */
+struct submission {
+    const char *path; /* NULL: the text */
+    const char *text;
+    size_t length;
+};
+
 struct answer {
     struct document document;
     const struct node *root; /* without what was left out */
@@ -120,8 +126,8 @@ struct answer {
     char *text;
 };
 
-/* `path` NULL: the key itself. */
-bool answer_read(struct fbd_grade *grade, const char *path, struct answer *answer, fbd_errors *errors);
+bool answer_read(struct fbd_grade *grade, const struct submission *submission, struct answer *answer,
+                 fbd_errors *errors);
 void answer_close(struct answer *answer);
 
 /* Blank the entries for which YAML cannot read a text, each with a finding (mend.c). */

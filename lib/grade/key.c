@@ -184,21 +184,22 @@ static bool take_settings(struct fbd_key *key, const fbd_setting *settings, size
     return !key->arena.failed;
 }
 
-static fbd_key *read_key(const char *path, const fbd_setting *settings, size_t count, fbd_errors *errors)
+/* A key of this text, which it takes. */
+static fbd_key *make_key(char *text, size_t length, const char *name, const fbd_setting *settings,
+                         size_t count, fbd_errors *errors)
 {
-    size_t length;
-    fbd_key *key = calloc(1, sizeof *key);
+    fbd_key *key = text ? calloc(1, sizeof *key) : NULL;
     if (!key) {
-        diag_out_of_memory(errors);
+        if (text) diag_out_of_memory(errors);
+        free(text);
         return NULL;
     }
-    key->source = file_text(path, &length, errors);
-    key->file = arena_text(&key->arena, file_name(path), strlen(file_name(path)));
+    key->source = text;
+    key->file = arena_text(&key->arena, name, strlen(name));
     bool taken = take_settings(key, settings, count);
-    bool opened =
-        taken && key->source && document_open(&key->document, key->source, length, key->file, errors);
+    bool opened = taken && key->file && document_open(&key->document, key->source, length, key->file, errors);
     key->document.split_hands = true;
-    if (opened && key->file && compile_key(key, errors)) {
+    if (opened && compile_key(key, errors)) {
         key->length = length;
         check_itself(key, errors);
         return key;
@@ -208,15 +209,34 @@ static fbd_key *read_key(const char *path, const fbd_setting *settings, size_t c
     return NULL;
 }
 
+static bool is_asked(const char *path_or_text, const fbd_setting *settings, size_t count, fbd_errors *errors)
+{
+    if (path_or_text && call_has_settings(settings, count)) return true;
+    call_refuse(errors, path_or_text ? "a setting has no name or no value"
+                                     : "there is no path, or no text, of a key");
+    return false;
+}
+
 fbd_key *fbd_key_read_set(const char *path, const fbd_setting *settings, size_t setting_count,
                           fbd_errors *list)
 {
     struct diag_call call;
     fbd_errors *errors = diag_begin(&call, list);
-    bool whole = call_has_settings(settings, setting_count);
-    fbd_key *key = path && whole
-                       ? read_key(path, settings, setting_count, errors)
-                       : call_refuse(errors, path ? "a setting has no name or no value" : "there is no path");
+    size_t length = 0;
+    char *text = is_asked(path, settings, setting_count, errors) ? file_text(path, &length, errors) : NULL;
+    fbd_key *key = text ? make_key(text, length, file_name(path), settings, setting_count, errors) : NULL;
+    diag_end(&call);
+    return key;
+}
+
+fbd_key *fbd_key_parse(const char *text, size_t length, const char *name, const fbd_setting *settings,
+                       size_t setting_count, fbd_errors *list)
+{
+    struct diag_call call;
+    fbd_errors *errors = diag_begin(&call, list);
+    bool asked = is_asked(text, settings, setting_count, errors);
+    char *copy = asked ? file_copy(text, length, errors) : NULL;
+    fbd_key *key = copy ? make_key(copy, length, name ? name : "key", settings, setting_count, errors) : NULL;
     diag_end(&call);
     return key;
 }

@@ -128,11 +128,15 @@ void grades(void **state)
     REFUSES(fbd_key_read_set, !fbd_key_read_set(NULL, NULL, 0, errors));
     REFUSES(fbd_key_read_set, !fbd_key_read_set("nowhere/at/all.yaml", &nameless, 1, errors));
     ANSWERS(fbd_key_read_set, !fbd_key_read_set("nowhere/at/all.yaml", NULL, 0, NULL));
+    REFUSES(fbd_key_parse, !fbd_key_parse(NULL, 0, NULL, NULL, 0, errors));
+    REFUSES(fbd_key_parse, !fbd_key_parse("fbd: 1\n", 7, NULL, &nameless, 1, errors));
+    ANSWERS(fbd_key_parse, !fbd_key_parse("fbd: 1\n", 7, NULL, NULL, 0, NULL));
     ENDURES(fbd_key_free, fbd_key_free(NULL));
     REFUSES(fbd_key_handout, !fbd_key_handout(NULL, "anna", errors));
     ANSWERS(fbd_finding_kind_name, strcmp(fbd_finding_kind_name((fbd_finding_kind)99), "") == 0);
     ANSWERS(fbd_finding_kind_name, strcmp(fbd_finding_kind_name((fbd_finding_kind)-1), "") == 0);
     REFUSES(fbd_grade_new, !fbd_grade_new(NULL, "answer.yaml", NULL, errors));
+    REFUSES(fbd_grade_parse, !fbd_grade_parse(NULL, "fbd: 1\n", 7, "anna", errors));
     ENDURES(fbd_grade_free, fbd_grade_free(NULL));
     ANSWERS(fbd_grade_points, fbd_grade_points(NULL) == 0);
     ANSWERS(fbd_grade_most, fbd_grade_most(NULL) == 0);
@@ -154,6 +158,9 @@ void a_key_without_an_answer(void **state)
     REFUSES(fbd_key_handout, !fbd_key_handout(key, NULL, errors));
     REFUSES(fbd_grade_new, !fbd_grade_new(key, NULL, NULL, errors));
     ANSWERS(fbd_grade_new, !fbd_grade_new(key, NULL, NULL, NULL));
+    REFUSES(fbd_grade_parse, !fbd_grade_parse(key, NULL, 0, "anna", errors));
+    REFUSES(fbd_grade_parse, !fbd_grade_parse(key, "fbd: 1\n", 7, NULL, errors));
+    ANSWERS(fbd_grade_parse, !fbd_grade_parse(key, NULL, 0, "anna", NULL));
     fbd_grade *grade = fbd_grade_new(key, "nowhere/at/all.yaml", "", errors);
     assert_non_null(grade);
     assert_false(fbd_grade_passed(grade));
