@@ -64,7 +64,7 @@ static int number_of(const char *path)
         const char *digits = path + strlen(folders[i]);
         if (strncmp(path, folders[i], strlen(folders[i])) != 0) continue;
         bool number = *digits && strlen(digits) < 9 && digits[strspn(digits, "0123456789")] == '\0';
-        return number ? atoi(digits) : -1;
+        return number ? (int)strtol(digits, NULL, 10) : -1;
     }
     return strcmp(path, "/dev/stdin") == 0 ? 0 : -1;
 }

@@ -173,11 +173,33 @@ static void compile_rest(struct fbd_grade *grade, struct answer *answer)
     }
 }
 
+/* The path of a table that names a file; NULL for one that gives its points. */
+static const struct node *file_of(const struct node *table)
+{
+    const struct node *file = table && table->kind == node_map ? lines_value(table, "file") : table;
+    return file && file->kind == node_scalar ? file : NULL;
+}
+
+/* A table whose file is not that of the sheet. */
+static void refuse_files(struct fbd_grade *grade, const struct node *root, const struct node *own)
+{
+    const struct node *tables = lines_value(root, "tables");
+    for (size_t i = 0; tables && tables->kind == node_map && i < tables->count; i++) {
+        const char *name = tables->pairs[i].key;
+        const struct node *file = file_of(tables->pairs[i].value);
+        const struct node *given = own ? file_of(lines_value(own, name)) : NULL;
+        if (!file || (given && strcmp(given->text, file->text) == 0)) continue;
+        fbd_finding *finding = finding_add(grade, FBD_FINDING_UNREADABLE, "", name, file->at);
+        finding_say(grade, finding, "an answer reads no files: tables are those of the sheet");
+    }
+}
+
 /* Runs are not graded; derivations are read on the key's mechanics; and an answer reads no files. */
 static const struct node *strip(struct fbd_grade *grade, const struct node *root)
 {
     static const char *const unused[] = {"grading", "simulate", "output", "tables"};
     const struct pair *tables = node_find(grade->key->document.root, "tables");
+    refuse_files(grade, root, tables ? tables->value : NULL);
     for (size_t i = 0; root && i < sizeof unused / sizeof *unused; i++)
         root = node_with(&grade->arena, root, unused[i], NULL);
     return root && tables ? node_with(&grade->arena, root, "tables", tables->value) : root;

@@ -62,7 +62,7 @@ mkdir folder.yaml
 for answer in empty blank broken list folder; do
     check "$answer.yaml too" exits 4 "$FBD_RUN" --grade key.yaml $answer.yaml
     check "$answer.yaml has no points" test "$("$FBD_RUN" --grade key.yaml --quiet --csv - $answer.yaml | tail -1)" = \
-        "$answer,$answer.yaml,0,5,0,no"
+        "$answer,$answer.yaml,0,5,0,no,0,0,0,0,0,0,0,0,0,0,0,0,0,$([ $answer = broken ] && echo 1,0,0 || echo 0,0,1)"
 done
 check 'one that passes beside one that is missing is 4' exits 4 "$FBD_RUN" --grade key.yaml key.yaml nowhere.yaml
 check 'one that passes is 0' exits 0 "$FBD_RUN" --grade key.yaml --student key key.yaml
@@ -87,6 +87,12 @@ bodies:
   rod: {mass: 1 kg, motion: {particle: {}}, forces: [gravity, applied: {name: f, fx: push(t), fy: 0}]}
 END
 check 'an answer reads no files' sh -c 'FBD=$("$FBD_RUN" --grade key.yaml tables.yaml 2>&1); ! printf "%s" "$FBD" | grep root:'
+check 'nor names one' sh -c '"$FBD_RUN" --grade key.yaml tables.yaml | grep -q "line 2: \`push\`: an answer reads no files"'
+sed 's,push: /etc/passwd,push: {file: /etc/passwd},' tables.yaml >mapped.yaml
+check 'in a mapping either' sh -c '"$FBD_RUN" --grade key.yaml mapped.yaml | grep -q "line 2: \`push\`: an answer reads no files"'
+printf 't,f\n0,1\n1,2\n' >push.csv
+sed -e 's,passwd,push.csv,; s,/etc/,,' tables.yaml >table_key.yaml
+check 'but that of the sheet' exits 0 "$FBD_RUN" --quiet --grade table_key.yaml --student a table_key.yaml
 
 mkdir submissions
 cp answer.yaml submissions/boris.yaml
