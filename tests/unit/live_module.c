@@ -4,4 +4,4 @@
  */
 #define main module_main
 int module_main(void);
-#include "../../../lib/live/module/module.c"
+#include "../../lib/live/module/module.c"
