@@ -43,13 +43,34 @@ static void put_field(FILE *stream, const char *text)
     fputc(',', stream);
 }
 
+/* A column for each kind of finding: how many there are. */
+static void put_kinds(FILE *stream, const fbd_grade *grade)
+{
+    for (int kind = 0; *fbd_finding_kind_name((fbd_finding_kind)kind); kind++) {
+        size_t count = 0;
+        for (size_t i = 0; i < fbd_grade_finding_count(grade); i++)
+            count += (int)fbd_grade_finding(grade, i).kind == kind;
+        fprintf(stream, ",%zu", count);
+    }
+    fputc('\n', stream);
+}
+
+static void put_header(FILE *stream)
+{
+    fputs("student,file,points,max_points,score,passed", stream);
+    for (int kind = 0; *fbd_finding_kind_name((fbd_finding_kind)kind); kind++)
+        fprintf(stream, ",%s", fbd_finding_kind_name((fbd_finding_kind)kind));
+    fputc('\n', stream);
+}
+
 static void put_row(FILE *stream, const fbd_grade *grade, const char *student, const char *file)
 {
     double points = fbd_grade_points(grade), most = fbd_grade_most(grade);
     put_field(stream, student);
     put_field(stream, file);
-    fprintf(stream, "%.10g,%.10g,%.10g,%s\n", points, most, points / most,
+    fprintf(stream, "%.10g,%.10g,%.10g,%s", points, most, points / most,
             fbd_grade_passed(grade) ? "yes" : "no");
+    put_kinds(stream, grade);
 }
 
 /* The name of the student that no option gives: that of the file. */
@@ -98,7 +119,7 @@ static enum exit_code grade_all(const struct options *options, const fbd_key *ke
     enum exit_code code = exit_done;
     bool open = open_one(&tables.json, options->json) && open_one(&tables.csv, options->csv);
     if (open && options->json) fputs("{\"answers\": [", tables.json.stream);
-    if (open && options->csv) fputs("student,file,points,max_points,score,passed\n", tables.csv.stream);
+    if (open && options->csv) put_header(tables.csv.stream);
     for (size_t i = 0; open && i < options->answer_count && code != exit_failed; i++) {
         enum exit_code one = grade_one(options, key, options->answers[i], &tables, errors);
         if (one != exit_done) code = one;
@@ -122,10 +143,16 @@ static enum exit_code finish(fbd_key *key, fbd_errors *errors, enum exit_code co
     return code;
 }
 
+static fbd_key *read_key(const struct options *options, fbd_errors *errors)
+{
+    return errors ? fbd_key_read_set(options->model, options->settings, options->setting_count, errors)
+                  : NULL;
+}
+
 enum exit_code grading(const struct options *options)
 {
     fbd_errors *errors = fbd_errors_new();
-    fbd_key *key = errors ? fbd_key_read(options->model, errors) : NULL;
+    fbd_key *key = read_key(options, errors);
     if (!errors) {
         complain("fbd-run: out of memory");
         return exit_failed;
@@ -136,7 +163,7 @@ enum exit_code grading(const struct options *options)
 enum exit_code handout(const struct options *options)
 {
     fbd_errors *errors = fbd_errors_new();
-    fbd_key *key = errors ? fbd_key_read(options->model, errors) : NULL;
+    fbd_key *key = read_key(options, errors);
     if (!errors) {
         complain("fbd-run: out of memory");
         return exit_failed;

@@ -950,6 +950,15 @@ typedef struct fbd_key fbd_key;
 
 /* Read a key. NULL with notes in `errors`: those of a wrong model file, and `nothing-to-grade`. */
 FBD_API fbd_key *fbd_key_read(const char *path, fbd_errors *errors);
+
+/* The same with values from outside, as of a learning platform that draws its own: they stand in sheets and answers in
+ * the place of those of the file, and of what `grading: {draw: ...}` draws. */
+FBD_API fbd_key *fbd_key_read_set(const char *path, const fbd_setting *settings, size_t setting_count,
+                                  fbd_errors *errors);
+
+/* The same of a text; `name` is what messages call it, or NULL. */
+FBD_API fbd_key *fbd_key_parse(const char *text, size_t length, const char *name, const fbd_setting *settings,
+                               size_t setting_count, fbd_errors *errors);
 FBD_API void fbd_key_free(fbd_key *key);
 
 /* Check a model whose file says `grading` as the key that it is: the notes of fbd_key_read about marks (`key-differs`,
@@ -1000,6 +1009,10 @@ typedef struct fbd_grade fbd_grade;
  * `errors`: a file that is there cannot be read (`cannot-read`), or memory is out. The key must outlive it. */
 FBD_API fbd_grade *fbd_grade_new(const fbd_key *key, const char *path, const char *student,
                                  fbd_errors *errors);
+
+/* The same of an answer that is a text. `student` names it in what is written of it. */
+FBD_API fbd_grade *fbd_grade_parse(const fbd_key *key, const char *text, size_t length, const char *student,
+                                   fbd_errors *errors);
 FBD_API void fbd_grade_free(fbd_grade *grade);
 
 /* What was got, at least 0, and what is to be had. */

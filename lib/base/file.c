@@ -117,10 +117,12 @@ char *file_text(const char *path, size_t *length, fbd_errors *errors)
 char *file_copy(const char *text, size_t length, fbd_errors *errors)
 {
     char *copy = malloc(length + 1);
-    if (copy)
-        memcpy(copy, text, length);
-    else
+    if (!copy) {
         diag_out_of_memory(errors);
+        return NULL;
+    }
+    memcpy(copy, text, length);
+    copy[length] = '\0';
     return copy;
 }
 

@@ -173,11 +173,33 @@ static void compile_rest(struct fbd_grade *grade, struct answer *answer)
     }
 }
 
+/* The path of a table that names a file; NULL for one that gives its points. */
+static const struct node *file_of(const struct node *table)
+{
+    const struct node *file = table && table->kind == node_map ? lines_value(table, "file") : table;
+    return file && file->kind == node_scalar ? file : NULL;
+}
+
+/* A table whose file is not that of the sheet. */
+static void refuse_files(struct fbd_grade *grade, const struct node *root, const struct node *own)
+{
+    const struct node *tables = lines_value(root, "tables");
+    for (size_t i = 0; tables && tables->kind == node_map && i < tables->count; i++) {
+        const char *name = tables->pairs[i].key;
+        const struct node *file = file_of(tables->pairs[i].value);
+        const struct node *given = own ? file_of(lines_value(own, name)) : NULL;
+        if (!file || (given && strcmp(given->text, file->text) == 0)) continue;
+        fbd_finding *finding = finding_add(grade, FBD_FINDING_UNREADABLE, "", name, file->at);
+        finding_say(grade, finding, "an answer reads no files: tables are those of the sheet");
+    }
+}
+
 /* Runs are not graded; derivations are read on the key's mechanics; and an answer reads no files. */
 static const struct node *strip(struct fbd_grade *grade, const struct node *root)
 {
     static const char *const unused[] = {"grading", "simulate", "output", "tables"};
     const struct pair *tables = node_find(grade->key->document.root, "tables");
+    refuse_files(grade, root, tables ? tables->value : NULL);
     for (size_t i = 0; root && i < sizeof unused / sizeof *unused; i++)
         root = node_with(&grade->arena, root, unused[i], NULL);
     return root && tables ? node_with(&grade->arena, root, "tables", tables->value) : root;
@@ -280,22 +302,16 @@ static bool is_too_large(const struct fbd_grade *grade, const struct node *root)
            has_more(root, key, "contacts");
 }
 
-static char *copy_of_key(const struct fbd_key *key, size_t *length)
+static void open_answer(struct fbd_grade *grade, const struct submission *submission, struct answer *answer,
+                        fbd_errors *errors, fbd_errors *failures)
 {
-    char *text = malloc(key->length + 1);
-    if (text) memcpy(text, key->source, key->length + 1);
-    *length = key->length;
-    return text;
-}
-
-static void open_answer(struct fbd_grade *grade, const char *path, struct answer *answer, fbd_errors *errors,
-                        fbd_errors *failures)
-{
-    size_t length = 0;
-    bool there = !path || is_there(path);
-    if (path && there) answer->text = file_text(path, &length, failures);
-    if (!path) answer->text = copy_of_key(grade->key, &length);
-    if (!there) note_absent(grade, "there is no answer to read");
+    size_t length = submission->length;
+    if (!submission->path)
+        answer->text = file_copy(submission->text, length, failures);
+    else if (is_there(submission->path))
+        answer->text = file_text(submission->path, &length, failures);
+    else
+        note_absent(grade, "there is no answer to read");
     if (!answer->text) return;
     if (length > most_bytes + 4 * grade->key->length) {
         note_absent(grade, "the answer is longer than 64 kB and four times the key: it is not read");
@@ -318,7 +334,8 @@ static void open_answer(struct fbd_grade *grade, const char *path, struct answer
         note_absent(grade, "the answer is no model");
 }
 
-bool answer_read(struct fbd_grade *grade, const char *path, struct answer *answer, fbd_errors *failures)
+bool answer_read(struct fbd_grade *grade, const struct submission *submission, struct answer *answer,
+                 fbd_errors *failures)
 {
     fbd_errors *errors = fbd_errors_new();
     *answer = (struct answer){.text = NULL};
@@ -326,7 +343,7 @@ bool answer_read(struct fbd_grade *grade, const char *path, struct answer *answe
         grade->arena.failed = true;
         return false;
     }
-    open_answer(grade, path, answer, errors, failures);
+    open_answer(grade, submission, answer, errors, failures);
     if (answer->root && !says_something(answer->root)) {
         grade->submitted = false;
         note_absent(grade, "nothing is drawn on the sheet, and nothing derived");

@@ -42,17 +42,18 @@ static bool make_sheet(struct fbd_grade *grade)
     return done;
 }
 
-static void hold_against(struct fbd_grade *grade, const char *path, fbd_errors *errors)
+static void hold_against(struct fbd_grade *grade, const struct submission *submission, fbd_errors *errors)
 {
     struct answer answer;
-    if (answer_read(grade, path, &answer, errors)) {
+    if (answer_read(grade, submission, &answer, errors)) {
         grade_bodies(grade, answer.model);
         grade_lines(grade, answer.root);
     }
     answer_close(&answer);
 }
 
-static fbd_grade *make_grade(const fbd_key *key, const char *path, const char *student, fbd_errors *errors)
+static fbd_grade *make_grade(const fbd_key *key, const struct submission *submission, const char *file,
+                             const char *student, fbd_errors *errors)
 {
     fbd_grade *grade = calloc(1, sizeof *grade);
     if (!grade) {
@@ -61,10 +62,10 @@ static fbd_grade *make_grade(const fbd_key *key, const char *path, const char *s
     }
     grade->key = key;
     grade->student =
-        student ? arena_text(&grade->arena, student, strlen(student)) : stem(&grade->arena, path);
-    grade->file = arena_text(&grade->arena, path, strlen(path));
+        student ? arena_text(&grade->arena, student, strlen(student)) : stem(&grade->arena, file);
+    grade->file = arena_text(&grade->arena, file, strlen(file));
     if (grade->student && grade->file && make_sheet(grade)) {
-        if (grade->sheet) hold_against(grade, path, errors);
+        if (grade->sheet) hold_against(grade, submission, errors);
         fbd_model_free(grade->sheet);
         grade->sheet = NULL;
         if (grade->readable && grade->submitted) grade->points = fmax(0, sum(grade));
@@ -82,7 +83,8 @@ fbd_grade *grade_itself(const fbd_key *key)
     if (grade && errors) {
         grade->key = key;
         grade->file = key->file;
-        if (make_sheet(grade) && grade->sheet) hold_against(grade, NULL, errors);
+        const struct submission itself = {.text = key->source, .length = key->length};
+        if (make_sheet(grade) && grade->sheet) hold_against(grade, &itself, errors);
         fbd_model_free(grade->sheet);
         grade->sheet = NULL;
     }
@@ -98,8 +100,22 @@ fbd_grade *fbd_grade_new(const fbd_key *key, const char *path, const char *stude
 {
     struct diag_call call;
     fbd_errors *errors = diag_begin(&call, list);
-    fbd_grade *grade = key && path ? make_grade(key, path, student, errors)
+    const struct submission submission = {.path = path};
+    fbd_grade *grade = key && path ? make_grade(key, &submission, path, student, errors)
                                    : call_refuse(errors, "there is no key, or no path of an answer");
+    diag_end(&call);
+    return grade;
+}
+
+fbd_grade *fbd_grade_parse(const fbd_key *key, const char *text, size_t length, const char *student,
+                           fbd_errors *list)
+{
+    struct diag_call call;
+    fbd_errors *errors = diag_begin(&call, list);
+    const struct submission submission = {.text = text, .length = length};
+    fbd_grade *grade = key && text && student
+                           ? make_grade(key, &submission, student, student, errors)
+                           : call_refuse(errors, "there is no key, no text of an answer, or no student");
     diag_end(&call);
     return grade;
 }

@@ -16,8 +16,8 @@
 
 /* ---- values of a student */
 
-const char *draw_for_student(struct arena *arena, const struct grading *grading,
-                             const struct drawn_parameter *drawn, const char *student)
+static const char *draw_for_student(struct arena *arena, const struct grading *grading,
+                                    const struct drawn_parameter *drawn, const char *student)
 {
     const struct draw_place place = {.seed = 1,
                                      .member = hash_text(drawn->name, strlen(drawn->name)),
@@ -31,18 +31,30 @@ const char *draw_for_student(struct arena *arena, const struct grading *grading,
     return arena_printf(arena, "%.*g%s%s", grading->digits + 2, rounded, blank, drawn->unit);
 }
 
+const char *value_for_student(struct arena *arena, const struct fbd_key *key, const char *name,
+                              const char *student)
+{
+    const struct grading *grading = &key->model->scene->grading;
+    for (size_t i = 0; i < key->set_count; i++)
+        if (strcmp(key->set[i].name, name) == 0) return key->set[i].value;
+    for (size_t i = 0; student && i < grading->draw_count; i++)
+        if (strcmp(grading->draws[i].name, name) == 0)
+            return draw_for_student(arena, grading, &grading->draws[i], student);
+    return NULL;
+}
+
 size_t drawn_overrides(struct arena *arena, const struct fbd_key *key, const char *student,
                        const struct node *root, struct override **overrides)
 {
-    const struct grading *grading = &key->model->scene->grading;
-    const struct pair *parameters = node_find(root, "parameters");
+    const struct pair *pair = node_find(root, "parameters");
+    const struct scene *scene = key->model->scene;
     size_t count = 0;
-    *overrides = ARENA_ARRAY(arena, grading->draw_count + 1, struct override);
-    for (size_t i = 0; *overrides && student && i < grading->draw_count; i++) {
-        const struct drawn_parameter *drawn = &grading->draws[i];
-        if (!parameters || !node_find(parameters->value, drawn->name)) continue;
-        const char *value = draw_for_student(arena, grading, drawn, student);
-        (*overrides)[count++] = (struct override){.name = drawn->name, .value = value};
+    *overrides = ARENA_ARRAY(arena, scene->parameter_count + 1, struct override);
+    for (size_t i = 0; *overrides && pair && i < scene->parameter_count; i++) {
+        const char *name = scene->parameters[i].name;
+        const char *value =
+            node_find(pair->value, name) ? value_for_student(arena, key, name, student) : NULL;
+        if (value) (*overrides)[count++] = (struct override){.name = name, .value = value};
     }
     return count;
 }
@@ -91,7 +103,7 @@ static bool find_asked(struct fbd_key *key)
 
 static bool compile_key(struct fbd_key *key, fbd_errors *errors)
 {
-    struct scene *scene = scene_make(&key->document, NULL, 0, errors);
+    struct scene *scene = scene_make(&key->document, key->set, key->set_count, errors);
     if (!scene) return false;
     if (fbd_errors_failed_count(errors) == 0)
         key->model = model_compile(scene, errors);
@@ -164,41 +176,67 @@ static bool check_itself(struct fbd_key *key, fbd_errors *errors)
     return true;
 }
 
-/* A key that has not been checked; `source` is taken over, and may be NULL. */
-static fbd_key *make_key(char *source, size_t length, const char *name, fbd_errors *errors)
+/* The texts are copied. */
+static bool take_settings(struct fbd_key *key, const fbd_setting *settings, size_t count)
 {
-    fbd_key *key = calloc(1, sizeof *key);
+    key->set = ARENA_ARRAY(&key->arena, count + 1, struct override);
+    for (size_t i = 0; key->set && i < count; i++) {
+        const char *name = settings[i].name, *value = settings[i].value;
+        key->set[i] = (struct override){.name = arena_text(&key->arena, name, strlen(name)),
+                                        .value = arena_text(&key->arena, value, strlen(value))};
+        key->set_count++;
+    }
+    return !key->arena.failed;
+}
+
+/* A key of this text, which it takes, that has not been checked; the text may be NULL. */
+static fbd_key *compile_text(char *text, size_t length, const char *name, const fbd_setting *settings,
+                             size_t count, fbd_errors *errors)
+{
+    fbd_key *key = text ? calloc(1, sizeof *key) : NULL;
     if (!key) {
-        diag_out_of_memory(errors);
-        free(source);
+        if (text) diag_out_of_memory(errors);
+        free(text);
         return NULL;
     }
-    key->source = source;
+    key->source = text;
     key->length = length;
     key->file = arena_text(&key->arena, name, strlen(name));
-    bool opened = source && document_open(&key->document, source, length, key->file, errors);
+    bool taken = take_settings(key, settings, count);
+    bool opened = taken && key->file && document_open(&key->document, text, length, key->file, errors);
     key->document.split_hands = true;
-    if (opened && key->file && compile_key(key, errors)) return key;
+    if (opened && compile_key(key, errors)) return key;
     if (key->arena.failed) diag_out_of_memory(errors);
     fbd_key_free(key);
     return NULL;
 }
 
-static fbd_key *read_key(const char *path, fbd_errors *errors)
+/* The same, and graded against itself. */
+static fbd_key *make_key(char *text, size_t length, const char *name, const fbd_setting *settings,
+                         size_t count, fbd_errors *errors)
 {
-    size_t length = 0;
-    char *source = file_text(path, &length, errors);
-    fbd_key *key = make_key(source, length, file_name(path), errors);
+    fbd_key *key = compile_text(text, length, name, settings, count, errors);
     if (key && check_itself(key, errors)) return key;
     fbd_key_free(key);
     return NULL;
 }
 
-fbd_key *fbd_key_read(const char *path, fbd_errors *list)
+static bool is_asked(const char *path_or_text, const fbd_setting *settings, size_t count, fbd_errors *errors)
+{
+    if (path_or_text && call_has_settings(settings, count)) return true;
+    call_refuse(errors, path_or_text ? "a setting has no name or no value"
+                                     : "there is no path, or no text, of a key");
+    return false;
+}
+
+fbd_key *fbd_key_read_set(const char *path, const fbd_setting *settings, size_t setting_count,
+                          fbd_errors *list)
 {
     struct diag_call call;
     fbd_errors *errors = diag_begin(&call, list);
-    fbd_key *key = path ? read_key(path, errors) : call_refuse(errors, "there is no path");
+    size_t length = 0;
+    char *text = is_asked(path, settings, setting_count, errors) ? file_text(path, &length, errors) : NULL;
+    fbd_key *key = text ? make_key(text, length, file_name(path), settings, setting_count, errors) : NULL;
     diag_end(&call);
     return key;
 }
@@ -207,7 +245,7 @@ static bool check_source(const fbd_model *model, fbd_errors *errors)
 {
     fbd_errors *others = fbd_errors_new(); /* what the file is warned of was said when it was read */
     char *copy = others ? file_copy(model->source, model->source_length, others) : NULL;
-    fbd_key *key = copy ? make_key(copy, model->source_length, model->scene->file, others) : NULL;
+    fbd_key *key = compile_text(copy, model->source_length, model->scene->file, NULL, 0, others);
     bool lacking = !others || others->out_of_memory;
     if (lacking) diag_out_of_memory(errors);
     diag_in_file(errors, model->scene->file);
@@ -226,6 +264,23 @@ bool fbd_model_check_key(const fbd_model *model, fbd_errors *list)
     bool done = is_key ? check_source(model, errors) : model || call_refuse(errors, "there is no model");
     diag_end(&call);
     return done;
+}
+
+fbd_key *fbd_key_parse(const char *text, size_t length, const char *name, const fbd_setting *settings,
+                       size_t setting_count, fbd_errors *list)
+{
+    struct diag_call call;
+    fbd_errors *errors = diag_begin(&call, list);
+    bool asked = is_asked(text, settings, setting_count, errors);
+    char *copy = asked ? file_copy(text, length, errors) : NULL;
+    fbd_key *key = copy ? make_key(copy, length, name ? name : "key", settings, setting_count, errors) : NULL;
+    diag_end(&call);
+    return key;
+}
+
+fbd_key *fbd_key_read(const char *path, fbd_errors *errors)
+{
+    return fbd_key_read_set(path, NULL, 0, errors);
 }
 
 void fbd_key_free(fbd_key *key)

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import os
 from dataclasses import dataclass
-from typing import Optional, Tuple, Union
+from typing import Any, Optional, Tuple, Union
 
 from ._binding import ffi, lib
-from ._library import bytes_of, checked, made, path_of, taken, text_at
+from ._library import bytes_of, checked, made, path_of, settings_of, taken, text_at
 from ._records import from_struct, preformatted
 
 Path = Union[str, "os.PathLike[str]"]
@@ -37,9 +37,18 @@ class Grade:
     passed: bool  #: there is an answer, and its points are enough
     findings: Tuple[Finding, ...]
 
-    def __init__(self, key: "Key", path: Path, student: Optional[str] = None):
+    def __init__(self, key: "Key", path: Optional[Path] = None, student: Optional[str] = None, *,
+                 text: Optional[str] = None):
+        if (path is None) == (text is None):
+            raise TypeError("give the path of an answer, or its `text`")
+        if text is not None and student is None:
+            raise TypeError("an answer as text needs `student`, who has no file to be named by")
         name = ffi.NULL if student is None else ffi.new("char[]", bytes_of(student, "the student"))
-        handle = made(lib.fbd_grade_new, lib.fbd_grade_free, (key._handle,), key._handle, path_of(path), name)
+        if text is None:
+            handle = made(lib.fbd_grade_new, lib.fbd_grade_free, (key._handle,), key._handle, path_of(path), name)
+        else:
+            answer = bytes_of(text, "the answer")
+            handle = made(lib.fbd_grade_parse, lib.fbd_grade_free, (key._handle,), key._handle, answer, len(answer), name)
         self.points, self.most = lib.fbd_grade_points(handle), lib.fbd_grade_most(handle)
         self.passed = bool(lib.fbd_grade_passed(handle))
         structs = [lib.fbd_grade_finding(handle, i) for i in range(lib.fbd_grade_finding_count(handle))]
@@ -65,16 +74,28 @@ class Grade:
 
 
 class Key:
-    """A teacher's model that answers are held against."""
+    """A teacher's model that answers are held against. Keywords set parameters of the file, for all students."""
 
-    def __init__(self, path: Path, /):
-        self._handle = made(lib.fbd_key_read, lib.fbd_key_free, (), path_of(path))
+    def __init__(self, path: Path, /, **parameters: Any):
+        settings, count, kept = settings_of(parameters)
+        self._handle = made(lib.fbd_key_read_set, lib.fbd_key_free, (), path_of(path), settings, count)
+        del kept
+
+    @classmethod
+    def parse(cls, text: str, name: str = "key", /, **parameters: Any) -> "Key":
+        """The same from a text; messages call it ``name``, and data files are looked for beside that."""
+        source, called = bytes_of(text, "the text"), bytes_of(name, "the name")
+        settings, count, kept = settings_of(parameters)
+        key = cls.__new__(cls)
+        key._handle = made(lib.fbd_key_parse, lib.fbd_key_free, (), source, len(source), called, settings, count)
+        del kept
+        return key
 
     def handout(self, student: str) -> str:
         """What a student gets of it, as the text of a model file, with the values drawn for that name."""
         return taken(checked(lib.fbd_key_handout, self._handle, bytes_of(student, "the student")))
 
-    def grade(self, path: Path, student: Optional[str] = None) -> Grade:
-        """Hold an answer against it. ``student`` chooses the values that are drawn; else the name of the file does,
-        without ``.yaml``."""
-        return Grade(self, path, student)
+    def grade(self, path: Optional[Path] = None, student: Optional[str] = None, *, text: Optional[str] = None) -> Grade:
+        """Hold an answer against it, a file or its ``text``. ``student`` chooses the values that are drawn; else the
+        name of the file does, without ``.yaml``."""
+        return Grade(self, path, student, text=text)

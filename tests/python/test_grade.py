@@ -40,6 +40,26 @@ def test_sheets_and_findings(tmp_path):
     assert absent.findings[0].kind == "no_submission" and absent._repr_html_().startswith("<pre>")
 
 
+def test_keys_and_answers_as_texts(tmp_path):
+    key = fbd.Key.parse(KEY.read_text(), L="1.2 m", m=2)
+    sheet = key.handout("anna")
+    assert "L: 1.2 m" in sheet and "\n  m: 2" in sheet
+    answer = sheet.replace("forces: []", "forces: " + RIGHT)
+    graded_text = key.grade(text=answer, student="anna")
+    (tmp_path / "answer.yaml").write_text(answer)
+    graded_file = key.grade(tmp_path / "answer.yaml", "anna")
+    assert 0 < graded_text.points == graded_file.points
+    assert graded_text.findings == graded_file.findings
+    assert key.grade(text="", student="anna").findings[0].kind == "no_submission"
+    for wrong in ({}, {"text": answer}, {"path": "a.yaml", "text": answer, "student": "anna"}):
+        with pytest.raises(TypeError):
+            key.grade(**wrong)
+    with pytest.raises(fbd.Error):
+        fbd.Key.parse("fbd: 1\nbodies: 3\n")
+    with pytest.raises(fbd.Error):
+        fbd.Key.parse(KEY.read_text(), nothing=1)
+
+
 def test_what_is_no_key_is_said(tmp_path):
     (tmp_path / "empty.yaml").write_text("fbd: 1\nbodies: {a: {mass: 1 kg, motion: slide}}\nsimulate: {until: 1 s}\n")
     with pytest.raises(fbd.Error) as caught:

@@ -274,50 +274,13 @@ fbd_arrow trial_arrow(struct trial *trial, const char *name)
     return arrows[0];
 }
 
-static double expected_value(const struct expected_equation *want, const char *name)
+void check_equation(struct checks *checks, struct trial *trial, const fbd_expected *want)
 {
-    for (int i = 0; i < most_expected && want->terms[i].name; i++)
-        if (strcmp(want->terms[i].name, name) == 0) return want->terms[i].value;
-    return 0;
-}
-
-static void check_terms(struct checks *checks, const fbd_equation *got, const struct expected_equation *want,
-                        double tolerance)
-{
-    char what[2 * most_name];
-    for (size_t i = 0; i < got->term_count; i++) {
-        snprintf(what, sizeof what, "%s: term %s", want->coordinate, got->terms[i].name);
-        check_close(checks, what, got->terms[i].value, expected_value(want, got->terms[i].name), tolerance);
-    }
-    for (int i = 0; i < most_expected && want->terms[i].name; i++) {
-        snprintf(what, sizeof what, "%s has a term %s", want->coordinate, want->terms[i].name);
-        check_that(checks, what, !isnan(fbd_equation_term(got, want->terms[i].name)));
-    }
-}
-
-void check_equation(struct checks *checks, struct trial *trial, const struct expected_equation *want)
-{
-    /* A term is a product of a few factors, a sum has a few terms, each rounded: 2^-53 times their number. */
-    const double roundings = 1e-14;
-    char what[most_name];
-    fbd_equations *all = assemble(trial);
-    const fbd_equation got = find_equation(trial, all, want->coordinate);
-    double sum = 0, size = fabs(want->normal);
-    for (int i = 0; i < most_expected && want->terms[i].name; i++) {
-        sum += want->terms[i].value;
-        size = fmax(size, fabs(want->terms[i].value));
-    }
-    double tolerance = roundings * size;
-    check_terms(checks, &got, want, tolerance);
-    snprintf(what, sizeof what, "%s: inertia", want->coordinate);
-    check_close(checks, what, got.inertia, want->inertia, roundings * want->inertia);
-    snprintf(what, sizeof what, "%s: sum", want->coordinate);
-    check_close(checks, what, got.sum, sum, tolerance);
-    snprintf(what, sizeof what, "%s: acceleration", want->coordinate);
-    check_close(checks, what, got.acceleration, want->acceleration, tolerance / want->inertia);
-    snprintf(what, sizeof what, "%s: normal force", want->coordinate);
-    check_close(checks, what, got.normal, want->normal, tolerance);
-    fbd_equations_free(all);
+    char buffer[most_name];
+    fbd_expected here = *want;
+    here.coordinate = qualified(trial, want->coordinate, buffer);
+    here.tolerance = 1e-14; /* a few products, each rounded: 2^-53 times their number */
+    if (!fbd_check_equation(trial->state, &here)) checks->failed++;
 }
 
 /* ---- runs */

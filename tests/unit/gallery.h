@@ -9,7 +9,7 @@
 #ifndef FBD_TESTS_GALLERY_H
 #define FBD_TESTS_GALLERY_H
 
-#include "fbd.h"
+#include "fbd_test.h"
 #include "reference.h"
 
 /* ---- checks */
@@ -83,25 +83,8 @@ double trial_normal(struct trial *trial, const char *coordinate);
 /* An arrow of the first body's diagram. */
 fbd_arrow trial_arrow(struct trial *trial, const char *name);
 
-struct expected_term {
-    const char *name;
-    double value;
-};
-
-enum { most_expected = 8 };
-
-/* An equation as derived by hand. The acceleration is given by a formula of its own, not as sum / inertia. */
-struct expected_equation {
-    const char *coordinate;
-    double inertia;
-    struct expected_term terms[most_expected]; /* all that are not zero */
-    double acceleration;
-    double normal;
-};
-
-/* The assembly says the same: inertia, each term by its name and no others, sum, acceleration, normal force;
- * each to some roundings of the largest term. */
-void check_equation(struct checks *checks, struct trial *trial, const struct expected_equation *want);
+/* As fbd_check_equation, to some roundings of the largest term. */
+void check_equation(struct checks *checks, struct trial *trial, const fbd_expected *want);
 
 /* ---- runs */
 

@@ -33,10 +33,10 @@ static void a_dropped_object_feels_its_weight_wherever_x_is_counted_from(void **
             trial_set(&trial, "x", states[i][0]);
             trial_set(&trial, "v", states[i][1]);
             check_equation(&checks, &trial,
-                           &(struct expected_equation){.coordinate = "x",
-                                                       .inertia = 2,
-                                                       .terms = {{"gravity", -2 * 32.2}},
-                                                       .acceleration = -32.2});
+                           &(fbd_expected){.coordinate = "x",
+                                           .inertia = 2,
+                                           .terms = {{"gravity", -2 * 32.2}},
+                                           .acceleration = -32.2});
         }
         trial_close(&trial);
     }
@@ -81,10 +81,10 @@ static void quadratic_drag_opposes_the_velocity_either_way(void **unused)
         double v = speeds[i];
         trial_set(&trial, "v", v);
         check_equation(&checks, &trial,
-                       &(struct expected_equation){.coordinate = "x",
-                                                   .inertia = m,
-                                                   .terms = {{"gravity", -m * g}, {"drag", -c * fabs(v) * v}},
-                                                   .acceleration = -g - c * fabs(v) * v / m});
+                       &(fbd_expected){.coordinate = "x",
+                                       .inertia = m,
+                                       .terms = {{"gravity", -m * g}, {"drag", -c * fabs(v) * v}},
+                                       .acceleration = -g - c * fabs(v) * v / m});
     }
     trial_close(&trial);
     checks_end(&checks);
@@ -100,11 +100,11 @@ static void check_flat(struct checks *checks, struct trial *trial, double f1, do
     bool held = v == 0 && friction == -push;
     trial_set(trial, "v", v);
     check_equation(checks, trial,
-                   &(struct expected_equation){.coordinate = "x",
-                                               .inertia = m,
-                                               .terms = {{"push", push}, {"friction", friction}},
-                                               .acceleration = held ? 0 : push / m + friction / m,
-                                               .normal = N});
+                   &(fbd_expected){.coordinate = "x",
+                                   .inertia = m,
+                                   .terms = {{"push", push}, {"friction", friction}},
+                                   .acceleration = held ? 0 : push / m + friction / m,
+                                   .normal = N});
 }
 
 static void friction_on_the_flat_holds_or_opposes(void **unused)
@@ -139,12 +139,11 @@ static void a_push_that_ends_leaves_friction_alone(void **unused)
         trial_set(&trial, "t", t);
         trial_set(&trial, "v", v);
         check_equation(&checks, &trial,
-                       &(struct expected_equation){.coordinate = "x",
-                                                   .inertia = m,
-                                                   .terms = {{"push", push},
-                                                             {"friction", -mu_k * m * g * sign(v)}},
-                                                   .acceleration = push / m - mu_k * g * sign(v),
-                                                   .normal = m * g});
+                       &(fbd_expected){.coordinate = "x",
+                                       .inertia = m,
+                                       .terms = {{"push", push}, {"friction", -mu_k * m * g * sign(v)}},
+                                       .acceleration = push / m - mu_k * g * sign(v),
+                                       .normal = m * g});
     }
     trial_close(&trial);
     checks_end(&checks);
@@ -163,13 +162,13 @@ static void check_incline(struct checks *checks, struct trial *trial, double phi
         acceleration = along / m - mu_k * g * cos(phi) * sign(along);
     }
     trial_set(trial, "v", v);
-    check_equation(checks, trial,
-                   &(struct expected_equation){
-                       .coordinate = "x",
-                       .inertia = m,
-                       .terms = {{"gravity", -m * g * sin(phi)}, {"friction", friction}, {"push", f1}},
-                       .acceleration = acceleration,
-                       .normal = N});
+    check_equation(
+        checks, trial,
+        &(fbd_expected){.coordinate = "x",
+                        .inertia = m,
+                        .terms = {{"gravity", -m * g * sin(phi)}, {"friction", friction}, {"push", f1}},
+                        .acceleration = acceleration,
+                        .normal = N});
 }
 
 static void the_incline_splits_the_weight_and_friction_opposes(void **unused)
@@ -207,12 +206,12 @@ static void a_block_that_cannot_be_held_slides_back(void **unused)
         double up = speeds[i] > 0 ? 1 : -1, N = m * g * cos(phi);
         trial_set(&trial, "v", speeds[i]);
         check_equation(&checks, &trial,
-                       &(struct expected_equation){.coordinate = "x",
-                                                   .inertia = m,
-                                                   .terms = {{"gravity", -m * g * sin(phi)},
-                                                             {"friction", -mu_k * N * up}},
-                                                   .acceleration = -g * (sin(phi) + up * mu_k * cos(phi)),
-                                                   .normal = N});
+                       &(fbd_expected){.coordinate = "x",
+                                       .inertia = m,
+                                       .terms = {{"gravity", -m * g * sin(phi)},
+                                                 {"friction", -mu_k * N * up}},
+                                       .acceleration = -g * (sin(phi) + up * mu_k * cos(phi)),
+                                       .normal = N});
     }
     trial_close(&trial);
     checks_end(&checks);
@@ -240,11 +239,11 @@ static void check_ramp(struct checks *checks, const char *file, double (*force)(
         trial_set(&trial, "t", t);
         trial_set(&trial, "v", v);
         check_equation(checks, &trial,
-                       &(struct expected_equation){.coordinate = "x",
-                                                   .inertia = m,
-                                                   .terms = {{"pull", pull}, {"friction", friction}},
-                                                   .acceleration = held ? 0 : (pull + friction) / m,
-                                                   .normal = N});
+                       &(fbd_expected){.coordinate = "x",
+                                       .inertia = m,
+                                       .terms = {{"pull", pull}, {"friction", friction}},
+                                       .acceleration = held ? 0 : (pull + friction) / m,
+                                       .normal = N});
     }
     trial_close(&trial);
 }
@@ -282,14 +281,14 @@ static void an_oblique_pull_that_varies_loads_and_unloads_the_surface(void **unu
         double along = pull * cos(above), weight = -m * g * sin(slope);
         trial_set(&trial, "t", states[i][0]);
         trial_set(&trial, "v", v);
-        check_equation(&checks, &trial,
-                       &(struct expected_equation){
-                           .coordinate = "x",
-                           .inertia = m,
-                           .terms = {{"gravity", weight}, {"friction", friction}, {"pull", along}},
-                           .acceleration = pull / m * (cos(above) + 0.25 * sin(above) * sign(v)) -
-                                           g * (sin(slope) + 0.25 * cos(slope) * sign(v)),
-                           .normal = N});
+        check_equation(
+            &checks, &trial,
+            &(fbd_expected){.coordinate = "x",
+                            .inertia = m,
+                            .terms = {{"gravity", weight}, {"friction", friction}, {"pull", along}},
+                            .acceleration = pull / m * (cos(above) + 0.25 * sin(above) * sign(v)) -
+                                            g * (sin(slope) + 0.25 * cos(slope) * sign(v)),
+                            .normal = N});
     }
     trial_close(&trial);
     checks_end(&checks);

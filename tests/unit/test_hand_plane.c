@@ -25,15 +25,15 @@ static void drag_couples_the_components_by_the_speed(void **unused)
         trial_set(&trial, "vx", vx);
         trial_set(&trial, "vy", vy);
         check_equation(&checks, &trial,
-                       &(struct expected_equation){.coordinate = "x",
-                                                   .inertia = m,
-                                                   .terms = {{"drag", -c * speed * vx}},
-                                                   .acceleration = -c / m * speed * vx});
+                       &(fbd_expected){.coordinate = "x",
+                                       .inertia = m,
+                                       .terms = {{"drag", -c * speed * vx}},
+                                       .acceleration = -c / m * speed * vx});
         check_equation(&checks, &trial,
-                       &(struct expected_equation){.coordinate = "y",
-                                                   .inertia = m,
-                                                   .terms = {{"gravity", -m * g}, {"drag", -c * speed * vy}},
-                                                   .acceleration = -g - c / m * speed * vy});
+                       &(fbd_expected){.coordinate = "y",
+                                       .inertia = m,
+                                       .terms = {{"gravity", -m * g}, {"drag", -c * speed * vy}},
+                                       .acceleration = -g - c / m * speed * vy});
     }
     trial_close(&trial);
     checks_end(&checks);
@@ -51,15 +51,15 @@ static void a_spring_pulls_toward_its_point_or_pushes_off(void **unused)
         trial_set(&trial, "x", x);
         trial_set(&trial, "y", y);
         check_equation(&checks, &trial,
-                       &(struct expected_equation){.coordinate = "x",
-                                                   .inertia = m,
-                                                   .terms = {{"spring", -pull * x / r}},
-                                                   .acceleration = -pull * x / (r * m)});
+                       &(fbd_expected){.coordinate = "x",
+                                       .inertia = m,
+                                       .terms = {{"spring", -pull * x / r}},
+                                       .acceleration = -pull * x / (r * m)});
         check_equation(&checks, &trial,
-                       &(struct expected_equation){.coordinate = "y",
-                                                   .inertia = m,
-                                                   .terms = {{"gravity", -m * g}, {"spring", -pull * y / r}},
-                                                   .acceleration = -g - pull * y / (r * m)});
+                       &(fbd_expected){.coordinate = "y",
+                                       .inertia = m,
+                                       .terms = {{"gravity", -m * g}, {"spring", -pull * y / r}},
+                                       .acceleration = -g - pull * y / (r * m)});
     }
     trial_close(&trial);
     checks_end(&checks);
@@ -88,13 +88,13 @@ static void weight_has_no_moment_about_the_centre_of_mass(void **unused)
     struct trial trial = trial_open("plane/thrown_rod.yaml", NULL);
     for (size_t i = 0; i < pose_count; i++) {
         set_pose(&trial, poses[i]);
-        check_equation(&checks, &trial, &(struct expected_equation){.coordinate = "x", .inertia = m});
+        check_equation(&checks, &trial, &(fbd_expected){.coordinate = "x", .inertia = m});
         check_equation(&checks, &trial,
-                       &(struct expected_equation){.coordinate = "y",
-                                                   .inertia = m,
-                                                   .terms = {{"gravity", -m * g}},
-                                                   .acceleration = -g});
-        check_equation(&checks, &trial, &(struct expected_equation){.coordinate = "theta", .inertia = I_G});
+                       &(fbd_expected){.coordinate = "y",
+                                       .inertia = m,
+                                       .terms = {{"gravity", -m * g}},
+                                       .acceleration = -g});
+        check_equation(&checks, &trial, &(fbd_expected){.coordinate = "theta", .inertia = I_G});
     }
     trial_close(&trial);
     checks_end(&checks);
@@ -124,21 +124,20 @@ static void springs_off_the_axis_have_moments(void **unused)
         set_pose(&trial, poses[i]);
         struct pull A = end_spring(poses[i], -a, -a, -h, 300), B = end_spring(poses[i], a, a, -h, 500);
         check_equation(&checks, &trial,
-                       &(struct expected_equation){.coordinate = "x",
-                                                   .inertia = m,
-                                                   .terms = {{"spring_A", A.fx}, {"spring_B", B.fx}},
-                                                   .acceleration = (A.fx + B.fx) / m});
+                       &(fbd_expected){.coordinate = "x",
+                                       .inertia = m,
+                                       .terms = {{"spring_A", A.fx}, {"spring_B", B.fx}},
+                                       .acceleration = (A.fx + B.fx) / m});
         check_equation(&checks, &trial,
-                       &(struct expected_equation){
-                           .coordinate = "y",
-                           .inertia = m,
-                           .terms = {{"gravity", -m * g}, {"spring_A", A.fy}, {"spring_B", B.fy}},
-                           .acceleration = (A.fy + B.fy) / m - g});
+                       &(fbd_expected){.coordinate = "y",
+                                       .inertia = m,
+                                       .terms = {{"gravity", -m * g}, {"spring_A", A.fy}, {"spring_B", B.fy}},
+                                       .acceleration = (A.fy + B.fy) / m - g});
         check_equation(&checks, &trial,
-                       &(struct expected_equation){.coordinate = "theta",
-                                                   .inertia = I_G,
-                                                   .terms = {{"spring_A", A.moment}, {"spring_B", B.moment}},
-                                                   .acceleration = (A.moment + B.moment) / I_G});
+                       &(fbd_expected){.coordinate = "theta",
+                                       .inertia = I_G,
+                                       .terms = {{"spring_A", A.moment}, {"spring_B", B.moment}},
+                                       .acceleration = (A.moment + B.moment) / I_G});
     }
     trial_close(&trial);
     checks_end(&checks);
@@ -154,20 +153,20 @@ static void a_jet_turns_with_its_body(void **unused)
         double theta = poses[i][2], omega = poses[i][3];
         set_pose(&trial, poses[i]);
         check_equation(&checks, &trial,
-                       &(struct expected_equation){.coordinate = "x",
-                                                   .inertia = m,
-                                                   .terms = {{"jet", -F * sin(theta)}},
-                                                   .acceleration = -F / m * sin(theta)});
+                       &(fbd_expected){.coordinate = "x",
+                                       .inertia = m,
+                                       .terms = {{"jet", -F * sin(theta)}},
+                                       .acceleration = -F / m * sin(theta)});
         check_equation(&checks, &trial,
-                       &(struct expected_equation){.coordinate = "y",
-                                                   .inertia = m,
-                                                   .terms = {{"jet", F * cos(theta)}},
-                                                   .acceleration = F / m * cos(theta)});
+                       &(fbd_expected){.coordinate = "y",
+                                       .inertia = m,
+                                       .terms = {{"jet", F * cos(theta)}},
+                                       .acceleration = F / m * cos(theta)});
         check_equation(&checks, &trial,
-                       &(struct expected_equation){.coordinate = "theta",
-                                                   .inertia = I_G,
-                                                   .terms = {{"jet", F * l / 2}, {"damper", -c * omega}},
-                                                   .acceleration = (F * l / 2 - c * omega) / I_G});
+                       &(fbd_expected){.coordinate = "theta",
+                                       .inertia = I_G,
+                                       .terms = {{"jet", F * l / 2}, {"damper", -c * omega}},
+                                       .acceleration = (F * l / 2 - c * omega) / I_G});
     }
     trial_close(&trial);
     checks_end(&checks);
@@ -199,19 +198,19 @@ static void an_eccentric_frame_keeps_the_equations_of_its_centre_of_mass(void **
         double c = cos(poses[i][2]), s = sin(poses[i][2]);
         double moment = -arm * c * -7 + arm * s * 3; /* (left - G) x f */
         set_pose(&trial, poses[i]);
+        check_equation(
+            &checks, &trial,
+            &(fbd_expected){.coordinate = "x", .inertia = m, .terms = {{"push", 3}}, .acceleration = 3 / m});
         check_equation(&checks, &trial,
-                       &(struct expected_equation){
-                           .coordinate = "x", .inertia = m, .terms = {{"push", 3}}, .acceleration = 3 / m});
+                       &(fbd_expected){.coordinate = "y",
+                                       .inertia = m,
+                                       .terms = {{"gravity", -m * g}, {"push", -7}},
+                                       .acceleration = -g - 7 / m});
         check_equation(&checks, &trial,
-                       &(struct expected_equation){.coordinate = "y",
-                                                   .inertia = m,
-                                                   .terms = {{"gravity", -m * g}, {"push", -7}},
-                                                   .acceleration = -g - 7 / m});
-        check_equation(&checks, &trial,
-                       &(struct expected_equation){.coordinate = "theta",
-                                                   .inertia = I_G,
-                                                   .terms = {{"push", moment}},
-                                                   .acceleration = moment / I_G});
+                       &(fbd_expected){.coordinate = "theta",
+                                       .inertia = I_G,
+                                       .terms = {{"push", moment}},
+                                       .acceleration = moment / I_G});
     }
     trial_close(&trial);
     checks_end(&checks);

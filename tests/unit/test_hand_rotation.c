@@ -36,10 +36,10 @@ static void a_constant_moment_turns_a_disc_about_its_centre(void **unused)
     for (size_t i = 0; i < swing_count; i++) {
         set_swing(&trial, i);
         check_equation(&checks, &trial,
-                       &(struct expected_equation){.coordinate = "theta",
-                                                   .inertia = I_O,
-                                                   .terms = {{"drive", 3}},
-                                                   .acceleration = 3 / I_O});
+                       &(fbd_expected){.coordinate = "theta",
+                                       .inertia = I_O,
+                                       .terms = {{"drive", 3}},
+                                       .acceleration = 3 / I_O});
     }
     check_close(&checks, "L", fbd_model_inertia(trial.model, 0).L, 0, 0);
     trial_close(&trial);
@@ -62,10 +62,10 @@ static void bearing_friction_opposes_the_spin_or_holds(void **unused)
         trial_set(&trial, "t", states[i][0]);
         trial_set(&trial, "omega", states[i][1]);
         check_equation(&checks, &trial,
-                       &(struct expected_equation){.coordinate = "theta",
-                                                   .inertia = I_O,
-                                                   .terms = {{"drive", drive}, {"brake", brake}},
-                                                   .acceleration = (drive + brake) / I_O});
+                       &(fbd_expected){.coordinate = "theta",
+                                       .inertia = I_O,
+                                       .terms = {{"drive", drive}, {"brake", brake}},
+                                       .acceleration = (drive + brake) / I_O});
     }
     trial_close(&trial);
     checks_end(&checks);
@@ -83,10 +83,10 @@ static void the_pin_of_a_driven_rod_carries_its_centre_round(void **unused)
         double along = -m * l / 2 * omega * omega, across = m * l / 2 * alpha;
         set_swing(&trial, i);
         check_equation(&checks, &trial,
-                       &(struct expected_equation){.coordinate = "theta",
-                                                   .inertia = I_O,
-                                                   .terms = {{"drive", 3}},
-                                                   .acceleration = alpha});
+                       &(fbd_expected){.coordinate = "theta",
+                                       .inertia = I_O,
+                                       .terms = {{"drive", 3}},
+                                       .acceleration = alpha});
         fbd_arrow pin = trial_arrow(&trial, "pin");
         double size = fabs(along) + fabs(across);
         check_close(&checks, "pin fx", pin.fx, along * cos(theta) - across * sin(theta), roundings * size);
@@ -118,11 +118,11 @@ static void check_pendulum(struct checks *checks, struct trial *trial, const str
         double alpha = -(p->m * g * p->L * s + p->damping * omega) / p->I_O;
         set_swing(trial, i);
         check_equation(checks, trial,
-                       &(struct expected_equation){.coordinate = "theta",
-                                                   .inertia = p->I_O,
-                                                   .terms = {{"gravity", -p->m * g * p->L * s},
-                                                             {p->extra, -p->damping * omega}},
-                                                   .acceleration = alpha});
+                       &(fbd_expected){.coordinate = "theta",
+                                       .inertia = p->I_O,
+                                       .terms = {{"gravity", -p->m * g * p->L * s},
+                                                 {p->extra, -p->damping * omega}},
+                                       .acceleration = alpha});
         fbd_arrow pin = trial_arrow(trial, "pin");
         double size = p->m * (g + p->L * (fabs(alpha) + omega * omega));
         check_close(checks, "pin fx", pin.fx, p->m * p->L * (alpha * c - omega * omega * s),
@@ -209,10 +209,10 @@ static void a_twisted_wire_turns_the_disc_back(void **unused)
         double theta = swings[i][0], omega = swings[i][1];
         set_swing(&trial, i);
         check_equation(&checks, &trial,
-                       &(struct expected_equation){.coordinate = "theta",
-                                                   .inertia = I_O,
-                                                   .terms = {{"wire", -k * theta}, {"damper", -c * omega}},
-                                                   .acceleration = -k / I_O * theta - c / I_O * omega});
+                       &(fbd_expected){.coordinate = "theta",
+                                       .inertia = I_O,
+                                       .terms = {{"wire", -k * theta}, {"damper", -c * omega}},
+                                       .acceleration = -k / I_O * theta - c / I_O * omega});
     }
     trial_close(&trial);
     checks_end(&checks);
@@ -229,10 +229,10 @@ static void next_to_the_upright_gravity_drives_the_pendulum_away(void **unused)
         double theta = swings[i][0], omega = swings[i][1];
         set_swing(&trial, i);
         check_equation(&checks, &trial,
-                       &(struct expected_equation){.coordinate = "theta",
-                                                   .inertia = 1,
-                                                   .terms = {{"gravity", g * sin(theta)}},
-                                                   .acceleration = g * sin(theta)});
+                       &(fbd_expected){.coordinate = "theta",
+                                       .inertia = 1,
+                                       .terms = {{"gravity", g * sin(theta)}},
+                                       .acceleration = g * sin(theta)});
         fbd_arrow pin = trial_arrow(&trial, "pin");
         /* Along the bar, outward: m (g cos(theta) - omega^2 L). */
         double outward = -pin.fx * sin(theta) + pin.fy * cos(theta);

@@ -28,10 +28,10 @@ static void check_cubic(struct checks *checks, const char *file, double k, doubl
         double x = places[i][0];
         set_place(&trial, i, 1);
         check_equation(checks, &trial,
-                       &(struct expected_equation){.coordinate = "x",
-                                                   .inertia = 1,
-                                                   .terms = {{"spring", -k * x - k3 * x * x * x}},
-                                                   .acceleration = -(k + k3 * x * x) * x});
+                       &(fbd_expected){.coordinate = "x",
+                                       .inertia = 1,
+                                       .terms = {{"spring", -k * x - k3 * x * x * x}},
+                                       .acceleration = -(k + k3 * x * x) * x});
     }
     trial_close(&trial);
 }
@@ -56,7 +56,7 @@ static void the_inverse_square_force_draws_to_the_centre(void **unused)
         double x = distances[i], f = -2 / (x * x);
         trial_set(&trial, "x", x);
         check_equation(&checks, &trial,
-                       &(struct expected_equation){
+                       &(fbd_expected){
                            .coordinate = "x", .inertia = 1, .terms = {{"attraction", f}}, .acceleration = f});
     }
     trial_close(&trial);
@@ -72,10 +72,10 @@ static void check_oscillator(struct checks *checks, const char *const *settings,
         double x = x0 * places[i][0], v = x0 * places[i][1];
         set_place(&trial, i, x0);
         check_equation(checks, &trial,
-                       &(struct expected_equation){.coordinate = "x",
-                                                   .inertia = m,
-                                                   .terms = {{"spring", -k * x}, {"damper", -c * v}},
-                                                   .acceleration = -k / m * x - c / m * v});
+                       &(fbd_expected){.coordinate = "x",
+                                       .inertia = m,
+                                       .terms = {{"spring", -k * x}, {"damper", -c * v}},
+                                       .acceleration = -k / m * x - c / m * v});
     }
     trial_close(&trial);
 }
@@ -101,12 +101,12 @@ static void a_hanging_spring_pulls_from_its_neutral_place(void **unused)
     for (size_t i = 0; i < place_count; i++) {
         double x = places[i][0], v = places[i][1];
         set_place(&trial, i, 1);
-        check_equation(&checks, &trial,
-                       &(struct expected_equation){
-                           .coordinate = "x",
-                           .inertia = m,
-                           .terms = {{"gravity", -m * g}, {"spring", -k * (x + l0)}, {"damper", -c * v}},
-                           .acceleration = -g - (k * (x + l0) + c * v) / m});
+        check_equation(
+            &checks, &trial,
+            &(fbd_expected){.coordinate = "x",
+                            .inertia = m,
+                            .terms = {{"gravity", -m * g}, {"spring", -k * (x + l0)}, {"damper", -c * v}},
+                            .acceleration = -g - (k * (x + l0) + c * v) / m});
     }
     trial_close(&trial);
     checks_end(&checks);
@@ -125,17 +125,17 @@ static void a_square_wave_is_plus_then_minus(void **unused)
     for (size_t i = 0; i < sizeof states / sizeof *states; i++) {
         double f = states[i][1], v = i % 2 ? -0.8 : 0.3, friction = v > 0 ? -mu * m * g : mu * m * g;
         trial_set(&trial, "t", states[i][0]);
-        check_equation(&checks, &trial,
-                       &(struct expected_equation){
-                           .coordinate = "x", .inertia = m, .terms = {{"wave", f}}, .acceleration = f / m});
+        check_equation(
+            &checks, &trial,
+            &(fbd_expected){.coordinate = "x", .inertia = m, .terms = {{"wave", f}}, .acceleration = f / m});
         trial_set(&rough, "t", states[i][0]);
         trial_set(&rough, "v", v);
         check_equation(&checks, &rough,
-                       &(struct expected_equation){.coordinate = "x",
-                                                   .inertia = m,
-                                                   .terms = {{"wave", f}, {"friction", friction}},
-                                                   .acceleration = (f + friction) / m,
-                                                   .normal = m * g});
+                       &(fbd_expected){.coordinate = "x",
+                                       .inertia = m,
+                                       .terms = {{"wave", f}, {"friction", friction}},
+                                       .acceleration = (f + friction) / m,
+                                       .normal = m * g});
     }
     trial_close(&trial);
     trial_close(&rough);
@@ -154,10 +154,10 @@ static void a_train_of_pulses_has_gaps(void **unused)
         double forward = states[i][1], backward = states[i][2];
         trial_set(&trial, "t", states[i][0]);
         check_equation(&checks, &trial,
-                       &(struct expected_equation){.coordinate = "x",
-                                                   .inertia = 2,
-                                                   .terms = {{"forward", forward}, {"backward", backward}},
-                                                   .acceleration = (forward + backward) / 2});
+                       &(fbd_expected){.coordinate = "x",
+                                       .inertia = 2,
+                                       .terms = {{"forward", forward}, {"backward", backward}},
+                                       .acceleration = (forward + backward) / 2});
     }
     trial_close(&trial);
     checks_end(&checks);

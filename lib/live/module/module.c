@@ -7,6 +7,7 @@
  */
 #include <emscripten.h>
 #include <gsl/gsl_errno.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -179,6 +180,51 @@ char *live_cost(const char *text, const char *name, const char *off, double budg
     fbd_model_free(model);
     fbd_errors_free(errors);
     return svg;
+}
+
+/* ---- derivations and answers */
+
+/* A text as a JSON string. */
+static char *quoted(const char *text)
+{
+    char *json = text ? malloc(6 * strlen(text) + 3) : NULL, *end = json;
+    if (!json) return NULL;
+    *end++ = '"';
+    for (; *text; text++)
+        if (*text == '"' || *text == '\\' || (unsigned char)*text < ' ')
+            end += sprintf(end, "\\u%04x", (unsigned)(unsigned char)*text);
+        else
+            *end++ = *text;
+    *end++ = '"';
+    *end = '\0';
+    return json;
+}
+
+char *live_check_hand(const char *text, const char *name)
+{
+    fbd_errors *errors = fbd_errors_new();
+    fbd_model *model = fbd_model_parse(text, strlen(text), name, NULL, 0, errors);
+    size_t differing = 0;
+    char *verdict = model ? fbd_check_hand(model, 1, &differing) : NULL, *json = quoted(verdict);
+    char number[40];
+    snprintf(number, sizeof number, "%zu", differing);
+    const char *const parts[] = {"{\"differing\":", number, ",\"text\":", json ? json : "", "}", NULL};
+    char *hand = json ? joined(parts) : NULL;
+    free(json);
+    free(verdict);
+    fbd_model_free(model);
+    return answer(errors, "hand", hand);
+}
+
+char *live_grade(const char *key_text, const char *text, const char *student, double details)
+{
+    fbd_errors *errors = fbd_errors_new();
+    fbd_key *key = fbd_key_parse(key_text, strlen(key_text), "key", NULL, 0, errors);
+    fbd_grade *grade = key ? fbd_grade_parse(key, text, strlen(text), student, errors) : NULL;
+    char *json = grade ? fbd_grade_json(grade, details != 0) : NULL;
+    fbd_grade_free(grade);
+    fbd_key_free(key);
+    return answer(errors, "grade", json);
 }
 
 int main(void)

@@ -21,4 +21,12 @@ char *live_csv(const char *text, const char *name, const char *off);
 /* The work-precision diagram of fbd-cost as SVG, measured here, in so many seconds; NULL where there is none. */
 char *live_cost(const char *text, const char *name, const char *off, double budget);
 
+/* {errors, hand}: of the lines under `hand` {differing, text} as fbd_check_hand says them, or null where there is no
+ * model. */
+char *live_check_hand(const char *text, const char *name);
+
+/* {errors, grade}: an answer against a key, both texts, as fbd_grade_json says it, or null where there is no key. The
+ * values that the key draws are those of this student. */
+char *live_grade(const char *key_text, const char *text, const char *student, double details);
+
 #endif
