@@ -122,10 +122,16 @@ static enum exit_code finish(fbd_key *key, fbd_errors *errors, enum exit_code co
     return code;
 }
 
+static fbd_key *read_key(const struct options *options, fbd_errors *errors)
+{
+    return errors ? fbd_key_read_set(options->model, options->settings, options->setting_count, errors)
+                  : NULL;
+}
+
 enum exit_code grading(const struct options *options)
 {
     fbd_errors *errors = fbd_errors_new();
-    fbd_key *key = errors ? fbd_key_read(options->model, errors) : NULL;
+    fbd_key *key = read_key(options, errors);
     if (!errors) {
         complain("fbd-run: out of memory");
         return exit_failed;
@@ -136,7 +142,7 @@ enum exit_code grading(const struct options *options)
 enum exit_code handout(const struct options *options)
 {
     fbd_errors *errors = fbd_errors_new();
-    fbd_key *key = errors ? fbd_key_read(options->model, errors) : NULL;
+    fbd_key *key = read_key(options, errors);
     if (!errors) {
         complain("fbd-run: out of memory");
         return exit_failed;

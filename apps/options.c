@@ -384,17 +384,17 @@ static bool grading_agrees(const struct options *options)
     if (grades && options->student && options->answer_count != 1)
         return usage("--student goes with one answer; without it each is called as its file", "");
     if (!grades && !options->student) return usage("--handout needs --student NAME", "");
-    if (options->watch || options->setting_count || options->at_count || options->run.method ||
-        options->run.tolerance > 0 || options->run.accuracy > 0 || options->run.step > 0 ||
-        options->run.no_structure || isfinite(options->run.until) || options->run.error_bars ||
-        options->settle || options->fmu_version || options->svg || options->html || options->plot ||
-        options->plot_of || options->gnuplot || options->ledger || options->every > 0 || options->latex ||
-        shapes_drawing(options, false) || options->without_count || options->full || options->degrees)
-        return usage("with --grade go --student, --details, --csv, --json and --quiet only; with --handout "
-                     "--student only",
+    if (options->watch || options->at_count || options->run.method || options->run.tolerance > 0 ||
+        options->run.accuracy > 0 || options->run.step > 0 || options->run.no_structure ||
+        isfinite(options->run.until) || options->run.error_bars || options->settle || options->fmu_version ||
+        options->svg || options->html || options->plot || options->plot_of || options->gnuplot ||
+        options->ledger || options->every > 0 || options->latex || shapes_drawing(options, false) ||
+        options->without_count || options->full || options->degrees)
+        return usage("with --grade go --set, --student, --details, --csv, --json and --quiet only; with "
+                     "--handout --set and --student only",
                      "");
     if (!grades && (options->csv || options->json || options->quiet || options->details))
-        return usage("with --handout goes --student only", "");
+        return usage("with --handout go --set and --student only", "");
     for (size_t i = 0; i < options->answer_count; i++)
         if (!places_differ(&line, options->answers[i], places, sizeof places / sizeof *places)) return false;
     return places_differ(&line, options->model, places, sizeof places / sizeof *places);

@@ -950,6 +950,11 @@ typedef struct fbd_key fbd_key;
 
 /* Read a key. NULL with notes in `errors`: those of a wrong model file, and `nothing-to-grade`. */
 FBD_API fbd_key *fbd_key_read(const char *path, fbd_errors *errors);
+
+/* The same with values from outside, as of a learning platform that draws its own: they stand in sheets and answers in
+ * the place of those of the file, and of what `grading: {draw: ...}` draws. */
+FBD_API fbd_key *fbd_key_read_set(const char *path, const fbd_setting *settings, size_t setting_count,
+                                  fbd_errors *errors);
 FBD_API void fbd_key_free(fbd_key *key);
 
 /* What a student gets of it, as a model file: the scene without forces, moments, derivations and comments, with the

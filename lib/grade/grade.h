@@ -27,10 +27,12 @@ struct fbd_key {
     size_t length;
     const char *file;
     struct document document;
-    fbd_model *model; /* with the values of the file */
-    double most;      /* points */
-    size_t lines;     /* derivations */
-    bool **asked;     /* of each body, for each arrow behind those that it lists: has it to be drawn? */
+    fbd_model *model;     /* with the values of the file */
+    struct override *set; /* values from outside */
+    size_t set_count;
+    double most;  /* points */
+    size_t lines; /* derivations */
+    bool **asked; /* of each body, for each arrow behind those that it lists: has it to be drawn? */
     size_t *asked_count;
 };
 
@@ -80,11 +82,12 @@ struct fbd_grade {
 /* How many reactions of a body have to be drawn. */
 size_t key_asks(const struct fbd_key *key, size_t b);
 
-/* A parameter's value for a student, as text with its unit; NULL when memory is out. */
-const char *draw_for_student(struct arena *arena, const struct grading *grading,
-                             const struct drawn_parameter *drawn, const char *student);
+/* A parameter's value for a student, from outside or drawn, as text with its unit; NULL where it is that of the file, or
+ * memory is out. */
+const char *value_for_student(struct arena *arena, const struct fbd_key *key, const char *name,
+                              const char *student);
 
-/* The values of a student for those parameters that a file has. */
+/* These values for the parameters that a file has. */
 size_t drawn_overrides(struct arena *arena, const struct fbd_key *key, const char *student,
                        const struct node *root, struct override **overrides);
 

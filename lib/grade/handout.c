@@ -34,20 +34,23 @@ static void indent(struct text *text, int depth)
 }
 
 /* What plain text could be taken for something else, or ends early. */
-static bool needs_quotes(const struct node *scalar)
+static bool needs_quotes(const char *text)
 {
-    const char *text = scalar->text;
-    return scalar->quoted || strpbrk(text, ":#{}[],&*!|>'\"%@`\n\t") || text[0] == '-' || text[0] == '?' ||
-           text[0] == '\0' || text[0] == ' ';
+    return strpbrk(text, ":#{}[],&*!|>'\"%@`\n\t") || text[0] == '-' || text[0] == '?' || text[0] == '\0' ||
+           text[0] == ' ';
+}
+
+static void write_text(struct text *text, const char *value, bool quoted)
+{
+    if (quoted || needs_quotes(value))
+        text_json_string(text, value);
+    else
+        text_add(text, value);
 }
 
 static void write_scalar(struct text *text, const struct node *scalar)
 {
-    if (scalar->kind == node_null) return;
-    if (needs_quotes(scalar))
-        text_json_string(text, scalar->text);
-    else
-        text_add(text, scalar->text);
+    if (scalar->kind != node_null) write_text(text, scalar->text, scalar->quoted);
 }
 
 static void write_value(struct text *text, const struct node *node);
@@ -91,23 +94,18 @@ static void write_pair(struct text *text, int depth, const char *key, const stru
     text_add(text, "\n");
 }
 
-static const struct drawn_parameter *find_drawn(const struct grading *grading, const char *name)
-{
-    for (size_t i = 0; i < grading->draw_count; i++)
-        if (strcmp(grading->draws[i].name, name) == 0) return &grading->draws[i];
-    return NULL;
-}
-
 static void write_parameters(const struct handout *handout, const struct node *map)
 {
-    const struct grading *grading = &handout->key->model->scene->grading;
     for (size_t i = 0; i < map->count; i++) {
-        const struct drawn_parameter *drawn = find_drawn(grading, map->pairs[i].key);
-        const char *value = drawn ? draw_for_student(handout->arena, grading, drawn, handout->student) : NULL;
-        if (value)
-            text_printf(handout->text, "  %s: %s\n", drawn->name, value);
-        else
-            write_pair(handout->text, 1, map->pairs[i].key, map->pairs[i].value);
+        const char *name = map->pairs[i].key;
+        const char *value = value_for_student(handout->arena, handout->key, name, handout->student);
+        if (!value) {
+            write_pair(handout->text, 1, name, map->pairs[i].value);
+            continue;
+        }
+        text_printf(handout->text, "  %s: ", name);
+        write_text(handout->text, value, false);
+        text_add(handout->text, "\n");
     }
 }
 

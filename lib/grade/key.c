@@ -16,8 +16,8 @@
 
 /* ---- values of a student */
 
-const char *draw_for_student(struct arena *arena, const struct grading *grading,
-                             const struct drawn_parameter *drawn, const char *student)
+static const char *draw_for_student(struct arena *arena, const struct grading *grading,
+                                    const struct drawn_parameter *drawn, const char *student)
 {
     const struct draw_place place = {.seed = 1,
                                      .member = hash_text(drawn->name, strlen(drawn->name)),
@@ -31,18 +31,30 @@ const char *draw_for_student(struct arena *arena, const struct grading *grading,
     return arena_printf(arena, "%.*g%s%s", grading->digits + 2, rounded, blank, drawn->unit);
 }
 
+const char *value_for_student(struct arena *arena, const struct fbd_key *key, const char *name,
+                              const char *student)
+{
+    const struct grading *grading = &key->model->scene->grading;
+    for (size_t i = 0; i < key->set_count; i++)
+        if (strcmp(key->set[i].name, name) == 0) return key->set[i].value;
+    for (size_t i = 0; student && i < grading->draw_count; i++)
+        if (strcmp(grading->draws[i].name, name) == 0)
+            return draw_for_student(arena, grading, &grading->draws[i], student);
+    return NULL;
+}
+
 size_t drawn_overrides(struct arena *arena, const struct fbd_key *key, const char *student,
                        const struct node *root, struct override **overrides)
 {
-    const struct grading *grading = &key->model->scene->grading;
-    const struct pair *parameters = node_find(root, "parameters");
+    const struct pair *pair = node_find(root, "parameters");
+    const struct scene *scene = key->model->scene;
     size_t count = 0;
-    *overrides = ARENA_ARRAY(arena, grading->draw_count + 1, struct override);
-    for (size_t i = 0; *overrides && student && i < grading->draw_count; i++) {
-        const struct drawn_parameter *drawn = &grading->draws[i];
-        if (!parameters || !node_find(parameters->value, drawn->name)) continue;
-        const char *value = draw_for_student(arena, grading, drawn, student);
-        (*overrides)[count++] = (struct override){.name = drawn->name, .value = value};
+    *overrides = ARENA_ARRAY(arena, scene->parameter_count + 1, struct override);
+    for (size_t i = 0; *overrides && pair && i < scene->parameter_count; i++) {
+        const char *name = scene->parameters[i].name;
+        const char *value =
+            node_find(pair->value, name) ? value_for_student(arena, key, name, student) : NULL;
+        if (value) (*overrides)[count++] = (struct override){.name = name, .value = value};
     }
     return count;
 }
@@ -91,7 +103,7 @@ static bool find_asked(struct fbd_key *key)
 
 static bool compile_key(struct fbd_key *key, fbd_errors *errors)
 {
-    struct scene *scene = scene_make(&key->document, NULL, 0, errors);
+    struct scene *scene = scene_make(&key->document, key->set, key->set_count, errors);
     if (!scene) return false;
     if (fbd_errors_failed_count(errors) == 0)
         key->model = model_compile(scene, errors);
@@ -159,7 +171,20 @@ static void check_itself(const struct fbd_key *key, fbd_errors *errors)
     tell_reactions(key, errors);
 }
 
-static fbd_key *read_key(const char *path, fbd_errors *errors)
+/* The texts are copied. */
+static bool take_settings(struct fbd_key *key, const fbd_setting *settings, size_t count)
+{
+    key->set = ARENA_ARRAY(&key->arena, count + 1, struct override);
+    for (size_t i = 0; key->set && i < count; i++) {
+        const char *name = settings[i].name, *value = settings[i].value;
+        key->set[i] = (struct override){.name = arena_text(&key->arena, name, strlen(name)),
+                                        .value = arena_text(&key->arena, value, strlen(value))};
+        key->set_count++;
+    }
+    return !key->arena.failed;
+}
+
+static fbd_key *read_key(const char *path, const fbd_setting *settings, size_t count, fbd_errors *errors)
 {
     size_t length;
     fbd_key *key = calloc(1, sizeof *key);
@@ -169,7 +194,9 @@ static fbd_key *read_key(const char *path, fbd_errors *errors)
     }
     key->source = file_text(path, &length, errors);
     key->file = arena_text(&key->arena, file_name(path), strlen(file_name(path)));
-    bool opened = key->source && document_open(&key->document, key->source, length, key->file, errors);
+    bool taken = take_settings(key, settings, count);
+    bool opened =
+        taken && key->source && document_open(&key->document, key->source, length, key->file, errors);
     key->document.split_hands = true;
     if (opened && key->file && compile_key(key, errors)) {
         key->length = length;
@@ -181,13 +208,22 @@ static fbd_key *read_key(const char *path, fbd_errors *errors)
     return NULL;
 }
 
-fbd_key *fbd_key_read(const char *path, fbd_errors *list)
+fbd_key *fbd_key_read_set(const char *path, const fbd_setting *settings, size_t setting_count,
+                          fbd_errors *list)
 {
     struct diag_call call;
     fbd_errors *errors = diag_begin(&call, list);
-    fbd_key *key = path ? read_key(path, errors) : call_refuse(errors, "there is no path");
+    bool whole = call_has_settings(settings, setting_count);
+    fbd_key *key = path && whole
+                       ? read_key(path, settings, setting_count, errors)
+                       : call_refuse(errors, path ? "a setting has no name or no value" : "there is no path");
     diag_end(&call);
     return key;
+}
+
+fbd_key *fbd_key_read(const char *path, fbd_errors *errors)
+{
+    return fbd_key_read_set(path, NULL, 0, errors);
 }
 
 void fbd_key_free(fbd_key *key)

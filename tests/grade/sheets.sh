@@ -38,6 +38,20 @@ check 'values are drawn for each student' test "$("$FBD_RUN" --handout --student
 check 'and are the same again' test "$("$FBD_RUN" --handout --student anna key.yaml)" = "$("$FBD_RUN" --handout --student anna key.yaml)"
 check 'digits are those that were asked for' sh -c \
     '! "$FBD_RUN" --handout --student anna key.yaml | grep -E "  (L|m|beta): [0-9.]*[0-9][0-9.]*[0-9][0-9.]*[0-9]"'
+check 'a value from outside stands on the sheet' sh -c \
+    '"$FBD_RUN" --handout --student anna --set "L=1.75 m" --set "m=2[kg]+1[kg]" key.yaml | tee set.yaml | grep -q "^  L: 1.75 m" && grep -q "m: .2\[kg\]+1" set.yaml'
+cat >weight.yaml <<'END'
+fbd: 1
+parameters: {m: 5 kg}
+bodies: {block: {mass: m, motion: {particle: {}}, forces: [gravity]}}
+grading: {draw: {m: [1 kg, 9 kg]}}
+END
+sed 's/\[gravity\]/[applied: {name: W, value: 29.43 N, angle: -90 deg}]/' weight.yaml >heavy.yaml
+check 'answers are graded with values from outside' exits 0 "$FBD_RUN" --quiet --grade weight.yaml --set m=3kg heavy.yaml
+check 'and with no others' exits 4 "$FBD_RUN" --quiet --grade weight.yaml --set m=3.2kg heavy.yaml
+check 'nor with those drawn' exits 4 "$FBD_RUN" --quiet --grade weight.yaml heavy.yaml
+check 'an unknown name is 3' exits 3 "$FBD_RUN" --handout --student anna --set nothing=1 key.yaml
+check 'so is a value of another unit' exits 3 "$FBD_RUN" --grade key.yaml --set "L=2 kg" answer.yaml
 check 'an answer that does not pass is 4' exits 4 "$FBD_RUN" --grade key.yaml answer.yaml
 check 'a missing one too' exits 4 "$FBD_RUN" --grade key.yaml nowhere.yaml
 : >empty.yaml
@@ -61,7 +75,7 @@ check 'the answer is as it was' same before.yaml answer.yaml
 check 'no answer: usage' says 'no answer' "$FBD_RUN" --grade key.yaml
 check 'a sheet needs a name' says 'student' "$FBD_RUN" --handout key.yaml
 check 'a name for many: usage' says 'one answer' "$FBD_RUN" --grade key.yaml --student anna answer.yaml key.yaml
-check 'options of runs: usage' says 'go --student' "$FBD_RUN" --grade key.yaml --until 3 answer.yaml
+check 'options of runs: usage' says 'go --set' "$FBD_RUN" --grade key.yaml --until 3 answer.yaml
 check '--details alone: usage' says 'go with --grade' "$FBD_RUN" --details key.yaml
 check 'what students see does not name the key' sh -c \
     '! "$FBD_RUN" --grade key.yaml --json - nowhere.yaml answer.yaml | grep -E "gravity.*missing|beta|\"output\""'

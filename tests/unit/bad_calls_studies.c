@@ -124,6 +124,10 @@ void grades(void **state)
     (void)state;
     REFUSES(fbd_key_read, !fbd_key_read(NULL, errors));
     ANSWERS(fbd_key_read, !fbd_key_read("nowhere/at/all.yaml", NULL));
+    const fbd_setting nameless = {NULL, "1"};
+    REFUSES(fbd_key_read_set, !fbd_key_read_set(NULL, NULL, 0, errors));
+    REFUSES(fbd_key_read_set, !fbd_key_read_set("nowhere/at/all.yaml", &nameless, 1, errors));
+    ANSWERS(fbd_key_read_set, !fbd_key_read_set("nowhere/at/all.yaml", NULL, 0, NULL));
     ENDURES(fbd_key_free, fbd_key_free(NULL));
     REFUSES(fbd_key_handout, !fbd_key_handout(NULL, "anna", errors));
     ANSWERS(fbd_finding_kind_name, strcmp(fbd_finding_kind_name((fbd_finding_kind)99), "") == 0);
