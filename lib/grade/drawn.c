@@ -96,20 +96,10 @@ struct draft_place {
     bool moments, slides;
 };
 
-static const struct node *scalar(struct arena *arena, const char *text, struct pos at)
-{
-    struct node *made = ARENA_NEW(arena, struct node);
-    if (!made) return NULL;
-    *made = (struct node){.kind = node_scalar, .height = 1, .at = at, .size = 1, .text = text};
-    made->length = strlen(text);
-    made->text_at = at;
-    return made;
-}
-
 static const struct node *with_text(struct arena *arena, const struct node *map, const char *key,
                                     const char *text)
 {
-    const struct node *made = map ? scalar(arena, text, map->at) : NULL;
+    const struct node *made = map ? node_text(arena, text, map->at) : NULL;
     return made ? node_with(arena, map, key, made) : NULL;
 }
 
