@@ -123,7 +123,7 @@ static const char *free_name(struct desk *desk, const char *label)
     const char *word = text.failed ? NULL : arena_text(arena, text.data, text.length), *name = word;
     text_free(&text);
     for (int number = 2; name; number++) {
-        bool taken = false;
+        bool taken = name_is_reserved(name);
         for (const struct sketch *one = desk->grade->sketches; one && !taken; one = one->next)
             taken = one->body == desk->body && strcmp(one->name, name) == 0;
         if (!taken) return name;

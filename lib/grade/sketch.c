@@ -22,7 +22,8 @@ struct line {
 struct stroke {
     struct item *item;
     const struct sketch *sketch;
-    struct vec along; /* a unit vector */
+    struct vec along;      /* a unit vector */
+    const struct line *on; /* what it was matched with, or NULL */
     bool placed;
 };
 
@@ -216,7 +217,7 @@ static bool touches(const struct sheet *sheet, const struct stroke *stroke, cons
 
 /* ---- matching */
 
-enum respect { all_right, by_sense, by_place, by_direction };
+enum respect { all_right, as_sum, by_sense, by_place, by_direction };
 
 /* How far an arrow is from a line of which it differs in one respect at most; HUGE_VAL: in more. */
 static double off_in(enum respect respect, const struct sheet *sheet, const struct stroke *stroke,
@@ -225,8 +226,10 @@ static double off_in(enum respect respect, const struct sheet *sheet, const stru
     struct nearness near = nearness_of(sheet, stroke, line);
     double angle = near.angle / sheet->angle;
     bool there = near.off <= 1, along = angle <= 1;
+    if ((respect == as_sum) != (line->other != NULL)) return HUGE_VAL;
     switch (respect) {
-    case all_right: return there && along && near.forward ? near.off + angle : HUGE_VAL;
+    case all_right:
+    case as_sum: return there && along && near.forward ? near.off + angle : HUGE_VAL;
     case by_sense: return there && along && !near.forward ? near.off + angle : HUGE_VAL;
     case by_place: return along && near.forward ? near.off + angle : HUGE_VAL;
     case by_direction:
@@ -240,9 +243,10 @@ static void match_one(const struct sheet *sheet, struct stroke *stroke, struct l
 {
     double turn = nearness_of(sheet, stroke, line).turn, sense = respect == by_sense ? -1 : 1;
     line->taken = true;
+    stroke->on = line;
     if (line->given)
         put_as_given(sheet, stroke, line, sense, respect == by_direction ? turn : 0,
-                     respect == all_right || respect == by_sense);
+                     respect != by_place && respect != by_direction);
     else if (!line->couple)
         put_on_line(sheet, stroke, line, sense, respect != by_place);
     stroke->placed = true;
@@ -357,16 +361,34 @@ static const struct line *point_near(const struct sheet *sheet, const struct str
     return found;
 }
 
-/* Along the nearest direction of the key or of its axes, through the nearest point. */
-static void put_straight(const struct sheet *sheet, struct stroke *stroke, const struct line *line)
+/* Along this direction, through the point of a line, or where it is. */
+static void put_along(const struct sheet *sheet, struct stroke *stroke, struct vec along,
+                      const struct line *line)
 {
     struct item *item = stroke->item;
-    struct vec along = straight(sheet, stroke->along);
     for (size_t s = 0; s < sheet->sides->samples; s++) {
-        double size = vec_dot(item->at[s].force, stroke->along);
+        double size = vec_norm(item->at[s].force) *
+                      (item->unknown || vec_dot(item->at[s].force, stroke->along) > 0 ? 1 : -1);
         put(item, s, vec_scale(size, along), line ? line->key->at[s].point : item->at[s].point);
     }
     stroke->placed = true;
+}
+
+/* What is left over at the point of a reaction that may point anywhere: a component of that, with the arrow there at right
+ * angles to it, if there is one. */
+static void put_components(const struct sheet *sheet, struct stroke *stroke, const struct line *line)
+{
+    struct vec along = straight(sheet, stroke->along), across = vec_perp(along);
+    put_along(sheet, stroke, along, line);
+    for (size_t j = 0; j < sheet->stroke_count; j++) {
+        struct stroke *other = &sheet->strokes[j];
+        double way = vec_dot(across, other->along);
+        if (other == stroke || !other->item->unknown || other->sketch->couple || !touches(sheet, other, line))
+            continue;
+        if (fabs(way) < cos(2 * sheet->angle) || (other->on && other->on != line)) continue;
+        put_along(sheet, other, vec_scale(way < 0 ? -1 : 1, across), line);
+        return;
+    }
 }
 
 static void match_rest(const struct sheet *sheet)
@@ -378,15 +400,16 @@ static void match_rest(const struct sheet *sheet)
         struct stroke *stroke = &sheet->strokes[i];
         if (stroke->placed || stroke->sketch->couple) continue;
         const struct line *line = point_near(sheet, stroke, true);
-        if (line) put_straight(sheet, stroke, line);
+        if (line) put_components(sheet, stroke, line);
     }
+    match_all(sheet, as_sum);
     match_all(sheet, by_sense);
     match_all(sheet, by_place);
     match_all(sheet, by_direction);
     for (size_t i = 0; i < sheet->stroke_count; i++) {
         struct stroke *stroke = &sheet->strokes[i];
         if (!stroke->placed && !stroke->sketch->couple)
-            put_straight(sheet, stroke, point_near(sheet, stroke, false));
+            put_along(sheet, stroke, straight(sheet, stroke->along), point_near(sheet, stroke, false));
     }
 }
 
