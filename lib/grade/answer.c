@@ -280,6 +280,14 @@ static void note_absent(struct fbd_grade *grade, const char *message)
     finding_say(grade, finding, message);
 }
 
+static const struct node *take_answer(struct fbd_grade *grade, const struct node *root, fbd_errors *failures)
+{
+    root = answer_take_drawings(grade, root, failures);
+    if (root && root->kind == node_map) return take_root(grade, root);
+    if (root) note_absent(grade, "the answer is no model, and no drawing");
+    return NULL;
+}
+
 static bool is_there(const char *path)
 {
     struct stat status;
@@ -326,12 +334,10 @@ static void open_answer(struct fbd_grade *grade, const struct submission *submis
     bool open = document_open(&answer->document, answer->text, length, grade->file, errors);
     if (open && fbd_errors_failed_count(errors) == 0 && is_too_large(grade, answer->document.root))
         note_absent(grade, "the answer has far more bodies or couplings than the sheet: it is not read");
-    else if (open && fbd_errors_failed_count(errors) == 0 && answer->document.root->kind == node_map)
-        answer->root = take_root(grade, answer->document.root);
+    else if (open && fbd_errors_failed_count(errors) == 0)
+        answer->root = take_answer(grade, answer->document.root, failures);
     else if (first_error(errors))
         note_unreadable(grade, "", NULL, first_error(errors));
-    else
-        note_absent(grade, "the answer is no model");
 }
 
 bool answer_read(struct fbd_grade *grade, const struct submission *submission, struct answer *answer,

@@ -485,6 +485,7 @@ void grade_bodies(struct fbd_grade *grade, const fbd_model *answer)
             measure(&twin->sides);
             reactions_take_asked(grade->key, b, &twin->sides);
             if (body->kind == motion_pivot) twin->sides.turned = twin->offset;
+            if (!sketches_place(grade, &twin->sides)) grade->arena.failed = true;
             verdict_on(grade, answer, body, &answer->bodies[twin->other], &twin->sides, comparison.length,
                        comparison.force);
         }

@@ -51,6 +51,10 @@ struct sides {
     struct item *key, *items, *reactions;
 };
 
+/* Put the arrows of a drawing onto the forces of the key that they were drawn for, within the tolerances of a drawing
+ * (sketch.c). False when memory is out. */
+bool sketches_place(const struct fbd_grade *grade, struct sides *sides);
+
 /* Is an item left to be paired by its value? */
 static inline bool is_left(const struct item *item)
 {

@@ -96,20 +96,10 @@ struct draft_place {
     bool moments, slides;
 };
 
-static const struct node *scalar(struct arena *arena, const char *text, struct pos at)
-{
-    struct node *made = ARENA_NEW(arena, struct node);
-    if (!made) return NULL;
-    *made = (struct node){.kind = node_scalar, .height = 1, .at = at, .size = 1, .text = text};
-    made->length = strlen(text);
-    made->text_at = at;
-    return made;
-}
-
 static const struct node *with_text(struct arena *arena, const struct node *map, const char *key,
                                     const char *text)
 {
-    const struct node *made = map ? scalar(arena, text, map->at) : NULL;
+    const struct node *made = map ? node_text(arena, text, map->at) : NULL;
     return made ? node_with(arena, map, key, made) : NULL;
 }
 
@@ -154,10 +144,12 @@ static const struct node *take_value(const struct draft_place *place, const stru
     return with_text(arena, keys, "value", minus ? back : one);
 }
 
-/* Is this the name of a coupling or contact of the file? */
-static bool is_coupling(const struct node *root, const char *name)
+/* Is this the name of a coupling or contact of the file, or that of the force of a joint? */
+static bool is_of_model(const struct node *root, const char *name)
 {
-    static const char *const lists[] = {"couplings", "contacts"};
+    static const char *const lists[] = {"couplings", "contacts"}, *joints[] = {"pin", "guide", "weld"};
+    for (size_t k = 0; k < sizeof joints / sizeof *joints; k++)
+        if (strcmp(name, joints[k]) == 0) return true;
     for (size_t k = 0; k < 2; k++) {
         const struct node *list = lines_value(root, lists[k]);
         for (size_t i = 0; list && list->kind == node_list && i < list->count; i++) {
@@ -173,12 +165,13 @@ static bool is_coupling(const struct node *root, const char *name)
     return false;
 }
 
-/* The tension of a rope may be called as the rope: in the model, where that has its own force, otherwise. */
+/* The tension of a rope may be called as the rope, and a reaction as the joint: in the model, where these have their own
+ * forces, otherwise. */
 static const struct node *with_own_name(const struct draft_place *place, const struct node *keys,
                                         const struct drawn *drawn)
 {
     struct arena *arena = &place->grade->arena;
-    if (!keys || !drawn->name || !is_coupling(place->root, drawn->name)) return keys;
+    if (!keys || !drawn->name || !is_of_model(place->root, drawn->name)) return keys;
     const char *name = arena_printf(arena, "%s_drawn", drawn->name);
     return name ? with_text(arena, keys, "name", name) : NULL;
 }

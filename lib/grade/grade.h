@@ -48,6 +48,16 @@ struct drawn {
     struct drawn *next;
 };
 
+/* Where an entry was drawn (drawing.c): at the start, in the world, in units of the key. */
+struct sketch {
+    struct pos at; /* of the entry */
+    const char *body, *name;
+    bool couple, clockwise;
+    struct vec tail, tip;
+    double snap; /* how far its line of action may be off */
+    const struct sketch *next;
+};
+
 struct finding {
     fbd_finding finding;
     bool reaction; /* it is about a reaction of the key */
@@ -76,6 +86,7 @@ struct fbd_grade {
     fbd_model *sheet; /* the key with these values */
     const struct own_coordinate *own;
     struct drawn *drawn;
+    const struct sketch *sketches;
     fbd_finding lost; /* what is noted when memory is out: nobody reads it */
 };
 
@@ -132,6 +143,14 @@ void answer_close(struct answer *answer);
 
 /* Blank the entries for which YAML cannot read a text, each with a finding (mend.c). */
 void answer_mend(struct fbd_grade *grade, char *text, size_t length);
+
+/* An answer as a model: the drawings in it become entries, and one that says only what was added to the sheet gets the
+ * rest of it; any other as it is. NULL when memory is out. `failures`: the key does not say where drawings lie. */
+const struct node *answer_take_drawings(struct fbd_grade *grade, const struct node *root,
+                                        fbd_errors *failures);
+
+/* The sketch of the entry at this place, or NULL. */
+const struct sketch *sketch_at(const struct fbd_grade *grade, struct pos at);
 
 /* Note the drawn entries, and give unknown magnitudes 1 N or 1 N m (drawn.c). NULL when memory is out. */
 const struct node *answer_take_drawn(struct fbd_grade *grade, const struct node *root);

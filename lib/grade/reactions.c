@@ -326,7 +326,7 @@ static void choose_parts(const struct sides *sides, const struct search *search,
     enum { most_left = 24, most_noted = 6 }; /* among so many components are looked for; of one support */
     if (*noted == most_noted || found->count == most_supports) return;
     if (support->count == search->parts) {
-        if (!is_right(sides, support) || (support->key_count > 1 && has_another(found, support))) return;
+        if (!is_right(sides, support) || has_another(found, support)) return;
         found->all[found->count++] = *support;
         ++*noted;
         return;

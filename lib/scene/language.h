@@ -116,7 +116,7 @@ struct scene_keys {
 
 struct grading_keys {
     double digits;
-    const struct node *draw, *points;
+    const struct node *draw, *points, *canvas;
     const struct node *reactions;
     struct grading grading;
 };
@@ -258,7 +258,7 @@ extern const struct group scene_group, ground_group, line_group, simulate_group,
 extern const struct group around_group, wound_group, contact_group, parameter_group, input_group, table_group,
     own_state_group;
 extern const struct group grading_group;
-extern const struct group *const grading_points_group;
+extern const struct group *const grading_points_group, *const grading_canvas_group;
 extern const struct group body_group, part_group, inertia_group, hand_group, place_group;
 extern const struct group initial_groups[], exact_groups[]; /* by enum motion_kind */
 extern const struct kinds motion_kinds, force_kinds, moment_kinds, coupling_kinds;

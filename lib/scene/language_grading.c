@@ -16,6 +16,22 @@ static const struct field points_fields[] = {
 static const struct group points_group = {"`points`", NULL, FIELDS(points_fields),
                                           NULL,       0,    "what the parts of an answer are worth"};
 
+static const struct field canvas_fields[] = {
+    FIELD_VECTOR(
+        offsetof(struct grading_canvas, origin), "origin", a_number,
+        "where the origin of the scene lies, in units of the drawing (pixels, from the upper left corner)"),
+    FIELD_NUMBER(offsetof(struct grading_canvas, unit), "unit", a_length, required | positive,
+                 "the length that one unit (pixel) of the drawing stands for"),
+    FIELD_NUMBER(offsetof(struct grading_canvas, angle), "angle", an_angle, positive,
+                 "how far a drawn direction may be off; default 5 deg"),
+    FIELD_NUMBER(offsetof(struct grading_canvas, snap), "snap", a_number, positive,
+                 "how far a drawn line of action may be off, in units of the drawing; default 10 pixels of "
+                 "`pl-drawing`, and 0.2 of Meclib"),
+};
+
+static const struct group canvas_group = {
+    "`canvas`", NULL, FIELDS(canvas_fields), NULL, 0, "where drawings (JSON) of answers lie in the scene"};
+
 static const struct field grading_fields[] = {
     FIELD_ENTRIES(offsetof(struct grading_keys, draw), "draw", field_map, 0, each_pair, NULL,
                   "parameters that each student has a value of: name: [low, high], both with the same unit"),
@@ -30,6 +46,8 @@ static const struct field grading_fields[] = {
                  "the share of all points that an answer passes with; default 1"),
     FIELD_NODE(offsetof(struct grading_keys, points), "points", field_map, 0, &points_group,
                "what the parts of an answer are worth"),
+    FIELD_NODE(offsetof(struct grading_keys, canvas), "canvas", field_map, 0, &canvas_group,
+               "where drawings (JSON) of answers lie in the scene"),
     FIELD_NODE(offsetof(struct grading_keys, reactions), "reactions", field_any, 0, NULL,
                "which reactions an answer has to draw: `all`, `none`, or a list of names; default all"),
 };
@@ -38,4 +56,4 @@ const struct group grading_group = {
     "`grading`", NULL, FIELDS(grading_fields),
     NULL,        0,    "how answers are graded that are held against this sheet"};
 
-const struct group *const grading_points_group = &points_group;
+const struct group *const grading_points_group = &points_group, *const grading_canvas_group = &canvas_group;

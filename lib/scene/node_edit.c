@@ -93,6 +93,16 @@ const struct node *node_shortened(struct arena *arena, const struct node *list, 
     return made;
 }
 
+const struct node *node_text(struct arena *arena, const char *text, struct pos at)
+{
+    struct node *made = ARENA_NEW(arena, struct node);
+    if (!made) return NULL;
+    *made = (struct node){.kind = node_scalar, .height = 1, .at = at, .size = 1, .text = text};
+    made->length = strlen(text);
+    made->text_at = at;
+    return made;
+}
+
 const struct node *node_empty_map(struct arena *arena)
 {
     struct node *made = ARENA_NEW(arena, struct node);

@@ -30,6 +30,9 @@ const struct node *node_rewritten(struct arena *arena, const struct node *node,
                                                         const void *context),
                                   const void *context);
 
+/* A scalar that stands at this place. */
+const struct node *node_text(struct arena *arena, const char *text, struct pos at);
+
 /* An empty mapping. */
 const struct node *node_empty_map(struct arena *arena);
 

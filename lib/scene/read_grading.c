@@ -127,10 +127,14 @@ bool grading_read(struct reader *reader, const struct node *node)
     grading->partial = 0.5;
     grading->pass = 1;
     grading->points = (struct grading_points){.force = 1, .derivation = 2, .superfluous = 1};
+    grading->canvas.angle = 5 * 0.017453292519943295;
     bool fine = !node || fields_read(reader, &grading_group, node, pair->at, &reader->constants, &keys);
     if (fine && keys.points)
         fine = fields_read(reader, grading_points_group, keys.points, keys.points->at, &reader->constants,
                            grading);
+    if (keys.canvas && !fields_read(reader, grading_canvas_group, keys.canvas, keys.canvas->at,
+                                    &reader->constants, &grading->canvas))
+        fine = false;
     if (keys.reactions && !read_reactions(reader, keys.reactions, grading)) fine = false;
     if (keys.draw && !read_draws(reader, keys.draw, grading)) fine = false;
     if (keys.digits > most_digits) fine = in_range(reader, node, "digits", keys.digits, most_digits);

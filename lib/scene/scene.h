@@ -171,6 +171,14 @@ struct grading_points {
     double force, inertia, derivation, superfluous;
 };
 
+/* Where drawings of answers lie in the scene. */
+struct grading_canvas {
+    struct vec origin; /* of the scene, in units of the drawing */
+    double unit;       /* the length that such a unit stands for; 0: the file does not say */
+    double angle;      /* how far a direction may be off, in radians, */
+    double snap;       /* and a line of action, in units of the drawing; 0: as is usual for the kind of drawing */
+};
+
 /* How answers are graded that are held against this file as a key (lib/grade). */
 struct grading {
     bool given; /* the file says so; else all is as by default */
@@ -179,6 +187,7 @@ struct grading {
     int digits;                      /* decimal ones of values that are drawn */
     double tolerance, partial, pass; /* shares */
     struct grading_points points;
+    struct grading_canvas canvas;
     enum { reactions_all, reactions_none, reactions_named } reactions; /* which are to be drawn */
     size_t reaction_count;
     const char *const *reaction_names; /* of couplings, or of their forces in a diagram */

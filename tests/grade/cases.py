@@ -52,7 +52,7 @@ def test_cases():
         if not line.strip() or line.startswith("#"):
             continue
         key, answer, code, points, wanted = (part.strip() for part in line.split("|"))
-        got, result, errors = grade(FOLDER / f"{key}.yaml", FOLDER / f"{answer}.yaml")
+        got, result, errors = grade(FOLDER / f"{key}.yaml", FOLDER / (answer if "." in answer else f"{answer}.yaml"))
         findings = [kind_and_name(one) for one in result["tests"] if one["kind"] != "right"] if result else []
         fits = result and f"{result['points']:g} of {result['max_points']:g}" == points
         claim(got == int(code) and fits and is_met([part.strip() for part in wanted.split(";") if part.strip()], findings),
