@@ -9,6 +9,7 @@
 #include "dynamics/diagram.h"
 #include "dynamics/mass.h"
 #include "dynamics/project.h"
+#include "output/hand_forces.h"
 #include "output/random_state.h"
 
 enum { parameter_draws = 12, states_of_a_draw = 24, tries_of_a_state = 8 };
@@ -22,8 +23,8 @@ static bool agrees(const struct hand_sample *sample)
 /* ---- one equation at one state */
 
 /* The state and what else a hand equation may name, see enum hand_slot. */
-static void extend(const struct fbd_state *state, int b, const struct arrow *arrows, size_t arrow_count,
-                   double *y)
+static void extend(const struct fbd_state *state, int b, const struct hand_named *named,
+                   const struct arrow *arrows, size_t arrow_count, double *y)
 {
     const struct fbd_model *model = state->model;
     const struct model_body *body = &model->bodies[b];
@@ -35,9 +36,7 @@ static void extend(const struct fbd_state *state, int b, const struct arrow *arr
     for (int k = 0; k < body->count; k++) extra[hand_acceleration + k] = state->a[body->first + k];
     if (model->absolute_count > 0)
         memcpy(extra + hand_slots, state->y + size + hand_slots, model->absolute_count * sizeof *extra);
-    for (size_t k = 0; k < model->absolute_count; k++)
-        if (model->absolutes[k].kind == absolute_acceleration)
-            extra[hand_slots + k] = state->a[model->absolutes[k].coordinate];
+    hand_named_write(state, named, extra + hand_slots);
     extra[hand_mass] = body_mass(body, &at);
     extra[hand_I_G] = body_inertia(body, &at).I_G;
     extra[hand_I_O] = body_I_O(body, &at);
@@ -128,32 +127,37 @@ static unsigned depends_on(const struct hand *hand, const struct fbd_model *mode
     unsigned says = 0;
     for (int k = 0; k < hand_slots + (int)model->absolute_count; k++) {
         double left, right;
-        if (k >= hand_slots && model->absolutes[k - hand_slots].kind != absolute_acceleration) continue;
+        enum absolute_kind kind =
+            k < hand_slots ? absolute_acceleration : model->absolutes[k - hand_slots].kind;
+        if (!hand_writes(kind) || kind == absolute_inertia) continue;
         expr_eval_slot(hand->left, t, y, first + k, NULL, &left);
         expr_eval_slot(hand->right, t, y, first + k, NULL, &right);
         *size += fabs((left - right) * y[first + k - 1]);
         if (fabs(left - right) > 1e-9 * (fabs(left) + fabs(right)))
-            says |= k < hand_slots ? 1U << k : hand_others;
+            says |= k < hand_slots           ? 1U << k
+                    : kind == absolute_force ? (unsigned)hand_named_forces
+                                             : (unsigned)hand_others;
     }
     return says;
 }
 
-static void take_sample(struct hand_check *check, const struct hand *hand, struct fbd_state *state, double *y)
+static void take_sample(struct hand_check *check, const struct hand *hand, const struct hand_named *named,
+                        struct fbd_state *state, double *y)
 {
     const struct fbd_model *model = state->model;
     const struct model_body *body = &model->bodies[check->body];
     struct arrow arrows[most_terms + 1];
     struct instant at = state_instant(state);
     size_t count = diagram_fill(model, check->body, &at, state->a, state->slots, arrows);
-    extend(state, check->body, arrows, count, y);
+    extend(state, check->body, named, arrows, count, y);
     if (hand->when && expr_eval(hand->when, state->t, y, NULL) == 0) return;
     struct hand_sample sample = {.t = state->t,
                                  .slip = body->friction >= 0 ? state->slip[body->friction] : 0};
     sample.left = expr_eval(hand->left, state->t, y, NULL);
     sample.right = expr_eval(hand->right, state->t, y, NULL);
     if (!isfinite(sample.left) || !isfinite(sample.right)) return;
-    double named = 0;
-    check->says |= depends_on(hand, model, state->t, y, &named);
+    double added = 0;
+    check->says |= depends_on(hand, model, state->t, y, &added);
     double slope = 0, scale = 1;
     bool jointed = body->place.link > 0; /* several accelerations in one equation: side against side */
     int part =
@@ -176,7 +180,7 @@ static void take_sample(struct hand_check *check, const struct hand *hand, struc
         sample.terms[i] = arrows[i].share[part < 0 ? 0 : part];
         sample.size += fabs(sample.terms[i]);
     }
-    if (jointed) sample.size += named;
+    if (jointed) sample.size += added;
     sample.mechanics = part >= 0 ? fabs(sample.I * sample.a) : sample.size;
     for (int i = 0; part >= 0 && i < body->load_count; i++) sample.mechanics += fabs(sample.terms[i]);
     take_summands(check, hand, state->t, y, scale, &sample);
@@ -200,16 +204,19 @@ double hand_lack_at(const struct fbd_state *state, int b, int index, double *siz
     size_t room = plan_size(&model->plan) + hand_slots + model->absolute_count;
     struct arrow *arrows = calloc(diagram_arrows(model, b) + 1, sizeof *arrows);
     double *y = calloc(room, sizeof *y), lack = NAN;
+    struct arena arena = {0};
+    struct hand_named named;
     *size = 0;
-    if (arrows && y) {
+    if (arrows && y && hand_named_find(model, &arena, &named)) {
         size_t count = diagram_fill(model, b, &at, state->a, state->slots, arrows);
-        extend(state, b, arrows, count, y);
+        extend(state, b, &named, arrows, count, y);
         lack = expr_eval(hand->left, state->t, y, NULL) - expr_eval(hand->right, state->t, y, NULL);
         for (size_t j = 0; j < hand->summand_count; j++)
             *size += fabs(expr_eval(hand->summands[j].expr, state->t, y, NULL));
     }
     free(arrows);
     free(y);
+    arena_free(&arena);
     return lack;
 }
 
@@ -222,17 +229,20 @@ static bool sample_model(struct hand_check *check, const fbd_model *model, gsl_r
     size_t n = (size_t)model->plan.n, extended = plan_size(&model->plan) + hand_slots + model->absolute_count;
     double *y = calloc(extended + random_path_room(model), sizeof *y);
     struct random_path path = {.y = y ? y + extended : NULL};
+    struct arena arena = {0};
+    struct hand_named named;
     if (state && model->assembles) state_project(state, true);
     if (y && state) memcpy(path.y, state->y, n * sizeof *y);
-    bool done = state && y;
+    bool done = state && y && hand_named_find(model, &arena, &named);
     for (int i = 0; done && i < states_of_a_draw; i++)
         for (int k = 0; k < tries_of_a_state && check->count < most_samples; k++) {
             if (!random_state(rng, state, &path) || !random_admissible(state)) continue;
-            take_sample(check, hand, state, y);
+            take_sample(check, hand, &named, state, y);
             break;
         }
     free(y);
     state_free(state);
+    arena_free(&arena);
     return done;
 }
 

@@ -20,7 +20,12 @@
 #include "dynamics/diagram.h"
 #include "dynamics/modes.h"
 
-enum { most_samples = 512, most_terms = 40, hand_others = 1 << hand_slots };
+enum {
+    most_samples = 512,
+    most_terms = 40,
+    hand_others = 1 << hand_slots,
+    hand_named_forces = 2 << hand_slots
+};
 
 /* Factors that derivations forget, as they are at a state. Those that do not apply are NAN. */
 enum hand_factor {
@@ -58,7 +63,8 @@ struct hand_check {
     const struct fbd_model *model;
     int body, index;
     int part;      /* coordinate whose acceleration it is about, -1 for none */
-    unsigned says; /* bit k: it depends on hand slot k; hand_others: on the acceleration of another body */
+    unsigned says; /* bit k: it depends on hand slot k; hand_others: on the acceleration of another body;
+                      hand_named_forces: on a force of a diagram, by its name */
     size_t count;
     struct hand_sample *samples;     /* most_samples */
     bool accelerates[most_summands]; /* this summand is (part of) the left side I a */

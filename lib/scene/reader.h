@@ -82,6 +82,8 @@ struct reader {
      * are numbered behind the parameters. */
     const struct node *root, *parameters, *inputs, *tables, *own, *bodies, *points, *lines, *polygons;
     bool without_hands, split_hands; /* see struct document */
+    size_t force_name_count;
+    const struct force_name *force_names;
     struct definition *definitions;
     struct table_draft *table_drafts;
     struct data_text data; /* of the table that was read last */
