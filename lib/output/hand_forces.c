@@ -224,6 +224,7 @@ bool hand_named_find(const struct fbd_model *model, struct arena *arena, struct 
         any = any || model->scene->absolutes[k].kind == absolute_force;
     named->of = ARENA_ARRAY(arena, model->absolute_count + 1, const struct hand_force *);
     named->arrows = ARENA_ARRAY(arena, diagram_most_arrows(model), struct arrow);
+    named->sizes = ARENA_ARRAY(arena, model->absolute_count + 1, double);
     if (any && !hand_forces_make(model, arena, &forces)) return false;
     for (size_t k = 0; any && named->of && k < model->absolute_count; k++)
         if (model->scene->absolutes[k].kind == absolute_force)
@@ -252,22 +253,56 @@ bool hand_writes(enum absolute_kind kind)
     return kind == absolute_acceleration || kind >= absolute_force;
 }
 
+/* The largest force on a body, and the largest moment about G. */
+struct forces_size {
+    double force, moment;
+};
+
+static struct forces_size size_of_forces(const struct fbd_state *state, int b, const struct hand_named *named)
+{
+    const struct fbd_model *model = state->model;
+    const struct model_body *body = &model->bodies[b];
+    struct instant at = state_instant(state);
+    struct pose pose = body_pose(body, &at);
+    struct vec G = point_motion(body, &pose, body->inertia.G).p;
+    struct forces_size size = {0, 0};
+    size_t count = diagram_list(model, b, &at, state->a, state->slots, named->arrows);
+    for (size_t i = 0; i < count; i++) {
+        const struct arrow *arrow = &named->arrows[i];
+        double force = vec_norm(arrow->force);
+        size.force = fmax(size.force, force);
+        size.moment = fmax(size.moment, fabs(arrow->couple) + force * vec_norm(vec_sub(arrow->point, G)));
+    }
+    return size;
+}
+
+static double size_of_name(const struct fbd_state *state, const struct model_absolute *absolute,
+                           const struct hand_force *force, struct forces_size size)
+{
+    const struct model_body *body = &state->model->bodies[absolute->body];
+    struct instant at = state_instant(state);
+    const struct inertia inertia = body_inertia(body, &at);
+    if (force) return force->name.dim.length == dim_moment.length ? size.moment : size.force;
+    if (absolute->kind == absolute_inertia) return 0;
+    bool turns = absolute->kind == absolute_alpha;
+    double by = turns ? inertia.I_G : inertia.mass;
+    return by > 0 ? (turns ? size.moment : size.force) / by : 0;
+}
+
 void hand_named_write(const struct fbd_state *state, const struct hand_named *named, double *places)
 {
     const struct fbd_model *model = state->model;
     struct instant at = state_instant(state);
+    struct forces_size size = {0, 0};
     int filled = -1; /* the body whose arrows these are */
     for (size_t k = 0; k < model->absolute_count; k++) {
-        const struct hand_force *force = named->of[k];
-        if (!hand_writes(model->absolutes[k].kind)) continue;
-        if (!force) {
-            places[k] = place_value(state, &model->absolutes[k]);
-            continue;
-        }
-        if (filled != force->name.body)
-            diagram_fill(model, force->name.body, &at, state->a, state->slots, named->arrows);
-        filled = force->name.body;
-        places[k] = hand_force_value(model, force, &at, named->arrows);
+        const struct model_absolute *absolute = &model->absolutes[k];
+        if (!hand_writes(absolute->kind)) continue;
+        if (filled != absolute->body) size = size_of_forces(state, absolute->body, named);
+        filled = absolute->body;
+        named->sizes[k] = size_of_name(state, absolute, named->of[k], size);
+        places[k] = named->of[k] ? hand_force_value(model, named->of[k], &at, named->arrows)
+                                 : place_value(state, absolute);
     }
 }
 
@@ -280,7 +315,7 @@ static struct fbd_model *compile(const struct document *document, const struct o
     return scene ? model_compile(scene, errors) : NULL;
 }
 
-static bool list_names(const struct fbd_model *model, struct arena *arena, struct document *document)
+bool hand_forces_list(const struct fbd_model *model, struct arena *arena, struct document *document)
 {
     struct hand_forces forces;
     struct force_name *names = NULL;
@@ -305,7 +340,7 @@ struct fbd_model *hands_compile(const struct document *document, const struct ov
     if (!model || !model->scene->hands_left) return model;
     struct document again = *document;
     struct arena arena = {0};
-    bool listed = list_names(model, &arena, &again);
+    bool listed = hand_forces_list(model, &arena, &again);
     model_free(model);
     model = NULL;
     diag_take_back(errors, mark);

@@ -51,6 +51,7 @@ double hand_force_value(const struct fbd_model *model, const struct hand_force *
 struct hand_named {
     const struct hand_force **of; /* of each absolute of the model, or NULL */
     struct arrow *arrows;         /* diagram_most_arrows */
+    double *sizes; /* of each absolute: of the forces of its body, or what they accelerate; its rounding goes with that */
 };
 
 /* Find them, in the arena; false when memory is out. */
@@ -61,6 +62,10 @@ bool hand_writes(enum absolute_kind kind);
 
 /* Write the value of each to its place, that of its absolute. */
 void hand_named_write(const struct fbd_state *state, const struct hand_named *named, double *places);
+
+/* Give a document the names of a model's forces, in the arena: derivations are read with them at once. False when memory is
+ * out. */
+bool hand_forces_list(const struct fbd_model *model, struct arena *arena, struct document *document);
 
 /* Read a document and compile it, as scene_make and model_compile do. Derivations that name forces are read when those are
  * known: by a second reading. */
