@@ -97,6 +97,8 @@ double hand_force_value(const struct fbd_model *model, const struct hand_force *
     case hand_force_x: return force->sign * arrow->force.x;
     case hand_force_y: return force->sign * arrow->force.y;
     case hand_force_couple: return force->sign * arrow->couple;
+    case hand_force_at_x: return arrow->point.x;
+    case hand_force_at_y: return arrow->point.y;
     case hand_force_size: break;
     }
     return size_of(model, force, at, arrow);
@@ -114,20 +116,19 @@ struct naming {
     int body;
 };
 
-static const struct dim dim_moment = DIM_INIT(1, 2, -2), dim_force = DIM_INIT(1, 1, -2);
+static const struct dim dim_moment = DIM_INIT(1, 2, -2), dim_force = DIM_INIT(1, 1, -2),
+                        dim_length = DIM_INIT(0, 1, 0);
 
 static void add(const struct naming *naming, size_t i, enum hand_force_part part, bool letter, double sign,
                 const char *name)
 {
     const struct force_symbol *symbol = &naming->symbols[i];
     const bool moment = part == hand_force_couple || (part == hand_force_size && symbol->moment);
+    const bool place = part == hand_force_at_x || part == hand_force_at_y;
+    const struct dim dim = place ? dim_length : moment ? dim_moment : dim_force;
     if (!name) return;
-    naming->forces->list[naming->forces->count++] =
-        (struct hand_force){.name = {naming->body, name, letter, moment ? dim_moment : dim_force},
-                            .arrow = i,
-                            .part = part,
-                            .sign = sign,
-                            .symbol = symbol};
+    naming->forces->list[naming->forces->count++] = (struct hand_force){
+        .name = {naming->body, name, letter, dim}, .arrow = i, .part = part, .sign = sign, .symbol = symbol};
 }
 
 /* May its arrow have a couple beside the force? A joint that keeps the body from turning does; a slide on the ground takes
@@ -159,7 +160,7 @@ static bool is_alone(const struct naming *naming, size_t i)
     return true;
 }
 
-enum { most_names = 10 }; /* of an arrow */
+enum { most_names = 12 }; /* of an arrow */
 
 static void add_names(const struct naming *naming, size_t i)
 {
@@ -170,6 +171,8 @@ static void add_names(const struct naming *naming, size_t i)
     if (!symbol->moment) {
         add(naming, i, hand_force_x, false, 1, arena_printf(naming->arena, "%s.x", arrow->name));
         add(naming, i, hand_force_y, false, 1, arena_printf(naming->arena, "%s.y", arrow->name));
+        add(naming, i, hand_force_at_x, false, 1, arena_printf(naming->arena, "%s.at.x", arrow->name));
+        add(naming, i, hand_force_at_y, false, 1, arena_printf(naming->arena, "%s.at.y", arrow->name));
     }
     if (has_couple(naming, i))
         add(naming, i, hand_force_couple, false, 1, arena_printf(naming->arena, "%s.moment", arrow->name));
@@ -282,6 +285,7 @@ static double size_of_name(const struct fbd_state *state, const struct model_abs
     const struct model_body *body = &state->model->bodies[absolute->body];
     struct instant at = state_instant(state);
     const struct inertia inertia = body_inertia(body, &at);
+    if (force && force->name.dim.mass == 0) return 0; /* a place */
     if (force) return force->name.dim.length == dim_moment.length ? size.moment : size.force;
     if (absolute->kind == absolute_inertia) return 0;
     bool turns = absolute->kind == absolute_alpha;

@@ -13,6 +13,8 @@
  *     of all else on a slide or a track                             along +x of it
  *     of a moment                                                   counter-clockwise, of friction clockwise
  *
+ * `wrist.at.x` and `wrist.at.y` are where it acts in the world.
+ *
  * A letter with a component behind it, `R_x`, `R_2x`, is that of the force for which it stands in symbols (symbols.h).
  * A letter without its number is known where the body has one such force.
  */
@@ -29,6 +31,8 @@ struct hand_force {
         hand_force_x,
         hand_force_y,
         hand_force_couple,
+        hand_force_at_x, /* where it acts */
+        hand_force_at_y,
         hand_force_size,
     } part;
     double sign;
@@ -51,7 +55,8 @@ double hand_force_value(const struct fbd_model *model, const struct hand_force *
 struct hand_named {
     const struct hand_force **of; /* of each absolute of the model, or NULL */
     struct arrow *arrows;         /* diagram_most_arrows */
-    double *sizes; /* of each absolute: of the forces of its body, or what they accelerate; its rounding goes with that */
+    double *
+        sizes; /* of each absolute: of the forces of its body, or what they accelerate; its rounding goes with that */
 };
 
 /* Find them, in the arena; false when memory is out. */

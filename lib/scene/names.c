@@ -365,16 +365,17 @@ static struct symbol other_symbol(const struct names *names, const char *name)
     return unknown;
 }
 
-/* In a derivation the body at hand needs no name before what goes with its points and its angle; and what nothing else is
- * called may be a force of the diagram. */
+/* In a derivation what nothing else is called may be a force of the diagram; and the body at hand needs no name before what
+ * goes with its points and its angle. */
 static struct symbol or_force(const struct names *names, const char *name, struct symbol symbol)
 {
     if (names->place != place_hand || symbol.kind != symbol_unknown) return symbol;
     if (!names->reader->drafts[names->body].motion_known) return failed_before;
-    symbol = hand_place_symbol(names, names->body, name);
+    symbol = force_symbol(names, name);
+    if (symbol.kind == symbol_unknown) symbol = hand_place_symbol(names, names->body, name);
     bool of_points = strchr(name, '.') != NULL || strncmp(name, "angle", strlen("angle")) == 0;
     if (symbol.kind == symbol_unknown && of_points) symbol = absolute_symbol(names, names->body, name);
-    return symbol.kind == symbol_unknown ? force_symbol(names, name) : symbol;
+    return symbol;
 }
 
 static struct symbol time_symbol(const struct names *names)

@@ -37,7 +37,7 @@ static void know_forces(struct names *names)
         const size_t length = strlen(force->name);
         const bool part = length > 2 && force->letter && force->name[length - 2] == '_' &&
                           (force->name[length - 1] == 'x' || force->name[length - 1] == 'y');
-        if (force->body == names->body && !part) know(names, force->name);
+        if (force->body == names->body && !part && !strstr(force->name, ".at.")) know(names, force->name);
     }
 }
 
