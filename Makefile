@@ -91,7 +91,7 @@ DRAWS = 5
 GENERATORS = actuators cams carried_slides contact_tolerances corners dead_centres decks drawings driven emit_drawn hints \
 	hoists linearize_couplings lines long_pendulum nasty nonunique not_finite pairs piles place_works plane pulled_row \
 	reactions residual rolls scales shelf sliding slots stick_slips stiff_motions sweep switch_holds symbolic_lines \
-	wheels works
+	wheels works written_systems
 generators: $(BUILD)/.tests
 	ninja -C $(BUILD)
 	FBD_DRAWS=$(DRAWS) FBD_TEST_TIMEOUT=$(DRAWS) .ci/test $(BUILD) --no-rebuild $(GENERATORS)

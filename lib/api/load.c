@@ -9,6 +9,7 @@
 #include "dynamics/contact.h"
 #include "dynamics/state.h"
 #include "model/model.h"
+#include "output/hand_forces.h"
 #include "scene/schema.h"
 
 static bool has_thin_contact(const fbd_model *model)
@@ -48,8 +49,10 @@ static fbd_model *compile(char *text, size_t length, const char *name, const fbd
     if (overrides) {
         for (size_t i = 0; i < count; i++)
             overrides[i] = (struct override){.name = settings[i].name, .value = settings[i].value};
-        struct scene *scene = scene_read(text, length, name, overrides, count, NULL, errors);
-        model = scene ? model_compile(scene, errors) : NULL;
+        struct document document;
+        bool open = document_open(&document, text, length, name, errors);
+        if (open) model = hands_compile(&document, overrides, count, errors);
+        document_close(&document);
     } else {
         diag_out_of_memory(errors);
     }

@@ -263,6 +263,26 @@ const char *diag_nearest(fbd_errors *errors, const char *wrong, const char *cons
     return count ? diag_hint(errors, "one of: %s%s", list, count > most_listed ? ", ..." : "") : NULL;
 }
 
+/* ---- taking back */
+
+struct diag_mark diag_mark(const fbd_errors *errors)
+{
+    return (struct diag_mark){errors->last, errors->count, errors->errors};
+}
+
+void diag_take_back(fbd_errors *errors, struct diag_mark mark)
+{
+    errors->last = mark.last;
+    if (mark.last)
+        mark.last->next = NULL;
+    else
+        errors->first = NULL;
+    errors->count = mark.count;
+    errors->errors = mark.errors;
+    free(errors->sorted);
+    errors->sorted = NULL;
+}
+
 /* ---- showing */
 
 static bool stands_after(const fbd_error *a, const fbd_error *b)

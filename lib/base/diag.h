@@ -49,6 +49,14 @@ const char *diag_hint(fbd_errors *errors, const char *format, ...) __attribute__
 /* A hint "did you mean 'x'?" for the nearest of `names`, or a list of them when none is near. */
 const char *diag_nearest(fbd_errors *errors, const char *wrong, const char *const *names, size_t count);
 
+/* Where a list ends, and take back all that was noted since: what was read is read again. */
+struct diag_mark {
+    struct diag_note *last;
+    size_t count, errors;
+};
+struct diag_mark diag_mark(const fbd_errors *errors);
+void diag_take_back(fbd_errors *errors, struct diag_mark mark);
+
 void diag_out_of_memory(fbd_errors *errors);
 
 /* Notes that are added now are of this file (NULL: of none). The name is copied: notes outlive a model. */

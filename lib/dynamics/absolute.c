@@ -22,6 +22,11 @@ static double choose(enum absolute_kind kind, struct motion_of_point at, double 
     case absolute_angle: return angle;
     case absolute_angle_dot: return omega;
     case absolute_acceleration: /* output/hand.c */
+    case absolute_force:
+    case absolute_ax:
+    case absolute_ay:
+    case absolute_alpha:
+    case absolute_inertia:
     case absolute_mass:
     case absolute_mass_rate:
     case absolute_slip: break;

@@ -28,18 +28,42 @@ bool arrow_is_reaction(const struct fbd_model *model, const struct arrow *arrow)
     return arrow->load < 0 || load_law(model->loads[arrow->load].source)->follows;
 }
 
-struct vec mass_center_acceleration(const struct model_body *body, const struct instant *at, const double *a)
+/* Of the point that is r from the point of the joint. */
+static struct vec acceleration_beside(const struct model_body *body, const struct pose *pose, struct vec r,
+                                      const double *a)
 {
     const double *own = a + body->first;
-    if (body->place.link > 0) return tree_mass_center_acceleration(body, at);
     if (body->kind == motion_slide) return vec_scale(own[0], body->e);
     if (body->kind == motion_particle) return (struct vec){own[0], own[1]};
-    /* a_G = a_O + alpha k x r - omega^2 r */
-    struct pose pose = body_pose(body, at);
-    struct vec r = vec_turn(pose.rotation, body->arm);
+    /* a_P = a_O + alpha k x r - omega^2 r */
     double alpha = own[body->count - 1];
-    struct vec turning = vec_sub(vec_scale(alpha, vec_perp(r)), vec_scale(pose.omega * pose.omega, r));
+    struct vec turning = vec_sub(vec_scale(alpha, vec_perp(r)), vec_scale(pose->omega * pose->omega, r));
     return body->kind == motion_pivot ? turning : vec_add((struct vec){own[0], own[1]}, turning);
+}
+
+struct vec mass_center_acceleration(const struct model_body *body, const struct instant *at, const double *a)
+{
+    if (body->place.link > 0) return tree_mass_center_acceleration(body, at);
+    struct pose pose = body_pose(body, at);
+    return acceleration_beside(body, &pose, vec_turn(pose.rotation, body->arm), a);
+}
+
+struct vec point_acceleration(const struct model_body *body, struct vec point, const struct instant *at,
+                              const double *a)
+{
+    struct pose pose = body_pose(body, at);
+    struct vec p = point_motion(body, &pose, point).p;
+    if (body->place.link > 0) return tree_point_acceleration(body, p, at);
+    struct vec joint = body->kind == motion_pivot || body->kind == motion_slide
+                           ? body->origin
+                           : (struct vec){at->y[body->first], at->y[body->first + 1]};
+    return acceleration_beside(body, &pose, vec_sub(p, joint), a);
+}
+
+double body_angular_acceleration(const struct model_body *body, const struct instant *at, const double *a)
+{
+    if (body->place.link > 0) return tree_angular_acceleration(body, at);
+    return body->kind == motion_pivot || body->kind == motion_planar ? a[body->first + body->count - 1] : 0;
 }
 
 /* ---- forces by kind */

@@ -84,6 +84,11 @@ bool arrow_is_of_joint(const struct fbd_model *model, int b, const struct arrow 
 /* The acceleration of the body's centre of mass. */
 struct vec mass_center_acceleration(const struct model_body *body, const struct instant *at, const double *a);
 
+/* That of a point of its frame, in the world; and of its angle. */
+struct vec point_acceleration(const struct model_body *body, struct vec point, const struct instant *at,
+                              const double *a);
+double body_angular_acceleration(const struct model_body *body, const struct instant *at, const double *a);
+
 /* The moment of an arrow about a point. */
 double arrow_moment(const struct arrow *arrow, struct vec about);
 

@@ -143,6 +143,14 @@ static bool move(struct rest_system *system, const double *w, double size)
     return true;
 }
 
+bool rest_vary(struct rest_system *system, size_t k, double size)
+{
+    double *w = ARENA_ARRAY(system->arena, system->basis_count + 1, double);
+    if (!w) return false;
+    w[k] = 1;
+    return move(system, w, size);
+}
+
 /* What the least reactions leave limits by is far more than the loads where a belt's tension is. */
 static double size_of_way(const struct rest_system *system, const double *values)
 {

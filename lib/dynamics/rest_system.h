@@ -124,6 +124,10 @@ bool rest_choose_sides(struct rest_system *system);
 /* Put back what rest_open found. */
 void rest_restore(struct rest_system *system);
 
+/* Go from there by `size` along basis vector k: reactions that do as well, limits or not. Their slots are in
+ * system->forces. False when memory is out. */
+bool rest_vary(struct rest_system *system, size_t k, double size);
+
 /* What is left to the limits of a shared load, all together; what gives when it is used up. */
 struct rest_margin {
     double size;         /* of the forces: zero is measured against it */

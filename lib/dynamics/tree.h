@@ -147,7 +147,8 @@ void tree_accelerations_along(const struct fbd_model *model, const struct instan
                               const struct direction *along, const double *slots, const double *a,
                               double *slots_along, double *a_along);
 
-/* The acceleration of the centre of mass of a jointed body, and its angular one, when complete. */
+/* The acceleration of a place of a jointed body in the world, of its centre of mass, and its angular one, when complete. */
+struct vec tree_point_acceleration(const struct model_body *body, struct vec place, const struct instant *at);
 struct vec tree_mass_center_acceleration(const struct model_body *body, const struct instant *at);
 double tree_angular_acceleration(const struct model_body *body, const struct instant *at);
 

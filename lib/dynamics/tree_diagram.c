@@ -33,12 +33,17 @@ static struct vec guide_point(const struct model_body *body, const struct instan
     return body->kind == motion_track ? link_of(body, at)->p : mass_center(body, at);
 }
 
-struct vec tree_mass_center_acceleration(const struct model_body *body, const struct instant *at)
+struct vec tree_point_acceleration(const struct model_body *body, struct vec place, const struct instant *at)
 {
     const struct tree_state *s = link_of(body, at);
-    struct vec r = vec_sub(mass_center(body, at), s->p);
+    struct vec r = vec_sub(place, s->p);
     struct acceleration A = acceleration_at(s->A, r);
     return vec_sub(A.a, vec_scale(s->omega * s->omega, r));
+}
+
+struct vec tree_mass_center_acceleration(const struct model_body *body, const struct instant *at)
+{
+    return tree_point_acceleration(body, mass_center(body, at), at);
 }
 
 double tree_angular_acceleration(const struct model_body *body, const struct instant *at)

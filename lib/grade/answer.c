@@ -8,6 +8,7 @@
 
 #include "base/file.h"
 #include "grade/lines.h"
+#include "output/hand_forces.h"
 #include "scene/node_edit.h"
 
 fbd_model *grade_compile(struct fbd_grade *grade, const struct node *root, const char *file, bool hands,
@@ -20,11 +21,7 @@ fbd_model *grade_compile(struct fbd_grade *grade, const struct node *root, const
                                       .split_hands = hands};
     size_t count = drawn_overrides(&grade->arena, grade->key, grade->student, root, &overrides);
     if (grade->arena.failed) return NULL;
-    struct scene *scene = scene_make(&document, overrides, count, errors);
-    if (!scene) return NULL;
-    if (fbd_errors_failed_count(errors) == 0) return model_compile(scene, errors);
-    scene_free(scene);
-    return NULL;
+    return hands_compile(&document, overrides, count, errors);
 }
 
 /* ---- leaving out */

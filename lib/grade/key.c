@@ -11,6 +11,7 @@
 #include "base/text.h"
 #include "dynamics/diagram.h"
 #include "grade/grade.h"
+#include "output/hand_forces.h"
 #include "study/draws.h"
 #include "study/hash.h"
 
@@ -103,12 +104,7 @@ static bool find_asked(struct fbd_key *key)
 
 static bool compile_key(struct fbd_key *key, fbd_errors *errors)
 {
-    struct scene *scene = scene_make(&key->document, key->set, key->set_count, errors);
-    if (!scene) return false;
-    if (fbd_errors_failed_count(errors) == 0)
-        key->model = model_compile(scene, errors);
-    else
-        scene_free(scene);
+    key->model = hands_compile(&key->document, key->set, key->set_count, errors);
     return key->model && find_asked(key);
 }
 

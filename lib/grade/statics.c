@@ -13,6 +13,7 @@
 
 #include "dynamics/project.h"
 #include "grade/lines.h"
+#include "output/hand_forces.h"
 #include "output/random_state.h"
 #include "scene/law.h"
 #include "scene/node_edit.h"
@@ -66,12 +67,7 @@ static fbd_model *changed_model(struct fbd_grade *grade, const struct node *root
         const char *text = arena_printf(&grade->arena, "%.17g", factor * scene->parameters[i].value);
         overrides[count++] = (struct override){.name = name, .value = text};
     }
-    struct scene *made =
-        errors && !grade->arena.failed ? scene_make(&document, overrides, count, errors) : NULL;
-    if (made && fbd_errors_failed_count(errors) == 0)
-        model = model_compile(made, errors);
-    else
-        scene_free(made);
+    if (errors && !grade->arena.failed) model = hands_compile(&document, overrides, count, errors);
     if (!errors || errors->out_of_memory) grade->arena.failed = true;
     fbd_errors_free(errors);
     return model;

@@ -32,12 +32,6 @@ void state_ready(struct fbd_state *state)
 
 /* ---- accelerations and shares */
 
-double body_angular_acceleration(const struct model_body *body, const struct instant *at, const double *a)
-{
-    if (body->place.link > 0) return tree_angular_acceleration(body, at);
-    return body->kind == motion_pivot || body->kind == motion_planar ? a[body->first + body->count - 1] : 0;
-}
-
 bool equation_has_coordinate(const struct model_body *body)
 {
     bool off_center = body->kind == motion_planar && (body->arm.x != 0 || body->arm.y != 0);

@@ -40,9 +40,6 @@ const char *equation_acceleration_name(const struct fbd_model *model, const stru
                                        int part);
 bool equation_has_coordinate(const struct model_body *body);
 
-/* Of the body in the world. */
-double body_angular_acceleration(const struct model_body *body, const struct instant *at, const double *a);
-
 /* An arrow with its moment about a point, for fbd.h. */
 fbd_arrow public_arrow(const struct arrow *arrow, struct vec about);
 

@@ -9,6 +9,7 @@
 #include "dynamics/diagram.h"
 #include "dynamics/mass.h"
 #include "dynamics/project.h"
+#include "output/hand_forces.h"
 #include "output/random_state.h"
 
 enum { parameter_draws = 12, states_of_a_draw = 24, tries_of_a_state = 8 };
@@ -21,9 +22,25 @@ static bool agrees(const struct hand_sample *sample)
 
 /* ---- one equation at one state */
 
-/* The state and what else a hand equation may name, see enum hand_slot. */
-static void extend(const struct fbd_state *state, int b, const struct arrow *arrows, size_t arrow_count,
-                   double *y)
+size_t hand_room(const struct fbd_model *model)
+{
+    return plan_size(&model->plan) + hand_slots + model->absolute_count;
+}
+
+/* Minus what its slot has is the normal force of a body's own surface. */
+static double normal_force(const struct fbd_state *state, const struct model_body *body,
+                           const struct hand_named *named)
+{
+    const struct fbd_model *model = state->model;
+    struct instant at = state_instant(state);
+    diagram_list(model, (int)(body - model->bodies), &at, state->a, state->slots, named->arrows);
+    for (int i = 0; i < body->load_count; i++) /* those come first */
+        if (model->loads[body->first_load + i].source->kind == load_normal)
+            return vec_dot(named->arrows[i].force, surface_normal(model, body, &at));
+    return 0;
+}
+
+void hand_extend(const struct fbd_state *state, int b, const struct hand_named *named, double *y)
 {
     const struct fbd_model *model = state->model;
     const struct model_body *body = &model->bodies[b];
@@ -35,16 +52,12 @@ static void extend(const struct fbd_state *state, int b, const struct arrow *arr
     for (int k = 0; k < body->count; k++) extra[hand_acceleration + k] = state->a[body->first + k];
     if (model->absolute_count > 0)
         memcpy(extra + hand_slots, state->y + size + hand_slots, model->absolute_count * sizeof *extra);
-    for (size_t k = 0; k < model->absolute_count; k++)
-        if (model->absolutes[k].kind == absolute_acceleration)
-            extra[hand_slots + k] = state->a[model->absolutes[k].coordinate];
+    hand_named_write(state, named, extra + hand_slots);
     extra[hand_mass] = body_mass(body, &at);
     extra[hand_I_G] = body_inertia(body, &at).I_G;
     extra[hand_I_O] = body_I_O(body, &at);
     extra[hand_L] = body->L;
-    for (size_t i = 0; i < arrow_count; i++)
-        if (arrows[i].load >= 0 && model->loads[arrows[i].load].source->kind == load_normal)
-            extra[hand_N] = vec_dot(arrows[i].force, surface_normal(model, body, &at));
+    extra[hand_N] = normal_force(state, body, named);
     if (body->friction >= 0) {
         extra[hand_mu_s] = formula_value(&model->plan.modes[body->friction].mu_s, &at);
         extra[hand_mu_k] = formula_value(&model->plan.modes[body->friction].mu_k, &at);
@@ -121,41 +134,50 @@ static void take_summands(struct hand_check *check, const struct hand *hand, dou
 
 /* Which names the equation depends on: bit k for hand slot k, hand_others for accelerations of other bodies. An identity
  * depends on none. *size grows by what these contribute to a side. */
-static unsigned depends_on(const struct hand *hand, const struct fbd_model *model, double t, const double *y,
-                           double *size)
+static unsigned depends_on(const struct hand *hand, const struct fbd_model *model,
+                           const struct hand_named *named, double t, const double *y, double *size)
 {
     int first = 1 + (int)plan_size(&model->plan);
     unsigned says = 0;
     for (int k = 0; k < hand_slots + (int)model->absolute_count; k++) {
         double left, right;
-        if (k >= hand_slots && model->absolutes[k - hand_slots].kind != absolute_acceleration) continue;
+        enum absolute_kind kind =
+            k < hand_slots ? absolute_acceleration : model->absolutes[k - hand_slots].kind;
+        if (!hand_writes(kind) || kind == absolute_inertia) continue;
         expr_eval_slot(hand->left, t, y, first + k, NULL, &left);
         expr_eval_slot(hand->right, t, y, first + k, NULL, &right);
         *size += fabs((left - right) * y[first + k - 1]);
+        if (k >= hand_slots) *size += fabs(left - right) * named->sizes[k - hand_slots];
         if (fabs(left - right) > 1e-9 * (fabs(left) + fabs(right)))
-            says |= k < hand_slots ? 1U << k : hand_others;
+            says |= k < hand_slots           ? 1U << k
+                    : kind == absolute_force ? (unsigned)hand_named_forces
+                                             : (unsigned)hand_others;
     }
     return says;
 }
 
-static void take_sample(struct hand_check *check, const struct hand *hand, struct fbd_state *state, double *y)
+static void take_sample(struct hand_check *check, const struct hand *hand, const struct hand_named *named,
+                        struct fbd_state *state, double *y)
 {
     const struct fbd_model *model = state->model;
     const struct model_body *body = &model->bodies[check->body];
     struct arrow arrows[most_terms + 1];
     struct instant at = state_instant(state);
-    size_t count = diagram_fill(model, check->body, &at, state->a, state->slots, arrows);
-    extend(state, check->body, arrows, count, y);
+    diagram_fill(model, check->body, &at, state->a, state->slots, arrows);
+    hand_extend(state, check->body, named, y);
     if (hand->when && expr_eval(hand->when, state->t, y, NULL) == 0) return;
     struct hand_sample sample = {.t = state->t,
                                  .slip = body->friction >= 0 ? state->slip[body->friction] : 0};
     sample.left = expr_eval(hand->left, state->t, y, NULL);
     sample.right = expr_eval(hand->right, state->t, y, NULL);
     if (!isfinite(sample.left) || !isfinite(sample.right)) return;
-    double named = 0;
-    check->says |= depends_on(hand, model, state->t, y, &named);
+    double added = 0;
+    const unsigned says = depends_on(hand, model, named, state->t, y, &added);
+    check->says |= says;
     double slope = 0, scale = 1;
-    bool jointed = body->place.link > 0; /* several accelerations in one equation: side against side */
+    /* Several unknowns in one equation: side against side. */
+    bool jointed =
+        body->place.link > 0 || (says & ((unsigned)hand_named_forces | (unsigned)hand_others)) != 0;
     int part =
         jointed ? -1 : accelerated_part(hand, (int)plan_size(&model->plan), body->count, state->t, y, &slope);
     check->part = part;
@@ -176,7 +198,7 @@ static void take_sample(struct hand_check *check, const struct hand *hand, struc
         sample.terms[i] = arrows[i].share[part < 0 ? 0 : part];
         sample.size += fabs(sample.terms[i]);
     }
-    if (jointed) sample.size += named;
+    if (jointed) sample.size += added;
     sample.mechanics = part >= 0 ? fabs(sample.I * sample.a) : sample.size;
     for (int i = 0; part >= 0 && i < body->load_count; i++) sample.mechanics += fabs(sample.terms[i]);
     take_summands(check, hand, state->t, y, scale, &sample);
@@ -189,6 +211,9 @@ static void take_sample(struct hand_check *check, const struct hand *hand, struc
         sample.q[k] = state->y[body->first + k];
         sample.v[k] = state->y[body->first_rate + k];
     }
+    const unsigned of_forces = (unsigned)hand_named_forces | 1U << hand_N;
+    sample.open =
+        (check->says & of_forces) != 0 && hand_is_open(check, hand, named, state, sample.size / fabs(scale));
     check->samples[check->count++] = sample;
 }
 
@@ -196,20 +221,18 @@ double hand_lack_at(const struct fbd_state *state, int b, int index, double *siz
 {
     const struct fbd_model *model = state->model;
     const struct hand *hand = &model->scene->bodies[b].hands[index];
-    struct instant at = state_instant(state);
-    size_t room = plan_size(&model->plan) + hand_slots + model->absolute_count;
-    struct arrow *arrows = calloc(diagram_arrows(model, b) + 1, sizeof *arrows);
-    double *y = calloc(room, sizeof *y), lack = NAN;
+    double *y = calloc(hand_room(model), sizeof *y), lack = NAN;
+    struct arena arena = {0};
+    struct hand_named named;
     *size = 0;
-    if (arrows && y) {
-        size_t count = diagram_fill(model, b, &at, state->a, state->slots, arrows);
-        extend(state, b, arrows, count, y);
+    if (y && hand_named_find(model, &arena, &named)) {
+        hand_extend(state, b, &named, y);
         lack = expr_eval(hand->left, state->t, y, NULL) - expr_eval(hand->right, state->t, y, NULL);
         for (size_t j = 0; j < hand->summand_count; j++)
             *size += fabs(expr_eval(hand->summands[j].expr, state->t, y, NULL));
     }
-    free(arrows);
     free(y);
+    arena_free(&arena);
     return lack;
 }
 
@@ -219,20 +242,23 @@ static bool sample_model(struct hand_check *check, const fbd_model *model, gsl_r
 {
     const struct hand *hand = &model->scene->bodies[check->body].hands[check->index];
     struct fbd_state *state = state_new(model);
-    size_t n = (size_t)model->plan.n, extended = plan_size(&model->plan) + hand_slots + model->absolute_count;
+    size_t n = (size_t)model->plan.n, extended = hand_room(model);
     double *y = calloc(extended + random_path_room(model), sizeof *y);
     struct random_path path = {.y = y ? y + extended : NULL};
+    struct arena arena = {0};
+    struct hand_named named;
     if (state && model->assembles) state_project(state, true);
     if (y && state) memcpy(path.y, state->y, n * sizeof *y);
-    bool done = state && y;
+    bool done = state && y && hand_named_find(model, &arena, &named);
     for (int i = 0; done && i < states_of_a_draw; i++)
         for (int k = 0; k < tries_of_a_state && check->count < most_samples; k++) {
             if (!random_state(rng, state, &path) || !random_admissible(state)) continue;
-            take_sample(check, hand, state, y);
+            take_sample(check, hand, &named, state, y);
             break;
         }
     free(y);
     state_free(state);
+    arena_free(&arena);
     return done;
 }
 
@@ -256,6 +282,23 @@ static struct tally tally_of(const struct hand_check *check, int slip)
     return tally;
 }
 
+/* A line about forces that the equations do not determine. */
+static bool write_open(const struct hand_check *check, struct text *text)
+{
+    size_t open = 0;
+    for (size_t i = 0; i < check->count; i++) open += check->samples[i].open;
+    if (open == 0) return false;
+    const char *force = check->open_force;
+    text_printf(
+        text,
+        "  not unique at %zu of %zu random states: the equations do not determine `%s%s%s`, only sums "
+        "of it with others\n",
+        open, check->count,
+        force && check->open_body != check->body ? check->model->bodies[check->open_body].name : "",
+        force && check->open_body != check->body ? "." : "", force ? force : "N");
+    return true;
+}
+
 static bool write_verdict(const struct hand_check *check, struct text *text)
 {
     struct tally none = tally_of(check, 0), plus = tally_of(check, 1), minus = tally_of(check, -1);
@@ -266,6 +309,7 @@ static bool write_verdict(const struct hand_check *check, struct text *text)
         text_add(text, "  not checked: no admissible state was found where it claims to hold\n");
         return false;
     }
+    if (write_open(check, text)) return false;
     if (agree == states) {
         text_printf(text, "  agrees at %zu random states (worst difference %.1e of the terms)\n", states,
                     worst);
@@ -292,6 +336,8 @@ bool hand_take_samples(struct hand_check *check, const struct document *document
     check->count = 0;
     check->part = -1;
     check->says = 0;
+    check->open_force = NULL;
+    check->no_memory = false;
     if (!sample_model(check, check->model, rng)) return false;
     for (int draw = 1; draw < parameter_draws; draw++) {
         fbd_model *changed;
@@ -300,7 +346,7 @@ bool hand_take_samples(struct hand_check *check, const struct document *document
         model_free(changed);
         if (!done) return false;
     }
-    return true;
+    return !check->no_memory;
 }
 
 /* Check one equation; 1 differs, 0 agrees, -1 out of memory. */
@@ -338,37 +384,51 @@ static int check_all(struct hand_check *check, const struct document *document, 
     return differ;
 }
 
+bool hand_check_document(const struct fbd_model *model, struct document *document, unsigned seed,
+                         struct text *text, size_t *differing)
+{
+    struct arena arena = {0};
+    struct hand_check check = {.samples = calloc(most_samples, sizeof *check.samples)};
+    gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
+    fbd_model *split = NULL;
+    int differ = -1;
+    document->split_hands = true;
+    if (check.samples && rng && hand_forces_list(model, &arena, document)) {
+        gsl_rng_set(rng, seed);
+        if (random_model(document, model, rng, 0, &split)) {
+            check.model = split ? split : model;
+            differ = check_all(&check, document, rng, text);
+        }
+        text_printf(text, "seed %u\n", seed);
+    }
+    model_free(split);
+    free(check.samples);
+    if (rng) gsl_rng_free(rng);
+    arena_free(&arena);
+    document->force_names = NULL;
+    if (differ >= 0) *differing = (size_t)differ;
+    return differ >= 0 && !text->failed;
+}
+
 char *fbd_check_hand(const fbd_model *model, unsigned seed, size_t *differing)
 {
+    size_t differ = 0;
     if (differing) *differing = 0;
     if (!model) return NULL;
     struct text text = {0};
     struct document document;
     fbd_errors *errors = fbd_errors_new();
-    struct hand_check check = {.samples = calloc(most_samples, sizeof *check.samples)};
-    gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
-    fbd_model *split = NULL;
-    int differ = -1;
-    if (errors && check.samples && rng) {
-        gsl_rng_set(rng, seed);
+    bool done = false;
+    if (errors) {
         bool open =
             document_open(&document, model->source, model->source_length, model->scene->file, errors) &&
             !errors->out_of_memory;
-        document.split_hands = true;
         document.like = model->scene;
-        if (open && random_model(&document, model, rng, 0, &split)) {
-            check.model = split ? split : model;
-            differ = check_all(&check, &document, rng, &text);
-        }
+        done = open && hand_check_document(model, &document, seed, &text, &differ);
         document_close(&document);
-        text_printf(&text, "seed %u\n", seed);
     }
-    bool lost = text.failed || differ < 0;
-    model_free(split);
     fbd_errors_free(errors);
-    free(check.samples);
-    if (rng) gsl_rng_free(rng);
-    if (lost) text_free(&text);
-    if (differing && !lost) *differing = (size_t)differ;
+    if (!done) text_free(&text);
+    if (differing && done) *differing = differ;
     return text.data;
 }

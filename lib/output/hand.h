@@ -20,7 +20,12 @@
 #include "dynamics/diagram.h"
 #include "dynamics/modes.h"
 
-enum { most_samples = 512, most_terms = 40, hand_others = 1 << hand_slots };
+enum {
+    most_samples = 512,
+    most_terms = 40,
+    hand_others = 1 << hand_slots,
+    hand_named_forces = 2 << hand_slots
+};
 
 /* Factors that derivations forget, as they are at a state. Those that do not apply are NAN. */
 enum hand_factor {
@@ -52,13 +57,18 @@ struct hand_sample {
     double factors[hand_factors];
     double t, q[most_coordinates_of_a_body], v[most_coordinates_of_a_body];
     double left, right;
+    bool open; /* it changes with how a load is shared that the equations do not share */
 };
 
 struct hand_check {
     const struct fbd_model *model;
     int body, index;
     int part;      /* coordinate whose acceleration it is about, -1 for none */
-    unsigned says; /* bit k: it depends on hand slot k; hand_others: on the acceleration of another body */
+    unsigned says; /* bit k: it depends on hand slot k; hand_others: on the acceleration of another body;
+                      hand_named_forces: on a force of a diagram, by its name */
+    int open_body; /* a force in it that the equations do not determine, */
+    const char *open_force;
+    bool no_memory;
     size_t count;
     struct hand_sample *samples;     /* most_samples */
     bool accelerates[most_summands]; /* this summand is (part of) the left side I a */
@@ -68,6 +78,21 @@ struct hand_check {
  * False when memory is out. */
 bool hand_take_samples(struct hand_check *check, const struct document *document, gsl_rng *rng,
                        double spread);
+
+/* What a derivation of body b evaluates over: the state and what else it may name, see enum hand_slot. */
+size_t hand_room(const struct fbd_model *model);
+struct hand_named;
+void hand_extend(const struct fbd_state *state, int b, const struct hand_named *named, double *y);
+
+/* Does a line change with how the state's load is shared where the equations do not tell? `size`: of what it adds up.
+ * Then check->open_force is set (hand_unique.c). */
+bool hand_is_open(struct hand_check *check, const struct hand *hand, const struct hand_named *named,
+                  struct fbd_state *state, double size);
+
+/* Check all derivations of a document against `model`, which is of it: what is to be said of each, and how many differ.
+ * False when memory is out. */
+bool hand_check_document(const struct fbd_model *model, struct document *document, unsigned seed,
+                         struct text *text, size_t *differing);
 
 /* Left less right of one equation at a state; *size: the sum of absolute terms. NAN when memory is out. */
 double hand_lack_at(const struct fbd_state *state, int body, int index, double *size);

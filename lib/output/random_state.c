@@ -6,6 +6,7 @@
 #include "base/diag.h"
 #include "base/text.h"
 #include "dynamics/project.h"
+#include "output/hand_forces.h"
 
 static double between(gsl_rng *rng, double low, double high)
 {
@@ -30,8 +31,7 @@ bool random_model(const struct document *document, const fbd_model *model, gsl_r
     }
     bool done = errors && !arena.failed && !text.failed;
     if (done) {
-        struct scene *changed = scene_make(document, overrides, scene->parameter_count, errors);
-        if (changed) *drawn = model_compile(changed, errors);
+        *drawn = hands_compile(document, overrides, scene->parameter_count, errors);
         done = !errors->out_of_memory;
     }
     fbd_errors_free(errors);

@@ -61,7 +61,7 @@ static bool stops_turning(const struct fbd_model *model, const struct tie *tie)
            model->bodies[tie->end[0].body].kind == motion_pivot;
 }
 
-static bool key_of_tie(const struct fbd_model *model, int b, const char *name, struct force_key *key)
+bool tie_of_force(const struct fbd_model *model, int b, const char *name, struct tie_place *place)
 {
     for (int i = 0; model->tree && i < model->tree->tie_count; i++) {
         const struct tie *tie = &model->tree->ties[i];
@@ -69,21 +69,28 @@ static bool key_of_tie(const struct fbd_model *model, int b, const char *name, s
             for (int part = 0; part < 2; part++) {
                 const char *own = tie->end[k].name[part];
                 if (tie->end[k].body != b || !own || strcmp(own, name) != 0) continue;
-                const int strand = strand_of(tie, k, part);
-                const bool moment = stops_turning(model, tie);
-                if (is_corner(tie, k)) {
-                    *key = (struct force_key){"F", of_corner, most_constraint_ends * i + k, b, false};
-                    return true;
-                }
-                *key = (struct force_key){.letter = moment ? "M" : tie->law->letters[part],
-                                          .of = of_tie,
-                                          .index = 2 * i + strand,
-                                          .owner = owner_of_tie(tie, strand),
-                                          .moment = moment};
+                *place = (struct tie_place){i, k, part, strand_of(tie, k, part)};
                 return true;
             }
     }
     return false;
+}
+
+static bool key_of_tie(const struct fbd_model *model, int b, const char *name, struct force_key *key)
+{
+    struct tie_place place;
+    if (!tie_of_force(model, b, name, &place)) return false;
+    const struct tie *tie = &model->tree->ties[place.tie];
+    const bool moment = stops_turning(model, tie);
+    if (is_corner(tie, place.end))
+        *key = (struct force_key){"F", of_corner, most_constraint_ends * place.tie + place.end, b, false};
+    else
+        *key = (struct force_key){.letter = moment ? "M" : tie->law->letters[place.part],
+                                  .of = of_tie,
+                                  .index = 2 * place.tie + place.strand,
+                                  .owner = owner_of_tie(tie, place.strand),
+                                  .moment = moment};
+    return true;
 }
 
 /* A normal force replaces the force `guide` of a slide without one. */
@@ -201,7 +208,10 @@ static struct force_symbol symbol_of(struct naming *naming, int b, const struct 
     const struct fbd_model *model = naming->state->model;
     const struct model_load *load = arrow->load >= 0 ? &model->loads[arrow->load] : NULL;
     const struct force_key key = key_of(model, b, arrow);
-    struct force_symbol symbol = {.moment = key.moment, .opposite = key.owner >= 0 && key.owner != b};
+    struct force_symbol symbol = {.moment = key.moment,
+                                  .opposite = key.owner >= 0 && key.owner != b,
+                                  .letter = key.letter,
+                                  .joint = key.of == of_joint ? key.index : -1};
     if (load && key.of == of_load && load->source->kind == load_gravity)
         symbol.text = arena_printf(naming->arena, "%s g", symbol_of_mass(model, b, naming->arena));
     else if (load && is_named_once(naming, &key, load))

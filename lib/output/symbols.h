@@ -23,7 +23,15 @@ struct force_symbol {
     const char *slipping; /* mu_k N while it slips; else NULL */
     bool moment;          /* it is a moment at all times, and no force */
     bool opposite;        /* the arrow is minus that for which it stands */
+    const char *letter;   /* N of N_1 */
+    int joint;            /* the body in whose joint it acts, or -1 */
 };
+
+/* The tie whose force on body b is called so: its index, its end there, and which of two forces it is; false for none. */
+struct tie_place {
+    int tie, end, part, strand;
+};
+bool tie_of_force(const struct fbd_model *model, int b, const char *name, struct tie_place *place);
 
 /* The symbols of each body's arrows, in the order of diagram_fill: symbols[body][arrow]. NULL when memory is out. */
 const struct force_symbol *const *symbols_of_forces(const struct fbd_state *state, struct arena *arena);

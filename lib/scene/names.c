@@ -102,7 +102,7 @@ static struct symbol coordinate_symbol(const struct names *names, int body, cons
 }
 
 /* The slot of a place in the world, the same one for every mention. */
-static struct symbol absolute_slot(struct reader *reader, enum place place, const struct absolute *wanted)
+struct symbol names_absolute(struct reader *reader, enum place place, const struct absolute *wanted)
 {
     enum { most_absolutes = 1000 };
     struct scene *scene = reader->scene;
@@ -112,7 +112,9 @@ static struct symbol absolute_slot(struct reader *reader, enum place place, cons
         const struct absolute *known = &scene->absolutes[k];
         if (known->body == wanted->body && known->kind == wanted->kind && known->part == wanted->part &&
             known->point.kind == wanted->point.kind && known->point.where.x == wanted->point.where.x &&
-            known->point.where.y == wanted->point.where.y && known->roll == wanted->roll)
+            known->point.where.y == wanted->point.where.y && known->roll == wanted->roll &&
+            (known->force == wanted->force ||
+             (known->force && wanted->force && strcmp(known->force, wanted->force) == 0)))
             break;
     }
     if (k == most_absolutes) return unknown;
@@ -122,16 +124,20 @@ static struct symbol absolute_slot(struct reader *reader, enum place place, cons
         scene->absolutes[scene->absolute_count++] = *wanted;
     }
     scene->absolutes[k].moves |= place != place_hand;
-    int derivative = wanted->kind == absolute_acceleration
-                         ? 2
-                         : wanted->kind == absolute_vx || wanted->kind == absolute_vy ||
-                               wanted->kind == absolute_angle_dot || wanted->kind == absolute_slip;
-    bool angle = wanted->kind == absolute_angle || wanted->kind == absolute_angle_dot || wanted->angular;
+    bool accelerates = wanted->kind == absolute_acceleration || wanted->kind == absolute_ax ||
+                       wanted->kind == absolute_ay || wanted->kind == absolute_alpha;
+    int derivative = accelerates ? 2
+                                 : wanted->kind == absolute_vx || wanted->kind == absolute_vy ||
+                                       wanted->kind == absolute_angle_dot || wanted->kind == absolute_slip;
+    bool angle = wanted->kind == absolute_angle || wanted->kind == absolute_angle_dot ||
+                 wanted->kind == absolute_alpha || wanted->angular;
     if (wanted->kind == absolute_acceleration)
         angle = scene->coordinates[scene->bodies[wanted->body].first + wanted->part].angle;
     struct dim dim = coordinate_dim(angle, derivative);
     if (wanted->kind == absolute_mass) dim = DIM_MASS;
     if (wanted->kind == absolute_mass_rate) dim = dim_over(DIM_MASS, DIM_TIME);
+    if (wanted->kind == absolute_force) dim = DIM_NONE; /* force_symbol sets it */
+    if (wanted->kind == absolute_inertia) dim = (struct dim)DIM_INIT(1, 2, 0);
     return coordinate(dim, 1 + scene_size(scene) + hand_slots + k, wanted->kind == absolute_angle);
 }
 
@@ -145,7 +151,7 @@ static struct symbol mass_symbol(const struct names *names, int body, const char
                                   .kind = rate ? absolute_mass_rate : absolute_mass};
     if (!rate && strcmp(name, "m") != 0) return unknown;
     if (draft->mass_varies && names->place != place_exact)
-        return absolute_slot(names->reader, names->place, &mass);
+        return names_absolute(names->reader, names->place, &mass);
     if (draft->mass_varies || rate) return unknown;
     if (!draft->mass_known) return failed_before;
     return (struct symbol){.kind = symbol_constant, .dim = DIM_MASS, .value = draft->mass};
@@ -155,7 +161,7 @@ struct symbol name_of_place(struct reader *reader, int body, const struct point 
                             enum absolute_kind kind)
 {
     const struct absolute absolute = {.body = body, .point = *point, .kind = kind};
-    return absolute_slot(reader, place_load, &absolute);
+    return names_absolute(reader, place_load, &absolute);
 }
 
 /* `angle`, `x`, `y` and their rates in the world; with `of_point` not `angle`. */
@@ -180,6 +186,24 @@ static bool absolute_kind_of(const char *name, bool of_point, enum absolute_kind
     return false;
 }
 
+bool names_point(const struct body *owner, const char *name, size_t length, struct point *point)
+{
+    if (length == 1 && name[0] == 'G') {
+        point->kind = point_G;
+        return true;
+    }
+    if (length == 1 && name[0] == 'O' && owner->motion.kind == motion_pivot) {
+        point->where = owner->motion.point;
+        return true;
+    }
+    for (size_t i = 0; i < owner->point_count; i++) {
+        if (strncmp(owner->points[i].name, name, length) != 0 || owner->points[i].name[length]) continue;
+        point->where = owner->points[i].where;
+        return true;
+    }
+    return false;
+}
+
 /* What stands behind `body.` and is no coordinate: `angle`, `x` (of the frame's origin), `G.x`, `right.vy`.
  */
 static struct symbol absolute_symbol(const struct names *names, int body, const char *name)
@@ -190,22 +214,11 @@ static struct symbol absolute_symbol(const struct names *names, int body, const 
     const char *dot = strrchr(name, '.'); /* points of parts have dots themselves */
     if (!dot) {
         if (!absolute_kind_of(name, false, &absolute.kind)) return unknown;
-        return absolute_slot(reader, names->place, &absolute);
+        return names_absolute(reader, names->place, &absolute);
     }
-    size_t length = (size_t)(dot - name);
     if (!absolute_kind_of(dot + 1, true, &absolute.kind)) return unknown;
-    bool found = length == 1 && name[0] == 'G';
-    if (found) absolute.point.kind = point_G;
-    if (length == 1 && name[0] == 'O' && owner->motion.kind == motion_pivot) {
-        absolute.point.where = owner->motion.point;
-        found = true;
-    }
-    for (size_t i = 0; !found && i < owner->point_count; i++) {
-        if (strncmp(owner->points[i].name, name, length) != 0 || owner->points[i].name[length]) continue;
-        absolute.point.where = owner->points[i].where;
-        found = true;
-    }
-    return found ? absolute_slot(reader, names->place, &absolute) : unknown;
+    if (!names_point(owner, name, (size_t)(dot - name), &absolute.point)) return unknown;
+    return names_absolute(reader, names->place, &absolute);
 }
 
 static struct symbol acceleration_symbol(const struct names *names, const char *name)
@@ -230,7 +243,7 @@ static struct symbol other_acceleration(const struct names *names, int body, con
         struct absolute absolute = {.body = body, .kind = absolute_acceleration, .part = i};
         if (matches(name, list[i].acceleration, list[i].acceleration) ||
             matches(name, list[i].acceleration_alias[0], list[i].acceleration_alias[1]))
-            return absolute_slot(names->reader, names->place, &absolute);
+            return names_absolute(names->reader, names->place, &absolute);
     }
     return unknown;
 }
@@ -254,6 +267,8 @@ static struct symbol dotted_symbol(const struct names *names, const char *name, 
     if (own.kind == symbol_unknown) own = mass_symbol(names, index, dot + 1);
     if (own.kind == symbol_unknown && names->place == place_hand)
         own = other_acceleration(names, index, dot + 1);
+    if (own.kind == symbol_unknown && names->place == place_hand)
+        own = hand_place_symbol(names, index, dot + 1);
     return own.kind != symbol_unknown ? own : absolute_symbol(names, index, dot + 1);
 }
 
@@ -282,7 +297,7 @@ static struct symbol slip_symbol(struct names *names)
                             .kind = absolute_slip,
                             .roll = roll ? 1 + (int)reader->scene->constraint_count : 0,
                             .angular = names->slip_angular};
-    return absolute_slot(reader, names->place, &slip);
+    return names_absolute(reader, names->place, &slip);
 }
 
 /* `slip` where there is none to speak of. */
@@ -308,7 +323,7 @@ static struct symbol distance_symbol(struct names *names, struct pos at)
 }
 
 /* What the assembly knows: see enum hand_slot. */
-static struct symbol hand_symbol(const struct names *names, const char *name)
+struct symbol hand_symbol(const struct names *names, const char *name)
 {
     static const struct {
         const char *name;
@@ -350,6 +365,19 @@ static struct symbol other_symbol(const struct names *names, const char *name)
     return unknown;
 }
 
+/* In a derivation what nothing else is called may be a force of the diagram; and the body at hand needs no name before what
+ * goes with its points and its angle. */
+static struct symbol or_force(const struct names *names, const char *name, struct symbol symbol)
+{
+    if (names->place != place_hand || symbol.kind != symbol_unknown) return symbol;
+    if (!names->reader->drafts[names->body].motion_known) return failed_before;
+    symbol = force_symbol(names, name);
+    if (symbol.kind == symbol_unknown) symbol = hand_place_symbol(names, names->body, name);
+    bool of_points = strchr(name, '.') != NULL || strncmp(name, "angle", strlen("angle")) == 0;
+    if (symbol.kind == symbol_unknown && of_points) symbol = absolute_symbol(names, names->body, name);
+    return symbol;
+}
+
 static struct symbol time_symbol(const struct names *names)
 {
     const struct override *input = names->reader->time;
@@ -382,7 +410,7 @@ static struct symbol look_up(void *context, const char *name, struct pos at)
     const char *dot = strchr(name, '.');
     if (names->along && strcmp(name, "s") == 0) return variable(DIM_LENGTH, 1);
     if (own_states_name(reader, name)) return own_state_symbol(names, name + strlen("states."), at);
-    if (dot) return dotted_symbol(names, name, dot);
+    if (dot) return or_force(names, name, dotted_symbol(names, name, dot));
     if (strcmp(name, "t") == 0) return time_symbol(names);
     struct symbol own = own_symbol(names, name);
     size_t parameter;
@@ -394,7 +422,7 @@ static struct symbol look_up(void *context, const char *name, struct pos at)
     if (strcmp(name, "g") == 0) return gravity_symbol(reader, at);
     if (strcmp(name, "slip") == 0) return names->slip ? slip_symbol(names) : misplaced_slip(names, at);
     if (names->place == place_load && strcmp(name, "distance") == 0) return distance_symbol(names, at);
-    struct symbol other = other_symbol(names, name);
+    struct symbol other = or_force(names, name, other_symbol(names, name));
     if (other.kind == symbol_constant)
         reader->varies = reader->names_varying = true; /* who knows what it was made of */
     return other;
@@ -406,82 +434,12 @@ static struct table_symbol look_up_table(void *context, const char *name, struct
     return table_symbol(names->reader, name, at);
 }
 
-/* ---- names for hints */
-
-enum { most_known = 200 }; /* enough for a suggestion, and bounded for a scene of many bodies */
-
-static void know(struct names *names, const char *name)
-{
-    if (name && names->known_count < most_known) names->known[names->known_count++] = name;
-}
-
-static void know_coordinates(struct names *names, int body, bool dotted)
-{
-    struct reader *reader = names->reader;
-    const struct coordinate_names *list;
-    if (!reader->drafts[body].motion_known) return;
-    int count = coordinates_of(reader->scene->bodies[body].motion.kind, &list);
-    const char *prefix = reader->scene->bodies[body].name;
-    for (int i = 0; i < count && names->known_count < most_known; i++) {
-        know(names, dotted ? arena_printf(reader->arena, "%s.%s", prefix, list[i].name) : list[i].name);
-        know(names, dotted ? arena_printf(reader->arena, "%s.%s", prefix, list[i].rate) : list[i].rate);
-        if (!dotted && names->place == place_hand) know(names, list[i].acceleration);
-    }
-}
-
-static void know_all(struct names *names)
-{
-    static const char *const of_hand[] = {"m", "I_G", "I_O", "L", "N", "mu_s", "mu_k", "mu"};
-    struct reader *reader = names->reader;
-    bool constant = names->place == place_constant, moves = !constant && names->place != place_exact;
-    know(names, names->curve);
-    if (moves && names->body != ground_body) know_coordinates(names, names->body, false);
-    for (size_t i = 0; i < reader->scene->parameter_count; i++)
-        if (!constant || !reader->scene->parameters[i].input) know(names, reader->scene->parameters[i].name);
-    know(names, "g");
-    for (size_t i = 0; moves && i < reader->scene->own_count; i++)
-        know(names, arena_printf(reader->arena, "states.%s", reader->scene->own[i].name));
-    if (!constant) know(names, "t");
-    if (names->place == place_load || names->place == place_exact) know(names, "m");
-    if (names->slip != slip_unknown) know(names, "slip");
-    if (names->distance_known) know(names, "distance");
-    if (names->along) know(names, "s");
-    if (names->place == place_contact) know(names, "approach");
-    for (size_t i = 0; names->place == place_hand && i < sizeof of_hand / sizeof *of_hand; i++)
-        if (hand_symbol(names, of_hand[i]).kind == symbol_variable) know(names, of_hand[i]);
-    for (size_t i = 0; moves && i < reader->scene->body_count && names->known_count < most_known; i++)
-        if ((int)i != names->body || names->place == place_event || names->place == place_contact)
-            know_coordinates(names, (int)i, true);
-}
-
-static size_t list_names(void *context, const char *const **list)
-{
-    struct names *names = context;
-    if (!names->known) {
-        names->known = ARENA_ARRAY(names->reader->arena, most_known, const char *);
-        if (names->known) know_all(names);
-    }
-    *list = names->known;
-    return names->known_count;
-}
-
-static size_t list_tables(void *context, const char *const **list)
-{
-    const struct names *names = context;
-    const struct scene *scene = names->reader->scene;
-    const char **known = ARENA_ARRAY(names->reader->arena, scene->table_count, const char *);
-    if (!known) return 0;
-    for (size_t i = 0; i < scene->table_count; i++) known[i] = scene->tables[i].name;
-    *list = known;
-    return scene->table_count;
-}
-
 struct scope names_scope(struct names *names)
 {
     return (struct scope){.lookup = look_up,
                           .table = look_up_table,
-                          .tables = list_tables,
-                          .names = list_names,
+                          .tables = names_list_tables,
+                          .names = names_list,
                           .context = names,
                           .units = names->reader->scene->units};
 }

@@ -65,6 +65,26 @@ struct names {
 struct symbol name_of_place(struct reader *reader, int body, const struct point *point,
                             enum absolute_kind kind);
 
+/* The variable of a place in the world, or of what else is evaluated with a state, the same one for every mention. */
+struct symbol names_absolute(struct reader *reader, enum place place, const struct absolute *wanted);
+
+/* The point of a body that is called so: G, O of a pivot, one with a name; false for none. */
+bool names_point(const struct body *owner, const char *name, size_t length, struct point *point);
+
+/* In a derivation: the acceleration `a_x` of the centre of mass of a body, `P.a_y` of a point of it, `angle_ddot`, and the
+ * moment of inertia `I_P` about it (names_force.c). */
+struct symbol hand_place_symbol(const struct names *names, int body, const char *name);
+
+/* A force of the diagrams in a derivation: of the body at hand, or `body.name` (names_force.c). */
+struct symbol force_symbol(const struct names *names, const char *name);
+
+/* What the assembly knows for a derivation: see enum hand_slot. */
+struct symbol hand_symbol(const struct names *names, const char *name);
+
+/* All names and all tables that may be used, for hints (names_known.c). */
+size_t names_list(void *context, const char *const **list);
+size_t names_list_tables(void *context, const char *const **list);
+
 /* A scope for expr_compile; `names` must live as long. */
 struct scope names_scope(struct names *names);
 

@@ -120,8 +120,19 @@ bool body_hand_read(struct reader *reader, int index)
     size_t count = list ? node->count : 1;
     body->hands = ARENA_ARRAY(reader->arena, count, struct hand);
     if (!body->hands) return false;
-    body->hand_count = count;
-    for (size_t i = 0; i < count; i++)
-        if (!read_hand(reader, index, list ? node->items[i] : node, &body->hands[i])) fine = false;
+    for (size_t i = 0; i < count; i++) {
+        bool left_before = reader->scene->hands_left;
+        struct hand *hand = &body->hands[body->hand_count];
+        reader->scene->hands_left = false;
+        bool read = read_hand(reader, index, list ? node->items[i] : node, hand);
+        bool left = reader->scene->hands_left;
+        reader->scene->hands_left = left || left_before;
+        if (left)
+            *hand = (struct hand){.text = NULL}; /* is read again when the names of forces are known */
+        else if (read)
+            body->hand_count++;
+        else
+            fine = false;
+    }
     return fine;
 }

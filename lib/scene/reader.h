@@ -83,6 +83,8 @@ struct reader {
     const struct node *root, *parameters, *inputs, *tables, *own, *bodies, *points, *lines, *polygons;
     bool without_hands, split_hands; /* see struct document */
     const struct hand_reader *hand_reader;
+    size_t force_name_count;
+    const struct force_name *force_names;
     struct definition *definitions;
     struct table_draft *table_drafts;
     struct data_text data; /* of the table that was read last */

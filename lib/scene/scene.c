@@ -211,6 +211,8 @@ static void start(struct reader *reader, const struct document *document, struct
     reader->without_hands = document->without_hands;
     reader->split_hands = document->split_hands;
     reader->hand_reader = document->hand_reader;
+    reader->force_names = document->force_names;
+    reader->force_name_count = document->force_name_count;
     reader->known = document->programs;
     reader->keep = keep;
     reader->record = record;

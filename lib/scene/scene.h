@@ -46,6 +46,14 @@ struct hand {
     struct hand_summand *summands;
 };
 
+/* A force or moment of the diagram of a body, as a derivation may name it: `cord`, `wrist.x`, `N_1`. */
+struct force_name {
+    int body;
+    const char *name;
+    bool letter; /* underscores in it do not matter: N1 is N_1 */
+    struct dim dim;
+};
+
 /* A hand equation may use more names than a force: slot 1 + scene_size + k for k in this list. */
 enum hand_slot {
     hand_acceleration, /* v_dot, or the body's coordinates in order */
@@ -95,8 +103,14 @@ struct absolute {
         absolute_slip,         /* the speed of a pair of dry friction on its surface */
         absolute_mass,         /* of a body whose mass varies, */
         absolute_mass_rate,    /* and its rate of change */
+        absolute_force,        /* derivations by hand: the force or moment of the diagram called `force`, */
+        absolute_ax,           /* the acceleration of a point in the world, */
+        absolute_ay,
+        absolute_alpha,   /* of its angle, */
+        absolute_inertia, /* and the moment of inertia about a point of the body */
     } kind;
     int part;
+    const char *force;
     int roll; /* absolute_slip of a rolling body: 1 + index of its constraint; 0: of the body's own pair */
     bool angular; /* absolute_slip of a bearing */
     bool moves;   /* what moves names it, or an event; else derivations by hand alone do */
@@ -176,7 +190,7 @@ struct grading_canvas {
     struct vec origin; /* of the scene, in units of the drawing */
     double unit;       /* the length that such a unit stands for; 0: the file does not say */
     double angle;      /* how far a direction may be off, in radians, */
-    double snap;       /* and a line of action, in units of the drawing; 0: as is usual for the kind of drawing */
+    double snap; /* and a line of action, in units of the drawing; 0: as is usual for the kind of drawing */
 };
 
 /* How answers are graded that are held against this file as a key (lib/grade). */
@@ -211,6 +225,7 @@ struct scene {
     struct grading grading;
     size_t output_point_count;
     struct output_point *output_points;
+    bool hands_left; /* derivations were left out that name what only a model has (struct document) */
     size_t coordinate_count, absolute_count;
     struct coordinate *coordinates;
     struct absolute *absolutes;
@@ -254,6 +269,10 @@ struct document {
     bool without_hands; /* leave the derivations by hand unread: nothing that moves depends on them */
     bool split_hands;   /* and those that are read, into their summands: what --check-hand compares */
     const struct hand_reader *hand_reader; /* told of them; or NULL */
+    size_t force_name_count;
+    const struct force_name
+        *force_names;          /* what derivations may name of the diagrams; NULL: not known yet, and
+                                             derivations with unknown names are left out */
     struct programs *programs; /* expressions compiled once for all readings (programs.h), or NULL */
     struct scene *first;       /* the scene that holds them */
     const struct scene

@@ -15,7 +15,7 @@
 
 #include <cmocka.h>
 
-#include "model/model.h"
+#include "output/hand_forces.h"
 #include "scene_fixture.h"
 
 #include <dirent.h>
@@ -114,18 +114,16 @@ static bool check_file(const char *name)
     snprintf(path, sizeof path, "%s/%s", folder, name);
     read_file(path, &file);
     fbd_errors *errors = fbd_errors_new();
-    struct scene *scene = scene_read(file.text, file.length, name, NULL, 0, NULL, errors);
+    struct document document;
     struct fbd_model *model = NULL;
-    if (scene && fbd_errors_failed_count(errors) == 0) {
-        model = model_compile(scene, errors); /* owns it now */
-        scene = NULL;
-    }
+    if (document_open(&document, file.text, file.length, name, errors))
+        model = hands_compile(&document, NULL, 0, errors);
+    document_close(&document);
     bool fine = file.count > 0 && pairs_off(&file, errors);
     if (!fine) {
         print_error("%s expects %zu notes and is answered:\n", name, file.count);
         fbd_errors_print(errors, stderr);
     }
-    scene_free(scene);
     if (model) model_free(model);
     fbd_errors_free(errors);
     return fine;

@@ -1,0 +1,80 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * The forces of the diagrams as derivations by hand name them.
+ *
+ * Each arrow of the diagram of a body has its name there with a component behind it, `wrist.x`, `clamp.moment`, which
+ * stands for what acts on this body. The name alone, or its letter in symbols (N, f, T_1), is the size of a force
+ * whose direction is known: the same number on both bodies. It is positive
+ *
+ *     of a rope, a belt, a rod, a spring or damper between points   when it pulls
+ *     of a normal force                                             when it presses
+ *     of friction     against +x of the motion; on a surface, to the left of who stands on it: against a motion to
+ *                     the right
+ *     of all else on a slide or a track                             along +x of it
+ *     of a moment                                                   counter-clockwise, of friction clockwise
+ *
+ * `wrist.at.x` and `wrist.at.y` are where it acts in the world.
+ *
+ * A letter with a component behind it, `R_x`, `R_2x`, is that of the force for which it stands in symbols (symbols.h).
+ * A letter without its number is known where the body has one such force.
+ */
+#ifndef FBD_OUTPUT_HAND_FORCES_H
+#define FBD_OUTPUT_HAND_FORCES_H
+
+#include "dynamics/diagram.h"
+#include "output/symbols.h"
+
+struct hand_force {
+    struct force_name name;
+    size_t arrow; /* of its body */
+    enum hand_force_part {
+        hand_force_x,
+        hand_force_y,
+        hand_force_couple,
+        hand_force_at_x, /* where it acts */
+        hand_force_at_y,
+        hand_force_size,
+    } part;
+    double sign;
+    const struct force_symbol *symbol;
+};
+
+struct hand_forces {
+    size_t count;
+    struct hand_force *list; /* in the order of bodies and arrows, letters behind the names of each */
+};
+
+/* All of a model, in the arena; false when memory is out. */
+bool hand_forces_make(const struct fbd_model *model, struct arena *arena, struct hand_forces *forces);
+
+/* What it is, given the arrows of its body (diagram_fill). */
+double hand_force_value(const struct fbd_model *model, const struct hand_force *force,
+                        const struct instant *at, const struct arrow *arrows);
+
+/* Those that derivations of a scene name. */
+struct hand_named {
+    const struct hand_force **of; /* of each absolute of the model, or NULL */
+    struct arrow *arrows;         /* diagram_most_arrows */
+    double *
+        sizes; /* of each absolute: of the forces of its body, or what they accelerate; its rounding goes with that */
+};
+
+/* Find them, in the arena; false when memory is out. */
+bool hand_named_find(const struct fbd_model *model, struct arena *arena, struct hand_named *named);
+
+/* Is it one of those, or an acceleration or inertia that only derivations name? */
+bool hand_writes(enum absolute_kind kind);
+
+/* Write the value of each to its place, that of its absolute. */
+void hand_named_write(const struct fbd_state *state, const struct hand_named *named, double *places);
+
+/* Give a document the names of a model's forces, in the arena: derivations are read with them at once. False when memory is
+ * out. */
+bool hand_forces_list(const struct fbd_model *model, struct arena *arena, struct document *document);
+
+/* Read a document and compile it, as scene_make and model_compile do. Derivations that name forces are read when those are
+ * known: by a second reading. */
+struct fbd_model *hands_compile(const struct document *document, const struct override *overrides,
+                                size_t count, fbd_errors *errors);
+
+#endif

@@ -1,0 +1,167 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * Derivations by hand that name the forces of the diagrams: by their names there, by their letters.
+ */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include "scenes.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const char hoist[] = "fbd: 1\n"
+                            "parameters: {M1: 3 kg, M2: 2 kg, mu: 0.3}\n"
+                            "ground: {points: {top: [2, 0]}}\n"
+                            "bodies:\n"
+                            "  block:\n"
+                            "    mass: M1\n"
+                            "    motion: slide\n"
+                            "    initial: {v: 1 m/s}\n"
+                            "    forces: [gravity, normal, {friction: mu}]\n"
+                            "%s"
+                            "  weight:\n"
+                            "    mass: M2\n"
+                            "    motion: {slide: {along: -90 deg, through: [2, -1]}}\n"
+                            "    forces: [gravity]\n"
+                            "%s"
+                            "couplings: [{rope: {name: cord, through: [block.G, ground.top, weight.G]}}]\n"
+                            "simulate: {until: 1 s}\n";
+
+static const char crank[] = "fbd: 1\n"
+                            "parameters: {R: 0.2 m, B: 0.6 m, M: 2 N*m}\n"
+                            "ground: {points: {O: [0, 0]}}\n"
+                            "bodies:\n"
+                            "  crank:\n"
+                            "    shape: rod\n"
+                            "    mass: 1 kg\n"
+                            "    length: R\n"
+                            "    motion: {pivot: {at: O, point: left}}\n"
+                            "    initial: {theta: 50 deg, omega: 3 rad/s}\n"
+                            "    forces: [gravity]\n"
+                            "    moments: [{applied: {name: engine, value: M}}]\n"
+                            "%s"
+                            "  bar:\n"
+                            "    shape: rod\n"
+                            "    mass: 2 kg\n"
+                            "    length: B\n"
+                            "    motion: {pivot: {on: crank, at: right, point: left}}\n"
+                            "    initial: {assemble: true}\n"
+                            "    forces: [gravity]\n"
+                            "%s"
+                            "  piston:\n"
+                            "    mass: 3 kg\n"
+                            "    motion: slide\n"
+                            "    initial: {x: 0.7 m, assemble: true}\n"
+                            "couplings: [{pin: {name: wrist, between: [bar.right, piston.G]}}]\n"
+                            "simulate: {until: 1 s}\n";
+
+struct line {
+    const char *scene;
+    int body; /* 0 or 1 */
+    const char *equation;
+    bool right;
+};
+
+static const struct line lines[] = {
+    {hoist, 0, "T - f = m*a", true},
+    {hoist, 0, "cord - f = m*a", true},
+    {hoist, 0, "cord.x - f = m*a", true},
+    {hoist, 0, "cord.x + friction.x = m*a", true},
+    {hoist, 0, "T + f = m*a", false},
+    {hoist, 0, "-T - f = m*a", false},
+    {hoist, 0, "T = m*a", false},
+    {hoist, 0, "N - m*g = 0", true},
+    {hoist, 0, "N1 = m*g", true},
+    {hoist, 0, "N + m*g = 0", false},
+    {hoist, 0, "f = mu*N*sign(v)", true},
+    {hoist, 0, "f = -mu*N*sign(v)", false},
+    {hoist, 0, "friction = f", true},
+    {hoist, 0, "weight.T = T", true},
+    {hoist, 0, "weight.cord.y = T", true},
+    {hoist, 1, "m*g - T = m*a", true},
+    {hoist, 1, "m*g + T = m*a", false},
+    {hoist, 1, "block.N = M1*g", true},
+    {hoist, 1, "N = 0", true}, /* its guide, across which nothing acts */
+    {hoist, 1, "guide.x = 0", true},
+    {crank, 0, "pin.x + bar.pin.x = m*crank.a_x", true},
+    {crank, 0, "pin.y + bar.pin.y - m*g = m*crank.a_y", true},
+    {crank, 0, "pin.y - bar.pin.y - m*g = m*crank.a_y", false},
+    {crank, 0, "R_1x - R_2x = m*a_x", true},
+    {crank, 0, "R_1x + R_2x = m*a_x", false},
+    {crank, 0, "I_O*alpha = M - m*g*R/2*cos(theta) - R*cos(theta)*R_2y + R*sin(theta)*R_2x", true},
+    {crank, 0, "I_O*alpha = M - m*g*R/2*cos(theta) - R*cos(theta)*R_2x + R*sin(theta)*R_2x", false},
+    {crank, 1, "pin.x + wrist.x = m*a_x", true},
+    {crank, 1, "R_2x + R_3x = m*a_x", true},
+    {crank, 1, "R_2y + R_3y - m*g = m*a_y", true},
+    {crank, 1, "R_2y + R_3y = m*a_y", false},
+    {crank, 1, "I_G*bar.angle_ddot = 0", false},
+    {crank, 1, "I_G*angle_ddot = (wrist.y - pin.y)*B/2*cos(angle) - (wrist.x - pin.x)*B/2*sin(angle)", true},
+    {crank, 1,
+     "I_left*angle_ddot + m*(G.x - left.x)*left.a_y - m*(G.y - left.y)*left.a_x = (G.x - left.x)*(-m*g) + "
+     "(right.x - left.x)*wrist.y - (right.y - left.y)*wrist.x",
+     true},
+    {crank, 1,
+     "I_G*angle_ddot + m*(G.x - left.x)*left.a_y - m*(G.y - left.y)*left.a_x = (G.x - left.x)*(-m*g) + "
+     "(right.x - left.x)*wrist.y - (right.y - left.y)*wrist.x",
+     false},
+    {crank, 1, "piston.wrist.x = -wrist.x", true},
+    {crank, 1, "piston.R_x = wrist.x", true}, /* the letter stands for the force on the bar */
+};
+
+static int check(const struct line *line)
+{
+    char text[2400], hand[400];
+    size_t differing = 0;
+    snprintf(hand, sizeof hand, "    hand: '%s'\n", line->equation);
+    snprintf(text, sizeof text, line->scene, line->body == 0 ? hand : "", line->body == 1 ? hand : "");
+    fbd_model *model = model_from(text);
+    char *verdict = fbd_check_hand(model, 1, &differing);
+    bool fine = verdict && (differing == 0) == line->right && !strstr(verdict, "not checked");
+    if (!fine)
+        print_error("%s should be %s:\n%s\n", line->equation, line->right ? "right" : "wrong", verdict);
+    free(verdict);
+    fbd_model_free(model);
+    return fine ? 0 : 1;
+}
+
+static void forces_are_known_by_name_and_letter(void **unused)
+{
+    (void)unused;
+    int failed = 0;
+    for (size_t i = 0; i < sizeof lines / sizeof *lines; i++) failed += check(&lines[i]);
+    assert_int_equal(failed, 0);
+}
+
+/* What is called nothing there is told with what is. */
+static void an_unknown_name_is_answered_with_the_forces(void **unused)
+{
+    (void)unused;
+    char text[2400];
+    fbd_errors *errors = fbd_errors_new();
+    snprintf(text, sizeof text, hoist, "    hand: Q - f = m*a\n", "");
+    fbd_model *model = fbd_model_parse(text, strlen(text), "model.yaml", NULL, 0, errors);
+    assert_null(model);
+    assert_int_equal(fbd_errors_count(errors), 1);
+    fbd_error error = fbd_errors_get(errors, 0);
+    assert_string_equal(error.id, "unknown-name");
+    assert_int_equal(error.line, 10);
+    assert_int_equal(error.column, 11);
+    assert_non_null(strstr(error.hint, "friction.x"));
+    assert_non_null(strstr(error.hint, "cord"));
+    fbd_errors_free(errors);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(forces_are_known_by_name_and_letter),
+        cmocka_unit_test(an_unknown_name_is_answered_with_the_forces),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
