@@ -620,9 +620,10 @@ typedef struct fbd_linearization fbd_linearization;
 
 /* Find the equilibrium near `state` (GSL's hybrid Newton method on the accelerations, rates zero), take the
  * exact Jacobian and its eigenvalues. NULL with a note in `errors` when there is none near
- * (`no-equilibrium`), a state of the file's own never rests (`not-at-rest`), friction holds a body (`sticks`), a motion is prescribed as a function of the time or the couplings are in a
- * singular position (`not-independent`), or what holds is about to give way (`at-limit`). Forces whose slope dies out at the equilibrium are noted (`degenerate-equilibrium`, a
- * warning); their rows of A are zero. `state` is moved to the equilibrium. */
+ * (`no-equilibrium`), a user state never rests (`not-at-rest`), friction holds a body (`sticks`), a motion is
+ * prescribed as a function of the time or the couplings are in a singular position (`not-independent`), or a
+ * contact or friction is at its limit (`at-limit`). Forces whose slope vanishes at the equilibrium are noted
+ * (`degenerate-equilibrium`, a warning); their rows of A are zero. `state` is moved to the equilibrium. */
 FBD_API fbd_linearization *fbd_linearize(fbd_state *state, fbd_errors *errors);
 FBD_API void fbd_linearization_free(fbd_linearization *linearization);
 
@@ -653,7 +654,8 @@ FBD_API char *fbd_linearization_svg(const fbd_linearization *linearization);
  * (downhill in the sense of the masses, couplings kept), or, where that has no end because forces have no
  * potential or the file has states of its own, to the balance nearest to it. Rates become zero, those of states too. False with a note in `errors` when none was
  * found (`no-equilibrium`), dry friction of a slide or a bearing holds in a range of places (`sticks`), or a
- * motion is prescribed as a function of the time (`not-independent`); the state is then anywhere. An unstable one is noted (`unstable-equilibrium`, a warning). */
+ * motion is prescribed as a function of the time (`not-independent`); the state is then anywhere. An unstable one is
+ * noted (`unstable-equilibrium`, a warning). */
 FBD_API bool fbd_find_equilibrium(fbd_state *state, fbd_errors *errors);
 
 /* The scene at rest where it is, with every reaction. */

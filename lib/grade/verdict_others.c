@@ -46,23 +46,6 @@ static bool same_constraint(const struct scene *key, const struct constraint *a,
     return true;
 }
 
-/* How many of the first `count` constraints of a scene are like one of another scene. */
-static size_t constraints_like(const struct scene *scene, size_t count, const struct scene *of,
-                               const struct constraint *one)
-{
-    size_t found = 0;
-    for (size_t i = 0; i < count; i++) found += same_constraint(of, one, scene, &scene->constraints[i]);
-    return found;
-}
-
-/* Is number `index` of a scene one more than the other scene has of its like? */
-static bool is_constraint_more(const struct scene *scene, size_t index, const struct scene *other)
-{
-    const struct constraint *one = &scene->constraints[index];
-    return constraints_like(scene, index + 1, scene, one) >
-           constraints_like(other, other->constraint_count, scene, one);
-}
-
 static bool same_coupling(const struct scene *key, const struct coupling *a, const struct scene *answer,
                           const struct coupling *b)
 {
@@ -75,55 +58,61 @@ static bool same_coupling(const struct scene *key, const struct coupling *a, con
            near(a->load.free_length, b->load.free_length, 1e-6);
 }
 
-static size_t couplings_like(const struct scene *scene, size_t count, const struct scene *of,
-                             const struct coupling *one)
+/* ---- what joins bodies, by number: constraints first, then couplings that exert a force */
+
+static size_t joint_count(const struct scene *scene, bool forces)
+{
+    return forces ? scene->coupling_count : scene->constraint_count;
+}
+
+static bool same_joint(const struct scene *a, size_t i, const struct scene *b, size_t k, bool forces)
+{
+    return forces ? same_coupling(a, &a->couplings[i], b, &b->couplings[k])
+                  : same_constraint(a, &a->constraints[i], b, &b->constraints[k]);
+}
+
+/* How many of the first `count` of a scene are like number `index` of another one. */
+static size_t joints_like(const struct scene *scene, size_t count, const struct scene *of, size_t index,
+                          bool forces)
 {
     size_t found = 0;
-    for (size_t i = 0; i < count; i++) found += same_coupling(of, one, scene, &scene->couplings[i]);
+    for (size_t i = 0; i < count; i++) found += same_joint(of, index, scene, i, forces);
     return found;
 }
 
-static bool is_coupling_more(const struct scene *scene, size_t index, const struct scene *other)
+/* Is number `index` of a scene one more than the other scene has of its like? */
+static bool is_joint_more(const struct scene *scene, size_t index, const struct scene *other, bool forces)
 {
-    const struct coupling *one = &scene->couplings[index];
-    return couplings_like(scene, index + 1, scene, one) >
-           couplings_like(other, other->coupling_count, scene, one);
+    return joints_like(scene, index + 1, scene, index, forces) >
+           joints_like(other, joint_count(other, forces), scene, index, forces);
 }
 
-/* Couplings are given with the sheet: report that one was changed. */
-static void compare_couplings(struct fbd_grade *grade, const struct scene *key, const struct scene *answer)
+static void compare_joints(struct fbd_grade *grade, const struct scene *key, const struct scene *answer,
+                           bool forces)
 {
     const char *lost = "a coupling of the sheet is not in the answer, or was changed",
                *more = "it is not on the sheet";
-    if (key->units != answer->units) return;
     size_t changed = 0; /* of the answer's own, so many are those of the sheet as they were changed */
-    for (size_t i = 0; i < key->constraint_count; i++) {
-        if (!is_constraint_more(key, i, answer)) continue;
+    for (size_t i = 0; i < joint_count(key, forces); i++) {
+        if (!is_joint_more(key, i, answer, forces)) continue;
+        const char *name = forces ? key->couplings[i].load.name : key->constraints[i].name;
         changed++;
-        verdict_superfluous(grade, FBD_FINDING_MOTION, "", key->constraints[i].name, nowhere, lost);
+        verdict_superfluous(grade, FBD_FINDING_MOTION, "", name, nowhere, lost);
     }
-    for (size_t i = 0; i < answer->constraint_count; i++) {
-        const struct constraint *one = &answer->constraints[i];
-        if (!is_constraint_more(answer, i, key)) continue;
-        if (changed > 0)
-            changed--;
-        else
-            verdict_superfluous(grade, FBD_FINDING_SUPERFLUOUS, "", one->name, one->at, more);
+    for (size_t i = 0; i < joint_count(answer, forces); i++) {
+        if (!is_joint_more(answer, i, key, forces) || (changed > 0 && changed--)) continue;
+        const char *name = forces ? answer->couplings[i].load.name : answer->constraints[i].name;
+        struct pos at = forces ? answer->couplings[i].load.at : answer->constraints[i].at;
+        verdict_superfluous(grade, FBD_FINDING_SUPERFLUOUS, "", name, at, more);
     }
-    changed = 0;
-    for (size_t i = 0; i < key->coupling_count; i++) {
-        if (!is_coupling_more(key, i, answer)) continue;
-        changed++;
-        verdict_superfluous(grade, FBD_FINDING_MOTION, "", key->couplings[i].load.name, nowhere, lost);
-    }
-    for (size_t i = 0; i < answer->coupling_count; i++) {
-        const struct load *one = &answer->couplings[i].load;
-        if (!is_coupling_more(answer, i, key)) continue;
-        if (changed > 0)
-            changed--;
-        else
-            verdict_superfluous(grade, FBD_FINDING_SUPERFLUOUS, "", one->name, one->at, more);
-    }
+}
+
+/* Couplings are given with the sheet: report those that were changed. */
+static void compare_couplings(struct fbd_grade *grade, const struct scene *key, const struct scene *answer)
+{
+    if (key->units != answer->units) return;
+    compare_joints(grade, key, answer, false);
+    compare_joints(grade, key, answer, true);
 }
 
 void verdict_on_others(struct fbd_grade *grade, const fbd_model *answer)

@@ -25,8 +25,8 @@ SHOWN = re.compile(r"(?:(?:^|[:;] |variable |, )write|did you mean|^it is|^the k
 FORMS = {"name: value", "through: [a, drum, b]", "along", "y", "hysteresis(u, low, high)"}
 
 
-# Every eighth file; with FBD_DRAWS (`make generators`) each.
-SHARE = 1 if "FBD_DRAWS" in os.environ else 8
+# Every sixteenth file; with FBD_DRAWS (`make generators`) each.
+SHARE = 1 if "FBD_DRAWS" in os.environ else 16
 
 # Right hints, behind which another mistake of the file comes to light.
 BEFORE_OTHERS = {("slot_with_friction.yaml", "kinetic")}

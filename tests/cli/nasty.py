@@ -40,8 +40,8 @@ bodies:
     hand: "I_O*omega_dot = -m*g*L*cos(theta)"
 simulate: {{until: 1 s, events: [{{name: low, when: pendulum.theta}}]}}
 """
-# Into each place goes every third text, under a sanitizer every twelfth; with FBD_DRAWS (`make generators`) each.
-SHARE = 1 if "FBD_DRAWS" in os.environ else 12 if os.environ.get("FBD_THOROUGH") == "no" else 3
+# Into each place goes every sixth text, under a sanitizer every 24th; with FBD_DRAWS (`make generators`) each.
+SHARE = 1 if "FBD_DRAWS" in os.environ else 24 if os.environ.get("FBD_THOROUGH") == "no" else 6
 commands = 0
 
 
