@@ -463,6 +463,12 @@ FBD_API fbd_drift fbd_simulation_drift(const fbd_simulation *simulation);
 /* Why it ended: one sentence with time, body, quantity and what to try; "" while all is well. */
 FBD_API const char *fbd_simulation_reason(const fbd_simulation *simulation);
 
+/* Does the energy show that the motion is that of the scene, from the start to the end of the last step? As
+ * fbd_result_balanced where nothing is recorded: no works are integrated, so the whole balance is looked at for bodies whose
+ * forces all have potentials, and for others what impacts take. To be asked from time to time while a run is advanced, and at
+ * its end: a call costs about a right-hand side. */
+FBD_API bool fbd_simulation_balanced(fbd_simulation *simulation, double *residual, double *explained);
+
 /* When it was refused at its start, as fbd_state_close refuses it: that reason as a note in `errors`, with
  * the id and the place in the file. False, and nothing noted, when it was not. */
 FBD_API bool fbd_simulation_blame(const fbd_simulation *simulation, fbd_errors *errors);

@@ -249,6 +249,15 @@ bool fbd_simulation_blame(const fbd_simulation *simulation, fbd_errors *list)
     return true;
 }
 
+bool fbd_simulation_balanced(fbd_simulation *simulation, double *residual, double *explained)
+{
+    struct energy_balance balance = {NAN, NAN};
+    if (simulation) balance = ensemble_energy_balance(simulation->ensemble);
+    if (residual) *residual = balance.residual;
+    if (explained) *explained = balance.explained;
+    return simulation && !(fabs(balance.residual) > balance.explained);
+}
+
 const char *fbd_simulation_reason(const fbd_simulation *simulation)
 {
     if (!simulation) return "";

@@ -255,6 +255,21 @@ static void log_step_events(const struct instance *instance, double from)
     }
 }
 
+/* Where it does not, what is shown is no motion of the model, whatever its steps say of their errors. */
+static bool step_balances(struct instance *instance)
+{
+    double residual, explained;
+    char why[200];
+    if (fbd_simulation_balanced(instance->plant->simulation, &residual, &explained)) return true;
+    format_into(
+        why, sizeof why,
+        "the motion is not accurate: the residual of its energy is %.2g, where the tolerance explains "
+        "%.2g; steps have gone over something much shorter than they are",
+        residual, explained);
+    instance_fail(instance, "DoStep", why);
+    return false;
+}
+
 enum instance_status instance_step(struct instance *instance, double t, double h, struct instance_step *step)
 {
     struct plant *plant = instance->plant;
@@ -265,6 +280,7 @@ enum instance_status instance_step(struct instance *instance, double t, double h
     if (target > plant->stop) target = plant->stop;
     enum plant_step end = plant_step(plant, target, instance->event_mode && instance->early_return);
     if (end == plant_failed) return instance_fail(instance, "DoStep", plant->reason);
+    if (!step_balances(instance)) return instance_error;
     log_step_events(instance, before);
     step->reached = plant->t;
     step->early = plant->t < target && instance->early_return;

@@ -3,6 +3,8 @@
  * Progress: a run that gains no time for its work ends by name, its state kept. Work is counted and no clock is read, so that
  * the same run ends at the same step everywhere.
  */
+#include "loop/progress.h"
+
 #include <float.h>
 #include <math.h>
 
@@ -32,32 +34,43 @@ static double work_done(const struct run *run)
     return evaluations * (double)plan_size(&run->model->plan);
 }
 
-/* Is the time gained since the last check negligible? Beside the time that has passed, or the first step where
- * that is longer, and the length of the run, which may be very long as an event is to end it: `stands` ten million times as
- * much work gains no more than has passed; `struggles` a thousand times as much, of steps most of which are rejected;
- * `is_endless` after a hundred times as much work as this, a million times as much would be left. */
-static bool gains_nothing(const struct run *run, double gain, bool rejects)
+/* Work from check to check: some tenths of a second to some seconds of processor time, as right-hand sides are short or long. A
+ * check costs nothing beside it, and who waits has not waited long when the first ones fail. */
+static const double window = 1e7;
+
+/* Each is a share of time in a window; its inverse says how many windows are left, and so how long one would wait:
+ * - as much time again as has passed takes ten million windows, some months. Runs that come to an end have all gained more
+ *   than a thousand times as much in their worst window;
+ * - the run takes 1e15 windows even at its start, where little has passed yet;
+ * - where most steps are rejected the pace falls further, so a thousand windows to double the time are too many;
+ * - a hundred windows have been done (gain and pace are steady), and a million, some weeks, are left. */
+static const double stands_share = 1e-7, hopeless_share = 1e-15, struggles_share = 1e-3, steady_share = 1e-2,
+                    endless_share = 1e-6;
+
+bool progress_is_none(const struct gain *gain)
 {
-    const double length = run->options.until - run->progress.start,
-                 passed = run->state->t - run->progress.start;
-    const double scale = fmin(length, fmax(passed, run->step.first));
-    bool stands = gain < 1e-7 * scale || gain < 1e-15 * length;
-    bool struggles = rejects && gain < 1e-3 * scale;
-    bool is_endless = gain < 1e-2 * passed && gain < 1e-6 * length;
+    const double scale = fmin(gain->length, fmax(gain->passed, gain->first));
+    bool stands = gain->time < stands_share * scale || gain->time < hopeless_share * gain->length;
+    bool struggles = gain->rejects && gain->time < struggles_share * scale;
+    bool is_endless = gain->time < steady_share * gain->passed && gain->time < endless_share * gain->length;
     return stands || struggles || is_endless;
 }
 
 void run_check_progress(struct run *run)
 {
-    const double window = 1e7; /* some seconds of processor time */
     struct progress *progress = &run->progress;
     check_crawl(run);
-    const double work = work_done(run), gain = run->state->t - progress->t;
+    const double work = work_done(run);
     if (work - progress->work < window) return;
     const struct stepper_counts counts = switcher_counts(run->stepper);
     unsigned long rejected = 0;
     for (int k = 0; k < rejection_kinds; k++) rejected += counts.rejected[k];
-    bool rejects = rejected - progress->rejected > counts.accepted - progress->accepted;
-    if (gains_nothing(run, gain, rejects)) run_fail_progress(run, gain);
+    const struct gain gain = {.time = run->state->t - progress->t,
+                              .passed = run->state->t - progress->start,
+                              .length = run->options.until - progress->start,
+                              .first = run->step.first,
+                              .rejects =
+                                  rejected - progress->rejected > counts.accepted - progress->accepted};
+    if (progress_is_none(&gain)) run_fail_progress(run, gain.time);
     *progress = (struct progress){progress->start, run->state->t, work, counts.accepted, rejected};
 }

@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Random scenes at the ends of the scales, against statics and closed forms: boxes that rest or slide far from the origin,
-stiff joints at rest, stacks and pulleys of unequal masses, and linear frequencies beside held bodies.
+stiff joints at rest, stacks, pulleys and chains of unequal masses, and linear frequencies beside held bodies, on tracks and in
+bowls.
 
     scales.py [SCENES [SEED]]
 """
@@ -157,11 +158,53 @@ def frequency(rng):
     close(found, math.sqrt(1.5 * G / length), 1e-7)
 
 
+def eigenvalues(text):
+    """Those of the linearisation with an imaginary part that is not negative."""
+    code, out, said = ask(text, "--linearize")
+    assert code == 0, said
+    return sorted((complex(value["re"], value["im"]) for value in out["eigenvalues"] if value["im"] >= 0), key=abs)
+
+
+def on_track(rng):
+    """What rests at the lowest point of a curve swings by its curvature; a body that turns with it has more inertia."""
+    curvature, mass, inertia = rng.uniform(0.2, 3), rng.uniform(0.5, 4), rng.uniform(0.01, 0.5)
+    stiffness, damping, at = rng.choice([0, rng.uniform(1, 50)]), rng.choice([0, rng.uniform(0.1, 2)]), rng.uniform(-1, 1)
+    turns = rng.random() < 0.5
+    body = f"mass: {mass!r}, inertia: {inertia!r}" if turns else f"mass: {mass!r}"
+    x = f"(x - ({at!r}[m]))"
+    text = (f"fbd: 1\nbodies:\n  b: {{{body}, motion: {{track: {{y: '{curvature / 2!r}[1/m]*{x}^2 + "
+            f"{rng.uniform(-0.1, 0.1)!r}[1/m^2]*{x}^3', from: -1.5, to: 1.5, turn: {'true' if turns else 'false'}}}}}, "
+            f"initial: {{x: {at!r}}}, forces: [gravity, spring: {{stiffness: {stiffness!r}, neutral: REST}}, "
+            f"damper: {damping!r}]}}\nsimulate: {{until: 1}}\n")
+    code, out, said = ask(text.replace("REST", "0"), "--until", "0")
+    assert code == 0, said
+    s = out["final"]["b"]["s"]
+    found = eigenvalues(text.replace("REST", repr(s)))
+    moved = mass + (inertia * curvature ** 2 if turns else 0)
+    half, square = damping / moved / 2, (mass * G * curvature + stiffness) / moved
+    close(found[0].real, -half, 1e-6)
+    close(found[0].imag, math.sqrt(square - half ** 2), 1e-6)
+
+
+def in_bowl(rng):
+    """What rolls to and fro in a bowl that is held has the frequency of a pendulum of the distance of the centres."""
+    a = rng.uniform(0.05, 0.2)
+    b, mass, inertia, weight = a + rng.uniform(0.1, 1), rng.uniform(0.5, 5), rng.uniform(1e-6, 0.3), rng.uniform(0.1, 2)
+    shape, beta = rng.choice([("cylinder", 0.5), ("sphere", 0.4)])
+    text = (f"fbd: 1\nbodies:\n  arm: {{mass: {weight!r}, inertia: {inertia!r}, motion: pivot, "
+            f"points: {{C: [0, {a - b!r}]}}}}\n  ball: {{shape: {shape}, mass: {mass!r}, radius: {a!r}, "
+            f"motion: {{pivot: {{on: arm, at: C}}}}, forces: [gravity]}}\n"
+            f"  bowl: {{shape: ring, mass: 1, radius: {b!r}, motion: {{pivot: {{theta: 0}}}}}}\n"
+            "couplings:\n  - gear: {between: [ball, bowl], inside: true}\nsimulate: {until: 1}\n")
+    square = mass * G * (b - a) / (mass * (1 + beta) * (b - a) ** 2 + inertia)
+    close(eigenvalues(text)[-1].imag, math.sqrt(square), 1e-6)
+
+
 def main():
     count = int(sys.argv[1]) * int(os.environ.get("FBD_DRAWS", "1")) if len(sys.argv) > 1 else 30
     first = int(sys.argv[2]) if len(sys.argv) > 2 else 1
     for seed in range(first, first + count):
-        for scene in (far_away, stiff, heavy_on_light, pulley, chain, frequency):
+        for scene in (far_away, stiff, heavy_on_light, pulley, chain, frequency, on_track, in_bowl):
             with claim(f"seed {seed}: {scene.__name__}"):
                 scene(random.Random(seed))
     finish()

@@ -230,6 +230,15 @@ def a_run_that_fails_says_why_and_can_be_taken_back():
         instance.free()
 
 
+def a_run_that_loses_energy_ends():
+    scene = (MODELS.parent / "tests/faults/energy/potential_shorter_than_steps.yaml").read_text(encoding="utf-8")
+    for version in (2, 3):
+        instance = fmu_of(scene, version).open()
+        with refused(instance, "the residual of its energy is -1,"):
+            assert instance.go_to(1)[0] == ERROR
+        instance.free()
+
+
 # ---- times, tolerances
 
 def beyond_the_end_of_the_file_it_goes_on():
@@ -326,7 +335,8 @@ CLAIMS = [they_move_as_fbd_run_says, they_do_so_by_FMI_2, communication_points_c
           inputs_act_as_steps_of_a_table_do, a_control_of_many_steps_is_that_of_the_closed_form,
           an_acceleration_follows_an_input_at_once, events_are_those_of_fbd_run,
           without_early_return_a_step_goes_all_the_way, an_event_of_the_file_that_stops_ends_it,
-          a_run_that_fails_says_why_and_can_be_taken_back, beyond_the_end_of_the_file_it_goes_on,
+          a_run_that_fails_says_why_and_can_be_taken_back, a_run_that_loses_energy_ends,
+          beyond_the_end_of_the_file_it_goes_on,
           a_start_time_is_when_the_motion_begins, a_tolerance_may_be_tighter_than_that_of_the_file,
           parameters_are_those_of_set, what_is_defined_by_others_follows_them,
           a_parameter_that_cannot_be_is_refused_by_its_reason]

@@ -220,6 +220,7 @@ static void simulations(void **context)
     ANSWERS(fbd_simulation_stats, fbd_simulation_stats(NULL).steps == 0 && fbd_simulation_stats(NULL).method);
     ANSWERS(fbd_simulation_drift, fbd_simulation_drift(NULL).rows == 0 && fbd_simulation_drift(NULL).worst);
     ANSWERS(fbd_simulation_reason, strcmp(fbd_simulation_reason(NULL), "") == 0);
+    ANSWERS(fbd_simulation_balanced, !fbd_simulation_balanced(NULL, NULL, NULL));
     ANSWERS(fbd_simulation_blame, !fbd_simulation_blame(NULL, NULL));
     ANSWERS(fbd_simulation_run, !fbd_simulation_run(NULL, NULL));
     ANSWERS(fbd_event_kind_name, strcmp(fbd_event_kind_name((fbd_event_kind)99), "") == 0);

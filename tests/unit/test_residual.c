@@ -135,6 +135,47 @@ static void what_rests_at_the_origin_is_not_accused(void **unused)
     checks_end(&checks);
 }
 
+/* A particle passes a step of its potential, over 1e-7 m of its path where it is sharp: no step sees that. */
+static double passed(struct checks *checks, const char *width, bool ask, bool right)
+{
+    char text[400];
+    double residual = NAN, explained = NAN;
+    snprintf(text, sizeof text,
+             "fbd: 1\ngravity: 0\nbodies:\n  b: {mass: 1, motion: slide, initial: {v: 10}, forces: "
+             "[potential: {V: \"-1[J]*atan((x - 1[m])/%s)/pi\"}]}\nsimulate: {until: 1}\n",
+             width);
+    struct trial trial = trial_parse(text);
+    trial_start(&trial, NULL);
+    bool balanced = true;
+    fbd_outcome outcome = FBD_GOING;
+    while (outcome == FBD_GOING) {
+        outcome = fbd_simulation_advance(trial.simulation);
+        if (ask) balanced = fbd_simulation_balanced(trial.simulation, &residual, &explained);
+    }
+    check_that(checks, "it comes to its end", outcome == FBD_DONE);
+    if (ask) {
+        check_that(checks, "the energy tells which run is right", balanced == right);
+        check_that(checks, "by its numbers", (fabs(residual) <= explained) == right);
+        if (!right) check_close(checks, "what is missing", residual, -1, 1e-6);
+    }
+    double from, to;
+    fbd_simulation_interval(trial.simulation, &from, &to);
+    check_that(checks, "the end can be looked at", fbd_simulation_state(trial.simulation, to, trial.state));
+    double v = trial_get(&trial, "b.v");
+    trial_close(&trial);
+    return v;
+}
+
+static void who_advances_by_steps_is_told(void **unused)
+{
+    (void)unused;
+    struct checks checks = {0};
+    passed(&checks, "1e-7[m]", true, false);
+    double v = passed(&checks, "0.1[m]", true, true);
+    check_that(&checks, "to ask changes no bit", v == passed(&checks, "0.1[m]", false, true));
+    checks_end(&checks);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -142,6 +183,7 @@ int main(void)
         cmocka_unit_test(a_smooth_run_is_not_accused),
         cmocka_unit_test(no_bell_is_lost),
         cmocka_unit_test(what_rests_at_the_origin_is_not_accused),
+        cmocka_unit_test(who_advances_by_steps_is_told),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
