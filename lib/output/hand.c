@@ -295,7 +295,7 @@ static bool write_open(const struct hand_check *check, struct text *text)
         "of it with others\n",
         open, check->count,
         force && check->open_body != check->body ? check->model->bodies[check->open_body].name : "",
-        force && check->open_body != check->body ? "." : "", force ? force : "N");
+        force && check->open_body != check->body ? "." : "", force ? force + (*force == '=') : "N");
     return true;
 }
 

@@ -210,13 +210,30 @@ bool hand_forces_make(const struct fbd_model *model, struct arena *arena, struct
 
 /* ---- those that are named */
 
-static const struct hand_force *find(const struct hand_forces *forces, const struct absolute *absolute)
+static const struct hand_force *find(const struct hand_forces *forces, int body, const char *name)
 {
     for (size_t i = 0; i < forces->count; i++)
-        if (forces->list[i].name.body == absolute->body &&
-            strcmp(forces->list[i].name.name, absolute->force) == 0)
+        if (forces->list[i].name.body == body && strcmp(forces->list[i].name.name, name) == 0)
             return &forces->list[i];
     return NULL;
+}
+
+/* A force, or those of a symbol. */
+static bool find_sum(const struct hand_forces *forces, const struct absolute *absolute, struct arena *arena,
+                     struct hand_sum *sum)
+{
+    const struct signed_force one = {absolute->body, absolute->force, 1};
+    const size_t count = absolute->sum ? absolute->sum->count : 1;
+    const struct signed_force *list = absolute->sum ? absolute->sum->forces : &one;
+    sum->forces = ARENA_ARRAY(arena, count, const struct hand_force *);
+    sum->signs = ARENA_ARRAY(arena, count, double);
+    for (size_t i = 0; sum->forces && sum->signs && i < count; i++) {
+        const struct hand_force *force = find(forces, list[i].body, list[i].name);
+        if (!force) continue;
+        sum->forces[sum->count] = force;
+        sum->signs[sum->count++] = list[i].sign;
+    }
+    return sum->forces && sum->signs;
 }
 
 bool hand_named_find(const struct fbd_model *model, struct arena *arena, struct hand_named *named)
@@ -225,13 +242,14 @@ bool hand_named_find(const struct fbd_model *model, struct arena *arena, struct 
     bool any = false;
     for (size_t k = 0; k < model->absolute_count; k++)
         any = any || model->scene->absolutes[k].kind == absolute_force;
-    named->of = ARENA_ARRAY(arena, model->absolute_count + 1, const struct hand_force *);
+    named->of = ARENA_ARRAY(arena, model->absolute_count + 1, struct hand_sum);
     named->arrows = ARENA_ARRAY(arena, diagram_most_arrows(model), struct arrow);
     named->sizes = ARENA_ARRAY(arena, model->absolute_count + 1, double);
     if (any && !hand_forces_make(model, arena, &forces)) return false;
     for (size_t k = 0; any && named->of && k < model->absolute_count; k++)
-        if (model->scene->absolutes[k].kind == absolute_force)
-            named->of[k] = find(&forces, &model->scene->absolutes[k]);
+        if (model->scene->absolutes[k].kind == absolute_force &&
+            !find_sum(&forces, &model->scene->absolutes[k], arena, &named->of[k]))
+            return false;
     return !arena->failed;
 }
 
@@ -280,33 +298,40 @@ static struct forces_size size_of_forces(const struct fbd_state *state, int b, c
 }
 
 static double size_of_name(const struct fbd_state *state, const struct model_absolute *absolute,
-                           const struct hand_force *force, struct forces_size size)
+                           struct forces_size size)
 {
     const struct model_body *body = &state->model->bodies[absolute->body];
     struct instant at = state_instant(state);
     const struct inertia inertia = body_inertia(body, &at);
-    if (force && force->name.dim.mass == 0) return 0; /* a place */
-    if (force) return force->name.dim.length == dim_moment.length ? size.moment : size.force;
     if (absolute->kind == absolute_inertia) return 0;
     bool turns = absolute->kind == absolute_alpha;
     double by = turns ? inertia.I_G : inertia.mass;
     return by > 0 ? (turns ? size.moment : size.force) / by : 0;
 }
 
+static double size_of_force(const struct hand_force *force, struct forces_size size)
+{
+    if (force->name.dim.mass == 0) return 0; /* a place */
+    return force->name.dim.length == dim_moment.length ? size.moment : size.force;
+}
+
 void hand_named_write(const struct fbd_state *state, const struct hand_named *named, double *places)
 {
     const struct fbd_model *model = state->model;
     struct instant at = state_instant(state);
-    struct forces_size size = {0, 0};
-    int filled = -1; /* the body whose arrows these are */
     for (size_t k = 0; k < model->absolute_count; k++) {
         const struct model_absolute *absolute = &model->absolutes[k];
+        const struct hand_sum *sum = &named->of[k];
         if (!hand_writes(absolute->kind)) continue;
-        if (filled != absolute->body) size = size_of_forces(state, absolute->body, named);
-        filled = absolute->body;
-        named->sizes[k] = size_of_name(state, absolute, named->of[k], size);
-        places[k] = named->of[k] ? hand_force_value(model, named->of[k], &at, named->arrows)
-                                 : place_value(state, absolute);
+        places[k] = named->sizes[k] = 0;
+        for (size_t i = 0; i < sum->count; i++) {
+            struct forces_size size = size_of_forces(state, sum->forces[i]->name.body, named);
+            named->sizes[k] += size_of_force(sum->forces[i], size);
+            places[k] += sum->signs[i] * hand_force_value(model, sum->forces[i], &at, named->arrows);
+        }
+        if (absolute->kind == absolute_force) continue;
+        named->sizes[k] = size_of_name(state, absolute, size_of_forces(state, absolute->body, named));
+        places[k] = place_value(state, absolute);
     }
 }
 

@@ -53,8 +53,12 @@ double hand_force_value(const struct fbd_model *model, const struct hand_force *
 
 /* Those that derivations of a scene name. */
 struct hand_named {
-    const struct hand_force **of; /* of each absolute of the model, or NULL */
-    struct arrow *arrows;         /* diagram_most_arrows */
+    struct hand_sum {
+        size_t count; /* 0 of what is no force */
+        const struct hand_force **forces;
+        double *signs;
+    } * of;               /* of each absolute of the model */
+    struct arrow *arrows; /* diagram_most_arrows */
     double *
         sizes; /* of each absolute: of the forces of its body, or what they accelerate; its rounding goes with that */
 };

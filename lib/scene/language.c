@@ -41,6 +41,9 @@ static const struct field scene_fields[] = {
                   &contact_group, "bodies that meet each other or the ground, and part"),
     FIELD_NODE(offsetof(struct scene_keys, grading), "grading", field_map, 0, &grading_group,
                "how answers are graded that are held against this file"),
+    FIELD_NODE(
+        offsetof(struct scene_keys, symbols), "symbols", field_map, 0, NULL,
+        "letters of forces in derivations: a name in a diagram, or a list of them, which is their sum"),
 };
 
 const struct group scene_group = {"the file", NULL, FIELDS(scene_fields), NULL, 0, "a model"};

@@ -111,7 +111,7 @@ struct scene_keys {
     int units;
     double datum;
     const struct node *gravity, *parameters, *inputs, *tables, *own, *ground, *bodies, *couplings, *contacts,
-        *simulate, *output, *grading;
+        *simulate, *output, *grading, *symbols;
 };
 
 struct grading_keys {
@@ -182,7 +182,7 @@ struct part_keys {
 struct body_keys {
     const char *description;
     struct part_keys part;
-    const struct node *parts, *points, *motion, *initial, *forces, *moments, *hand, *exact;
+    const struct node *parts, *points, *motion, *initial, *forces, *moments, *hand, *symbols, *exact;
 };
 
 struct inertia_keys {

@@ -84,6 +84,8 @@ static const struct field body_fields[] = {
                 "list of the moments that act on it"),
     FIELD_ENTRIES(offsetof(struct body_keys, hand), "hand", field_any, 0, each_group, &hand_group,
                   "equations derived by hand, to be checked"),
+    FIELD_NODE(offsetof(struct body_keys, symbols), "symbols", field_map, 0, NULL,
+               "letters of forces in these, as at the top level"),
     FIELD_NODE(offsetof(struct body_keys, exact), "exact", field_map, 0, NULL,
                "the solution, where it is known: coordinates as expressions of t"),
 };

@@ -422,7 +422,8 @@ static struct symbol look_up(void *context, const char *name, struct pos at)
     if (strcmp(name, "g") == 0) return gravity_symbol(reader, at);
     if (strcmp(name, "slip") == 0) return names->slip ? slip_symbol(names) : misplaced_slip(names, at);
     if (names->place == place_load && strcmp(name, "distance") == 0) return distance_symbol(names, at);
-    struct symbol other = or_force(names, name, other_symbol(names, name));
+    struct symbol other = is_declared(names, name) ? force_symbol(names, name)
+                                                   : or_force(names, name, other_symbol(names, name));
     if (other.kind == symbol_constant)
         reader->varies = reader->names_varying = true; /* who knows what it was made of */
     return other;

@@ -78,12 +78,18 @@ struct symbol hand_place_symbol(const struct names *names, int body, const char 
 /* A force of the diagrams in a derivation: of the body at hand, or `body.name` (names_force.c). */
 struct symbol force_symbol(const struct names *names, const char *name);
 
+/* Is it one of the `symbols` of the file, in a derivation? */
+bool is_declared(const struct names *names, const char *name);
+
 /* What the assembly knows for a derivation: see enum hand_slot. */
 struct symbol hand_symbol(const struct names *names, const char *name);
 
 /* All names and all tables that may be used, for hints (names_known.c). */
 size_t names_list(void *context, const char *const **list);
 size_t names_list_tables(void *context, const char *const **list);
+
+/* Are these `symbols` names that nothing else has, each of a force or a list of them? */
+bool symbols_check(struct reader *reader, const struct node *symbols);
 
 /* A scope for expr_compile; `names` must live as long. */
 struct scope names_scope(struct names *names);

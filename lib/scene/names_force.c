@@ -67,13 +67,130 @@ struct symbol hand_place_symbol(const struct names *names, int body, const char 
     return names_absolute(names->reader, place_hand, &place);
 }
 
+static struct symbol slot_of(const struct names *names, const struct absolute *force, struct dim dim)
+{
+    struct symbol symbol = names_absolute(names->reader, place_hand, force);
+    symbol.dim = dim;
+    return symbol;
+}
+
+/* ---- symbols of the file's own */
+
+/* The only size of that name: where it is the same number on all bodies that have it. */
+static const struct force_name *find_anywhere(const struct reader *reader, const char *name)
+{
+    const size_t length = strlen(name);
+    if (length > 2 && name[length - 2] == '.') return NULL; /* a component is of one body */
+    for (size_t b = 0; b < reader->scene->body_count; b++) {
+        const struct force_name *one = find(reader, (int)b, name);
+        if (one) return one;
+    }
+    return NULL;
+}
+
+/* What stands in `symbols`, of the body or at the top level. */
+static const struct node *declared(const struct names *names, const char *name)
+{
+    const struct node *own = names->reader->drafts[names->body].keys.symbols;
+    const struct pair *pair = own && own->kind == node_map ? node_find(own, name) : NULL;
+    if (!pair && names->reader->symbols) pair = node_find(names->reader->symbols, name);
+    return pair ? pair->value : NULL;
+}
+
+bool is_declared(const struct names *names, const char *name)
+{
+    return names->place == place_hand && declared(names, name) != NULL;
+}
+
+static size_t count_of(const struct node *value)
+{
+    return value->kind == node_list ? value->count : 1;
+}
+
+static bool add_force(const struct names *names, const struct node *item, struct force_sum *sum,
+                      struct dim *dim)
+{
+    struct reader *reader = names->reader;
+    const char *name = item->text;
+    const bool minus = *name == '-';
+    while (*name == '-' || *name == '+' || *name == ' ') name++;
+    const struct force_name *one = find(reader, names->body, name);
+    if (!one) one = find_dotted(reader, name);
+    if (!one) one = find_anywhere(reader, name);
+    if (!one) {
+        const char *const *known;
+        size_t count = names_list((void *)names, &known);
+        diag_add(reader->errors, FBD_ERROR, "unknown-name", item->at,
+                 diag_nearest(reader->errors, name, known, count), "no force of a diagram is called `%s`",
+                 name);
+        return false;
+    }
+    if (sum->count > 0 && !dim_equal(*dim, one->dim)) {
+        diag_add(reader->errors, FBD_ERROR, "wrong-dimension", item->at, NULL,
+                 "a symbol cannot be the sum of a force and a moment");
+        return false;
+    }
+    *dim = one->dim;
+    const char *own = arena_text(reader->arena, one->name, strlen(one->name));
+    sum->forces[sum->count++] = (struct signed_force){one->body, own, minus ? -1 : 1};
+    return own != NULL;
+}
+
+static struct symbol declared_symbol(const struct names *names, const char *name, const struct node *value)
+{
+    static const struct symbol noted = {.kind = symbol_failed};
+    struct reader *reader = names->reader;
+    struct force_sum *sum = ARENA_NEW(reader->arena, struct force_sum);
+    struct dim dim = DIM_NONE;
+    if (sum) sum->forces = ARENA_ARRAY(reader->arena, count_of(value), struct signed_force);
+    if (!sum || !sum->forces) return noted;
+    for (size_t i = 0; i < count_of(value); i++)
+        if (!add_force(names, value->kind == node_list ? value->items[i] : value, sum, &dim)) return noted;
+    const char *key = arena_printf(reader->arena, "=%s", name); /* no name of a diagram */
+    const struct absolute force = {.body = names->body,
+                                   .point = {.kind = point_fixed},
+                                   .kind = absolute_force,
+                                   .force = key,
+                                   .sum = sum};
+    return key ? slot_of(names, &force, dim) : noted;
+}
+
+bool symbols_check(struct reader *reader, const struct node *symbols)
+{
+    bool fine = true;
+    for (size_t i = 0; symbols && symbols->kind == node_map && i < symbols->count; i++) {
+        const struct pair *pair = &symbols->pairs[i];
+        size_t parameter;
+        fine = name_check(reader->errors, pair->key, pair->at, "a symbol") && fine;
+        if (parameters_find(reader, pair->key, &parameter) || name_is_reserved(pair->key)) {
+            diag_add(reader->errors, FBD_ERROR, "duplicate-name", pair->at, "choose another letter",
+                     "`%s` is %s already", pair->key,
+                     name_is_reserved(pair->key) ? "reserved" : "a parameter");
+            fine = false;
+        }
+        for (size_t k = 0; k < count_of(pair->value); k++) {
+            const struct node *item = pair->value->kind == node_list ? pair->value->items[k] : pair->value;
+            if (item->kind == node_scalar && item->length > 0) continue;
+            diag_add(reader->errors, FBD_ERROR, "wrong-type", item->at,
+                     "write the name of a force, as `T: cord`, or a list of them",
+                     "a symbol is a force of a diagram");
+            fine = false;
+        }
+    }
+    return fine;
+}
+
+/* ---- both */
+
 struct symbol force_symbol(const struct names *names, const char *name)
 {
     struct reader *reader = names->reader;
+    const struct node *value = declared(names, name);
     if (!reader->force_names) {
         reader->scene->hands_left = true;
         return (struct symbol){.kind = symbol_failed};
     }
+    if (value) return declared_symbol(names, name, value);
     const struct force_name *one = find(reader, names->body, name);
     if (!one) one = find_dotted(reader, name);
     if (!one) return unknown;
@@ -83,7 +200,5 @@ struct symbol force_symbol(const struct names *names, const char *name)
                                    .point = {.kind = point_fixed},
                                    .kind = absolute_force,
                                    .force = own};
-    struct symbol symbol = names_absolute(reader, place_hand, &force);
-    symbol.dim = one->dim;
-    return symbol;
+    return slot_of(names, &force, one->dim);
 }

@@ -80,7 +80,8 @@ struct reader {
 
     /* Mappings of the file, or NULL. Entry i of a mapping is parameter, body, point or line i; inputs
      * are numbered behind the parameters. */
-    const struct node *root, *parameters, *inputs, *tables, *own, *bodies, *points, *lines, *polygons;
+    const struct node *root, *parameters, *inputs, *tables, *own, *bodies, *points, *lines, *polygons,
+        *symbols;
     bool without_hands, split_hands; /* see struct document */
     const struct hand_reader *hand_reader;
     size_t force_name_count;

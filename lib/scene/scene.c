@@ -121,7 +121,8 @@ static void read_bodies(struct reader *reader)
     for (int b = 0; b < count && !is_hopeless(reader); b++) {
         bool initial = body_initial_read(reader, b), mass = body_mass_read(reader, b);
         bool loads = body_loads_read(reader, b);
-        bool hand = reader->without_hands || body_hand_read(reader, b);
+        bool hand = reader->without_hands ||
+                    (symbols_check(reader, reader->drafts[b].keys.symbols) && body_hand_read(reader, b));
         bool exact = reader->without_hands || body_exact_read(reader, b);
         bool prescribed = body_prescribed_read(reader, b);
         if (!initial || !mass || !loads || !hand || !exact || !prescribed) scene->bodies[b].complete = false;
@@ -140,6 +141,7 @@ static void read_scene(struct reader *reader, const struct override *overrides, 
     reader->tables = mapping(reader->root, "tables");
     reader->own = mapping(reader->root, "states");
     reader->bodies = mapping(reader->root, "bodies");
+    reader->symbols = mapping(reader->root, "symbols");
     reader->constant_names = (struct names){.reader = reader, .place = place_constant, .body = ground_body};
     reader->constants = names_scope(&reader->constant_names);
     start_gravity(reader);
@@ -147,6 +149,7 @@ static void read_scene(struct reader *reader, const struct override *overrides, 
         !own_states_start(reader) || !bodies_start(reader))
         return;
     read_top(reader, &keys);
+    symbols_check(reader, reader->symbols);
     read_bodies(reader);
     if (!is_hopeless(reader) && reader->scene->coordinates) own_states_read(reader);
     if (!is_hopeless(reader) && fbd_errors_failed_count(reader->errors) == 0) masses_start(reader);

@@ -54,6 +54,16 @@ struct force_name {
     struct dim dim;
 };
 
+/* What a symbol of the file's `symbols` stands for: forces with signs. */
+struct force_sum {
+    size_t count;
+    struct signed_force {
+        int body;
+        const char *name;
+        double sign;
+    } * forces;
+};
+
 /* A hand equation may use more names than a force: slot 1 + scene_size + k for k in this list. */
 enum hand_slot {
     hand_acceleration, /* v_dot, or the body's coordinates in order */
@@ -111,6 +121,7 @@ struct absolute {
     } kind;
     int part;
     const char *force;
+    const struct force_sum *sum; /* of a declared symbol; `force` is that then */
     int roll; /* absolute_slip of a rolling body: 1 + index of its constraint; 0: of the body's own pair */
     bool angular; /* absolute_slip of a bearing */
     bool moves;   /* what moves names it, or an event; else derivations by hand alone do */

@@ -61,6 +61,28 @@ static const char crank[] = "fbd: 1\n"
                             "couplings: [{pin: {name: wrist, between: [bar.right, piston.G]}}]\n"
                             "simulate: {until: 1 s}\n";
 
+/* Three supports for a rigid beam, and letters of the file's own. */
+static const char beam[] = "fbd: 1\n"
+                           "parameters: {P: 300 N}\n"
+                           "ground: {points: {A: [0, 0], under_B: [2, -0.5], under_C: [4, -0.5]}}\n"
+                           "symbols: {B_y: -B, C_y: -C}\n"
+                           "bodies:\n"
+                           "  beam:\n"
+                           "    shape: rod\n"
+                           "    mass: 20 kg\n"
+                           "    length: 4 m\n"
+                           "    points: {load: [-1 m, 0]}\n"
+                           "    motion: planar\n"
+                           "    initial: {x: 2 m}\n"
+                           "    forces: [gravity, {applied: {name: P, value: [0, -P], at: load}}]\n"
+                           "    symbols: {S: [A.y, -B, -C]}\n"
+                           "%s%s"
+                           "couplings:\n"
+                           "  - pin: {name: A, between: [beam.left, ground.A]}\n"
+                           "  - rod: {name: B, between: [beam.G, ground.under_B]}\n"
+                           "  - rod: {name: C, between: [beam.right, ground.under_C]}\n"
+                           "simulate: {until: 1 s}\n";
+
 struct line {
     const char *scene;
     int body; /* 0 or 1 */
@@ -111,7 +133,16 @@ static const struct line lines[] = {
      "(right.x - left.x)*wrist.y - (right.y - left.y)*wrist.x",
      false},
     {crank, 1, "piston.wrist.x = -wrist.x", true},
-    {crank, 1, "piston.R_x = wrist.x", true}, /* the letter stands for the force on the bar */
+    {beam, 0, "A.y + B_y + C_y - m*g - P = 0", true},
+    {beam, 0, "S = m*g + P", true},
+    {beam, 0, "S = m*g", false},
+    {beam, 0, "1[m]*P - 2[m]*A.y + 2[m]*C_y = I_G*angle_ddot", true},
+    {beam, 0, "1[m]*P - 2[m]*A.y - 2[m]*C_y = I_G*angle_ddot", false},
+    {beam, 0, "A.x = 0", true},
+    {beam, 0, "A.y = A.y", true},
+    {beam, 0, "A.y = (m*g + P)/3 + P/8", false}, /* is not unique, as */
+    {beam, 0, "B_y = (m*g + P)/3", false},       /* this, which the least reactions have */
+    {crank, 1, "piston.R_x = wrist.x", true},    /* the letter stands for the force on the bar */
 };
 
 static int check(const struct line *line)
