@@ -182,8 +182,8 @@ struct split {
 
 static bool is_piece(struct split *split, size_t first, size_t end)
 {
-    struct spelled names[2];
     if (!split->asked[first][end]) {
+        struct spelled names[2];
         split->asked[first][end] = true;
         const char *function = function_of(split->run, first, end);
         bool called = split->called && end == split->run->count;

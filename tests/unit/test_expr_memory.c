@@ -56,7 +56,7 @@ static void a_failed_allocation_ends_a_notation_with_a_reason(void **state)
             fbd_errors *errors = fbd_errors_new();
             struct arena arena = {0};
             struct notation notation;
-            const struct scope scope = notation_scope(&derivation);
+            const struct scope scope = notation_scope(derivation());
             fail_alloc_at(n);
             bool fine =
                 notation_read(&arena, written[i], (struct pos){1, 1}, &scope, true, errors, &notation);
