@@ -270,8 +270,10 @@ static bool take_raised(struct writing *w)
     at += length > 0 ? strlen("⁻") : 0;
     for (int i = 0; i < 10 && length + 1 < sizeof number;) {
         bool here = writing_has(w, at, digits[i]);
-        if (here) number[length++] = (char)('0' + i);
-        if (here) at += strlen(digits[i]);
+        if (here) {
+            number[length++] = (char)('0' + i);
+            at += strlen(digits[i]);
+        }
         i = here ? 0 : i + 1;
     }
     size_t whole = at - w->offset;
@@ -390,4 +392,37 @@ bool writing_read_items(struct writing *w)
     }
     bool done = !w->failed && !w->arena->failed;
     return done && writing_add(w, item_end, w->length, w->length, NULL) != NULL;
+}
+
+/* ---- what stands where */
+
+const struct item *item_behind_group(const struct item *item)
+{
+    int depth = 0;
+    for (; item->kind != item_end; item++) {
+        depth += item->kind == item_open;
+        depth -= item->kind == item_close;
+        if (depth == 0) return item + 1;
+    }
+    return item;
+}
+
+bool item_is_single(const struct item *open)
+{
+    return open->kind == item_open && open[1].kind != item_end && open[2].kind == item_close &&
+           (open[1].kind == item_number || open[1].kind == item_name);
+}
+
+const struct item *item_behind_power(const struct item *power)
+{
+    const struct item *item = power + 1;
+    while (item->kind == item_sign) item++;
+    return item->kind == item_end ? item : item->kind == item_open ? item_behind_group(item) : item + 1;
+}
+
+bool item_begins_operand(const struct item *item)
+{
+    return item->kind == item_number || item->kind == item_name || item->kind == item_function ||
+           item->kind == item_call || item->kind == item_open || item->kind == item_fraction ||
+           item->kind == item_bar;
 }

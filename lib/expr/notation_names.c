@@ -40,7 +40,7 @@ struct matches {
 /* `a` `middle` `b` with the suffix behind. */
 static void try_name(struct matches *matches, const char *a, size_t length, const char *middle, const char *b)
 {
-    struct spelled name;
+    struct spelled name = {{0}};
     struct dim dim;
     const struct dim of_force = DIM_INIT(1, 1, -2);
     size_t more = strlen(middle), rest = strlen(b), end = strlen(matches->suffix);
@@ -127,7 +127,7 @@ static int match(const struct writing *w, const struct run *run, size_t first, s
                  struct spelled names[2])
 {
     int count;
-    struct spelled plain;
+    struct spelled plain = {{0}};
     if (!spell(run, first, end, &plain, &count) || !suffix_of(count)) return 0;
     struct matches matches = {.w = w, .suffix = suffix_of(count)};
     try_name(&matches, plain.text, strlen(plain.text), "", "");
@@ -146,7 +146,7 @@ static const char *const usual[][2] = {
 static const char *function_of(const struct run *run, size_t first, size_t end)
 {
     int marks;
-    struct spelled name;
+    struct spelled name = {{0}};
     if (!spell(run, first, end, &name, &marks) || marks > 0) return NULL;
     for (size_t i = 0; i < sizeof usual / sizeof *usual; i++)
         if (strcmp(name.text, usual[i][0]) == 0) return usual[i][1];
@@ -182,8 +182,8 @@ struct split {
 
 static bool is_piece(struct split *split, size_t first, size_t end)
 {
-    struct spelled names[2];
     if (!split->asked[first][end]) {
+        struct spelled names[2];
         split->asked[first][end] = true;
         const char *function = function_of(split->run, first, end);
         bool called = split->called && end == split->run->count;
@@ -291,7 +291,7 @@ static bool add_product(struct writing *w, const struct split *split)
 /* What is not known: the parser of expressions says so, of the name as the language spells it. */
 static bool add_unknown(struct writing *w, const struct run *run, bool called)
 {
-    struct spelled name;
+    struct spelled name = {{0}};
     int marks;
     if (!spell(run, 0, run->count, &name, &marks)) {
         if (run->atoms[0].start < run->atoms[run->count - 1].end && !run->atoms[0].greek && marks == 0)
@@ -313,7 +313,7 @@ static bool is_word(const char *name)
 
 bool run_add(struct writing *w, const struct run *run, size_t end)
 {
-    struct spelled name, names[2];
+    struct spelled name = {{0}}, names[2];
     int marks;
     bool called = is_called(w, end);
     const char *function = function_of(run, 0, run->count);

@@ -227,12 +227,12 @@ static size_t read_part(const struct writing *w, size_t offset, struct run *run)
 /* Behind primes and dots at `offset`. */
 static size_t read_marks(const struct writing *w, size_t offset, struct run *run)
 {
-    const struct sign *sign;
     for (;;) {
         size_t power = offset + (writing_has(w, offset, "^"));
         bool brace = power > offset && writing_has(w, power, "{");
         size_t prime = brace ? power + 1 : power;
-        if ((sign = FIND_SIGN(w, offset, marks)) != NULL) {
+        const struct sign *sign = FIND_SIGN(w, offset, marks);
+        if (sign) {
             offset += strlen(sign->sign);
             mark(run, sign->marks, offset);
         } else if (power > offset && command_is(w, prime, "prime")) {

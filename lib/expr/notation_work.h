@@ -85,6 +85,16 @@ struct item *writing_add(struct writing *w, enum item_kind kind, size_t start, s
 /* All items, with an item_end behind them; false when one is refused. */
 bool writing_read_items(struct writing *w);
 
+/* Can this be the first of an operand? */
+bool item_begins_operand(const struct item *item);
+
+/* Is it a bracket with a number or name and nothing else in it? */
+bool item_is_single(const struct item *open);
+
+/* Behind the bracket that closes the one at `item`, or the end; behind the exponent of `^`. */
+const struct item *item_behind_group(const struct item *item);
+const struct item *item_behind_power(const struct item *power);
+
 /* Does `word` stand at `offset`? */
 bool writing_has(const struct writing *w, size_t offset, const char *word);
 

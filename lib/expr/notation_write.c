@@ -172,24 +172,6 @@ static bool goes_deeper(struct writer *writer)
     return false;
 }
 
-/* Behind the bracket that closes the one at `item`, or the end. */
-static const struct item *behind_group(const struct item *item)
-{
-    int depth = 0;
-    for (; item->kind != item_end; item++) {
-        depth += item->kind == item_open;
-        depth -= item->kind == item_close;
-        if (depth == 0) return item + 1;
-    }
-    return item;
-}
-
-static bool is_single(const struct item *open)
-{
-    return open->kind == item_open && open[1].kind != item_end && open[2].kind == item_close &&
-           (open[1].kind == item_number || open[1].kind == item_name);
-}
-
 static void pass(struct writer *writer)
 {
     writer->behind = writer->item->start + writer->item->length;
@@ -200,7 +182,7 @@ static void pass(struct writer *writer)
 static void write_group(struct writer *writer, bool always)
 {
     const struct item *open = writer->item;
-    bool bare = open->brace && !always && is_single(open);
+    bool bare = open->brace && !always && item_is_single(open);
     if (!goes_deeper(writer)) return;
     if (bare) {
         pass(writer);
@@ -327,14 +309,6 @@ static void write_bare(struct writer *writer, struct level *level)
     put_sign(writer, ")");
 }
 
-/* The first item behind the exponent that stands at `power`. */
-static const struct item *behind_power(const struct item *power)
-{
-    const struct item *item = power + 1;
-    while (item->kind == item_sign) item++;
-    return item->kind == item_end ? item : item->kind == item_open ? behind_group(item) : item + 1;
-}
-
 /* `sin^2`, and not `sin^{-1}` or what is no exponent. */
 static void check_exponent(struct writer *writer, const struct item *power)
 {
@@ -355,7 +329,7 @@ static void write_function(struct writer *writer, struct level *level)
     if (!goes_deeper(writer)) return;
     if (power) check_exponent(writer, power);
     put_item(writer);
-    if (power) writer->item = behind_power(power);
+    if (power) writer->item = item_behind_power(power);
     level->last = last_other;
     if (writer->item->kind == item_open && !writer->item->magnitude) {
         if (!power) put_gap(writer);
@@ -372,13 +346,6 @@ static void write_function(struct writer *writer, struct level *level)
         writer->behind = here.behind;
     }
     writer->nesting--;
-}
-
-static bool begins_operand(const struct item *item)
-{
-    return item->kind == item_number || item->kind == item_name || item->kind == item_function ||
-           item->kind == item_call || item->kind == item_open || item->kind == item_fraction ||
-           item->kind == item_bar;
 }
 
 /* `x(t)` is x, or x times t. */
@@ -404,13 +371,16 @@ static bool write_exponential(struct writer *writer)
     bool e =
         item->kind == item_name && item->length == 1 && writer->w->text[item->start] == 'e' && !item->text;
     if (!e || item[1].kind != item_power || name_is_known(writer->w, "e", &dim)) return false;
-    bool open = item[2].kind == item_open;
+    const bool open = item[2].kind == item_open;
     put_sign(writer, open ? "exp" : "exp(");
     pass(writer);
     pass(writer);
-    if (open) write_group(writer, true);
-    if (!open) write_exponent(writer);
-    if (!open) put_sign(writer, ")");
+    if (open) {
+        write_group(writer, true);
+    } else {
+        write_exponent(writer);
+        put_sign(writer, ")");
+    }
     return true;
 }
 
@@ -476,7 +446,7 @@ static void write_items(struct writer *writer, enum item_kind until)
         const struct item *item = writer->item;
         bool bar = item->kind == item_bar && until == item_bar && level.complete;
         if (item->kind == item_end || item->kind == item_close || bar) break;
-        if (begins_operand(item)) {
+        if (item_begins_operand(item)) {
             write_operand(writer, &level);
         } else if (item->kind == item_sign) {
             write_sign(writer, &level);

@@ -231,19 +231,6 @@ static bool is_asked(const struct line *line, const struct line *keys, size_t co
     return false;
 }
 
-/* Beside it, how a line was read that is not written as an expression. */
-static void say_of_line(struct lines *lines, fbd_finding *finding, const struct hand *hand,
-                        const char *message)
-{
-    struct text text = {0};
-    const char *read = line_as_read(lines, finding->body, hand);
-    text_add(&text, message);
-    if (strcmp(read, finding->name) != 0) text_printf(&text, " (read as `%s`)", read);
-    if (text.failed) lines->grade->arena.failed = true;
-    finding_say(lines->grade, finding, text.data ? text.data : "");
-    text_free(&text);
-}
-
 static void note_student_line(struct lines *lines, int body, int index, const struct line *line, bool asked)
 {
     struct fbd_grade *grade = lines->grade;
@@ -255,11 +242,11 @@ static void note_student_line(struct lines *lines, int body, int index, const st
     if (good && !empty && !line->in_numbers) return;
     fbd_finding *finding = finding_add(grade, good && !empty ? FBD_FINDING_RIGHT : FBD_FINDING_DERIVATION,
                                        source->name, line_as_written(lines, source->name, hand), hand->at);
-    say_of_line(lines, finding, hand,
-                empty                         ? "it is true whatever the forces are: it says nothing of them"
-                : good                        ? "it is right for these numbers"
-                : !line->checked || seen == 0 ? "no state was found where it claims to hold"
-                                              : "it does not agree with the mechanics of the sheet");
+    line_say(lines, finding, hand,
+             empty                         ? "it is true whatever the forces are: it says nothing of them"
+             : good                        ? "it is right for these numbers"
+             : !line->checked || seen == 0 ? "no state was found where it claims to hold"
+                                           : "it does not agree with the mechanics of the sheet");
     if (good || seen == 0) return;
     struct text text = {0};
     hand_diagnose(&lines->check, line->seen[1] > 0 ? 0 : line->seen[2] > 0 ? 1 : -1, &text);

@@ -97,4 +97,7 @@ const struct node *lines_as_written(struct lines *lines);
 const char *line_as_written(const struct lines *lines, const char *body, const struct hand *hand);
 const char *line_as_read(const struct lines *lines, const char *body, const struct hand *hand);
 
+/* Say this of a derivation, and how it was read where it is not written as an expression. */
+void line_say(struct lines *lines, fbd_finding *finding, const struct hand *hand, const char *message);
+
 #endif

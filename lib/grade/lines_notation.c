@@ -4,6 +4,7 @@
  */
 #include <string.h>
 
+#include "base/text.h"
 #include "grade/lines.h"
 #include "scene/node_edit.h"
 
@@ -79,4 +80,15 @@ const struct node *lines_of_notation(struct fbd_grade *grade, const struct node 
         made = other ? node_with(arena, made, body->key, other) : NULL;
     }
     return made ? node_with(arena, answer, "bodies", made) : NULL;
+}
+
+void line_say(struct lines *lines, fbd_finding *finding, const struct hand *hand, const char *message)
+{
+    struct text text = {0};
+    const char *read = line_as_read(lines, finding->body, hand);
+    text_add(&text, message);
+    if (strcmp(read, finding->name) != 0) text_printf(&text, " (read as `%s`)", read);
+    if (text.failed) lines->grade->arena.failed = true;
+    finding_say(lines->grade, finding, text.data ? text.data : "");
+    text_free(&text);
 }

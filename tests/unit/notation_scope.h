@@ -60,7 +60,17 @@ struct notation_names {
         (list), sizeof(list) / sizeof *(list)                                                                \
     }
 
-static const struct notation_names derivation = NAMES(derivation_names), pure = NAMES(pure_names);
+static inline struct notation_names *derivation(void)
+{
+    static struct notation_names names = NAMES(derivation_names);
+    return &names;
+}
+
+static inline struct notation_names *pure(void)
+{
+    static struct notation_names names = NAMES(pure_names);
+    return &names;
+}
 
 static inline struct symbol notation_lookup(void *context, const char *name, struct pos at)
 {
@@ -72,9 +82,9 @@ static inline struct symbol notation_lookup(void *context, const char *name, str
     return (struct symbol){.kind = symbol_unknown};
 }
 
-static inline struct scope notation_scope(const struct notation_names *names)
+static inline struct scope notation_scope(struct notation_names *names)
 {
-    return (struct scope){.lookup = notation_lookup, .context = (void *)(uintptr_t)names, .units = unit_si};
+    return (struct scope){.lookup = notation_lookup, .context = names, .units = unit_si};
 }
 
 #endif

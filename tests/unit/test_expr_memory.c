@@ -5,6 +5,7 @@
 #include "expr_scope.h"
 
 #include "fail_alloc.h"
+#include "notation_scope.h"
 
 static const char *const texts[] = {
     "k*x + c*v - if(x > 0, F*sin(theta), 3*x^2) + clamp(F, -2, 7)*pulse(t, 3, 4)",
@@ -41,6 +42,33 @@ static void a_failed_allocation_ends_a_compilation_with_a_reason(void **state)
     }
 }
 
+static void a_failed_allocation_ends_a_notation_with_a_reason(void **state)
+{
+    (void)state;
+    static const char *const written[] = {"I_O\\ddot{\\theta} = -\\tfrac{1}{2} mgL\\sin^2\\theta",
+                                          "ma = F/m g",
+                                          "F_N = 2mg",
+                                          "F = abc",
+                                          "x = \\foo",
+                                          "θ̈ = d²x/dt² e^{-ct} |v| 30°"};
+    for (size_t i = 0; i < sizeof written / sizeof *written; i++)
+        for (size_t n = 0;; n++) {
+            fbd_errors *errors = fbd_errors_new();
+            struct arena arena = {0};
+            struct notation notation;
+            const struct scope scope = notation_scope(derivation());
+            fail_alloc_at(n);
+            bool fine =
+                notation_read(&arena, written[i], (struct pos){1, 1}, &scope, true, errors, &notation);
+            bool refused = fail_alloc_end();
+            if (!fine) assert_true(fbd_errors_failed_count(errors) > 0 || arena.failed);
+            if (refused && fine) assert_true(arena.failed);
+            arena_free(&arena);
+            fbd_errors_free(errors);
+            if (!refused) break;
+        }
+}
+
 static void a_constant_without_memory_is_null(void **state)
 {
     (void)state;
@@ -56,6 +84,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_failed_allocation_ends_a_compilation_with_a_reason),
+        cmocka_unit_test(a_failed_allocation_ends_a_notation_with_a_reason),
         cmocka_unit_test(a_constant_without_memory_is_null),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

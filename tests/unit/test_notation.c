@@ -15,7 +15,7 @@ struct reading {
     const char *written, *read;
 };
 
-static struct notation read_text(struct arena *arena, const struct notation_names *names, const char *text,
+static struct notation read_text(struct arena *arena, struct notation_names *names, const char *text,
                                  bool equation, fbd_errors *errors)
 {
     const struct scope scope = notation_scope(names);
@@ -31,7 +31,7 @@ static int compare(const struct reading *rows, size_t count, bool equation)
     for (size_t i = 0; i < count; i++) {
         struct arena arena = {0};
         fbd_errors *errors = fbd_errors_new();
-        struct notation notation = read_text(&arena, &derivation, rows[i].written, equation, errors);
+        struct notation notation = read_text(&arena, derivation(), rows[i].written, equation, errors);
         const char *read = notation.text ? notation.text : "(refused)";
         if (strcmp(read, rows[i].read) != 0 || (notation.changed == (strcmp(read, rows[i].written) == 0))) {
             print_error("`%s` was read as `%s`, not `%s`\n", rows[i].written, read, rows[i].read);
@@ -265,7 +265,7 @@ static void what_can_be_read_in_two_ways_is_refused(void **unused)
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
         struct arena arena = {0};
         fbd_errors *errors = fbd_errors_new();
-        struct notation notation = read_text(&arena, &derivation, rows[i].written, true, errors);
+        struct notation notation = read_text(&arena, derivation(), rows[i].written, true, errors);
         const fbd_error note = fbd_errors_get(errors, 0);
         char all[400] = "";
         if (note.id) snprintf(all, sizeof all, "%s %s", note.message, note.hint ? note.hint : "");
@@ -288,7 +288,7 @@ static void letters_that_are_two_products_are_refused(void **unused)
                                                 {"ab", DIM_INIT(0, 0, 0)},  {"bc", DIM_INIT(0, 0, 0)},
                                                 {"c", DIM_INIT(0, 0, 0)},   {"N1", DIM_INIT(1, 1, -2)},
                                                 {"N_1", DIM_INIT(1, 1, -2)}};
-    const struct notation_names names = NAMES(list);
+    struct notation_names names = NAMES(list);
     static const struct reading rows[] = {{"y = abc", "a*bc"},
                                           {"y = abc", "ab*c"},
                                           {"y = F_N1", "N1"},

@@ -14,31 +14,38 @@
 
 #include <string.h>
 
-static const char right_file[] = "fbd: 1\n"
-                                 "title: everything at once\n"
-                                 "parameters: {w: 2*phi, phi: 30 deg, unused: 3}\n"
-                                 "ground: {points: {A: [0, 1]}, lines: {ramp: {along: phi, through: A}}}\n"
-                                 "bodies:\n"
-                                 "  block:\n"
-                                 "    mass: 2 kg\n"
-                                 "    motion: {slide: {line: ramp}}\n"
-                                 "    forces: [gravity, normal, {friction: 0.3}, {applied: sin(w)*1[N]}]\n"
-                                 "    hand: >\n"
-                                 "      m*v_dot =\n"
-                                 "      -m*g*sin(phi) - mu*N\n"
-                                 "  pendulum:\n"
-                                 "    parts:\n"
-                                 "      rod: &rod {shape: rod, mass: 1, from: [0, 0], to: [0, -1]}\n"
-                                 "      twin: *rod\n"
-                                 "    motion: {pivot: {point: rod.left}}\n"
-                                 "    moments: [{damper: 1}, {applied: {name: drive, value: 2}}]\n"
-                                 "simulate: {until: 2 s, events: [block.x = 1]}\n";
+static const char right_file[] =
+    "fbd: 1\n"
+    "title: everything at once\n"
+    "parameters: {w: 2*phi, phi: 30 deg, unused: 3}\n"
+    "ground: {points: {A: [0, 1]}, lines: {ramp: {along: phi, through: A}}}\n"
+    "bodies:\n"
+    "  block:\n"
+    "    mass: 2 kg\n"
+    "    motion: {slide: {line: ramp}}\n"
+    "    forces: [gravity, normal, {friction: 0.3}, {applied: \"sin(w)*1[N]\"}]\n"
+    "    hand: >\n"
+    "      m*v_dot =\n"
+    "      -m*g*sin(phi) - mu*N\n"
+    "  pendulum:\n"
+    "    parts:\n"
+    "      rod: &rod {shape: rod, mass: 1, from: [0, 0], to: [0, -1]}\n"
+    "      twin: *rod\n"
+    "    motion: {pivot: {point: rod.left}}\n"
+    "    moments: [{damper: 1}, {applied: {name: drive, value: 2}}]\n"
+    "    hand:\n"
+    "      - equation: $I_O\\ddot\\theta = -mgL\\sin\\theta - 1[N*m*s] \\dot\\theta$\n"
+    "        when: ω > 0 and |θ| < 20°\n"
+    "      - L = 2mL/m\n"
+    "simulate: {until: 2 s, events: [block.x = 1]}\n";
 
-static const char wrong_file[] = "fbd: 1\n"
-                                 "bodies:\n"
-                                 "  block: {mas: 2 kg, motion: {slide: {along: fi}}, forces: [gravty]}\n"
-                                 "  block: {mass: 2 N, motion: slide}\n"
-                                 "cupplings: []\n";
+static const char wrong_file[] =
+    "fbd: 1\n"
+    "bodies:\n"
+    "  ball: {mass: 2 kg, motion: slide, hand: [ẍ = mg/m sin x, mẍ = \\pm z, 'mẍ = ab', 'ma = |x']}\n"
+    "  block: {mas: 2 kg, motion: {slide: {along: fi}}, forces: [gravty]}\n"
+    "  block: {mass: 2 N, motion: slide}\n"
+    "cupplings: []\n";
 
 static const char broken_file[] = "fbd: 1\nbodies:\n  block: {mass: 2 kg, motion: [slide}\n";
 
