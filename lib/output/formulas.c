@@ -5,6 +5,22 @@
 #include <string.h>
 
 #include "output/laws.h"
+#include "output/moments.h"
+
+bool equations_cut_free(const struct fbd_model *model, bool components)
+{
+    enum { most_bodies = 100 };
+    return model->body_count <= most_bodies && (components || model->tree);
+}
+
+bool equation_in_symbols(const struct fbd_model *model, const struct equation *equation, bool components)
+{
+    const fbd_equation *e = &equation->public;
+    const struct model_body *body = &model->bodies[equation->body];
+    if (e->inertia == 0 && e->sum == 0) return false;
+    return !equation->cut_free || components || body->count == 0 ||
+           (body->place.link > 0 && equations_cut_free(model, false));
+}
 
 bool formulas_begin(struct formulas *formulas, struct fbd_state *state)
 {
@@ -74,12 +90,10 @@ static bool is_of_moments(const struct equation *equation)
 
 /* Does the force act along the line of the slide at all times? Those that are functions of its coordinate, friction
  * among them. */
-static bool stays_along(const struct formulas *formulas, const struct equation *equation,
-                        const struct arrow *arrow)
+static bool stays_on_slide(const struct fbd_model *model, const struct equation *equation,
+                           const struct arrow *arrow)
 {
-    const struct fbd_model *model = formulas->state->model;
-    if (equation->cut_free || model->bodies[equation->body].kind != motion_slide || arrow->load < 0)
-        return false;
+    if (model->bodies[equation->body].kind != motion_slide || arrow->load < 0) return false;
     const struct model_load *load = &model->loads[arrow->load];
     if (load->body != equation->body || load->linked) return false;
     switch (load->source->kind) {
@@ -91,6 +105,12 @@ static bool stays_along(const struct formulas *formulas, const struct equation *
     case load_applied: return !load->source->angle.expr && !load->source->fx.expr && !load->source->fy.expr;
     default: return false;
     }
+}
+
+static bool stays_along(const struct formulas *formulas, const struct equation *equation,
+                        const struct arrow *arrow)
+{
+    return !equation->cut_free && stays_on_slide(formulas->state->model, equation, arrow);
 }
 
 /* Does a moment have a share in the equation of forces, along a curve? */
@@ -114,8 +134,36 @@ static const char *part_by_symbol(struct formulas *formulas, const struct equati
     if (is_of_moments(equation))
         return arena_printf(&formulas->arena, "M_%c(%s)", inertia[strlen(inertia) - 1], symbol);
     if (turns_along(formulas, equation)) return arena_printf(&formulas->arena, "Q_s(%s)", symbol);
-    if (strchr(symbol, ' ')) return arena_printf(&formulas->arena, "(%s)_%s", symbol, axis);
-    return arena_printf(&formulas->arena, strchr(symbol, '_') ? "%s%s" : "%s_%s", symbol, axis);
+    return component_by_symbol(&formulas->arena, symbol, axis);
+}
+
+/* Of a body on a slope of the ground a force along it, or across it, in an equation along x or y of the world: N cos(phi). At
+ * one state N is the length of its arrow; in general the component along +x of the slide, or away from its surface. */
+static const char *part_on_slope(struct formulas *formulas, const struct equation *equation,
+                                 const struct arrow *arrow, const char *symbol, double value, double sign)
+{
+    const struct fbd_model *model = formulas->state->model;
+    const struct model_body *body = &model->bodies[equation->body];
+    const bool along = equation->cut_free && stays_on_slide(model, equation, arrow);
+    const bool slope = body->kind == motion_slide && body->parent == ground_body && body->e.x != 0 &&
+                       body->e.y != 0 && equation->cut_free && equation->part < 2;
+    if (!slope || (!along && !arrow_is_of_joint(model, equation->body, arrow))) return "";
+    const struct vec d = along ? body->e : body->n;
+    const bool cosine = along == (equation->part == 0);
+    const double factor = equation->part == 0 ? d.x : d.y, trig = cosine ? body->e.x : body->e.y;
+    const double all = (formulas->general ? sign * factor : value) / trig;
+    const char *angle = slope_of(formulas, body);
+    return angle ? arena_printf(&formulas->arena, "%s%s %s(%s)", all < 0 ? "-" : "", symbol,
+                                cosine ? "cos" : "sin", angle)
+                 : NULL;
+}
+
+/* The moment or the component of a force in the form that says most; "" where there is none. */
+static const char *part_in_full(struct formulas *formulas, const struct equation *equation,
+                                const struct arrow *arrow, const char *symbol, double value, double sign)
+{
+    return is_of_moments(equation) ? moment_by_arm(formulas, equation, arrow, symbol, sign)
+                                   : part_on_slope(formulas, equation, arrow, symbol, value, sign);
 }
 
 /* A force by its symbol. At one state a symbol that stands by itself is the size of its arrow, and has the sign of the
@@ -129,8 +177,11 @@ static const char *term_by_symbol(struct formulas *formulas, const struct equati
     const bool bare = moments   ? symbol->moment
                       : general ? stays_along(formulas, equation, arrow)
                                 : fabs(fabs(value) - whole) <= 1e-9 * whole;
+    const char *full = "";
+    if (!bare && text) full = part_in_full(formulas, equation, arrow, text, value, symbol->opposite ? -1 : 1);
+    if (!full || full[0]) return full;
     if (!bare)
-        text = part_by_symbol(formulas, equation, text);
+        text = text ? part_by_symbol(formulas, equation, text) : NULL;
     else if (!general)
         minus = value < 0 ? "-" : "";
     return text ? arena_printf(&formulas->arena, "%s%s", minus, text) : NULL;
