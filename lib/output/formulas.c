@@ -38,10 +38,10 @@ void formulas_end(struct formulas *formulas)
 /* ---- laws */
 
 /* The slope of a slide: the parameter that has its value, else in degrees. */
-static const char *slope_of(struct formulas *formulas, const struct model_body *body)
+static const char *slope_of(struct formulas *formulas, struct vec e)
 {
     const struct scene *scene = formulas->state->model->scene;
-    double slope = atan2(body->e.y, body->e.x);
+    double slope = atan2(e.y, e.x);
     for (size_t i = 0; i < scene->parameter_count; i++)
         if (dim_equal(scene->parameters[i].dim, DIM_NONE) && !scene->parameters[i].input &&
             fabs(scene->parameters[i].value - slope) < 1e-12)
@@ -64,7 +64,7 @@ static const char *law_of(struct formulas *formulas, const struct equation *equa
     default: return "";
     }
     struct law_names names = {symbol_of_mass(model, equation->body, &formulas->arena),
-                              slope_of(formulas, &model->bodies[equation->body])};
+                              slope_of(formulas, model->bodies[equation->body].e)};
     struct text law = {0};
     if (names.mass && names.along) law_write(&law, model, equation, term, &names);
     const char *kept = law.data ? arena_text(&formulas->arena, law.data, law.length) : "";
@@ -137,22 +137,55 @@ static const char *part_by_symbol(struct formulas *formulas, const struct equati
     return component_by_symbol(&formulas->arena, symbol, axis);
 }
 
-/* Of a body on a slope of the ground a force along it, or across it, in an equation along x or y of the world: N cos(phi). At
- * one state N is the length of its arrow; in general the component along +x of the slide, or away from its surface. */
+/* A line of the ground along which or across which a force acts. */
+struct slope {
+    struct vec e, d; /* its direction; that of the force where the symbol is positive in general */
+    bool along;
+};
+
+/* That of a slide: in general its symbols are components along +x, or away from the surface. */
+static bool slope_of_slide(const struct fbd_model *model, const struct equation *equation,
+                           const struct arrow *arrow, struct slope *slope)
+{
+    const struct model_body *body = &model->bodies[equation->body];
+    if (body->kind != motion_slide || body->parent != ground_body) return false;
+    slope->e = body->e;
+    slope->along = stays_on_slide(model, equation, arrow);
+    slope->d = slope->along ? body->e : body->n;
+    return slope->along || arrow_is_of_joint(model, equation->body, arrow);
+}
+
+/* That of the line on which a body rolls, or which it touches. */
+static bool slope_of_tie(const struct fbd_model *model, const struct equation *equation,
+                         const struct arrow *arrow, struct slope *slope)
+{
+    struct vec e;
+    if (!ground_line_of_force(model, equation->body, arrow->name, &e)) return false;
+    const double size = vec_norm(arrow->force), along = fabs(vec_dot(e, arrow->force)),
+                 across = fabs(vec_cross(e, arrow->force));
+    *slope =
+        (struct slope){.e = {fabs(e.x), fabs(e.y)}, .along = along > across}; /* signs are those of values */
+    return fmin(along, across) <= 1e-9 * size;
+}
+
+/* Of a force along a slope, or across it, the component along x or y of the world: N cos(phi). At one state N is the length of
+ * its arrow. */
 static const char *part_on_slope(struct formulas *formulas, const struct equation *equation,
                                  const struct arrow *arrow, const char *symbol, double value, double sign)
 {
     const struct fbd_model *model = formulas->state->model;
     const struct model_body *body = &model->bodies[equation->body];
-    const bool along = equation->cut_free && stays_on_slide(model, equation, arrow);
-    const bool slope = body->kind == motion_slide && body->parent == ground_body && body->e.x != 0 &&
-                       body->e.y != 0 && equation->cut_free && equation->part < 2;
-    if (!slope || (!along && !arrow_is_of_joint(model, equation->body, arrow))) return "";
-    const struct vec d = along ? body->e : body->n;
-    const bool cosine = along == (equation->part == 0);
-    const double factor = equation->part == 0 ? d.x : d.y, trig = cosine ? body->e.x : body->e.y;
+    const bool world = equation->cut_free || (body->parent == ground_body &&
+                                              (body->kind == motion_particle || body->kind == motion_planar));
+    struct slope slope;
+    if (!world || (!slope_of_slide(model, equation, arrow, &slope) &&
+                   (formulas->general || !slope_of_tie(model, equation, arrow, &slope))))
+        return "";
+    if (slope.e.x == 0 || slope.e.y == 0) return "";
+    const bool cosine = slope.along == (equation->part == 0);
+    const double factor = equation->part == 0 ? slope.d.x : slope.d.y, trig = cosine ? slope.e.x : slope.e.y;
     const double all = (formulas->general ? sign * factor : value) / trig;
-    const char *angle = slope_of(formulas, body);
+    const char *angle = slope_of(formulas, slope.e);
     return angle ? arena_printf(&formulas->arena, "%s%s %s(%s)", all < 0 ? "-" : "", symbol,
                                 cosine ? "cos" : "sin", angle)
                  : NULL;

@@ -110,6 +110,23 @@ static double rim_of(const struct fbd_model *model, int b, const char *name, con
     return 0;
 }
 
+bool ground_line_of_force(const struct fbd_model *model, int b, const char *name, struct vec *e)
+{
+    int end;
+    const struct tie *tie = tie_of(model, b, name, &end);
+    if (!tie) return false;
+    *e = tie->e;
+    if (tie->kind == constraint_roll) return tie->end[1].link == 0;
+    if (tie->kind != constraint_contact || tie->meeting < 0) return false;
+    const struct meeting *meeting = &model->tree->meetings[tie->meeting];
+    for (int k = 0; k < 2; k++) {
+        const struct contact_shape *shape = &meeting->shape[k];
+        *e = shape->e;
+        if (shape->kind == contact_line && shape->link == 0) return true;
+    }
+    return false;
+}
+
 /* ---- the moment */
 
 /* An arm with its components in axes that turn with the body, or in those of the world. */
@@ -117,6 +134,11 @@ struct arm {
     struct vec d;
     const char *angle; /* of those axes; NULL: those of the world */
 };
+
+static const char *arm_name(struct formulas *formulas, const struct model_body *body, double d)
+{
+    return is_length(fabs(d), body->L) ? "L" : length_name(formulas, fabs(d));
+}
 
 /* Is the angle of the body in the world its coordinate? */
 static const char *angle_name(const struct fbd_model *model, const struct model_body *body,
@@ -153,14 +175,35 @@ static struct arm arm_of(const struct fbd_model *model, const struct model_body 
     return arm;
 }
 
+/* u cos(theta) - v sin(theta), or u sin(theta) + v cos(theta): a component of the arm in the world, times a force. */
+static const char *by_one_component(struct formulas *formulas, const struct model_body *body,
+                                    const struct arm *arm, const char *symbol, double force, bool upright)
+{
+    struct arena *arena = &formulas->arena;
+    const char *u = arm_name(formulas, body, arm->d.x), *v = arm_name(formulas, body, arm->d.y);
+    if (!u || !v) return NULL;
+    /* d_x F_y, or -d_y F_x */
+    const double U = upright ? force * arm->d.x : -force * arm->d.x,
+                 V = upright ? -force * arm->d.y : -force * arm->d.y;
+    const char *first = upright ? "cos" : "sin", *second = upright ? "sin" : "cos";
+    if (!arm->angle) {
+        const double d = upright ? U : V;
+        if (d == 0) return "";
+        return arena_printf(arena, "%s%s %s", d < 0 ? "-" : "", upright ? u : v, symbol);
+    }
+    if (V == 0) return arena_printf(arena, "%s%s %s %s(%s)", U < 0 ? "-" : "", u, symbol, first, arm->angle);
+    if (U == 0) return arena_printf(arena, "%s%s %s %s(%s)", V < 0 ? "-" : "", v, symbol, second, arm->angle);
+    return arena_printf(arena, "%s%s (%s %s(%s) %c %s %s(%s))", U < 0 ? "-" : "", symbol, u, first,
+                        arm->angle, (U < 0) == (V < 0) ? '+' : '-', v, second, arm->angle);
+}
+
 /* d_x F_y - d_y F_x where F has the components Fx and Fy, and so with axes that turn. */
-static const char *by_arm(struct formulas *formulas, const struct model_body *body, const struct arm *arm,
-                          const char *symbol, double sign)
+static const char *by_components(struct formulas *formulas, const struct model_body *body,
+                                 const struct arm *arm, const char *symbol, double sign)
 {
     struct arena *arena = &formulas->arena;
     const char *x = component_by_symbol(arena, symbol, "x"), *y = component_by_symbol(arena, symbol, "y");
-    const char *u = is_length(fabs(arm->d.x), body->L) ? "L" : length_name(formulas, fabs(arm->d.x));
-    const char *v = is_length(fabs(arm->d.y), body->L) ? "L" : length_name(formulas, fabs(arm->d.y));
+    const char *u = arm_name(formulas, body, arm->d.x), *v = arm_name(formulas, body, arm->d.y);
     if (!x || !y || !u || !v) return NULL;
     const char *across = y, *along = x;
     if (arm->angle) {
@@ -175,6 +218,19 @@ static const char *by_arm(struct formulas *formulas, const struct model_body *bo
                         (dx < 0) == (dy < 0) ? '+' : '-', v, along);
 }
 
+/* At one state a force along an axis of the world is its symbol alone. */
+static const char *by_arm(struct formulas *formulas, const struct model_body *body, const struct arm *arm,
+                          const struct arrow *arrow, const char *symbol, double sign)
+{
+    const struct vec F = arrow->force;
+    const double zero = length_tolerance * vec_norm(F);
+    if (!formulas->general && fabs(F.x) <= zero)
+        return by_one_component(formulas, body, arm, symbol, F.y, true);
+    if (!formulas->general && fabs(F.y) <= zero)
+        return by_one_component(formulas, body, arm, symbol, F.x, false);
+    return strchr(symbol, ' ') ? "" : by_components(formulas, body, arm, symbol, sign);
+}
+
 const char *moment_by_arm(struct formulas *formulas, const struct equation *equation,
                           const struct arrow *arrow, const char *symbol, double sign)
 {
@@ -185,14 +241,15 @@ const char *moment_by_arm(struct formulas *formulas, const struct equation *equa
     const bool about_axis = equation->public.inertia_name[2] == 'O';
     const struct vec about = about_axis ? pose.origin : point_motion(body, &pose, body->inertia.G).p;
     if (arrow->couple != 0 || strchr(symbol, '.')) return "";
-    if (at_fixed_point(model, equation->body, arrow) && !strchr(symbol, ' ')) {
-        const struct arm arm = arm_of(model, body, &at, about, arrow->point);
-        return arm.d.x == 0 && arm.d.y == 0 ? "" : by_arm(formulas, body, &arm, symbol, sign);
-    }
     const struct tie *tie;
     const double r = rim_of(model, equation->body, arrow->name, &tie), moment = arrow_moment(arrow, about);
     const double size = r * vec_norm(arrow->force);
     const bool pulls = tie && (tie->kind == constraint_rope || tie->law->strands);
+    const bool meets = tie && tie->kind == constraint_contact && r == 0 && !formulas->general;
+    if (at_fixed_point(model, equation->body, arrow) || meets) {
+        const struct arm arm = arm_of(model, body, &at, about, arrow->point);
+        return arm.d.x == 0 && arm.d.y == 0 ? "" : by_arm(formulas, body, &arm, arrow, symbol, sign);
+    }
     if (size == 0 || fabs(fabs(moment) - size) > 1e-9 * size || (formulas->general && !pulls)) return "";
     const char *name = length_name(formulas, r);
     return name ? arena_printf(&formulas->arena, "%s%s %s", moment < 0 ? "-" : "", name, symbol) : NULL;

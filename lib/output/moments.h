@@ -18,6 +18,10 @@
 /* The component of a force along an axis: R_1x, (mu_k N)_x. NULL when memory is out. */
 const char *component_by_symbol(struct arena *arena, const char *symbol, const char *axis);
 
+/* The direction of the line of the ground on which body b rolls, or which it touches, by the force that is called so; false for
+ * none. */
+bool ground_line_of_force(const struct fbd_model *model, int b, const char *name, struct vec *e);
+
 /* The moment of the force that the symbol stands for, where the arrow is `sign` times that; "" where it has no such form: then
  * it is M_G(..). NULL when memory is out. */
 const char *moment_by_arm(struct formulas *formulas, const struct equation *equation,
