@@ -119,8 +119,7 @@ struct symbolic {
 /* A state is made ready by what looks at it: that is done to a copy. */
 static bool symbolic_begin(struct symbolic *symbolic, const fbd_state *start)
 {
-    enum { most_bodies = 100 }; /* numbering takes the square of it, and nobody reads that many equations */
-    if (start->model->body_count > most_bodies) return true;
+    if (!equations_cut_free(start->model, true)) return true;
     fbd_state *copy = state_new(start->model);
     if (!copy) return false;
     state_copy(copy, start);
@@ -274,7 +273,8 @@ static void write_equations(struct text *text, struct symbolic *symbolic, const 
         json_comma(text, (size_t)k);
         write_coordinate_equation(text, symbolic, record, b, k);
     }
-    if (record->components || body->count == 0) write_newton_equations(text, symbolic, record, b);
+    const bool joined = body->place.link > 0 && equations_cut_free(record->model, false);
+    if (record->components || body->count == 0 || joined) write_newton_equations(text, symbolic, record, b);
     text_add(text, "],");
 }
 

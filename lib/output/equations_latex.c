@@ -75,14 +75,14 @@ static char *latex_of(fbd_state *state, bool components)
     if (!state) return NULL;
     struct text text = {0};
     struct formulas formulas;
-    fbd_equations *all = assemble(state, components);
+    fbd_equations *all = assemble(state, true);
     bool begun = formulas_begin(&formulas, state);
     if (all && begun) {
         text_add(&text, "% Equations at t = ");
         text_number(&text, state->t, 9);
         text_add(&text, " s; needs amsmath\n");
         for (size_t i = 0; i < all->count; i++)
-            if (all->equations[i].public.inertia != 0 || all->equations[i].public.sum != 0)
+            if (equation_in_symbols(state->model, &all->equations[i], components))
                 write_equation(&text, &formulas, &all->equations[i]);
     } else {
         text.failed = true;

@@ -6,6 +6,7 @@
 
 #include "dynamics/friction.h"
 #include "output/equations.h"
+#include "output/formulas.h"
 #include "output/laws.h"
 #include "output/terms.h"
 
@@ -97,6 +98,35 @@ static void write_states(struct text *text, const struct fbd_state *state)
     }
 }
 
+static void write_line(struct text *text, struct formulas *formulas, const struct equation *equation)
+{
+    const char *left = formula_left(formulas, equation), *right = formula_right(formulas, equation);
+    text->failed |= !left || !right;
+    if (left && right) text_printf(text, "    %s = %s\n", left, right);
+}
+
+/* Of bodies that are joined, Newton's and Euler's equations with all reactions, a line each. */
+static void write_cut_free(struct text *text, struct fbd_state *state, bool components)
+{
+    const struct fbd_model *model = state->model;
+    if (!equations_cut_free(model, components)) return;
+    struct formulas formulas;
+    fbd_equations *all = assemble(state, true);
+    if (!formulas_begin(&formulas, state) || !all) text->failed = true;
+    if (!text->failed) text_add(text, "Cut free, in symbols at this time\n");
+    int last = -1;
+    for (size_t i = 0; !text->failed && i < all->count; i++) {
+        const struct equation *equation = &all->equations[i];
+        if (!equation_in_symbols(model, equation, components) || !equation->cut_free) continue;
+        if (equation->body != last) text_printf(text, "  %s\n", equation->public.body);
+        last = equation->body;
+        write_line(text, &formulas, equation);
+    }
+    text->failed |= formulas.arena.failed;
+    formulas_end(&formulas);
+    fbd_equations_free(all);
+}
+
 void equations_write(struct text *text, struct fbd_state *state, bool components)
 {
     fbd_equations *all = assemble(state, components);
@@ -115,6 +145,7 @@ void equations_write(struct text *text, struct fbd_state *state, bool components
     }
     write_states(text, state);
     fbd_equations_free(all);
+    write_cut_free(text, state, components);
 }
 
 static char *text_of(struct fbd_state *state, bool components)

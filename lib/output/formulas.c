@@ -5,6 +5,22 @@
 #include <string.h>
 
 #include "output/laws.h"
+#include "output/moments.h"
+
+bool equations_cut_free(const struct fbd_model *model, bool components)
+{
+    enum { most_bodies = 100 };
+    return model->body_count <= most_bodies && (components || model->tree);
+}
+
+bool equation_in_symbols(const struct fbd_model *model, const struct equation *equation, bool components)
+{
+    const fbd_equation *e = &equation->public;
+    const struct model_body *body = &model->bodies[equation->body];
+    if (e->inertia == 0 && e->sum == 0) return false;
+    return !equation->cut_free || components || body->count == 0 ||
+           (body->place.link > 0 && equations_cut_free(model, false));
+}
 
 bool formulas_begin(struct formulas *formulas, struct fbd_state *state)
 {
@@ -22,10 +38,10 @@ void formulas_end(struct formulas *formulas)
 /* ---- laws */
 
 /* The slope of a slide: the parameter that has its value, else in degrees. */
-static const char *slope_of(struct formulas *formulas, const struct model_body *body)
+static const char *slope_of(struct formulas *formulas, struct vec e)
 {
     const struct scene *scene = formulas->state->model->scene;
-    double slope = atan2(body->e.y, body->e.x);
+    double slope = atan2(e.y, e.x);
     for (size_t i = 0; i < scene->parameter_count; i++)
         if (dim_equal(scene->parameters[i].dim, DIM_NONE) && !scene->parameters[i].input &&
             fabs(scene->parameters[i].value - slope) < 1e-12)
@@ -48,7 +64,7 @@ static const char *law_of(struct formulas *formulas, const struct equation *equa
     default: return "";
     }
     struct law_names names = {symbol_of_mass(model, equation->body, &formulas->arena),
-                              slope_of(formulas, &model->bodies[equation->body])};
+                              slope_of(formulas, model->bodies[equation->body].e)};
     struct text law = {0};
     if (names.mass && names.along) law_write(&law, model, equation, term, &names);
     const char *kept = law.data ? arena_text(&formulas->arena, law.data, law.length) : "";
@@ -74,12 +90,10 @@ static bool is_of_moments(const struct equation *equation)
 
 /* Does the force act along the line of the slide at all times? Those that are functions of its coordinate, friction
  * among them. */
-static bool stays_along(const struct formulas *formulas, const struct equation *equation,
-                        const struct arrow *arrow)
+static bool stays_on_slide(const struct fbd_model *model, const struct equation *equation,
+                           const struct arrow *arrow)
 {
-    const struct fbd_model *model = formulas->state->model;
-    if (equation->cut_free || model->bodies[equation->body].kind != motion_slide || arrow->load < 0)
-        return false;
+    if (model->bodies[equation->body].kind != motion_slide || arrow->load < 0) return false;
     const struct model_load *load = &model->loads[arrow->load];
     if (load->body != equation->body || load->linked) return false;
     switch (load->source->kind) {
@@ -91,6 +105,12 @@ static bool stays_along(const struct formulas *formulas, const struct equation *
     case load_applied: return !load->source->angle.expr && !load->source->fx.expr && !load->source->fy.expr;
     default: return false;
     }
+}
+
+static bool stays_along(const struct formulas *formulas, const struct equation *equation,
+                        const struct arrow *arrow)
+{
+    return !equation->cut_free && stays_on_slide(formulas->state->model, equation, arrow);
 }
 
 /* Does a moment have a share in the equation of forces, along a curve? */
@@ -114,8 +134,69 @@ static const char *part_by_symbol(struct formulas *formulas, const struct equati
     if (is_of_moments(equation))
         return arena_printf(&formulas->arena, "M_%c(%s)", inertia[strlen(inertia) - 1], symbol);
     if (turns_along(formulas, equation)) return arena_printf(&formulas->arena, "Q_s(%s)", symbol);
-    if (strchr(symbol, ' ')) return arena_printf(&formulas->arena, "(%s)_%s", symbol, axis);
-    return arena_printf(&formulas->arena, strchr(symbol, '_') ? "%s%s" : "%s_%s", symbol, axis);
+    return component_by_symbol(&formulas->arena, symbol, axis);
+}
+
+/* A line of the ground along which or across which a force acts. */
+struct slope {
+    struct vec e, d; /* its direction; that of the force where the symbol is positive in general */
+    bool along;
+};
+
+/* That of a slide: in general its symbols are components along +x, or away from the surface. */
+static bool slope_of_slide(const struct fbd_model *model, const struct equation *equation,
+                           const struct arrow *arrow, struct slope *slope)
+{
+    const struct model_body *body = &model->bodies[equation->body];
+    if (body->kind != motion_slide || body->parent != ground_body) return false;
+    slope->e = body->e;
+    slope->along = stays_on_slide(model, equation, arrow);
+    slope->d = slope->along ? body->e : body->n;
+    return slope->along || arrow_is_of_joint(model, equation->body, arrow);
+}
+
+/* That of the line on which a body rolls, or which it touches. */
+static bool slope_of_tie(const struct fbd_model *model, const struct equation *equation,
+                         const struct arrow *arrow, struct slope *slope)
+{
+    struct vec e;
+    if (!ground_line_of_force(model, equation->body, arrow->name, &e)) return false;
+    const double size = vec_norm(arrow->force), along = fabs(vec_dot(e, arrow->force)),
+                 across = fabs(vec_cross(e, arrow->force));
+    *slope =
+        (struct slope){.e = {fabs(e.x), fabs(e.y)}, .along = along > across}; /* signs are those of values */
+    return fmin(along, across) <= 1e-9 * size;
+}
+
+/* Of a force along a slope, or across it, the component along x or y of the world: N cos(phi). At one state N is the length of
+ * its arrow. */
+static const char *part_on_slope(struct formulas *formulas, const struct equation *equation,
+                                 const struct arrow *arrow, const char *symbol, double value, double sign)
+{
+    const struct fbd_model *model = formulas->state->model;
+    const struct model_body *body = &model->bodies[equation->body];
+    const bool world = equation->cut_free || (body->parent == ground_body &&
+                                              (body->kind == motion_particle || body->kind == motion_planar));
+    struct slope slope;
+    if (!world || (!slope_of_slide(model, equation, arrow, &slope) &&
+                   (formulas->general || !slope_of_tie(model, equation, arrow, &slope))))
+        return "";
+    if (slope.e.x == 0 || slope.e.y == 0) return "";
+    const bool cosine = slope.along == (equation->part == 0);
+    const double factor = equation->part == 0 ? slope.d.x : slope.d.y, trig = cosine ? slope.e.x : slope.e.y;
+    const double all = (formulas->general ? sign * factor : value) / trig;
+    const char *angle = slope_of(formulas, slope.e);
+    return angle ? arena_printf(&formulas->arena, "%s%s %s(%s)", all < 0 ? "-" : "", symbol,
+                                cosine ? "cos" : "sin", angle)
+                 : NULL;
+}
+
+/* The moment or the component of a force in the form that says most; "" where there is none. */
+static const char *part_in_full(struct formulas *formulas, const struct equation *equation,
+                                const struct arrow *arrow, const char *symbol, double value, double sign)
+{
+    return is_of_moments(equation) ? moment_by_arm(formulas, equation, arrow, symbol, sign)
+                                   : part_on_slope(formulas, equation, arrow, symbol, value, sign);
 }
 
 /* A force by its symbol. At one state a symbol that stands by itself is the size of its arrow, and has the sign of the
@@ -129,8 +210,11 @@ static const char *term_by_symbol(struct formulas *formulas, const struct equati
     const bool bare = moments   ? symbol->moment
                       : general ? stays_along(formulas, equation, arrow)
                                 : fabs(fabs(value) - whole) <= 1e-9 * whole;
+    const char *full = "";
+    if (!bare && text) full = part_in_full(formulas, equation, arrow, text, value, symbol->opposite ? -1 : 1);
+    if (!full || full[0]) return full;
     if (!bare)
-        text = part_by_symbol(formulas, equation, text);
+        text = text ? part_by_symbol(formulas, equation, text) : NULL;
     else if (!general)
         minus = value < 0 ? "-" : "";
     return text ? arena_printf(&formulas->arena, "%s%s", minus, text) : NULL;

@@ -22,6 +22,13 @@ struct formulas {
     bool general; /* for every time of a run, not for this state alone */
 };
 
+/* Are there bodies whose equations, cut free, are written in symbols: joined ones, with `components` all? Numbering takes the
+ * square of the bodies, and nobody reads that of a hundred. */
+bool equations_cut_free(const struct fbd_model *model, bool components);
+
+/* Is the equation one that is written in symbols? */
+bool equation_in_symbols(const struct fbd_model *model, const struct equation *equation, bool components);
+
 /* False when memory is out; to be ended in any case. */
 bool formulas_begin(struct formulas *formulas, struct fbd_state *state);
 void formulas_end(struct formulas *formulas);

@@ -85,11 +85,12 @@ class Formula:
 
     def product(self):
         value = self.factor()
-        while self.next() and self.next() not in "+-)|/_":
-            value = scaled(value, self.factor())
-        if self.next() == "/":
-            self.take()
-            value /= self.factor()
+        while self.next() and self.next() not in "+-)|_":
+            if self.next() == "/":
+                self.take()
+                value = scaled(1 / self.factor(), value)
+            else:
+                value = scaled(value, self.factor())
         if self.next() == "|" and self.bars == 0:
             value = scaled(value, self.product())
         return value

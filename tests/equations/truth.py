@@ -139,6 +139,33 @@ class Scene:
                                {**{q: values[q] for q in "xys" if q in values}, coordinate: values[coordinate] + step})
         return (at(h) - at(-h)) / (2 * h)
 
+    def angle(self, b, values):
+        """Of the frame of a body in the world, by the angles of all that it moves on."""
+        if b is None:
+            return 0
+        motion = self.file["bodies"][b].get("motion", "")
+        kind, keys = self.kind(b), next(iter(motion.values())) if isinstance(motion, dict) else {}
+        keys = keys if isinstance(keys, dict) else {}
+        if kind == "particle":
+            return 0
+        if kind in ("pivot", "planar"):
+            own = values.get(f"{b}.theta")
+        elif kind == "weld":
+            own = self.number(keys["angle"], "rad") if "angle" in keys else 0
+        else:
+            own = self.along(b) if kind == "slide" else None
+        below = self.angle(self.parents[b], values)
+        if own is None or below is None:
+            raise Unbound("angle")
+        return below + own
+
+    def surface(self, b, e, force):
+        """The component away from the side of a slide that its surface pushes to: up, unless it says right."""
+        entry = next((entry for entry in self.entries[b].values() if entry.kind == "normal"), None)
+        side = entry.keys.get("side") if entry else None
+        flipped = side == "right" or side in (None, "up") and e[0] < -1e-12
+        return -cross(e, force) if flipped else cross(e, force)
+
     def vector(self, pair):
         found = tuple(self.number(text, "m/s") for text in pair)
         return None if None in found else found
@@ -283,6 +310,54 @@ class Judge:
         self.use(symbol, b, name, sign, moment)
         return size if moment else self.component(place, equation, arrow, "x")
 
+    def is_compound(self, place, equation, name, piece, label):
+        match = FORCE.fullmatch(piece)
+        if not match:
+            return True
+        force = equation.about is not None and math.hypot(*place.arrows[equation.body, name].force) > 0
+        return bool(match["plain"] and force)
+
+    def compound(self, place, equation, name, sign, piece, value, label):
+        """A force with its arm, or along or across a slope: l (R_y cos(theta) - R_x sin(theta)), r f, N cos(phi)."""
+        scene, b, arrow = self.scene, equation.body, place.arrows[equation.body, name]
+        known = {"sin", "cos", "deg", "angle", "L", "theta"} | set(scene.file.get("parameters", {}))
+        known -= {"mu_k", label}
+        words = [w for w in re.findall(r"[A-Za-z]\w*", piece) if w not in known]
+        bases = {label} if label else {re.sub(r"_?[xy]$", "", w) if re.search(r"(_|_\d+)[xy]$", w) else w for w in words}
+        symbol = " ".join(sorted(bases)) if len(bases) == 1 else " ".join(dict.fromkeys(words))
+        parts = {symbol + (axis if "_" in symbol else "_" + axis): f for axis, f in zip("xy", arrow.force)}
+        vector = any(w in parts for w in words)
+        size = math.hypot(*arrow.force)
+        values = {p: next((x for x in (scene.number(p, "m"), scene.number(p, "rad")) if x is not None), None)
+                  for p in scene.file.get("parameters", {})}
+        O, G = place.center.get((b, "O")), place.center.get((b, "G"))
+        values["L"] = math.hypot(G[0] - O[0], G[1] - O[1]) if O and G else None
+        if "theta" in piece or "angle" in piece:
+            values["theta"] = place.values.get(f"{b}.theta")
+            values["angle"] = scene.angle(b, place.values)
+        if vector:
+            got = sign * evaluate(piece, {**values, **parts})
+            self.seen.setdefault(symbol, set()).add(b)
+            side = 1 if abs(got - value) <= abs(got + value) else -1
+            if abs(got) > 1e-6 * (size + 1e-3):  # else its sign is rounding
+                self.use(symbol, b, name, side, False)
+            return side * got
+        if self.general and equation.about is None:
+            entry, e = scene.entries[b].get(name), place.axis[b]
+            if entry and entry.kind == "normal" and str(entry.keys.get("two_sided")) != "true":
+                pass
+            elif entry and entry.kind == "normal" or name == "guide":
+                size = scene.surface(b, e, arrow.force)
+            else:
+                size = e[0] * arrow.force[0] + e[1] * arrow.force[1]
+        elif not self.general:
+            self.kinds[symbol] = False
+        self.seen.setdefault(symbol, set()).add(b)
+        if " " in symbol:  # mu_k N
+            self.is_product(place, b, name, symbol)
+            piece, symbol = piece.replace(symbol, "size"), "size"
+        return sign * evaluate(piece, {**values, symbol: size})
+
     def is_product(self, place, b, name, symbol):
         """Friction that slips is mu_k N of the body's own surface."""
         owner, _, own = name.rpartition(".")
@@ -309,6 +384,8 @@ class Judge:
         try:
             if by_law:
                 got = sign * evaluate(piece, place.law_values(equation.body, name))
+            elif self.is_compound(place, equation, name, piece, label):
+                got = self.compound(place, equation, name, sign, piece, value, label)
             else:
                 got = self.symbol(place, equation, name, sign, piece, value, label)
         except Unbound as unbound:
@@ -419,6 +496,18 @@ def centers(scene, b, arrows):
     return found
 
 
+def cut_free_lines(report):
+    """{body.coordinate: (left, right)} of the bodies cut free, as the report has them."""
+    names, found, b = {"a_Gx": "G.x", "a_Gy": "G.y", "alpha": "G.angle"}, {}, None
+    for line in report.partition("\nCut free, in symbols at this time\n")[2].splitlines():
+        if line[:4] != "    ":
+            b = line.strip()
+            continue
+        left, right = line.strip().split(" = ")
+        found[f"{b}.{names[left.split()[-1]]}"] = (left, right)
+    return found
+
+
 def judge_state(scene, model):
     """Report, JSON, LaTeX and drawing of a state. Returns (counts)."""
     found = model.equations()
@@ -428,6 +517,9 @@ def judge_state(scene, model):
     for name, left, right in re.findall(r"^% (\S+)\n\\begin\{align\*\}\n(.*?) &= (.*?) \\\\$", model.latex(), re.MULTILINE):
         lines[name] = (from_latex(left), from_latex(right))
     report = model.report()
+    plain = cut_free_lines(report)
+    assert plain.items() <= lines.items() and all(".G." in name for name in plain), "report and LaTeX differ"
+    assert len(plain) == sum(".G." in name for name in lines), "the report lacks a line"
     for e in found["equations"]:
         b, coordinate = e["body"], e["coordinate"]
         cut_free = coordinate.startswith("G.")
@@ -477,6 +569,8 @@ def label_for(labels, b, name, piece):
     if match:
         candidates += [match["of"], match["vector"]]
     candidates += [re.sub(r"_?[xys]$", "", piece)]
+    words = re.findall(r"[A-Za-z]\w*", piece)
+    candidates += [*(re.sub(r"_?[xy]$", "", w) for w in words), *words, *(" ".join(words[i:i + 2]) for i in range(len(words)))]
     wanted = re.sub(r"^M\((.*)\)$", r"\1", drawn[0])
     for candidate in candidates:
         if candidate and printed(candidate) == wanted:

@@ -1,0 +1,30 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * The moment of a force as a textbook writes it, by its arm:
+ *
+ *     l (R_y cos(theta) - R_x sin(theta))     of a force at a point on the x axis of the body's frame through G (or O)
+ *     -l (R_x cos(theta) + R_y sin(theta))    on the y axis
+ *     (0.2 R_y - 0.1 R_x)                     on a body that does not turn
+ *     r f                                     on the rim of a disc: a force along it
+ *
+ * theta is the coordinate where it is the angle of the body in the world, else `angle` is that angle. A length is called
+ * by the parameter that has its value, or half of it; L = |OG|.
+ */
+#ifndef FBD_OUTPUT_MOMENTS_H
+#define FBD_OUTPUT_MOMENTS_H
+
+#include "output/formulas.h"
+
+/* The component of a force along an axis: R_1x, (mu_k N)_x. NULL when memory is out. */
+const char *component_by_symbol(struct arena *arena, const char *symbol, const char *axis);
+
+/* The direction of the line of the ground on which body b rolls, or which it touches, by the force that is called so; false for
+ * none. */
+bool ground_line_of_force(const struct fbd_model *model, int b, const char *name, struct vec *e);
+
+/* The moment of the force that the symbol stands for, where the arrow is `sign` times that; "" where it has no such form: then
+ * it is M_G(..). NULL when memory is out. */
+const char *moment_by_arm(struct formulas *formulas, const struct equation *equation,
+                          const struct arrow *arrow, const char *symbol, double sign);
+
+#endif
