@@ -168,7 +168,9 @@ enum exit_code handout(const struct options *options)
         complain("fbd-run: out of memory");
         return exit_failed;
     }
-    char *text = key ? fbd_key_handout(key, options->student, errors) : NULL;
+    char *text = !key                        ? NULL
+                 : options->drawing.solution ? fbd_key_solution(key, options->student, errors)
+                                             : fbd_key_handout(key, options->student, errors);
     if (text) fputs(text, stdout);
     enum exit_code code = text ? exit_done : key ? exit_failed : exit_bad_model;
     fbd_free(text);

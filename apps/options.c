@@ -78,6 +78,7 @@ static const char help_without_run[] =
     "  --student NAME       whose answer it is, where values are drawn (default: the name of its file)\n"
     "  --details            with the names of the key's forces, for the teacher\n"
     "  --handout            print the sheet that a student gets of the key MODEL.yaml: with --student\n"
+    "                       (and with --solution the same filled in)\n"
     "\n"
     "About the program\n"
     "  --schema             the model language as JSON Schema, for editors\n"
@@ -373,7 +374,7 @@ static bool shapes_drawing(const struct options *options, bool components)
 {
     const fbd_drawing *drawing = &options->drawing;
     return drawing->body || (drawing->components && !components) || drawing->supports || drawing->symbols ||
-           options->scale || drawing->worksheet || drawing->solution;
+           options->scale || drawing->worksheet;
 }
 
 /* Neither the key nor an answer is written over. */
@@ -391,10 +392,12 @@ static bool grading_agrees(const struct options *options)
         options->ledger || options->every > 0 || options->latex || shapes_drawing(options, false) ||
         options->without_count || options->full || options->degrees)
         return usage("with --grade go --set, --student, --details, --csv, --json and --quiet only; with "
-                     "--handout --set and --student only",
+                     "--handout --set, --student and --solution only",
                      "");
+    if (grades && options->drawing.solution)
+        return usage("--solution goes with --handout, not with --grade", "");
     if (!grades && (options->csv || options->json || options->quiet || options->details))
-        return usage("with --handout go --set and --student only", "");
+        return usage("with --handout go --set, --student and --solution only", "");
     for (size_t i = 0; i < options->answer_count; i++)
         if (!places_differ(&line, options->answers[i], places, sizeof places / sizeof *places)) return false;
     return places_differ(&line, options->model, places, sizeof places / sizeof *places);
@@ -422,7 +425,7 @@ static bool drawing_agrees(const struct options *options)
     const fbd_drawing *drawing = &options->drawing;
     bool eigenvalues = options->action == action_linearize;
     const bool components = options->html || options->ledger || options->action == action_equations;
-    if (shapes_drawing(options, components) && (!options->svg || eigenvalues))
+    if ((shapes_drawing(options, components) || drawing->solution) && (!options->svg || eigenvalues))
         return usage(
             "--body, --components, --supports, --symbols, --scale, --worksheet and --solution go with the "
             "diagrams of --svg",

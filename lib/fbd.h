@@ -978,6 +978,10 @@ FBD_API bool fbd_model_check_key(const fbd_model *model, fbd_errors *errors);
  * `errors` when memory is out. */
 FBD_API char *fbd_key_handout(const fbd_key *key, const char *student, fbd_errors *errors);
 
+/* The same sheet filled in: what the key lists, its derivations, the reactions that have to be drawn by their values at the
+ * start, and in comments the equations of all bodies. As an answer it gets all points. */
+FBD_API char *fbd_key_solution(const fbd_key *key, const char *student, fbd_errors *errors);
+
 typedef enum fbd_finding_kind {
     FBD_FINDING_RIGHT,
     FBD_FINDING_MISSING,     /* a force or moment, or a derivation, is not there */

@@ -1,20 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
  * What a student gets of a key: the scene with the student's own values, without forces, derivations and
- * comments.
+ * comments; and the same filled in.
  */
 #include <string.h>
 
 #include "base/call.h"
 #include "base/text.h"
-#include "grade/grade.h"
-
-struct handout {
-    struct text *text;
-    struct arena *arena;
-    const struct fbd_key *key;
-    const char *student;
-};
+#include "grade/handout.h"
 
 /* Of the file, and of a body: what the student is to find out, and what the teacher says for himself. */
 static const char *const kept_back[] = {"grading", "description", "$schema", "output", NULL};
@@ -26,11 +19,6 @@ static bool is_one_of(const char *key, const char *const *names)
     for (; *names; names++)
         if (strcmp(key, *names) == 0) return true;
     return false;
-}
-
-static void indent(struct text *text, int depth)
-{
-    text_printf(text, "%*s", 2 * depth, "");
 }
 
 /* What plain text could be taken for something else, or ends early. */
@@ -88,8 +76,7 @@ static void write_value(struct text *text, const struct node *node)
 
 static void write_pair(struct text *text, int depth, const char *key, const struct node *value)
 {
-    indent(text, depth);
-    text_printf(text, "%s: ", key);
+    text_printf(text, "%*s%s: ", 2 * depth, "", key);
     write_value(text, value);
     text_add(text, "\n");
 }
@@ -109,6 +96,32 @@ static void write_parameters(const struct handout *handout, const struct node *m
     }
 }
 
+/* Entries of their own lines, so that one that cannot be read costs no other. */
+static void write_list(struct text *text, const struct node *list)
+{
+    size_t count = !list ? 0 : list->kind == node_list ? list->count : list->kind != node_null;
+    for (size_t i = 0; i < count; i++) {
+        text_add(text, "      - ");
+        const struct node *entry = list->kind == node_list ? list->items[i] : list;
+        if (entry->kind == node_map && entry->count == 1)
+            write_pairs(text, entry);
+        else
+            write_value(text, entry);
+        text_add(text, "\n");
+    }
+}
+
+static void write_lists(const struct handout *handout, const struct pair *body, bool hand)
+{
+    for (size_t k = 0; k < (hand ? 3 : 2); k++) {
+        const struct pair *list = node_find(body->value, asked[k]);
+        text_printf(handout->text, "    %s:\n", asked[k]);
+        if (!handout->model) continue;
+        write_list(handout->text, list ? list->value : NULL);
+        if (k < 2) solution_reactions(handout, body->key, k == 1);
+    }
+}
+
 static void write_body(const struct handout *handout, const struct pair *body)
 {
     struct text *text = handout->text;
@@ -120,9 +133,7 @@ static void write_body(const struct handout *handout, const struct pair *body)
         if (is_one_of(pair->key, asked) || (asks_inertia && is_one_of(pair->key, inertia_keys))) continue;
         write_pair(text, 2, pair->key, pair->value);
     }
-    text_add(text, "    forces: []\n");
-    text_add(text, "    moments: []\n");
-    if (hand) text_add(text, "    hand: []\n");
+    write_lists(handout, body, hand);
 }
 
 static void write_bodies(const struct handout *handout, const struct node *bodies)
@@ -153,27 +164,71 @@ static void write_entry(const struct handout *handout, const struct pair *pair)
         write_bodies(handout, pair->value);
 }
 
-char *fbd_key_handout(const fbd_key *key, const char *student, fbd_errors *list)
+/* What has to be drawn, and how. */
+static void write_head(const struct handout *handout)
+{
+    struct text *text = handout->text;
+    const struct grading *grading = &handout->key->model->scene->grading;
+    text_add(text, handout->model ? "# Solution of the sheet of " : "# Sheet of ");
+    text_shown(text, handout->student);
+    text_add(text, ".\n");
+    if (handout->model) return;
+    text_add(text, "# Draw what acts on each body: below `forces` and `moments`, one entry a line, as\n"
+                   "#       - gravity\n"
+                   "#       - applied: {name: F, value: 10 N, angle: 30 deg, at: [0.5 m, 0]}\n"
+                   "#       - applied: {name: R, value: unknown, angle: unknown, at: [0, 0]}\n");
+    if (grading->reactions == reactions_all)
+        text_add(text, "# Draw reactions too: the forces of joints, guides, couplings and contacts.\n");
+    else if (grading->reactions == reactions_none)
+        text_add(text,
+                 "# Reactions, the forces of joints, guides, couplings and contacts, need not be drawn.\n");
+    else
+        text_add(text, "# Of the reactions draw those of: ");
+    for (size_t i = 0; i < grading->reaction_count; i++)
+        text_printf(text, "%s%s%s", i ? ", " : "", grading->reaction_names[i],
+                    i + 1 == grading->reaction_count ? "\n" : "");
+    if (handout->key->lines > 0)
+        text_add(text, "# Write equations below `hand`, one a line, as\n#       - \"m*a = F - m*g\"\n");
+}
+
+static char *write_handout(struct handout *handout, fbd_errors *errors)
+{
+    struct text *text = handout->text;
+    write_head(handout);
+    for (size_t i = 0; i < handout->key->document.root->count; i++)
+        write_entry(handout, &handout->key->document.root->pairs[i]);
+    if (handout->model) solution_equations(handout);
+    if (!text->failed && !handout->arena->failed) return text->data;
+    diag_out_of_memory(errors);
+    text_free(text);
+    return NULL;
+}
+
+static char *make_handout(const fbd_key *key, const char *student, bool solved, fbd_errors *list)
 {
     struct diag_call call;
     fbd_errors *errors = diag_begin(&call, list);
     struct text text = {0};
     struct arena arena = {0};
+    char *made = NULL;
     if (!key || !student) call_refuse(errors, "there is no key, or no name of a student");
     if (key && student) {
-        struct handout handout = {&text, &arena, key, student};
-        text_add(&text, "# Sheet of ");
-        text_shown(&text, student);
-        text_add(&text, ". Draw the forces and moments on each body.\n");
-        for (size_t i = 0; i < key->document.root->count; i++)
-            write_entry(&handout, &key->document.root->pairs[i]);
-        if (text.failed || arena.failed) {
-            diag_out_of_memory(errors);
-            text_free(&text);
-            text.data = NULL;
-        }
+        struct handout handout = {&text, &arena, key, student, NULL};
+        if (solved) handout.model = solution_model(&handout, errors);
+        if (!solved || handout.model) made = write_handout(&handout, errors);
+        fbd_model_free(handout.model);
     }
     arena_free(&arena);
     diag_end(&call);
-    return text.data;
+    return made;
+}
+
+char *fbd_key_handout(const fbd_key *key, const char *student, fbd_errors *errors)
+{
+    return make_handout(key, student, false, errors);
+}
+
+char *fbd_key_solution(const fbd_key *key, const char *student, fbd_errors *errors)
+{
+    return make_handout(key, student, true, errors);
 }

@@ -314,7 +314,7 @@ static void say_pair(struct fbd_grade *grade, const char *body, struct item *key
         message = unit ? unit : "its magnitude is wrong";
         if (isfinite(difference->ratio)) text_printf(&detail, ": %.6g times as large", difference->ratio);
         break;
-    case is_same:
+    case is_same: message = "right"; break; /* it is zero, since what it follows from is missing */
     case is_other: break;
     }
     if (detail.failed) grade->arena.failed = true;

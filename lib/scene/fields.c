@@ -257,6 +257,7 @@ static bool read_node(struct reader *reader, const struct field *field, const st
                       const struct node **place)
 {
     const char *key = field->key;
+    if (node->kind == node_null && (field->flags & may_be_empty)) return true;
     if (field->type == field_list && node->kind != node_list)
         return value_refuse(reader, node, key, "a list", "write each entry on a line of its own: `- ...`");
     if (field->type == field_map && node->kind != node_map)

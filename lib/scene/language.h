@@ -35,11 +35,12 @@ enum field_type {
 
 enum field_flag_bits {
     required = 1,
-    positive = 2,     /* above zero (`out-of-range`) */
-    not_negative = 4, /* zero or above */
-    slips = 8,        /* may name `slip`, */
-    slips_not = 16,   /* which is 0 here */
-    may_vary = 32,    /* a number; where it is none but varies it is infinite, and to be read again */
+    positive = 2,       /* above zero (`out-of-range`) */
+    not_negative = 4,   /* zero or above */
+    slips = 8,          /* may name `slip`, */
+    slips_not = 16,     /* which is 0 here */
+    may_vary = 32,      /* a number; where it is none but varies it is infinite, and to be read again */
+    may_be_empty = 128, /* without a value it is as if the key was not there */
     stored = 64, /* reading stores the number and asks of it on which side of 0 and 1 it lies, nothing else:
                          what varies may be put in its place (patch.h) */
 };

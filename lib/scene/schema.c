@@ -187,7 +187,8 @@ static void add_field(struct text *text, const struct field *field)
     } else {
         text_add(text, "{");
         add_doc(text, field->doc);
-        text_add(text, ", \"allOf\": [");
+        bool empty = (field->flags & may_be_empty) != 0;
+        text_add(text, empty ? ", \"anyOf\": [{\"type\": \"null\"}, " : ", \"allOf\": [");
         add_plain(text, field);
         text_add(text, "]}");
     }

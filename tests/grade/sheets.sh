@@ -16,10 +16,18 @@ sheets_are_models() {
     cp "$models"/data/*.csv .
     for model in $keys; do
         "$FBD_RUN" --handout --student 'a "name"' "$model" >sheet.yaml || { echo "$model: no sheet"; return 1; }
-        ! grep -E '^    (hand|forces|moments): .*[a-z]' sheet.yaml || { echo "$model: tells the key"; return 1; }
+        ! grep -E '^    (hand|forces|moments): *[^ ]|^      - ' sheet.yaml || { echo "$model: tells the key"; return 1; }
         "$FBD_RUN" --check sheet.yaml >checked 2>&1
         [ $? -ne 3 ] || { echo "$model: its sheet is wrong"; cat checked; return 1; }
         exits 4 "$FBD_RUN" --quiet --grade "$model" sheet.yaml || { echo "$model: its sheet passes"; return 1; }
+    done
+}
+
+solutions_pass() {
+    for model in $(echo "$keys" | awk 'NR % 3 == 1'); do
+        "$FBD_RUN" --handout --solution --student anna "$model" >solution.yaml 2>said || { cat said; return 1; }
+        exits 0 "$FBD_RUN" --quiet --grade "$model" --student anna solution.yaml 2>said ||
+            { echo "$model: its solution does not pass"; "$FBD_RUN" --details --grade "$model" --student anna solution.yaml; return 1; }
     done
 }
 
@@ -31,6 +39,8 @@ says() { # says PATTERN COMMAND...: exits 2 and says so
 }
 
 check 'every sheet is a model that does not pass, without forces and derivations' sheets_are_models
+
+check 'every solution gets all points' solutions_pass
 
 cp "$examples/key.yaml" .
 sed -e 's/value: P,/value: -P,/' -e '/^    hand:/d' key.yaml >answer.yaml

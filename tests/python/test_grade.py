@@ -23,7 +23,7 @@ def test_sheets_and_findings(tmp_path):
     key, answer = fbd.Key(KEY), tmp_path / "answer.yaml"
     sheet = key.handout("anna")
     assert sheet == fbd_run("--handout", "--student", "anna", KEY)
-    answer.write_text(sheet.replace("forces: []", "forces: " + RIGHT))
+    answer.write_text(sheet.replace("forces:\n", "forces: " + RIGHT + "\n"))
     half = key.grade(answer, "anna")
     assert 0 < half.points < half.most and not half.passed
     assert {finding.kind for finding in half.findings} == {"right", "missing"}
@@ -31,7 +31,7 @@ def test_sheets_and_findings(tmp_path):
     assert half.text() in graded(answer) and half.text(details=True) in graded(answer, "--details")
     assert json.loads(half.json())["points"] == half.points
     hand = 'hand: ["I_O*theta_ddot = -m*g*L/2*cos(theta) + P*L*sin(beta - theta)"]'
-    answer.write_text(answer.read_text().replace("hand: []", hand))
+    answer.write_text(answer.read_text().replace("    hand:\n", "    " + hand + "\n"))
     whole = key.grade(answer, "anna")
     assert whole.passed and whole.points == whole.most
     answer.write_text(sheet)

@@ -134,6 +134,7 @@ void grades(void **state)
     ENDURES(fbd_key_free, fbd_key_free(NULL));
     REFUSES(fbd_model_check_key, !fbd_model_check_key(NULL, errors));
     REFUSES(fbd_key_handout, !fbd_key_handout(NULL, "anna", errors));
+    REFUSES(fbd_key_solution, !fbd_key_solution(NULL, "anna", errors));
     ANSWERS(fbd_finding_kind_name, strcmp(fbd_finding_kind_name((fbd_finding_kind)99), "") == 0);
     ANSWERS(fbd_finding_kind_name, strcmp(fbd_finding_kind_name((fbd_finding_kind)-1), "") == 0);
     REFUSES(fbd_grade_new, !fbd_grade_new(NULL, "answer.yaml", NULL, errors));

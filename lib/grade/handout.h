@@ -1,0 +1,28 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * Handout: the sheet of a student, empty or filled in.
+ */
+#ifndef FBD_GRADE_HANDOUT_H
+#define FBD_GRADE_HANDOUT_H
+
+#include "base/text.h"
+#include "grade/grade.h"
+
+struct handout {
+    struct text *text;
+    struct arena *arena;
+    const struct fbd_key *key;
+    const char *student;
+    fbd_model *model; /* of a solution: the key with the values of the student; else NULL */
+};
+
+/* NULL with notes in `errors`. */
+fbd_model *solution_model(const struct handout *handout, fbd_errors *errors);
+
+/* The forces or moments of a body that the key does not list, and that have to be drawn. */
+void solution_reactions(const struct handout *handout, const char *body, bool moments);
+
+/* The equations of the start, as comments. */
+void solution_equations(const struct handout *handout);
+
+#endif
