@@ -183,8 +183,7 @@ static const char *by_one_component(struct formulas *formulas, const struct mode
     const char *u = arm_name(formulas, body, arm->d.x), *v = arm_name(formulas, body, arm->d.y);
     if (!u || !v) return NULL;
     /* d_x F_y, or -d_y F_x */
-    const double U = upright ? force * arm->d.x : -force * arm->d.x,
-                 V = upright ? -force * arm->d.y : -force * arm->d.y;
+    const double U = upright ? force * arm->d.x : -force * arm->d.x, V = -force * arm->d.y;
     const char *first = upright ? "cos" : "sin", *second = upright ? "sin" : "cos";
     if (!arm->angle) {
         const double d = upright ? U : V;
