@@ -386,6 +386,7 @@ class Judge:
                 got = sign * evaluate(piece, place.law_values(equation.body, name))
             elif self.is_compound(place, equation, name, piece, label):
                 got = self.compound(place, equation, name, sign, piece, value, label)
+                self.counts["arms and slopes"] += 1
             else:
                 got = self.symbol(place, equation, name, sign, piece, value, label)
         except Unbound as unbound:

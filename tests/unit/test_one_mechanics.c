@@ -95,8 +95,9 @@ static void compare_equations(struct checks *checks, const char *path, struct tr
     char *ours = fbd_equations_text(alone->state), *theirs = fbd_equations_text(joined->state);
     assert_non_null(ours);
     assert_non_null(theirs);
-    const char *b = theirs;
-    for (const char *a = ours; *a; a += line_length(a) + 1) {
+    const char *b = theirs, *symbols = strstr(ours, "\nCut free");
+    /* The springs have letters too, with which others are numbered: symbols are compared elsewhere. */
+    for (const char *a = ours; *a && (!symbols || a <= symbols); a += line_length(a) + 1) {
         while (strncmp(b, "    idle", 8) == 0) b += line_length(b) + 1;
         if (!*b || !same_line(a, b)) {
             fprintf(stderr, "# %s: alone\n%.*s\n# and with a spring of no stiffness\n%.*s\n", path,
