@@ -85,6 +85,7 @@ static double size_of(const struct fbd_model *model, const struct hand_force *fo
     if (tie_of_force(model, force->name.body, arrow->name, &place)) return tie_size(model, &place, at, arrow);
     if (force->symbol->joint >= 0)
         return sign * vec_dot(arrow->force, surface_normal(model, &model->bodies[force->symbol->joint], at));
+    if (!load) return 0; /* has no size */
     if (load->linked) return pull_of(model, force->name.body, arrow, at);
     return (rubs ? -sign : sign) * vec_dot(arrow->force, body_direction(&model->bodies[load->body], at));
 }

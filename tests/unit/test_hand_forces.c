@@ -169,6 +169,30 @@ static void forces_are_known_by_name_and_letter(void **unused)
     assert_int_equal(failed, 0);
 }
 
+static void slips_are_named(void **unused)
+{
+    (void)unused;
+    static const struct {
+        const char *equation, *says;
+    } slips[] = {
+        {"T + f = m*a", "the summand `f` has the wrong sign"},
+        {"T - 2*f = m*a", "the summand `2*f` is right with the factor 0.5"},
+        {"T - f + N = m*a", "the summand `N` is one too many"},
+    };
+    for (size_t i = 0; i < sizeof slips / sizeof *slips; i++) {
+        char text[2400], hand[400];
+        size_t differing = 0;
+        snprintf(hand, sizeof hand, "    hand: '%s'\n", slips[i].equation);
+        snprintf(text, sizeof text, hoist, hand, "");
+        fbd_model *model = model_from(text);
+        char *verdict = fbd_check_hand(model, 1, &differing);
+        assert_int_equal(differing, 1);
+        assert_non_null(strstr(verdict, slips[i].says));
+        free(verdict);
+        fbd_model_free(model);
+    }
+}
+
 /* What is called nothing there is told with what is. */
 static void an_unknown_name_is_answered_with_the_forces(void **unused)
 {
@@ -192,6 +216,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(forces_are_known_by_name_and_letter),
+        cmocka_unit_test(slips_are_named),
         cmocka_unit_test(an_unknown_name_is_answered_with_the_forces),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
