@@ -223,7 +223,7 @@ static void take_meclib(struct desk *desk, const struct node *object)
 {
     const char *kind = text_of(item_of(object, 0)), *label = text_of(item_of(object, 1));
     struct arrow_drawn arrow = {.object = object, .at = object->at, .label = label, .snap = snap_of_meclib};
-    struct vec centre;
+    struct vec centre = {0, 0};
     arrow.couple = strcmp(kind, "moment") == 0;
     if (strcmp(kind, "q") == 0 && !is_hidden(item_of(object, object->count - 1)))
         say_unreadable(desk, object, label, "a distributed load is not compared: draw its resultant");

@@ -20,7 +20,7 @@ struct handout {
 fbd_model *solution_model(const struct handout *handout, fbd_errors *errors);
 
 /* The forces or moments of a body that the key does not list, and that have to be drawn. */
-void solution_reactions(const struct handout *handout, const char *body, bool moments);
+void solution_reactions(const struct handout *handout, const char *body_name, bool moments);
 
 /* The equations of the start, as comments. */
 void solution_equations(const struct handout *handout);

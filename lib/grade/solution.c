@@ -55,11 +55,11 @@ static fbd_state *start_of(const struct handout *handout)
     return state;
 }
 
-void solution_reactions(const struct handout *handout, const char *name, bool moments)
+void solution_reactions(const struct handout *handout, const char *body_name, bool moments)
 {
     const fbd_model *model = handout->model;
     int b = 0;
-    while (strcmp(model->bodies[b].name, name) != 0) b++;
+    while (strcmp(model->bodies[b].name, body_name) != 0) b++;
     const struct model_body *body = &model->bodies[b];
     fbd_state *state = key_asks(handout->key, (size_t)b) > 0 ? start_of(handout) : NULL;
     struct arrow *arrows = calloc(diagram_arrows(model, b) + 1, sizeof *arrows);
