@@ -90,7 +90,8 @@ static bool matches(const struct expectation *expected, fbd_error note)
     return expected->line == note.line && expected->column == note.column &&
            error == (note.severity == FBD_ERROR) && strcmp(expected->id, note.id) == 0 &&
            strstr(note.message, expected->words) &&
-           (!*expected->hint || (note.hint && strncmp(note.hint, expected->hint, strlen(expected->hint)) == 0));
+           (!*expected->hint ||
+            (note.hint && strncmp(note.hint, expected->hint, strlen(expected->hint)) == 0));
 }
 
 /* True when notes and expectations pair off, in any order. */
