@@ -2,13 +2,13 @@
 #include "grade/reactions_work.h"
 
 /* Share of a length or force below which it is round-off of the file's numbers. */
-static const double rounding = 1e-9;
+static const double off_by_rounding = 1e-9;
 
 /* ---- lines of action */
 
 static double reach_of(const struct sides *sides)
 {
-    return sides->tolerance * sides->reach + rounding * (sides->reach + 1);
+    return sides->tolerance * sides->reach + off_by_rounding * (sides->reach + 1);
 }
 
 /* How far to its left a line through `item` passes `point`. */
@@ -205,7 +205,7 @@ static bool senses_agree(const struct sides *sides, const struct support *suppor
 
 bool reaction_is_couple(const struct sides *sides, const struct item *item, size_t s)
 {
-    return vec_norm(item->at[s].force) <= (item->unknown ? 0 : rounding * sides->force);
+    return vec_norm(item->at[s].force) <= (item->unknown ? 0 : off_by_rounding * sides->force);
 }
 
 /* Components of a force that may point anywhere are drawn where it acts, others across its support. */

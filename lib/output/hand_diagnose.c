@@ -160,6 +160,31 @@ static const struct hand_sample *worst_sample(const struct hand_check *check, in
     return worst;
 }
 
+/* What the assembly has along the coordinate of an eliminated line. */
+static void show_terms(const struct hand_check *check, const struct hand_sample *sample, struct text *text)
+{
+    const struct model_body *body = &check->model->bodies[check->body];
+    text_add(text, "  assembled there:");
+    for (int i = 0; i < body->load_count; i++)
+        text_printf(text, "%s %s %.9g", i > 0 ? "," : "",
+                    check->model->loads[body->first_load + i].source->name, sample->terms[i]);
+    text_add(text, "\n");
+}
+
+/* What the summands of any other line come to, all on one side. */
+static void show_summands(const struct hand_check *check, const struct hand_sample *sample, struct text *text)
+{
+    const struct hand *hand = &check->model->scene->bodies[check->body].hands[check->index];
+    if (hand->summand_count == 0) return;
+    text_add(text, "  its summands there, those of the right side with the other sign:");
+    for (size_t j = 0; j < hand->summand_count; j++) {
+        text_add(text, j > 0 ? ", `" : " `");
+        text_shown(text, hand->summands[j].text);
+        text_printf(text, "` %.9g", sample->summands[j]);
+    }
+    text_add(text, "\n");
+}
+
 /* The state where it is worst, with all terms: enough to find the fault by hand. */
 static void show_worst(const struct hand_check *check, int slip, struct text *text)
 {
@@ -172,11 +197,11 @@ static void show_worst(const struct hand_check *check, int slip, struct text *te
         const struct coordinate *c = &model->scene->coordinates[body->first + k];
         text_printf(text, ", %s = %.6g, %s = %.6g", c->name, worst->q[k], c->rate_name, worst->v[k]);
     }
-    text_printf(text, ": left %.9g, right %.9g\n  assembled there:", worst->left, worst->right);
-    for (int i = 0; i < body->load_count; i++)
-        text_printf(text, " %s %.9g%s", model->loads[body->first_load + i].source->name, worst->terms[i],
-                    i + 1 < body->load_count ? "," : "");
-    text_add(text, "\n");
+    text_printf(text, ": left %.9g, right %.9g\n", worst->left, worst->right);
+    if (check->part >= 0)
+        show_terms(check, worst, text);
+    else
+        show_summands(check, worst, text);
 }
 
 /* With one term on the right, a wrong factor there and a wrong inertia look the same. An equation whose left
