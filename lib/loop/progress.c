@@ -39,11 +39,10 @@ static double work_done(const struct run *run)
 static const double window = 1e7;
 
 /* Each is a share of time in a window; its inverse says how many windows are left, and so how long one would wait:
- * - as much time again as has passed takes ten million windows, some months. Runs that come to an end have all gained more
- *   than a thousand times as much in their worst window;
+ * - as much time again as has passed takes ten million windows;
  * - the run takes 1e15 windows even at its start, where little has passed yet;
  * - where most steps are rejected the pace falls further, so a thousand windows to double the time are too many;
- * - a hundred windows have been done (gain and pace are steady), and a million, some weeks, are left. */
+ * - a hundred windows have been done (gain and pace are steady), and a million are left. */
 static const double stands_share = 1e-7, hopeless_share = 1e-15, struggles_share = 1e-3, steady_share = 1e-2,
                     endless_share = 1e-6;
 
