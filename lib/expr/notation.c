@@ -65,8 +65,9 @@ bool notation_read(struct arena *arena, const char *text, struct pos at, const s
     w.errors = errors;
     w.equation = equation;
     *notation = (struct notation){.text = text};
-    const char *made = writing_make(&w, &stretches);
-    if (made && w.doubtful && !compiles(&w, made)) {
+    const bool plain = compiles(&w, text);
+    const char *made = plain || scratch.failed ? text : writing_make(&w, &stretches);
+    if (!plain && made && w.doubtful && !compiles(&w, made)) {
         w.products = true;
         const char *other = writing_make(&w, &others);
         if (other && compiles(&w, other)) {

@@ -6,6 +6,7 @@
 
 #include "base/text.h"
 #include "grade/lines.h"
+#include "output/hand_forces.h"
 #include "scene/node_edit.h"
 
 /* A text that was read as another one. */
@@ -54,7 +55,8 @@ static bool read_scene(struct fbd_grade *grade, const struct node *root, struct 
 {
     struct override *overrides;
     const struct hand_reader reader = {readings, is_drawn, take};
-    const struct document document = {.file = grade->key->file, .root = root, .hand_reader = &reader};
+    struct document document = {.file = grade->key->file, .root = root, .hand_reader = &reader};
+    if (!hand_forces_list(grade->sheet, &grade->arena, &document)) return false;
     size_t count = drawn_overrides(&grade->arena, grade->key, grade->student, root, &overrides);
     fbd_errors *errors = fbd_errors_new();
     if (errors && !grade->arena.failed) scene_free(scene_make(&document, overrides, count, errors));

@@ -171,16 +171,16 @@ static void show_terms(const struct hand_check *check, const struct hand_sample 
     text_add(text, "\n");
 }
 
-/* What the summands of any other line come to, all on one side. */
+/* What the summands of any other line come to. */
 static void show_summands(const struct hand_check *check, const struct hand_sample *sample, struct text *text)
 {
     const struct hand *hand = &check->model->scene->bodies[check->body].hands[check->index];
     if (hand->summand_count == 0) return;
-    text_add(text, "  its summands there, those of the right side with the other sign:");
+    text_add(text, "  its summands there:");
     for (size_t j = 0; j < hand->summand_count; j++) {
         text_add(text, j > 0 ? ", `" : " `");
         text_shown(text, hand->summands[j].text);
-        text_printf(text, "` %.9g", sample->summands[j]);
+        text_printf(text, "` %.9g", hand->summands[j].sign * sample->summands[j]);
     }
     text_add(text, "\n");
 }

@@ -61,6 +61,7 @@ static void write_event_state(const struct page *page, const struct run_event *e
     const struct fbd_model *model = page->result->simulation->ensemble->model;
     const double *y = event_states_find(&page->result->event_states, event);
     bool *named = y ? calloc(model->body_count, sizeof *named) : NULL;
+    if (y && !named) page->text->failed = true;
     if (!named) return;
     mark_named(model, &model->plan.watches[event->watch].left, named);
     mark_named(model, &model->plan.watches[event->watch].right, named);

@@ -96,12 +96,19 @@ static bool read_silently(struct reader *reader, const struct node *node, const 
 const struct node *written_node(struct reader *reader, const struct node *node, const struct scope *scope,
                                 bool equation, struct notation *notation)
 {
+    const struct diag_mark mark = diag_mark(reader->errors);
     struct diag_note *last = reader->errors->last;
     if (node->kind != node_scalar) {
         *notation = (struct notation){.text = node->text};
         return node;
     }
-    if (!read_silently(reader, node, scope, equation, notation)) {
+    bool fine = read_silently(reader, node, scope, equation, notation);
+    if (reader->scene->hands_left &&
+        !reader->errors->out_of_memory) { /* it is read again when all names are known */
+        diag_take_back(reader->errors, mark);
+        return NULL;
+    }
+    if (!fine) {
         const struct notation as_it_is = {.text = node->text};
         if (reader->errors->last == last) diag_out_of_memory(reader->errors);
         written_places(reader, node, &as_it_is, last);
