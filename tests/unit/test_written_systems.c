@@ -39,7 +39,7 @@ struct summand_written {
 
 struct written {
     int body;
-    enum { sum_x, sum_y, sum_moments } sum;
+    enum written_sum { sum_x, sum_y, sum_moments } sum;
     const char *point;     /* of the moments: a point of the body */
     const char *arms_from; /* that from which the arms are counted: another one by a slip */
     const char *inertia;   /* that about which the moment of inertia is */
@@ -172,7 +172,7 @@ static bool turns(const struct model_body *body)
     return body->place.link > 0 || body->kind == motion_pivot || body->kind == motion_planar;
 }
 
-static void start_line(struct written *line, int b, int sum, const char *point, size_t count)
+static void start_line(struct written *line, int b, enum written_sum sum, const char *point, size_t count)
 {
     *line = (struct written){.body = b, .point = point, .arms_from = point, .inertia = point};
     line->sum = sum;
