@@ -33,7 +33,7 @@ static bool compiles(const struct writing *w, const char *text)
     bool fine =
         errors && text &&
         expr_compile_relation(w->arena, text, w->at, w->scope, &want, errors, &left, &relation, &right);
-    if (!errors || errors->out_of_memory) w->arena->failed = true;
+    if (!errors || errors->out_of_memory || errors->arena.failed) w->arena->failed = true;
     fbd_errors_free(errors);
     return fine;
 }

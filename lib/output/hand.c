@@ -288,7 +288,7 @@ static bool write_open(const struct hand_check *check, struct text *text)
     size_t open = 0;
     for (size_t i = 0; i < check->count; i++) open += check->samples[i].open;
     if (open == 0) return false;
-    const char *force = check->open_force;
+    const char *force = check->open_force[0] ? check->open_force : NULL;
     text_printf(
         text,
         "  not unique at %zu of %zu random states: the equations do not determine `%s%s%s`, only sums "
@@ -336,7 +336,7 @@ bool hand_take_samples(struct hand_check *check, const struct document *document
     check->count = 0;
     check->part = -1;
     check->says = 0;
-    check->open_force = NULL;
+    check->open_force[0] = '\0';
     check->no_memory = false;
     if (!sample_model(check, check->model, rng)) return false;
     for (int draw = 1; draw < parameter_draws; draw++) {

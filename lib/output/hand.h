@@ -67,7 +67,7 @@ struct hand_check {
     unsigned says; /* bit k: it depends on hand slot k; hand_others: on the acceleration of another body;
                       hand_named_forces: on a force of a diagram, by its name */
     int open_body; /* a force in it that the equations do not determine, */
-    const char *open_force;
+    char open_force[128]; /* empty where it is the normal force of a surface */
     bool no_memory;
     size_t count;
     struct hand_sample *samples;     /* most_samples */

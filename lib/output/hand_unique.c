@@ -8,6 +8,7 @@
  */
 #include <string.h>
 
+#include "base/format.h"
 #include "dynamics/rest_system.h"
 #include "output/hand.h"
 #include "output/hand_forces.h"
@@ -61,7 +62,7 @@ static void note_name(const struct question *question)
         if (fabs((left - right) * change) <= 1e-6 * question->size) continue;
         const struct absolute *absolute = &model->scene->absolutes[k];
         question->check->open_body = absolute->body;
-        question->check->open_force = absolute->force;
+        format_into(question->check->open_force, sizeof question->check->open_force, "%s", absolute->force);
         return;
     }
 }

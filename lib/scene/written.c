@@ -82,8 +82,8 @@ static bool read_silently(struct reader *reader, const struct node *node, const 
         fine = reader->hand_reader ? read_with_more(reader, node, scope, equation, errors, notation)
                                    : notation_read(reader->exprs, node->text, node->text_at, scope, equation,
                                                    errors, notation);
-        if (silent->out_of_memory) diag_out_of_memory(errors);
     }
+    if (!silent || silent->out_of_memory || silent->arena.failed) diag_out_of_memory(errors);
     reader->errors = errors;
     reader->scene->absolute_count = absolutes;
     reader->varies = varies;
