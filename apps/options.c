@@ -19,8 +19,7 @@ static const char help[] =
     "  --without NAME       leave an effect out, as block.friction (may be repeated)\n"
     "  --method NAME        integrate with this method (auto, rk8pd, dop853, rodas5p, msbdf, ...)\n"
     "  --tolerance NUMBER   relative error per step (default: the file's, else 1e-10)\n"
-    "  --accuracy NUMBER    global error allowed, relative to the size of the motion, instead of a "
-    "tolerance\n"
+    "  --accuracy NUMBER    global error allowed, of the size of the motion, instead of a tolerance\n"
     "  --step TIME          steps of this fixed size, in seconds\n"
     "  --no-structure       integrate all bodies together by the general method\n"
     "  --until TIME         end of the run, in seconds or with a unit (200ms)\n"
@@ -77,8 +76,7 @@ static const char help_without_run[] =
     "  --grade KEY          hold each answer against the forces, moments and derivations of this model file\n"
     "  --student NAME       whose answer it is, where values are drawn (default: the name of its file)\n"
     "  --details            with the names of the key's forces, for the teacher\n"
-    "  --handout            print the sheet that a student gets of the key MODEL.yaml: with --student\n"
-    "                       (and with --solution the same filled in)\n"
+    "  --handout            print the sheet of the key MODEL.yaml; with --solution filled in\n"
     "\n"
     "About the program\n"
     "  --schema             the model language as JSON Schema, for editors\n"
@@ -497,6 +495,6 @@ bool options_read(int argc, char **argv, struct options *options, enum exit_code
         return command_line_model(&line, argc, argv, &options->model) && options_agree(options);
     options->answers = argv + optind;
     options->answer_count = (size_t)(argc - optind);
-    if (options->answer_count == 0) return usage("no answer given to hold against the key", "");
-    return options_agree(options);
+    return options->answer_count == 0 ? usage("no answer given to hold against the key", "")
+                                      : options_agree(options);
 }

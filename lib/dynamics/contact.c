@@ -251,37 +251,6 @@ static struct gap separation(const struct fbd_model *model, const struct tree_wo
     return best;
 }
 
-/* How deep a corner of shape `moving` is behind a side of the other along which they move; 0 where another is deeper. */
-static double depth_along(const struct fbd_model *model, const struct tree_work *work, int index, int moving,
-                          int side, double speed)
-{
-    const struct meeting *meeting = &model->tree->meetings[index];
-    const double level = contact_level * meeting->reach, near = meeting_near(model, work, index);
-    double depth = 0;
-    if (lowest_over(model, work, index, moving, side).x < -level) return 0;
-    for (int i = 0; i < meeting->shape[moving].count; i++) {
-        int feature = meeting_feature(meeting, moving, i, side);
-        struct gap gap = feature_gap(model, work, index, feature);
-        struct place_on_side at = feature_foot(model, work, index, feature);
-        bool over = at.foot >= -level && at.foot <= at.length + level;
-        if (over && gap.x < -near && fabs(gap.rate) <= speed) depth = fmax(depth, -gap.x);
-    }
-    return depth;
-}
-
-double meeting_low_step(const struct fbd_model *model, const struct tree_work *work, int index)
-{
-    const double along = 1e-3; /* of the speed of the impact */
-    const struct meeting *meeting = &model->tree->meetings[index];
-    bool corners = meeting->shape[0].kind == contact_corners && meeting->shape[1].kind == contact_corners;
-    if (meeting->thin || meeting->stop != 0 || !corners) return 0;
-    double speed = along * fabs(separation(model, work, index).rate), height = 0;
-    for (int moving = 0; moving < 2; moving++)
-        for (int side = 0; side < shape_sides(&meeting->shape[1 - moving]); side++)
-            height = fmax(height, depth_along(model, work, index, moving, side, speed));
-    return height;
-}
-
 /* ---- probes */
 
 static int closed_ties(const struct fbd_model *model, const struct instant *at, int index, int *tie)

@@ -42,9 +42,9 @@ double meeting_depth(const struct fbd_model *model, const struct instant *at, in
 int meeting_touching(const struct fbd_model *model, const struct tree_work *work, int index, double near,
                      int features[2]);
 
-/* The height of a step that two shapes with corners strike, where it is lower than the level of surfaces: a side along which
- * they move has a corner behind it by that much. 0 where there is none. */
-double meeting_low_step(const struct fbd_model *model, const struct tree_work *work, int index);
+/* The height of a step that two shapes with corners strike with `speed`, where it is lower than the level of surfaces: a side
+ * along which they move has a corner behind it by that much. 0 where there is none. */
+double meeting_low_step(const struct fbd_model *model, const struct tree_work *work, int index, double speed);
 
 /* Corners of a thin contact pair (dynamics/contact_thin.h) that come into the circle round the bar get the side on which they
  * are; those outside have none. */

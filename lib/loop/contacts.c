@@ -353,7 +353,7 @@ static bool refuse_low_step(struct run *run, int count)
         const struct striker *striker = &run->contacts.strikers[i];
         int index = tree_of(run)->ties[striker->tie].meeting;
         if (!striker->contact || !(striker->v_n < 0)) continue;
-        double height = meeting_low_step(run->model, run->state->tree, index);
+        double height = meeting_low_step(run->model, run->state->tree, index, -striker->v_n);
         if (height == 0) continue;
         run_fail(
             run, FBD_FAILED,
