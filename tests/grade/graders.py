@@ -47,7 +47,8 @@ def handout(student, *options):
 
 
 def right(sheet):
-    return sheet.replace("forces: []", f"forces: {RIGHT}").replace("hand: []", f"hand: {HAND}")
+    filled = re.sub(r"(?m)^( +forces:)( \[\])?$", lambda found: f"{found[1]} {RIGHT}", sheet)
+    return re.sub(r"(?m)^( +hand:)( \[\])?$", lambda found: f"{found[1]} {HAND}", filled)
 
 
 def answers_of(sheet):
