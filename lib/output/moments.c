@@ -51,18 +51,13 @@ static const char *length_name(struct formulas *formulas, double length)
 
 /* ---- where a force acts */
 
-/* The end of a tie whose force on body b is called so. */
+/* The tie whose force on body b is called so, and its end there; NULL for none. */
 static const struct tie *tie_of(const struct fbd_model *model, int b, const char *name, int *end)
 {
-    for (int i = 0; model->tree && i < model->tree->tie_count; i++) {
-        const struct tie *tie = &model->tree->ties[i];
-        for (*end = 0; *end < tie->end_count; ++*end)
-            for (int part = 0; part < 2; part++) {
-                const char *own = tie->end[*end].name[part];
-                if (tie->end[*end].body == b && own && strcmp(own, name) == 0) return tie;
-            }
-    }
-    return NULL;
+    struct tie_place place;
+    if (!tie_of_force(model, b, name, &place)) return NULL;
+    *end = place.end;
+    return &model->tree->ties[place.tie];
 }
 
 /* The body in whose joint the reaction acts: b, or one that it carries. */
