@@ -114,6 +114,7 @@ struct symbolic {
     struct formulas formulas;
     fbd_equations *equations;
     const struct equation *now; /* the one that is written, or NULL */
+    size_t written;             /* of the body */
 };
 
 /* A state is made ready by what looks at it: that is done to a copy. */
@@ -161,6 +162,7 @@ static void begin_equation(struct text *text, struct symbolic *symbolic, const s
 {
     struct text name = {0};
     text_printf(&name, row->body ? "%s.%s" : "%s%s", row->body ? row->body : "", row->coordinate);
+    json_comma(text, symbolic->written++);
     text_add(text, "\n{");
     json_text_member(text, "name", name.data ? name.data : "");
     symbolic->now = name.data && symbolic->equations ? find_equation(symbolic->equations, name.data) : NULL;
@@ -256,7 +258,7 @@ static void write_newton_equations(struct text *text, struct symbolic *symbolic,
                           .column = columns->newton + part,
                           .mass = columns->mass,
                           .start = body->inertia.mass};
-        if (part > 0 || body->count > 0) text_add(text, ",");
+        if (!equation_is_written(model, b, true, part, record->components)) continue;
         begin_equation(text, symbolic, &row);
         bool first = true;
         for (size_t i = 0; i < columns->arrow_count; i++)
@@ -269,12 +271,11 @@ static void write_equations(struct text *text, struct symbolic *symbolic, const 
 {
     const struct model_body *body = &record->model->bodies[b];
     text_add(text, "\"equations\":[");
-    for (int k = 0; k < body->count; k++) {
-        json_comma(text, (size_t)k);
-        write_coordinate_equation(text, symbolic, record, b, k);
-    }
-    const bool joined = body->place.link > 0 && equations_cut_free(record->model, false);
-    if (record->components || body->count == 0 || joined) write_newton_equations(text, symbolic, record, b);
+    symbolic->written = 0;
+    for (int k = 0; k < body->count; k++)
+        if (equation_is_written(record->model, b, false, k, record->components))
+            write_coordinate_equation(text, symbolic, record, b, k);
+    write_newton_equations(text, symbolic, record, b);
     text_add(text, "],");
 }
 

@@ -105,6 +105,13 @@ static void write_line(struct text *text, struct formulas *formulas, const struc
     if (left && right) text_printf(text, "    %s = %s\n", left, right);
 }
 
+/* Is it one of those of a body cut free? */
+static bool is_cut_free(const struct fbd_model *model, const struct equation *equation, bool components)
+{
+    return equation_in_symbols(model, equation, components) &&
+           equation_is_written(model, equation->body, true, 0, components);
+}
+
 /* Of bodies that are joined, Newton's and Euler's equations with all reactions, a line each. */
 static void write_cut_free(struct text *text, struct fbd_state *state, bool components)
 {
@@ -117,7 +124,7 @@ static void write_cut_free(struct text *text, struct fbd_state *state, bool comp
     int last = -1;
     for (size_t i = 0; !text->failed && i < all->count; i++) {
         const struct equation *equation = &all->equations[i];
-        if (!equation_in_symbols(model, equation, components) || !equation->cut_free) continue;
+        if (!is_cut_free(model, equation, components)) continue;
         if (equation->body != last) text_printf(text, "  %s\n", equation->public.body);
         last = equation->body;
         write_line(text, &formulas, equation);

@@ -13,13 +13,29 @@ bool equations_cut_free(const struct fbd_model *model, bool components)
     return model->body_count <= most_bodies && (components || model->tree);
 }
 
+/* Is the equation of its coordinate one of those of the body cut free, or the sum along a line between x and y? */
+static bool has_own_direction(const struct model_body *body)
+{
+    const bool slopes = body->kind == motion_slide && body->e.x != 0 && body->e.y != 0;
+    return body->parent == ground_body &&
+           (body->kind == motion_pivot || body->kind == motion_track || slopes);
+}
+
+bool equation_is_written(const struct fbd_model *model, int b, bool cut_free, int part, bool components)
+{
+    const struct model_body *body = &model->bodies[b];
+    const bool whole = components || body->count == 0 ||
+                       (body->place.link > 0 && equations_cut_free(model, false));
+    if (!whole) return !cut_free;
+    if (!cut_free) return has_own_direction(body);
+    return part < 2 || body->kind != motion_pivot || body->parent != ground_body;
+}
+
 bool equation_in_symbols(const struct fbd_model *model, const struct equation *equation, bool components)
 {
     const fbd_equation *e = &equation->public;
-    const struct model_body *body = &model->bodies[equation->body];
-    if (e->inertia == 0 && e->sum == 0) return false;
-    return !equation->cut_free || components || body->count == 0 ||
-           (body->place.link > 0 && equations_cut_free(model, false));
+    return (e->inertia != 0 || e->sum != 0) &&
+           equation_is_written(model, equation->body, equation->cut_free, equation->part, components);
 }
 
 bool formulas_begin(struct formulas *formulas, struct fbd_state *state)

@@ -26,7 +26,12 @@ struct formulas {
  * square of the bodies, and nobody reads that of a hundred. */
 bool equations_cut_free(const struct fbd_model *model, bool components);
 
-/* Is the equation one that is written in symbols? */
+/* Is the equation of body b one that is written in symbols? Of a body cut free stand the sums of forces along x and y of the
+ * world and one of moments, about the axis of a pivot on the ground, else about G; and the sum along a slide that is neither
+ * level nor upright, or along a track. Of other bodies those of their coordinates. */
+bool equation_is_written(const struct fbd_model *model, int b, bool cut_free, int part, bool components);
+
+/* So, unless all of it is zero. */
 bool equation_in_symbols(const struct fbd_model *model, const struct equation *equation, bool components);
 
 /* False when memory is out; to be ended in any case. */
