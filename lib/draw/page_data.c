@@ -126,7 +126,7 @@ static bool symbolic_begin(struct symbolic *symbolic, const fbd_state *start)
     state_copy(copy, start);
     symbolic->equations = assemble(copy, true);
     bool begun = formulas_begin(&symbolic->formulas, copy);
-    symbolic->formulas.general = true;
+    symbolic->formulas.slipping = false;
     return begun && symbolic->equations;
 }
 

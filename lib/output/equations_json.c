@@ -5,7 +5,7 @@
 #include <stdlib.h>
 
 #include "dynamics/kinematics.h"
-#include "output/equations.h"
+#include "output/formulas.h"
 #include "output/shown.h"
 #include "output/terms.h"
 
@@ -52,23 +52,49 @@ static void write_states(struct text *text, const struct fbd_state *state)
     text_add(text, "\n  },\n");
 }
 
-static void write_term(struct text *text, struct fbd_state *state, const struct equation *equation, size_t i)
+/* What is written, and in which symbols. */
+struct written {
+    struct fbd_state *state;
+    bool components;
+    struct formulas *formulas; /* NULL: in none */
+};
+
+static bool has_symbols(const struct written *written, const struct equation *equation)
 {
+    return written->formulas && equation_in_symbols(written->state->model, equation, written->components);
+}
+
+/* A text that is NULL when memory is out. */
+static void symbols(struct text *text, const char *key, const char *words, const char *after)
+{
+    text->failed |= !words;
+    if (words) text_json_words(text, key, words, after);
+}
+
+static void write_term(struct text *text, const struct written *written, const struct equation *equation,
+                       size_t i)
+{
+    struct fbd_state *state = written->state;
+    const char *name = equation->public.terms[i].name;
     char remark[term_remark_size];
     if (!equation_remark(state, equation, i, remark)) text->failed = true;
     text_add(text, i ? ",\n       {" : "\n       {");
-    text_json_words(text, "name", equation->public.terms[i].name, ", ");
+    text_json_words(text, "name", name, ", ");
+    if (has_symbols(written, equation))
+        symbols(text, "symbol", formula_term(written->formulas, equation, name), ", ");
     text_json_member(text, "value", equation->public.terms[i].value, remark[0] ? ", " : "}");
     if (remark[0]) text_json_words(text, "remark", remark, "}");
 }
 
-static void write_equation(struct text *text, struct fbd_state *state, const struct equation *equation)
+static void write_equation(struct text *text, const struct written *written, const struct equation *equation)
 {
     const fbd_equation *e = &equation->public;
-    const char *mode = equation->cut_free ? "" : term_mode(state, equation->body);
+    const char *mode = equation->cut_free ? "" : term_mode(written->state, equation->body);
     text_add(text, "    {");
     text_json_words(text, "body", e->body, ", ");
     text_json_words(text, "coordinate", e->coordinate, ",\n     ");
+    if (has_symbols(written, equation))
+        symbols(text, "symbols", formula_line(written->formulas, equation), ",\n     ");
     quantity(text, "inertia", e->inertia_name, e->inertia, e->inertia_unit);
     text_add(text, ",\n     ");
     quantity(text, "acceleration", e->acceleration_name, e->acceleration, e->acceleration_unit);
@@ -78,18 +104,24 @@ static void write_equation(struct text *text, struct fbd_state *state, const str
     text_json_member(text, "residual", e->inertia * e->acceleration - e->sum, ", ");
     if (mode[0]) text_json_words(text, "mode", mode, ", ");
     text_add(text, "\"terms\": [");
-    for (size_t i = 0; i < e->term_count; i++) write_term(text, state, equation, i);
+    for (size_t i = 0; i < e->term_count; i++) write_term(text, written, equation, i);
     text_add(text, "]}");
 }
 
-static void write_equations(struct text *text, struct fbd_state *state, const fbd_equations *all)
+static void write_equations(struct text *text, const struct written *written, const fbd_equations *all)
 {
-    text_add(text, "  \"equations\": [\n");
+    const struct fbd_model *model = written->state->model;
+    bool first = true;
+    text_add(text, "  \"equations\": [");
     for (size_t i = 0; i < all->count; i++) {
-        write_equation(text, state, &all->equations[i]);
-        text_add(text, i + 1 < all->count ? ",\n" : "\n");
+        const struct equation *equation = &all->equations[i];
+        if (equation->cut_free && !written->components && !equation_in_symbols(model, equation, false))
+            continue;
+        text_add(text, first ? "\n" : ",\n");
+        first = false;
+        write_equation(text, written, equation);
     }
-    text_add(text, "  ],\n");
+    text_add(text, "\n  ],\n");
 }
 
 static void write_arrow(struct text *text, const fbd_arrow *arrow)
@@ -139,9 +171,16 @@ static char *json_of(fbd_state *state, bool components)
 {
     if (!state) return NULL;
     struct text text = {0};
-    fbd_equations *all = assemble(state, components);
+    struct formulas formulas = {0};
+    struct written written = {state, components, NULL};
+    fbd_equations *all = assemble(state, true);
     struct arrow *arrows = calloc(diagram_most_arrows(state->model), sizeof *arrows);
-    if (all && arrows) {
+    bool done = all && arrows;
+    if (done && equations_cut_free(state->model, true)) {
+        written.formulas = &formulas;
+        done = formulas_begin(&formulas, state);
+    }
+    if (done) {
         text_add(&text, "{\n  ");
         text_json_words(&text, "title", state->model->scene->title, ",\n  ");
         text_json_words(&text, "units", state->model->scene->units == unit_si ? "SI" : "US", ",\n  ");
@@ -149,11 +188,12 @@ static char *json_of(fbd_state *state, bool components)
         text_json_member(&text, "t", state->t, ",\n");
         write_coordinates(&text, state);
         write_states(&text, state);
-        write_equations(&text, state, all);
+        write_equations(&text, &written, all);
         write_forces(&text, state, arrows);
         text_add(&text, "}\n");
     }
-    if (!all || !arrows || text.failed) text_free(&text);
+    if (!done || text.failed || formulas.arena.failed) text_free(&text);
+    formulas_end(&formulas);
     free(arrows);
     fbd_equations_free(all);
     return text.data;

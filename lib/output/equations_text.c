@@ -98,20 +98,6 @@ static void write_states(struct text *text, const struct fbd_state *state)
     }
 }
 
-static void write_line(struct text *text, struct formulas *formulas, const struct equation *equation)
-{
-    const char *left = formula_left(formulas, equation), *right = formula_right(formulas, equation);
-    text->failed |= !left || !right;
-    if (left && right) text_printf(text, "    %s = %s\n", left, right);
-}
-
-/* Is it one of those of a body cut free? */
-static bool is_cut_free(const struct fbd_model *model, const struct equation *equation, bool components)
-{
-    return equation_in_symbols(model, equation, components) &&
-           equation_is_written(model, equation->body, true, 0, components);
-}
-
 /* Of bodies that are joined, Newton's and Euler's equations with all reactions, a line each. */
 static void write_cut_free(struct text *text, struct fbd_state *state, bool components)
 {
@@ -124,10 +110,14 @@ static void write_cut_free(struct text *text, struct fbd_state *state, bool comp
     int last = -1;
     for (size_t i = 0; !text->failed && i < all->count; i++) {
         const struct equation *equation = &all->equations[i];
-        if (!is_cut_free(model, equation, components)) continue;
+        if (!body_is_cut_free(model, equation->body, components) ||
+            !equation_in_symbols(model, equation, components))
+            continue;
         if (equation->body != last) text_printf(text, "  %s\n", equation->public.body);
         last = equation->body;
-        write_line(text, &formulas, equation);
+        const char *line = formula_line(&formulas, equation);
+        text->failed |= !line;
+        if (line) text_printf(text, "    %s\n", line);
     }
     text->failed |= formulas.arena.failed;
     formulas_end(&formulas);

@@ -13,22 +13,37 @@ bool equations_cut_free(const struct fbd_model *model, bool components)
     return model->body_count <= most_bodies && (components || model->tree);
 }
 
-/* Is the equation of its coordinate one of those of the body cut free, or the sum along a line between x and y? */
-static bool has_own_direction(const struct model_body *body)
+/* Do the equations of its coordinates have the accelerations of G in the world? */
+static bool is_on_ground(const struct model_body *body)
 {
-    const bool slopes = body->kind == motion_slide && body->e.x != 0 && body->e.y != 0;
-    return body->parent == ground_body &&
-           (body->kind == motion_pivot || body->kind == motion_track || slopes);
+    const bool off_center = body->kind == motion_planar && (body->arm.x != 0 || body->arm.y != 0);
+    return body->parent == ground_body && body->count > 0 && !off_center;
+}
+
+/* Is the sum in that direction one of its coordinates' equations? */
+static bool has_coordinate_along(const struct model_body *body, int part)
+{
+    switch (body->kind) {
+    case motion_planar:
+    case motion_particle: return true;
+    case motion_pivot: return part == 2;
+    case motion_slide: return part < 2 && (part == 0 ? body->e.y : body->e.x) == 0;
+    default: return false;
+    }
+}
+
+bool body_is_cut_free(const struct fbd_model *model, int b, bool components)
+{
+    const struct model_body *body = &model->bodies[b];
+    return components || body->count == 0 || (body->place.link > 0 && equations_cut_free(model, false));
 }
 
 bool equation_is_written(const struct fbd_model *model, int b, bool cut_free, int part, bool components)
 {
     const struct model_body *body = &model->bodies[b];
-    const bool whole = components || body->count == 0 ||
-                       (body->place.link > 0 && equations_cut_free(model, false));
-    if (!whole) return !cut_free;
-    if (!cut_free) return has_own_direction(body);
-    return part < 2 || body->kind != motion_pivot || body->parent != ground_body;
+    const bool ground = is_on_ground(body);
+    if (!body_is_cut_free(model, b, components)) return !cut_free;
+    return cut_free ? !ground || !has_coordinate_along(body, part) : ground;
 }
 
 bool equation_in_symbols(const struct fbd_model *model, const struct equation *equation, bool components)
@@ -40,29 +55,42 @@ bool equation_in_symbols(const struct fbd_model *model, const struct equation *e
 
 bool formulas_begin(struct formulas *formulas, struct fbd_state *state)
 {
-    *formulas = (struct formulas){.state = state};
+    *formulas = (struct formulas){.state = state, .slipping = true};
     state_ready(state);
     formulas->symbols = symbols_of_forces(state, &formulas->arena);
-    return formulas->symbols != NULL;
+    return samples_begin(&formulas->samples, state, &formulas->arena) && formulas->symbols;
 }
 
 void formulas_end(struct formulas *formulas)
 {
+    samples_end(&formulas->samples);
     arena_free(&formulas->arena);
+}
+
+const char *symbol_of_body(struct formulas *formulas, const char *name, int body)
+{
+    if (formulas->state->model->body_count == 1) return name;
+    return arena_printf(&formulas->arena, strchr(name, '_') ? "%s%d" : "%s_%d", name, body + 1);
 }
 
 /* ---- laws */
 
+/* The parameter that has the value of a slope, or NULL. */
+static const char *slope_parameter(const struct scene *scene, struct vec e)
+{
+    for (size_t i = 0; i < scene->parameter_count; i++)
+        if (dim_equal(scene->parameters[i].dim, DIM_NONE) && !scene->parameters[i].input &&
+            fabs(scene->parameters[i].value - atan2(e.y, e.x)) < 1e-12)
+            return scene->parameters[i].name;
+    return NULL;
+}
+
 /* The slope of a slide: the parameter that has its value, else in degrees. */
 static const char *slope_of(struct formulas *formulas, struct vec e)
 {
-    const struct scene *scene = formulas->state->model->scene;
-    double slope = atan2(e.y, e.x);
-    for (size_t i = 0; i < scene->parameter_count; i++)
-        if (dim_equal(scene->parameters[i].dim, DIM_NONE) && !scene->parameters[i].input &&
-            fabs(scene->parameters[i].value - slope) < 1e-12)
-            return scene->parameters[i].name;
-    return arena_printf(&formulas->arena, "%.9g deg", slope * 180 / 3.141592653589793);
+    const char *name = slope_parameter(formulas->state->model->scene, e);
+    return name ? name
+                : arena_printf(&formulas->arena, "%.9g[deg]", atan2(e.y, e.x) * 180 / 3.141592653589793);
 }
 
 /* The law of a term of the equation where it says more than its symbol, or "". */
@@ -80,9 +108,10 @@ static const char *law_of(struct formulas *formulas, const struct equation *equa
     default: return "";
     }
     struct law_names names = {symbol_of_mass(model, equation->body, &formulas->arena),
-                              slope_of(formulas, model->bodies[equation->body].e)};
+                              slope_of(formulas, model->bodies[equation->body].e),
+                              symbol_of_body(formulas, "L", equation->body)};
     struct text law = {0};
-    if (names.mass && names.along) law_write(&law, model, equation, term, &names);
+    if (names.mass && names.along && names.L) law_write(&law, model, equation, term, &names);
     const char *kept = law.data ? arena_text(&formulas->arena, law.data, law.length) : "";
     formulas->arena.failed |= law.failed;
     text_free(&law);
@@ -91,42 +120,21 @@ static const char *law_of(struct formulas *formulas, const struct equation *equa
 
 /* ---- terms */
 
-/* The arrow of the body's diagram that a term is of, or -1. */
-static int arrow_of(const struct arrow *arrows, size_t count, const char *name)
+/* That of the body's arrow of this name; NULL for none. */
+static const struct force_symbol *symbol_of_arrow(struct formulas *formulas, int body, const char *name)
 {
+    const struct fbd_state *state = formulas->state;
+    const struct instant at = state_instant(state);
+    struct arrow *arrows = formulas->samples.arrows;
+    const size_t count = diagram_list(state->model, body, &at, state->a, state->slots, arrows);
     for (size_t i = 0; i < count; i++)
-        if (strcmp(arrows[i].name, name) == 0) return (int)i;
-    return -1;
+        if (strcmp(arrows[i].name, name) == 0) return &formulas->symbols[body][i];
+    return NULL;
 }
 
 static bool is_of_moments(const struct equation *equation)
 {
     return equation->public.inertia_name[0] == 'I';
-}
-
-/* Does the force act along the line of the slide at all times? Those that are functions of its coordinate, friction
- * among them. */
-static bool stays_on_slide(const struct fbd_model *model, const struct equation *equation,
-                           const struct arrow *arrow)
-{
-    if (model->bodies[equation->body].kind != motion_slide || arrow->load < 0) return false;
-    const struct model_load *load = &model->loads[arrow->load];
-    if (load->body != equation->body || load->linked) return false;
-    switch (load->source->kind) {
-    case load_friction:
-    case load_drive:
-    case load_spring:
-    case load_damper:
-    case load_potential: return true;
-    case load_applied: return !load->source->angle.expr && !load->source->fx.expr && !load->source->fy.expr;
-    default: return false;
-    }
-}
-
-static bool stays_along(const struct formulas *formulas, const struct equation *equation,
-                        const struct arrow *arrow)
-{
-    return !equation->cut_free && stays_on_slide(formulas->state->model, equation, arrow);
 }
 
 /* Does a moment have a share in the equation of forces, along a curve? */
@@ -136,131 +144,130 @@ static bool turns_along(const struct formulas *formulas, const struct equation *
     return !equation->cut_free && body->kind == motion_track && body->source->motion.turns;
 }
 
-/* The component or moment of a force that an equation has: R_1x, M_G(R_1); of a body that turns along a curve its generalized
- * force. */
-static const char *part_by_symbol(struct formulas *formulas, const struct equation *equation,
-                                  const char *symbol)
+/* The direction of an equation of forces in the world, or (0, 0) where that goes with the motion. */
+static struct vec direction_of(const struct formulas *formulas, const struct equation *equation)
 {
-    const enum motion_kind kind = formulas->state->model->bodies[equation->body].kind;
-    const bool track = !equation->cut_free && kind == motion_track;
-    const char *axis = track                 ? "s"
-                       : equation->part == 1 ? "y"
-                                             : "x",
-               *inertia = equation->public.inertia_name;
-    if (is_of_moments(equation))
-        return arena_printf(&formulas->arena, "M_%c(%s)", inertia[strlen(inertia) - 1], symbol);
-    if (turns_along(formulas, equation)) return arena_printf(&formulas->arena, "Q_s(%s)", symbol);
-    return component_by_symbol(&formulas->arena, symbol, axis);
+    const struct model_body *body = &formulas->state->model->bodies[equation->body];
+    if (!equation->cut_free && (body->parent != ground_body || body->kind == motion_track))
+        return (struct vec){0, 0};
+    if (!equation->cut_free && body->kind == motion_slide) return body->e;
+    return equation->part == 0 ? (struct vec){1, 0} : (struct vec){0, 1};
 }
 
-/* A line of the ground along which or across which a force acts. */
-struct slope {
-    struct vec e, d; /* its direction; that of the force where the symbol is positive in general */
-    bool along;
-};
-
-/* That of a slide: in general its symbols are components along +x, or away from the surface. */
-static bool slope_of_slide(const struct fbd_model *model, const struct equation *equation,
-                           const struct arrow *arrow, struct slope *slope)
-{
-    const struct model_body *body = &model->bodies[equation->body];
-    if (body->kind != motion_slide || body->parent != ground_body) return false;
-    slope->e = body->e;
-    slope->along = stays_on_slide(model, equation, arrow);
-    slope->d = slope->along ? body->e : body->n;
-    return slope->along || arrow_is_of_joint(model, equation->body, arrow);
-}
-
-/* That of the line on which a body rolls, or which it touches. */
-static bool slope_of_tie(const struct fbd_model *model, const struct equation *equation,
-                         const struct arrow *arrow, struct slope *slope)
-{
-    struct vec e;
-    if (!ground_line_of_force(model, equation->body, arrow->name, &e)) return false;
-    const double size = vec_norm(arrow->force), along = fabs(vec_dot(e, arrow->force)),
-                 across = fabs(vec_cross(e, arrow->force));
-    *slope =
-        (struct slope){.e = {fabs(e.x), fabs(e.y)}, .along = along > across}; /* signs are those of values */
-    return fmin(along, across) <= 1e-9 * size;
-}
-
-/* Of a force along a slope, or across it, the component along x or y of the world: N cos(phi). At one state N is the length of
- * its arrow. */
-static const char *part_on_slope(struct formulas *formulas, const struct equation *equation,
-                                 const struct arrow *arrow, const char *symbol, double value, double sign)
+/* The line of the ground along which or across which a force acts: a slide, what the body rolls on or touches. */
+static struct vec line_of(const struct formulas *formulas, const struct equation *equation, const char *name,
+                          struct vec d)
 {
     const struct fbd_model *model = formulas->state->model;
     const struct model_body *body = &model->bodies[equation->body];
-    const bool world = equation->cut_free || (body->parent == ground_body &&
-                                              (body->kind == motion_particle || body->kind == motion_planar));
-    struct slope slope;
-    if (!world || (!slope_of_slide(model, equation, arrow, &slope) &&
-                   (formulas->general || !slope_of_tie(model, equation, arrow, &slope))))
-        return "";
-    if (slope.e.x == 0 || slope.e.y == 0) return "";
-    const bool cosine = slope.along == (equation->part == 0);
-    const double factor = equation->part == 0 ? slope.d.x : slope.d.y, trig = cosine ? slope.e.x : slope.e.y;
-    const double all = (formulas->general ? sign * factor : value) / trig;
-    const char *angle = slope_of(formulas, slope.e);
-    return angle ? arena_printf(&formulas->arena, "%s%s %s(%s)", all < 0 ? "-" : "", symbol,
-                                cosine ? "cos" : "sin", angle)
+    struct vec e = d;
+    if (body->kind == motion_slide && body->parent == ground_body)
+        e = body->e;
+    else
+        ground_line_of_force(model, equation->body, name, &e);
+    const double along = fabs(vec_dot(e, d)), across = fabs(vec_cross(e, d));
+    return fmin(along, across) <= 1e-9 * fmax(along, across) ? vec_scale(1 / vec_norm(e), e) : d;
+}
+
+/* The share in direction u of a force of that size along d: N cos(phi). */
+static const char *share_of_size(struct formulas *formulas, const struct equation *equation, const char *name,
+                                 struct vec d, struct vec u, const char *symbol)
+{
+    const double share = vec_dot(d, u);
+    const char *minus = share < 0 ? "-" : "";
+    if (fabs(share) <= 1e-9) return "";
+    if (fabs(share) >= 1 - 1e-9) return arena_printf(&formulas->arena, "%s%s", minus, symbol);
+    struct vec e = line_of(formulas, equation, name, d);
+    if (!slope_parameter(formulas->state->model->scene, e)) e = (struct vec){fabs(e.x), fabs(e.y)};
+    const char *angle = slope_of(formulas, e);
+    const bool cosine = fabs(fabs(share) - fabs(e.x)) <= 1e-9;
+    if (share * (cosine ? e.x : e.y) > 0)
+        minus = "";
+    else
+        minus = "-";
+    return angle ? arena_printf(&formulas->arena, "%s%s %s(%s)", minus, symbol, cosine ? "cos" : "sin", angle)
                  : NULL;
 }
 
-/* The moment or the component of a force in the form that says most; "" where there is none. */
-static const char *part_in_full(struct formulas *formulas, const struct equation *equation,
-                                const struct arrow *arrow, const char *symbol, double value, double sign)
+/* Of a force whose direction goes with the motion, by its components in the world. */
+static const char *share_of_vector(struct formulas *formulas, const struct acts *acts, struct vec u,
+                                   const char *symbol, const char *minus)
 {
-    return is_of_moments(equation) ? moment_by_arm(formulas, equation, arrow, symbol, sign)
-                                   : part_on_slope(formulas, equation, arrow, symbol, value, sign);
+    static const struct vec axes[] = {{1, 0}, {0, 1}};
+    struct arena *arena = &formulas->arena;
+    const char *x = component_by_symbol(arena, symbol, "x"), *y = component_by_symbol(arena, symbol, "y");
+    if (!x || !y) return NULL;
+    const bool no_x = u.x == 0 || acts_never_along(acts, axes[0]),
+               no_y = u.y == 0 || acts_never_along(acts, axes[1]);
+    if (no_x && no_y) return "";
+    if (fabs(u.x) == 1 || fabs(u.y) == 1) {
+        const bool back = (u.x + u.y < 0) != (minus[0] != 0);
+        return arena_printf(arena, "%s%s", back ? "-" : "", u.x != 0 ? x : y);
+    }
+    const char *angle = slope_of(formulas, u);
+    if (!angle) return NULL;
+    if (no_y) return arena_printf(arena, "%s%s cos(%s)", minus, x, angle);
+    if (no_x) return arena_printf(arena, "%s%s sin(%s)", minus, y, angle);
+    return arena_printf(arena, "%s(%s cos(%s) + %s sin(%s))", minus, x, angle, y, angle);
 }
 
-/* A force by its symbol. At one state a symbol that stands by itself is the size of its arrow, and has the sign of the
- * term; in general it is the component along the line of the slide, or a moment counter-clockwise. */
-static const char *term_by_symbol(struct formulas *formulas, const struct equation *equation,
-                                  const struct arrow *arrow, const struct force_symbol *symbol, double value)
+/* The share of a force in an equation of forces. */
+static const char *share_by_symbol(struct formulas *formulas, const struct equation *equation,
+                                   const char *name, const struct acts *acts, const struct letter *letter)
 {
-    const bool general = formulas->general, moments = is_of_moments(equation);
-    const char *text = general ? symbol->text : symbol_now(symbol), *minus = symbol->opposite ? "-" : "";
-    const double size = vec_norm(arrow->force), whole = moments ? fabs(arrow->couple) : size;
-    const bool bare = moments   ? symbol->moment
-                      : general ? stays_along(formulas, equation, arrow)
-                                : fabs(fabs(value) - whole) <= 1e-9 * whole;
-    const char *full = "";
-    if (!bare && text) full = part_in_full(formulas, equation, arrow, text, value, symbol->opposite ? -1 : 1);
-    if (!full || full[0]) return full;
-    if (!bare)
-        text = text ? part_by_symbol(formulas, equation, text) : NULL;
-    else if (!general)
-        minus = value < 0 ? "-" : "";
-    return text ? arena_printf(&formulas->arena, "%s%s", minus, text) : NULL;
+    const struct vec u = direction_of(formulas, equation);
+    struct vec d;
+    if (turns_along(formulas, equation))
+        return arena_printf(&formulas->arena, "%sQ_s(%s)", letter->minus, letter->vector);
+    if (u.x == 0 && u.y == 0) { /* s of a track; x and y of a body on a body */
+        const enum motion_kind kind = formulas->state->model->bodies[equation->body].kind;
+        const char *axis = kind == motion_track ? "s" : equation->part == 1 ? "y" : "x";
+        const char *part = component_by_symbol(&formulas->arena, letter->vector, axis);
+        return part ? arena_printf(&formulas->arena, "%s%s", letter->minus, part) : NULL;
+    }
+    if (acts_never_along(acts, u)) return "";
+    const bool lies = acts_along_line(acts, &d), whole = lies && fabs(vec_dot(d, u)) >= 1 - 1e-9;
+    if (!whole && (!lies || (u.x != 0 && u.y != 0)))
+        return share_of_vector(formulas, acts, u, letter->vector, letter->minus);
+    return share_of_size(formulas, equation, name, vec_scale(letter->sign, d), u, letter->size);
 }
 
-static const char *term_of(struct formulas *formulas, const struct equation *equation, size_t index,
-                           const struct arrow *arrows, size_t count)
+/* What a force is called: while it slips friction is mu_k N, in the sense that it has now. */
+static struct letter letter_of(const struct formulas *formulas, const struct force_symbol *symbol,
+                               const struct acts *acts)
+{
+    struct letter letter = {symbol->text, symbol->text, symbol->opposite ? "-" : "", 1};
+    if (formulas->slipping && symbol->slipping && acts->list[0].size != 0) {
+        letter.size = symbol->slipping;
+        letter.sign = acts->list[0].size < 0 ? -1 : 1;
+    }
+    return letter;
+}
+
+/* One term; "" where it is zero at all times. */
+static const char *term_of(struct formulas *formulas, const struct equation *equation, size_t index)
 {
     const fbd_term *term = &equation->public.terms[index];
     const char *law = law_of(formulas, equation, index);
     if (!law || law[0]) return law;
-    int k = arrow_of(arrows, count, term->name);
-    if (k < 0) return arena_printf(&formulas->arena, "(%s)", term->name);
-    const struct force_symbol *symbol = &formulas->symbols[equation->body][k];
+    const struct force_symbol *symbol = symbol_of_arrow(formulas, equation->body, term->name);
+    if (!symbol) return arena_printf(&formulas->arena, "(%s)", term->name);
     if (symbol->moment && !is_of_moments(equation) && !turns_along(formulas, equation)) return "";
-    return term_by_symbol(formulas, equation, &arrows[k], symbol, term->value);
+    const struct acts acts =
+        acts_of(&formulas->samples, equation->body, term->name, equation->public.inertia_name[2] == 'O');
+    if (acts.count == 0) return "";
+    const struct letter letter = letter_of(formulas, symbol, &acts);
+    return is_of_moments(equation) ? moment_by_arm(formulas, equation, &acts, symbol->moment, &letter)
+                                   : share_by_symbol(formulas, equation, term->name, &acts, &letter);
 }
 
 const char *formula_right(struct formulas *formulas, const struct equation *equation)
 {
-    const struct fbd_state *state = formulas->state;
-    struct instant at = state_instant(state);
-    struct arrow *arrows = ARENA_ARRAY(&formulas->arena, diagram_most_arrows(state->model), struct arrow);
-    if (!arrows) return NULL;
-    size_t count = diagram_fill(state->model, equation->body, &at, state->a, state->slots, arrows);
     const char *right = "";
     for (size_t i = 0; right && i < equation->public.term_count; i++) {
-        if (equation->public.terms[i].value == 0) continue;
-        const char *term = term_of(formulas, equation, i, arrows, count);
-        bool minus = term && term[0] == '-';
+        const char *term = term_of(formulas, equation, i);
+        const bool minus = term && term[0] == '-';
+        if (term && !term[0]) continue;
         right = !term ? NULL
                 : !right[0]
                     ? term
@@ -271,14 +278,8 @@ const char *formula_right(struct formulas *formulas, const struct equation *equa
 
 const char *formula_term(struct formulas *formulas, const struct equation *equation, const char *name)
 {
-    const struct fbd_state *state = formulas->state;
-    struct instant at = state_instant(state);
-    struct arrow *arrows = ARENA_ARRAY(&formulas->arena, diagram_most_arrows(state->model), struct arrow);
-    if (!arrows) return NULL;
-    size_t count = diagram_fill(state->model, equation->body, &at, state->a, state->slots, arrows);
     for (size_t i = 0; i < equation->public.term_count; i++)
-        if (strcmp(equation->public.terms[i].name, name) == 0)
-            return term_of(formulas, equation, i, arrows, count);
+        if (strcmp(equation->public.terms[i].name, name) == 0) return term_of(formulas, equation, i);
     return "";
 }
 
@@ -287,6 +288,12 @@ const char *formula_left(struct formulas *formulas, const struct equation *equat
     const fbd_equation *e = &equation->public;
     const char *inertia = strcmp(e->inertia_name, "m") == 0
                               ? symbol_of_mass(formulas->state->model, equation->body, &formulas->arena)
-                              : e->inertia_name;
+                              : symbol_of_body(formulas, e->inertia_name, equation->body);
     return inertia ? arena_printf(&formulas->arena, "%s %s", inertia, e->acceleration_name) : NULL;
+}
+
+const char *formula_line(struct formulas *formulas, const struct equation *equation)
+{
+    const char *left = formula_left(formulas, equation), *right = formula_right(formulas, equation);
+    return left && right ? arena_printf(&formulas->arena, "%s = %s", left, right) : NULL;
 }

@@ -4,31 +4,37 @@
  * "m v_dot = -m g sin(phi) - mu_k N + push".
  *
  * A term that is a law of a textbook stands as that law (laws.h); an angle of a slide that a parameter of the file has the
- * value of is called by that parameter. What is none keeps its symbol, with the axis where the equation has a component of
- * it, R_1x, in its own x and y; M_G(R_1) is its moment. There a symbol stands for one vector, and where the body feels the
- * opposite it has a minus sign. By itself a symbol is the length of its arrow, and its sign is that of the term. What is
- * zero at the state is left out.
+ * value of is called by that parameter. What is none keeps its symbol. By itself a symbol is the size of the force, with the
+ * sign that derivations by hand give it (hand_forces.h): a normal force presses, friction acts against +x, a rope pulls. So
+ * it stands where the force acts along one line at all times; else with the axis of which it is the component, R_1x,
+ * where a symbol stands for one vector, and the body that feels the opposite has a minus sign. M_G(R_1) is a moment that has no arm (moments.h).
+ * What is zero at all times is left out.
  */
 #ifndef FBD_OUTPUT_FORMULAS_H
 #define FBD_OUTPUT_FORMULAS_H
 
 #include "output/equations.h"
+#include "output/samples.h"
 #include "output/symbols.h"
 
 struct formulas {
     struct arena arena;
     struct fbd_state *state;
     const struct force_symbol *const *symbols;
-    bool general; /* for every time of a run, not for this state alone */
+    struct samples samples;
+    bool slipping; /* friction that slips now is mu_k N */
 };
 
 /* Are there bodies whose equations, cut free, are written in symbols: joined ones, with `components` all? Numbering takes the
  * square of the bodies, and nobody reads that of a hundred. */
 bool equations_cut_free(const struct fbd_model *model, bool components);
 
-/* Is the equation of body b one that is written in symbols? Of a body cut free stand the sums of forces along x and y of the
- * world and one of moments, about the axis of a pivot on the ground, else about G; and the sum along a slide that is neither
- * level nor upright, or along a track. Of other bodies those of their coordinates. */
+/* Are all equations of body b in symbols, reactions and all? */
+bool body_is_cut_free(const struct fbd_model *model, int b, bool components);
+
+/* Is the equation of body b one that is written in symbols? Of a body cut free those of its coordinates where it moves on the
+ * ground, and besides the sums of forces along x and y of the world and of moments about G that are none of these. Of other
+ * bodies those of their coordinates. */
 bool equation_is_written(const struct fbd_model *model, int b, bool cut_free, int part, bool components);
 
 /* So, unless all of it is zero. */
@@ -38,9 +44,15 @@ bool equation_in_symbols(const struct fbd_model *model, const struct equation *e
 bool formulas_begin(struct formulas *formulas, struct fbd_state *state);
 void formulas_end(struct formulas *formulas);
 
+/* The symbol of a body's own quantity: I_O, or I_O2 where there are several bodies; L, L_2. NULL when memory is out. */
+const char *symbol_of_body(struct formulas *formulas, const char *name, int body);
+
 /* The right side of an equation, "-m g sin(phi) + push"; and its left side, "m v_dot". NULL when memory is out. */
 const char *formula_right(struct formulas *formulas, const struct equation *equation);
 const char *formula_left(struct formulas *formulas, const struct equation *equation);
+
+/* Both sides, "m v_dot = -m g sin(phi) + push". */
+const char *formula_line(struct formulas *formulas, const struct equation *equation);
 
 /* One term, by its name, as it stands at every time: friction as `f` whether it slips or holds, reactions by their
  * components; a force that stays on the line of the slide is its component along x by its symbol alone, as a moment is

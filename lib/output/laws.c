@@ -56,7 +56,7 @@ static void write_weight_about(struct text *text, struct vec g, const struct mod
     } else {
         const bool along_x = arm.y == 0;
         size *= along_x ? arm.x : vertical ? -arm.y : arm.y;
-        text_printf(text, "%s%s g L %s(theta)", minus_of(size), names->mass,
+        text_printf(text, "%s%s g %s %s(theta)", minus_of(size), names->mass, names->L,
                     along_x == vertical ? "cos" : "sin");
     }
 }

@@ -14,9 +14,9 @@
 
 #include "output/equations.h"
 
-/* The names of the mass and the slope of a slide. */
+/* The names of the mass, the slope of a slide, and |OG|. */
 struct law_names {
-    const char *mass, *along;
+    const char *mass, *along, *L;
 };
 
 /* "-m g sin(along)", "-k (x - x0)"; nothing for a term that has no law of such symbols, or is zero by it. Of a body that is

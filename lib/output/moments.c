@@ -6,6 +6,7 @@
 
 #include "dynamics/kinematics.h"
 #include "model/tree.h"
+#include "output/words.h"
 
 static const double length_tolerance = 1e-12; /* relative, of lengths that are equal but for rounding */
 
@@ -13,6 +14,16 @@ const char *component_by_symbol(struct arena *arena, const char *symbol, const c
 {
     if (strchr(symbol, ' ')) return arena_printf(arena, "(%s)_%s", symbol, axis);
     return arena_printf(arena, strchr(symbol, '_') ? "%s%s" : "%s_%s", symbol, axis);
+}
+
+/* R1 of R_1: what is an index itself. */
+static const char *without_index_line(struct arena *arena, const char *symbol)
+{
+    char *text = arena_printf(arena, "%s", symbol), *to = text;
+    for (const char *from = text; from && *from; from++)
+        if (*from != '_') *to++ = *from;
+    if (to) *to = '\0';
+    return text;
 }
 
 /* ---- lengths */
@@ -27,6 +38,7 @@ static bool is_taken(const struct formulas *formulas, const char *name)
 {
     const struct fbd_model *model = formulas->state->model;
     static const char *const others[] = {"L", "g", "m", "c", "k"};
+    if (strncmp(name, "L_", 2) == 0 || strncmp(name, "m_", 2) == 0) return true;
     for (size_t i = 0; i < sizeof others / sizeof *others; i++)
         if (strcmp(name, others[i]) == 0) return true;
     for (size_t b = 0; b < model->body_count; b++)
@@ -46,78 +58,25 @@ static const char *length_name(struct formulas *formulas, double length)
             if (is_taken(formulas, p->name)) continue;
             return arena_printf(&formulas->arena, part == 1 ? "%s" : "%s/2", p->name);
         }
-    return arena_printf(&formulas->arena, "%.9g", length);
+    return arena_printf(&formulas->arena, "%.9g[%s]", length, length_unit(formulas->state->model));
 }
 
 /* ---- where a force acts */
 
-/* The tie whose force on body b is called so, and its end there; NULL for none. */
-static const struct tie *tie_of(const struct fbd_model *model, int b, const char *name, int *end)
-{
-    struct tie_place place;
-    if (!tie_of_force(model, b, name, &place)) return NULL;
-    *end = place.end;
-    return &model->tree->ties[place.tie];
-}
-
-/* The body in whose joint the reaction acts: b, or one that it carries. */
-static int joint_of(const struct fbd_model *model, int b, const char *name)
-{
-    for (size_t c = 0; c < model->body_count; c++) {
-        const struct model_body *child = &model->bodies[c];
-        if (child->parent == b && child->reaction_on_parent && strcmp(name, child->reaction_on_parent) == 0)
-            return (int)c;
-    }
-    return b;
-}
-
-/* Does the force act at one point of the body at all times? */
-static bool at_fixed_point(const struct fbd_model *model, int b, const struct arrow *arrow)
-{
-    int end;
-    const struct tie *tie = tie_of(model, b, arrow->name, &end);
-    if (tie)
-        return tie->kind == constraint_pin || tie->kind == constraint_rod ||
-               (tie->kind == constraint_rope && tie->end[end].radius == 0);
-    if (arrow->load < 0) return model->bodies[joint_of(model, b, arrow->name)].kind == motion_pivot;
-    const struct load *load = model->loads[arrow->load].source;
-    switch (load->kind) {
-    case load_applied:
-    case load_spring:
-    case load_damper:
-    case load_drag: return !load_is_placed(load);
-    default: return false;
-    }
-}
-
-/* The radius of the disc at whose rim a tie acts on body b, else 0. */
-static double rim_of(const struct fbd_model *model, int b, const char *name, const struct tie **tie)
-{
-    int end;
-    *tie = tie_of(model, b, name, &end);
-    if (!*tie) return 0;
-    if ((*tie)->kind != constraint_contact) return fabs((*tie)->end[end].radius);
-    if ((*tie)->meeting < 0) return 0;
-    const struct meeting *meeting = &model->tree->meetings[(*tie)->meeting];
-    for (int k = 0; k < 2; k++)
-        if (meeting->shape[k].link == model->bodies[b].place.link && meeting->shape[k].kind == contact_disc)
-            return meeting->shape[k].radius;
-    return 0;
-}
-
 bool ground_line_of_force(const struct fbd_model *model, int b, const char *name, struct vec *e)
 {
-    int end;
-    const struct tie *tie = tie_of(model, b, name, &end);
-    if (!tie) return false;
-    *e = tie->e;
+    struct tie_place place;
+    if (!tie_of_force(model, b, name, &place)) return false;
+    const struct tie *tie = &model->tree->ties[place.tie];
+    if (tie->kind == constraint_roll && tie->end[1].link == 0) *e = tie->e;
     if (tie->kind == constraint_roll) return tie->end[1].link == 0;
     if (tie->kind != constraint_contact || tie->meeting < 0) return false;
     const struct meeting *meeting = &model->tree->meetings[tie->meeting];
     for (int k = 0; k < 2; k++) {
         const struct contact_shape *shape = &meeting->shape[k];
+        if (shape->kind != contact_line || shape->link != 0) continue;
         *e = shape->e;
-        if (shape->kind == contact_line && shape->link == 0) return true;
+        return true;
     }
     return false;
 }
@@ -130,20 +89,24 @@ struct arm {
     const char *angle; /* of those axes; NULL: those of the world */
 };
 
-static const char *arm_name(struct formulas *formulas, const struct model_body *body, double d)
+static const char *arm_name(struct formulas *formulas, int b, double d)
 {
-    return is_length(fabs(d), body->L) ? "L" : length_name(formulas, fabs(d));
+    return is_length(fabs(d), formulas->state->model->bodies[b].L) ? symbol_of_body(formulas, "L", b)
+                                                                   : length_name(formulas, fabs(d));
 }
 
 /* Is the angle of the body in the world its coordinate? */
-static const char *angle_name(const struct fbd_model *model, const struct model_body *body,
-                              const struct instant *at)
+static const char *angle_name(const struct formulas *formulas, int b)
 {
+    const struct fbd_model *model = formulas->state->model;
+    const struct model_body *body = &model->bodies[b];
     if (body->kind != motion_pivot && body->kind != motion_planar) return "angle";
-    for (int p = body->parent; p != ground_body; p = model->bodies[p].parent)
-        if (model->bodies[p].kind != motion_slide && model->bodies[p].kind != motion_particle) return "angle";
     const int coordinate = body->first + body->count - 1;
-    return at->y[coordinate] == body_angle(body, at) ? model->scene->coordinates[coordinate].name : "angle";
+    for (int k = 0; k < formulas->samples.count; k++) {
+        const struct instant at = state_instant(formulas->samples.states[k]);
+        if (fabs(at.y[coordinate] - body_angle(body, &at)) > 1e-9) return "angle";
+    }
+    return model->scene->coordinates[coordinate].name;
 }
 
 static bool can_turn(const struct fbd_model *model, const struct model_body *body)
@@ -154,28 +117,13 @@ static bool can_turn(const struct fbd_model *model, const struct model_body *bod
     return true;
 }
 
-static struct arm arm_of(const struct fbd_model *model, const struct model_body *body,
-                         const struct instant *at, struct vec from, struct vec to)
-{
-    struct vec d = vec_sub(to, from);
-    const double size = length_tolerance * (vec_norm(d) + vec_norm(to));
-    struct arm arm = {.d = d};
-    if (can_turn(model, body)) {
-        const struct vec turn = body_pose(body, at).rotation;
-        arm.d = (struct vec){vec_dot(turn, d), vec_cross(turn, d)};
-        arm.angle = angle_name(model, body, at);
-    }
-    if (fabs(arm.d.x) <= size) arm.d.x = 0;
-    if (fabs(arm.d.y) <= size) arm.d.y = 0;
-    return arm;
-}
-
-/* u cos(theta) - v sin(theta), or u sin(theta) + v cos(theta): a component of the arm in the world, times a force. */
-static const char *by_one_component(struct formulas *formulas, const struct model_body *body,
-                                    const struct arm *arm, const char *symbol, double force, bool upright)
+/* u cos(theta) - v sin(theta), or u sin(theta) + v cos(theta): a component of the arm in the world, times a force along an axis of
+ * it, whose symbol is `force` times its component. */
+static const char *by_one_component(struct formulas *formulas, int b, const struct arm *arm,
+                                    const char *symbol, double force, bool upright)
 {
     struct arena *arena = &formulas->arena;
-    const char *u = arm_name(formulas, body, arm->d.x), *v = arm_name(formulas, body, arm->d.y);
+    const char *u = arm_name(formulas, b, arm->d.x), *v = arm_name(formulas, b, arm->d.y);
     if (!u || !v) return NULL;
     /* d_x F_y, or -d_y F_x */
     const double U = upright ? force * arm->d.x : -force * arm->d.x, V = -force * arm->d.y;
@@ -192,12 +140,14 @@ static const char *by_one_component(struct formulas *formulas, const struct mode
 }
 
 /* d_x F_y - d_y F_x where F has the components Fx and Fy, and so with axes that turn. */
-static const char *by_components(struct formulas *formulas, const struct model_body *body,
-                                 const struct arm *arm, const char *symbol, double sign)
+static const char *by_components(struct formulas *formulas, int b, const struct arm *arm,
+                                 const struct letter *letter)
 {
     struct arena *arena = &formulas->arena;
-    const char *x = component_by_symbol(arena, symbol, "x"), *y = component_by_symbol(arena, symbol, "y");
-    const char *u = arm_name(formulas, body, arm->d.x), *v = arm_name(formulas, body, arm->d.y);
+    const double sign = letter->minus[0] ? -1 : 1;
+    const char *x = component_by_symbol(arena, letter->vector, "x"),
+               *y = component_by_symbol(arena, letter->vector, "y");
+    const char *u = arm_name(formulas, b, arm->d.x), *v = arm_name(formulas, b, arm->d.y);
     if (!x || !y || !u || !v) return NULL;
     const char *across = y, *along = x;
     if (arm->angle) {
@@ -212,39 +162,75 @@ static const char *by_components(struct formulas *formulas, const struct model_b
                         (dx < 0) == (dy < 0) ? '+' : '-', v, along);
 }
 
-/* At one state a force along an axis of the world is its symbol alone. */
-static const char *by_arm(struct formulas *formulas, const struct model_body *body, const struct arm *arm,
-                          const struct arrow *arrow, const char *symbol, double sign)
+/* A force along an axis of the world is its size, or its only component. */
+static const char *by_arm(struct formulas *formulas, int b, const struct arm *arm, const struct acts *acts,
+                          const struct letter *letter)
 {
-    const struct vec F = arrow->force;
-    const double zero = length_tolerance * vec_norm(F);
-    if (!formulas->general && fabs(F.x) <= zero)
-        return by_one_component(formulas, body, arm, symbol, F.y, true);
-    if (!formulas->general && fabs(F.y) <= zero)
-        return by_one_component(formulas, body, arm, symbol, F.x, false);
-    return strchr(symbol, ' ') ? "" : by_components(formulas, body, arm, symbol, sign);
+    const bool no_x = acts_never_along(acts, (struct vec){1, 0}),
+               no_y = acts_never_along(acts, (struct vec){0, 1});
+    if (!no_x && !no_y) return by_components(formulas, b, arm, letter);
+    struct vec d;
+    if (acts_along_line(acts, &d))
+        return by_one_component(formulas, b, arm, letter->size, letter->sign * (no_x ? d.y : d.x), no_x);
+    const char *component = component_by_symbol(&formulas->arena, letter->vector, no_x ? "y" : "x");
+    return component ? by_one_component(formulas, b, arm, component, letter->minus[0] ? -1 : 1, no_x) : NULL;
 }
 
-const char *moment_by_arm(struct formulas *formulas, const struct equation *equation,
-                          const struct arrow *arrow, const char *symbol, double sign)
+/* At a point that moves in the body: by the coordinates of that point from there. */
+static const char *by_place(struct formulas *formulas, const struct acts *acts, const struct letter *letter)
 {
-    const struct fbd_model *model = formulas->state->model;
-    const struct model_body *body = &model->bodies[equation->body];
-    const struct instant at = state_instant(formulas->state);
-    const struct pose pose = body_pose(body, &at);
-    const bool about_axis = equation->public.inertia_name[2] == 'O';
-    const struct vec about = about_axis ? pose.origin : point_motion(body, &pose, body->inertia.G).p;
-    if (arrow->couple != 0 || strchr(symbol, '.')) return "";
-    const struct tie *tie;
-    const double r = rim_of(model, equation->body, arrow->name, &tie), moment = arrow_moment(arrow, about);
-    const double size = r * vec_norm(arrow->force);
-    const bool pulls = tie && (tie->kind == constraint_rope || tie->law->strands);
-    const bool meets = tie && tie->kind == constraint_contact && r == 0 && !formulas->general;
-    if (at_fixed_point(model, equation->body, arrow) || meets) {
-        const struct arm arm = arm_of(model, body, &at, about, arrow->point);
-        return arm.d.x == 0 && arm.d.y == 0 ? "" : by_arm(formulas, body, &arm, arrow, symbol, sign);
+    struct arena *arena = &formulas->arena;
+    const bool no_x = acts_never_along(acts, (struct vec){1, 0}),
+               no_y = acts_never_along(acts, (struct vec){0, 1});
+    const char *x = component_by_symbol(arena, letter->vector, "x"),
+               *y = component_by_symbol(arena, letter->vector, "y");
+    const char *at = without_index_line(arena, letter->vector);
+    struct vec d;
+    double sign = letter->minus[0] ? -1 : 1;
+    if (!x || !y || !at) return NULL;
+    if (!no_x && !no_y) return arena_printf(arena, "%s(x_%s %s - y_%s %s)", letter->minus, at, y, at, x);
+    if (acts_along_line(acts, &d)) {
+        sign = letter->sign * (no_x ? d.y : d.x);
+        x = y = letter->size;
     }
-    if (size == 0 || fabs(fabs(moment) - size) > 1e-9 * size || (formulas->general && !pulls)) return "";
-    const char *name = length_name(formulas, r);
-    return name ? arena_printf(&formulas->arena, "%s%s %s", moment < 0 ? "-" : "", name, symbol) : NULL;
+    if (no_y) sign = -sign;
+    return arena_printf(arena, "%s%s_%s %s", sign < 0 ? "-" : "", no_x ? "x" : "y", at, no_x ? y : x);
+}
+
+static const char *of_force(struct formulas *formulas, const struct equation *equation,
+                            const struct acts *acts, const struct letter *letter)
+{
+    const int b = equation->body;
+    double lever;
+    struct arm arm = {.angle = NULL};
+    if (acts_never_about(acts)) return "";
+    if (acts_on_lever(acts, &lever)) {
+        const char *name = arm_name(formulas, b, lever), *minus = lever * letter->sign < 0 ? "-" : "";
+        return name ? arena_printf(&formulas->arena, "%s%s %s", minus, name, letter->size) : NULL;
+    }
+    const bool turns = can_turn(formulas->state->model, &formulas->state->model->bodies[b]);
+    if (turns && acts_at_place(acts, true, &arm.d)) arm.angle = angle_name(formulas, b);
+    if (arm.angle || acts_at_place(acts, false, &arm.d)) return by_arm(formulas, b, &arm, acts, letter);
+    return by_place(formulas, acts, letter);
+}
+
+const char *moment_by_arm(struct formulas *formulas, const struct equation *equation, const struct acts *acts,
+                          bool moment, const struct letter *letter)
+{
+    struct arena *arena = &formulas->arena;
+    double lever;
+    if (moment && acts_on_lever(acts, &lever))
+        return arena_printf(arena, "%s%s", lever * letter->sign < 0 ? "-" : "", letter->size);
+    if (moment) return arena_printf(arena, "%s%s", letter->minus, letter->vector);
+    if (strchr(letter->vector, '.'))
+        return arena_printf(arena, "%sM_%c(%s)", letter->minus, equation->public.inertia_name[2],
+                            letter->vector);
+    if (!acts_as_couple(acts)) return of_force(formulas, equation, acts, letter);
+    struct acts forces = *acts;
+    for (int k = 0; k < forces.count; k++) forces.list[k].couple = 0;
+    const char *force = of_force(formulas, equation, &forces, letter);
+    const char *couple = arena_printf(arena, "%sM(%s)", letter->minus, letter->vector);
+    if (!force || !couple || !force[0]) return force ? couple : NULL;
+    const bool minus = force[0] == '-';
+    return arena_printf(arena, "%s %s %s", couple, minus ? "-" : "+", force + minus);
 }

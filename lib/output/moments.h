@@ -5,10 +5,10 @@
  *     l (R_y cos(theta) - R_x sin(theta))     of a force at a point on the x axis of the body's frame through G (or O)
  *     -l (R_x cos(theta) + R_y sin(theta))    on the y axis
  *     (0.2 R_y - 0.1 R_x)                     on a body that does not turn
- *     r f                                     on the rim of a disc: a force along it
+ *     -r f                                    at one arm at all times, as on the rim of a disc
  *
  * theta is the coordinate where it is the angle of the body in the world, else `angle` is that angle. A length is called
- * by the parameter that has its value, or half of it; L = |OG|.
+ * by the parameter that has its value, or half of it, else it is a value with its unit, 0.2[m]; L = |OG|.
  */
 #ifndef FBD_OUTPUT_MOMENTS_H
 #define FBD_OUTPUT_MOMENTS_H
@@ -22,9 +22,15 @@ const char *component_by_symbol(struct arena *arena, const char *symbol, const c
  * none. */
 bool ground_line_of_force(const struct fbd_model *model, int b, const char *name, struct vec *e);
 
-/* The moment of the force that the symbol stands for, where the arrow is `sign` times that; "" where it has no such form: then
- * it is M_G(..). NULL when memory is out. */
-const char *moment_by_arm(struct formulas *formulas, const struct equation *equation,
-                          const struct arrow *arrow, const char *symbol, double sign);
+/* What a force is called: by its size, of which `sign` times stands for it, and as a vector, where the body feels `minus` that. */
+struct letter {
+    const char *size, *vector, *minus;
+    double sign;
+};
+
+/* The moment of a force, or of one that is a moment by itself; M_G(..) where it has no arm, "" where it is zero at all times.
+ * NULL when memory is out. */
+const char *moment_by_arm(struct formulas *formulas, const struct equation *equation, const struct acts *acts,
+                          bool moment, const struct letter *letter);
 
 #endif

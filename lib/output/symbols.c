@@ -326,18 +326,27 @@ static bool is_velocity(const char *word, size_t length)
     return length == 2 && word[0] == 'v' && (word[1] == 'x' || word[1] == 'y');
 }
 
-/* One word: a Greek letter, a function, the sign of degrees; a letter stands as it is, more of them upright. */
+/* One word: a Greek letter, a function; a letter stands as it is, more of them upright. */
 static void write_word(struct text *text, const char *word, size_t length)
 {
     bool function = length == 3 && (strncmp(word, "sin", 3) == 0 || strncmp(word, "cos", 3) == 0);
     if (greek_of(word, length) || function)
         text_printf(text, "\\%.*s ", (int)length, word);
-    else if (length == 3 && strncmp(word, "deg", 3) == 0)
-        text_add(text, "^\\circ");
     else if (length > 1 && !is_digit(*word))
         text_printf(text, "\\mathit{%.*s}", (int)length, word);
     else
         text_add_bytes(text, word, length);
+}
+
+/* A unit, "[deg]" or "[m]"; returns its length. */
+static size_t write_unit(struct text *text, const char *unit)
+{
+    const size_t length = strcspn(unit, "]") + 1;
+    if (strncmp(unit, "[deg]", length) == 0)
+        text_add(text, "^\\circ");
+    else
+        text_printf(text, "\\,\\mathrm{%.*s}", (int)length - 2, unit + 1);
+    return length;
 }
 
 void symbol_write_latex(struct text *text, const char *symbol)
@@ -360,11 +369,12 @@ void symbol_write_latex(struct text *text, const char *symbol)
             below = true;
             c++;
         } else if (*c == ' ') {
-            bool degrees = strncmp(c + 1, "deg", 3) == 0;
             bool operand = is_word(c[1]) || c[1] == '|' || c[1] == '(';
-            bool factor = operand && c > symbol && (is_word(c[-1]) || c[-1] == ')' || c[-1] == '|');
-            text_add(text, degrees ? "" : factor ? "\\," : " ");
+            bool factor = operand && c > symbol && (is_word(c[-1]) || strchr(")|]", c[-1]));
+            text_add(text, factor ? "\\," : " ");
             c++;
+        } else if (*c == '[') {
+            c += write_unit(text, c);
         } else if (*c && !is_word(*c)) {
             text_add_bytes(text, c++, 1);
         }

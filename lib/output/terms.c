@@ -111,7 +111,7 @@ static void listed_remark(struct fbd_state *state, const struct equation *equati
 static bool write_law(const struct fbd_model *model, const struct equation *equation, size_t term,
                       char remark[static term_remark_size])
 {
-    static const struct law_names names = {"m", "along"};
+    static const struct law_names names = {"m", "along", "L"};
     struct text law = {0};
     law_write(&law, model, equation, term, &names);
     const bool written = !law.failed;

@@ -5,8 +5,7 @@ import re
 
 GREEK = {"alpha": "α", "beta": "β", "gamma": "γ", "delta": "δ", "theta": "θ", "lambda": "λ", "mu": "μ", "phi": "φ", "psi": "ψ",
          "omega": "ω", "rho": "ρ", "tau": "τ"}
-TOKEN = re.compile(r"\s*(d[A-Za-z]\w*/d[a-z]+|[A-Za-z][A-Za-z0-9']*(?:_[A-Za-z0-9]+)*|[0-9.]+(?:e[-+]?[0-9]+)?|.)")
-FORCE = re.compile(r"(?P<moment>M_[GO]|Q_s)\((?P<of>.*)\)|\((?P<vector>[^()]*)\)_(?P<along>[xys])|(?P<plain>[A-Za-z][\w.]*(?: [A-Za-z]\w*)*)")
+TOKEN = re.compile(r"\s*(d[A-Za-z]\w*/d[a-z]+|[A-Za-z][A-Za-z0-9']*(?:[_.][A-Za-z0-9]+)*|[0-9.]+(?:e[-+]?[0-9]+)?|\[[a-z]+\]|.)")
 
 
 class Unbound(Exception):
@@ -17,7 +16,7 @@ def from_latex(text):
     """The same formula, plainly."""
     text = re.sub(r"\\dot\{\s*\\?(\w+)\s*\}", r"\1_dot", text)
     text = re.sub(r"(\w+)_dot_\{(\w)\}", r"\1\2_dot", text)
-    text = text.replace(r"\,", " ").replace(r"^\circ", " deg")
+    text = re.sub(r"\\,\\mathrm\{(\w+)\}", r"[\1]", text).replace(r"\,", " ").replace(r"^\circ", "[deg]")
     text = re.sub(r"\\mathit\{(\w*)\}", r"\1", text)
     text = re.sub(r"\\([a-z]+) ", r"\1", text)
     text = re.sub(r"\bv_\{([xy])\}", r"v\1", text)
@@ -115,10 +114,8 @@ class Formula:
         if token in ("sin", "cos"):
             return getattr(math, token)(self.factor())
         if token[0].isdigit():
-            degrees = self.next() == "deg"
-            if degrees:
-                self.take()
-            return float(token) * (math.pi / 180 if degrees else 1)
+            unit = self.take() if self.next()[:1] == "[" else None
+            return float(token) * (math.pi / 180 if unit == "[deg]" else 1)
         if token not in self.values or self.values[token] is None:
             raise Unbound(token)
         return self.values[token]

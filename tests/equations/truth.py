@@ -14,7 +14,7 @@ from collections import Counter
 
 import yaml
 
-from formula import FORCE, Unbound, evaluate, from_latex, pieces, printed
+from formula import Unbound, evaluate, from_latex, printed
 
 LAWS = {"gravity", "spring", "damper", "drag"}
 LAW = re.compile(r"m(_[0-9]+)? (g\b|g_[xy]|\(|g ).*|[kc] .*|\(c \+ k .*")
@@ -204,9 +204,11 @@ class Place:
             m = self.mass[b]
             g = (weight.force[0] / m, weight.force[1] / m)
             O, G = self.center.get((b, "O")), weight.point
+            L = O and math.hypot(G[0] - O[0], G[1] - O[1])
+            values.update({"L": L, f"L_{scene.bodies.index(b) + 1}": L})
             values.update({"m": m, f"m_{scene.bodies.index(b) + 1}": m, "g": math.hypot(*g), "g_x": g[0], "g_y": g[1]})
             if O:
-                values.update({"r_x": G[0] - O[0], "r_y": G[1] - O[1], "L": math.hypot(G[0] - O[0], G[1] - O[1])})
+                values.update({"r_x": G[0] - O[0], "r_y": G[1] - O[1]})
         kind = scene.kind(b)
         if kind == "slide":
             values["along"] = scene.along(b)
@@ -251,112 +253,92 @@ class Judge:
         self.scene, self.general = scene, general
         self.counts = Counter()
         self.uses = {}    # symbol: {(body, arrow): sign of the vector on this body}
+        self.signs = {}   # symbol: of the number that it stands for
         self.kinds = {}   # symbol: is it a moment?
         self.seen = {}    # symbol: the bodies that it stands on
 
-    def component(self, place, equation, arrow, text_axis):
-        b = equation.body
-        if equation.cut_free:
-            return arrow.force["xy".index(text_axis)]
-        e = place.axis.get(b)
-        if not e:
-            raise Unbound("axis")
-        wanted = "s" if self.scene.kind(b) == "track" else "xy"[equation.part]
-        assert text_axis == wanted, f"axis {text_axis} in the equation along {wanted}"
-        return e[0] * arrow.force[0] + e[1] * arrow.force[1] if text_axis != "y" else cross(e, arrow.force)
+    def words(self, text, b):
+        """The names of a term that no number of the file has, nor the body: those of its force."""
+        known = {"sin", "cos", "angle", "theta", *self.scene.file.get("parameters", {})} - {"mu_k"}
+        return [w for w in re.findall(r"[A-Za-z][\w.]*", re.sub(r"\[[a-z]+\]", "", text))
+                if w not in known and not re.fullmatch(r"L(_[0-9]+)?", w)]
 
-    def symbol(self, place, equation, name, sign, piece, value, label):
-        """A term by the symbol of its force: its value, and what the symbol stands for."""
-        match = FORCE.fullmatch(piece)
-        assert match, f"no symbol: {piece}"
-        arrow, b = place.arrows[equation.body, name], equation.body
-        if match["moment"]:
-            symbol = match["of"]
-            assert match["moment"] == ("Q_s" if equation.about is None else f"M_{equation.about}"), piece
-            if equation.about is None:  # a force's, or a moment's
-                self.counts["not judged: Q_s"] += 1
-                return None
-            self.use(symbol, b, name, sign, False)
-            if (b, equation.about) in place.center:
-                return arrow.moment(place.center[b, equation.about])
-            if (b, equation.about, name) in place.moments:
-                return place.moments[b, equation.about, name]
-            self.counts[f"not judged: {equation.about} is not known"] += 1
-            return None
-        if match["vector"]:
-            symbol, axis = match["vector"], match["along"]
-        elif label and piece == label or not label and not re.search(r"_?[xys]$", piece):
-            symbol, axis = piece, None
-        elif re.fullmatch(r".*_[0-9a-z]*[xys]", piece):
-            axis = piece[-1]
-            symbol = piece[:-2] if piece[-2] == "_" else piece[:-1]
-        else:
-            symbol, axis = piece, None
-        if symbol.startswith("mu_k "):
-            self.is_product(place, b, name, symbol)
-        if label:
-            assert symbol == label, f"the drawing calls it {label}, the equation {piece}"
-        if axis:
-            self.use(symbol, b, name, sign, False)
-            return self.component(place, equation, arrow, axis)
-        self.seen.setdefault(symbol, set()).add(b)
-        moment = equation.about is not None
-        size = arrow.couple if moment else math.hypot(*arrow.force)
-        if moment:
-            assert math.hypot(*arrow.force) == 0, f"{piece} is a force, not a moment"
-        if not self.general:
-            self.kinds[symbol] = moment
-            return sign * abs(size)
-        self.use(symbol, b, name, sign, moment)
-        return size if moment else self.component(place, equation, arrow, "x")
-
-    def is_compound(self, place, equation, name, piece, label):
-        match = FORCE.fullmatch(piece)
-        if not match:
-            return True
-        force = equation.about is not None and math.hypot(*place.arrows[equation.body, name].force) > 0
-        return bool(match["plain"] and force)
-
-    def compound(self, place, equation, name, sign, piece, value, label):
-        """A force with its arm, or along or across a slope: l (R_y cos(theta) - R_x sin(theta)), r f, N cos(phi)."""
-        scene, b, arrow = self.scene, equation.body, place.arrows[equation.body, name]
-        known = {"sin", "cos", "deg", "angle", "L", "theta"} | set(scene.file.get("parameters", {}))
-        known -= {"mu_k", label}
-        words = [w for w in re.findall(r"[A-Za-z]\w*", piece) if w not in known]
-        bases = {label} if label else {re.sub(r"_?[xy]$", "", w) if re.search(r"(_|_\d+)[xy]$", w) else w for w in words}
-        symbol = " ".join(sorted(bases)) if len(bases) == 1 else " ".join(dict.fromkeys(words))
-        parts = {symbol + (axis if "_" in symbol else "_" + axis): f for axis, f in zip("xy", arrow.force)}
-        vector = any(w in parts for w in words)
-        size = math.hypot(*arrow.force)
+    def lengths(self, place, b):
+        """What an arm or a slope is called by."""
+        scene = self.scene
         values = {p: next((x for x in (scene.number(p, "m"), scene.number(p, "rad")) if x is not None), None)
                   for p in scene.file.get("parameters", {})}
         O, G = place.center.get((b, "O")), place.center.get((b, "G"))
-        values["L"] = math.hypot(G[0] - O[0], G[1] - O[1]) if O and G else None
-        if "theta" in piece or "angle" in piece:
-            values["theta"] = place.values.get(f"{b}.theta")
-            values["angle"] = scene.angle(b, place.values)
-        if vector:
-            got = sign * evaluate(piece, {**values, **parts})
-            self.seen.setdefault(symbol, set()).add(b)
-            side = 1 if abs(got - value) <= abs(got + value) else -1
-            if abs(got) > 1e-6 * (size + 1e-3):  # else its sign is rounding
-                self.use(symbol, b, name, side, False)
-            return side * got
-        if self.general and equation.about is None:
-            entry, e = scene.entries[b].get(name), place.axis[b]
-            if entry and entry.kind == "normal" and str(entry.keys.get("two_sided")) != "true":
-                pass
-            elif entry and entry.kind == "normal" or name == "guide":
-                size = scene.surface(b, e, arrow.force)
-            else:
-                size = e[0] * arrow.force[0] + e[1] * arrow.force[1]
-        elif not self.general:
-            self.kinds[symbol] = False
+        values["L"] = values[f"L_{scene.bodies.index(b) + 1}"] = math.hypot(G[0] - O[0], G[1] - O[1]) if O and G else None
+        return values
+
+    def force(self, place, equation, name, text, value, label):
+        """A term by the symbol of its force. By itself that is the size of the force with a sign, the same one in all equations;
+        R_1x is a component of one vector, x_R1 where it acts, and M(R_1) a couple beside it."""
+        b, arrow = equation.body, place.arrows[equation.body, name]
+        whole = re.fullmatch(r"-?(?:M_([GO])|Q_s)\((.*)\)", text)
+        if whole and not whole[1]:
+            self.counts["not judged: Q_s"] += 1
+            return None
+        values = self.lengths(place, b)
+        if re.search(r"\b(theta|angle)\b", text):
+            values.update({"theta": place.values.get(f"{b}.theta"), "angle": self.scene.angle(b, place.values)})
+        words = [label] if label and label in text and not re.search(rf"{re.escape(label)}\w", text) else self.words(text, b)
+        words = [w for w in words if w != "M" or "M(" not in text]
+        size = math.hypot(*arrow.force)
+        if whole:
+            symbol, vector = whole[2], True
+            got = (-1 if text[0] == "-" else 1) * arrow.moment(place.center[b, equation.about])
+        else:
+            ends = [re.fullmatch(r"(.*_[0-9]+|.*?)_?([xys])", w) for w in words]
+            at = [re.fullmatch(r"[xy]_(.*)", w) for w in words]
+            vectors = {m[1] for w, m, p in zip(words, ends, at) if m and not p and self.is_component(w, label)}
+            lone = [w for w, p in zip(words, at) if not p and not self.is_component(w, label)]
+            if "M(" in text:
+                vectors.add(re.search(r"M\(([^()]*)\)", text)[1])
+                lone = [w for w in lone if w not in vectors]
+                text = re.sub(r"M\([^()]*\)", "couple", text)
+            vector = bool(vectors)
+            symbol = vectors.pop() if vector else " ".join(dict.fromkeys(lone))
+            assert not vectors and not (vector and lone), f"{text} has several symbols"
+            values.update(self.parts(place, equation, arrow, symbol))
+            if not vector:
+                if " " in symbol:
+                    self.is_product(place, b, name, symbol)
+                text = re.sub(rf"(?<![\w.]){re.escape(symbol)}(?![\w.])", "size", text)
+                values["size"] = abs(arrow.couple) if size == 0 else size
+            got = evaluate(text, values)
+        slips = label and label.startswith("mu_k ") and symbol != label
+        assert not label or slips or symbol == label, f"the drawing calls it {label}, the equation {symbol}"
         self.seen.setdefault(symbol, set()).add(b)
-        if " " in symbol:  # mu_k N
-            self.is_product(place, b, name, symbol)
-            piece, symbol = piece.replace(symbol, "size"), "size"
-        return sign * evaluate(piece, {**values, symbol: size})
+        side = 1 if abs(got - value) <= abs(got + value) else -1
+        if not vector:
+            assert size == 0 or arrow.couple == 0 or equation.about is None, f"{symbol} is a force and a couple"
+            if size > 0 or arrow.couple != 0:
+                assert self.kinds.setdefault(symbol, size == 0) == (size == 0), f"{symbol} is a force and a moment"
+        if abs(got) > 1e-6 * (abs(arrow.couple) + size + 1e-3):  # else its sign is rounding
+            if vector:
+                self.use(symbol, b, name, side, False)
+            else:
+                assert self.signs.setdefault(symbol, side) == side, f"{symbol} has two signs"
+        return side * got
+
+    def is_component(self, word, label):
+        if label:
+            return word != label
+        return bool(re.search(r"(_|_[0-9]+)[xys]$", word))
+
+    def parts(self, place, equation, arrow, symbol):
+        """Its components, its couple, and where it acts."""
+        b, line = equation.body, "" if "_" in symbol else "_"
+        values = {f"{symbol}{line}{axis}": f for axis, f in zip("xy", arrow.force)}
+        e = place.axis.get(b)
+        values[f"{symbol}{line}s"] = e and e[0] * arrow.force[0] + e[1] * arrow.force[1]
+        values["couple"] = arrow.couple
+        about = place.center.get((b, equation.about))
+        if about:
+            values.update({f"{axis}_{symbol.replace('_', '')}": p - q for axis, p, q in zip("xy", arrow.point, about)})
+        return values
 
     def is_product(self, place, b, name, symbol):
         """Friction that slips is mu_k N of the body's own surface."""
@@ -374,28 +356,31 @@ class Judge:
         assert known == sign, f"{symbol} has both signs for {name} on {b}"
         assert self.kinds.setdefault(symbol, moment) == moment, f"{symbol} is a force and a moment"
 
-    def term(self, place, equation, name, sign, piece, value, label, scale):
+    def term(self, place, equation, name, text, value, label, scale):
         """Hold one term against its number."""
-        if piece in (f"({name})", ""):
+        if not text:
+            near(0, value, scale, f"no term of {name} on {equation.body}")
+            return
+        if text == f"({name})":
             self.counts["by its name"] += 1
             return
         entry = self.scene.entries[equation.body].get(name)
-        by_law = name == "moving axis" or entry and entry.kind in LAWS and LAW.fullmatch(piece)
+        by_law = name == "moving axis" or entry and entry.kind in LAWS and LAW.fullmatch(text.lstrip("-"))
         try:
             if by_law:
-                got = sign * evaluate(piece, place.law_values(equation.body, name))
-            elif self.is_compound(place, equation, name, piece, label):
-                got = self.compound(place, equation, name, sign, piece, value, label)
-                self.counts["arms and slopes"] += 1
+                got = evaluate(text, place.law_values(equation.body, name))
             else:
-                got = self.symbol(place, equation, name, sign, piece, value, label)
+                got = self.force(place, equation, name, text, value, label)
         except Unbound as unbound:
             self.counts[f"not judged: {unbound}"] += 1
             return
         if got is None:
             return
+        arms = not by_law and re.search(r"[ \[(]", re.sub(r"^-?mu_k ", "", text))
         self.counts["laws" if by_law else "symbols"] += 1
-        near(got, value, scale, f"{'-' if sign < 0 else ''}{piece} of {name} on {equation.body}")
+        if arms:
+            self.counts["arms and slopes"] += 1
+        near(got, value, scale, f"{text} of {name} on {equation.body}")
 
     def finish(self, place):
         """A symbol is one vector: its uses on all bodies agree, and on the body that it is said of it has no sign."""
@@ -497,16 +482,14 @@ def centers(scene, b, arrows):
     return found
 
 
-def cut_free_lines(report):
-    """{body.coordinate: (left, right)} of the bodies cut free, as the report has them."""
-    names = {"a_Gx": "G.x", "a_Gy": "G.y", "alpha": "G.angle", "omega_dot": "theta", "v_dot": "x", "a_s": "s"}
+def lines_of(report):
+    """{body: lines} of the bodies cut free, as the report has them."""
     found, b = {}, None
     for line in report.partition("\nCut free, in symbols at this time\n")[2].splitlines():
         if line[:4] != "    ":
             b = line.strip()
-            continue
-        left, right = line.strip().split(" = ")
-        found[f"{b}.{names[left.split()[-1]]}"] = (left, right)
+        else:
+            found.setdefault(b, []).append(line.strip())
     return found
 
 
@@ -515,12 +498,15 @@ def judge_state(scene, model):
     found = model.equations()
     place, judge = place_of(scene, found), Judge(scene, False)
     labels = labels_of(model.svg())
-    lines = {}
-    for name, left, right in re.findall(r"^% (\S+)\n\\begin\{align\*\}\n(.*?) &= (.*?) \\\\$", model.latex(), re.MULTILINE):
-        lines[name] = (from_latex(left), from_latex(right))
-    report = model.report()
-    plain = cut_free_lines(report)
-    assert plain == lines, "report and LaTeX differ"
+    report, plain = model.report(), {}
+    lines = {name: f"{from_latex(left)} = {from_latex(right)}" for name, left, right in
+             re.findall(r"^% (\S+)\n\\begin\{align\*\}\n(.*?) &= (.*?) \\\\$", model.latex(), re.MULTILINE)}
+    for e in found["equations"]:
+        if "symbols" in e:
+            plain.setdefault(e["body"], []).append(e["symbols"])
+            assert lines.pop(f"{e['body']}.{e['coordinate']}") == e["symbols"], "LaTeX and JSON differ"
+    assert not lines, f"LaTeX has {lines} besides"
+    assert lines_of(report) == plain, "report and JSON differ"
     for e in found["equations"]:
         b, coordinate = e["body"], e["coordinate"]
         cut_free = coordinate.startswith("G.")
@@ -534,21 +520,19 @@ def judge_state(scene, model):
                 remark(judge, place, equation, term)
                 assert re.search(rf"^    {re.escape(term['name'])} .* {re.escape(term['remark'])}$", report, re.MULTILINE), \
                     f"the report has another remark than {term['remark']}"
-        line = lines.get(f"{b}.{coordinate}")
-        if not line:
-            doubled = not is_written(scene, b, coordinate, place.axis[b])
-            assert doubled or e["inertia"]["value"] == 0, f"{b}.{coordinate} has no line"
+        wanted = is_written(scene, place, b, coordinate)
+        if "symbols" not in e:
+            assert not wanted or e["inertia"]["value"] == 0, f"{b}.{coordinate} has no line"
             continue
-        assert is_written(scene, b, coordinate, place.axis[b]), f"{b}.{coordinate} says what other lines say"
-        left, right = line
-        mass = "m" if len(scene.bodies) == 1 else f"m_{scene.bodies.index(b) + 1}"
-        wanted = f"{e['inertia']['name'] if turns else mass} {e['acceleration']['name']}"
-        assert left == wanted, f"{left!r} for {wanted!r}"
-        terms, parts = [t for t in e["terms"] if t["value"] != 0], pieces(right)
-        assert len(terms) == len(parts), f"{len(terms)} terms and {right}"
-        for term, (sign, piece) in zip(terms, parts):
-            label = label_for(labels, b, term["name"], piece)
-            judge.term(place, equation, term["name"], sign, piece, term["value"], label, scale)
+        assert wanted, f"{b}.{coordinate} says what other lines say"
+        index = f"{scene.bodies.index(b) + 1}" if len(scene.bodies) > 1 else ""
+        inertia = e["inertia"]["name"] + index if turns else "m" + (index and f"_{index}")
+        whole = " + ".join(t["symbol"] for t in e["terms"] if t["symbol"]).replace("+ -", "- ")
+        whole = f"{inertia} {e['acceleration']['name']} = {whole or 0}"
+        assert e["symbols"] == whole, f"{e['symbols']!r} for {whole!r}"
+        for term in e["terms"]:
+            label = label_for(labels, b, term["name"], term["symbol"])
+            judge.term(place, equation, term["name"], term["symbol"], term["value"], label, scale)
             judge.counts["lines"] += 1
     judge.finish(place)
     for (b, name), texts in labels.items():
@@ -561,33 +545,33 @@ def judge_state(scene, model):
     return judge.counts
 
 
-def is_written(scene, b, coordinate, axis):
-    """Of a body cut free: forces along x and y, moments about the axis of a pivot on the ground, else about G; forces along a
-    slope or a track."""
+def is_written(scene, place, b, coordinate):
+    """The equations of the coordinates of a body on the ground, and of forces along x and y and moments about G those that are
+    none of these."""
     kind, ground = scene.kind(b), not scene.parents[b]
-    slopes = kind == "slide" and axis and min(map(abs, axis)) > 1e-9
-    own = ground and (kind in ("pivot", "track") or slopes)
-    return own if not coordinate.startswith("G.") else coordinate != "G.angle" or not (ground and kind == "pivot")
+    axis, G = place.axis[b], place.center.get((b, "G"))
+    frame = (place.values.get(f"{b}.x"), place.values.get(f"{b}.y"))
+    off_center = kind == "planar" and G and math.dist(G, frame) > 1e-9
+    ground = ground and kind not in ("weld", "") and not off_center
+    if not coordinate.startswith("G."):
+        return ground
+    if not ground:
+        return True
+    own = {"pivot": ["G.angle"], "planar": ["G.x", "G.y", "G.angle"], "particle": ["G.x", "G.y"], "track": []}
+    lies = ["G.x"] if axis and abs(axis[1]) < 1e-12 else ["G.y"] if axis and abs(axis[0]) < 1e-12 else []
+    return coordinate not in own.get(kind, lies)
 
 
-def label_for(labels, b, name, piece):
+def label_for(labels, b, name, text):
     """The symbol of the arrow as the drawing labels it, in the writing of the equation; None where it is not drawn, or the
-    piece has another one."""
+    term has another one."""
     drawn = labels.get((b, name))
     if not drawn:
         return None
-    match = FORCE.fullmatch(piece)
-    candidates = [piece]
-    if match:
-        candidates += [match["of"], match["vector"]]
-    candidates += [re.sub(r"_?[xys]$", "", piece)]
-    words = re.findall(r"[A-Za-z]\w*", piece)
-    candidates += [*(re.sub(r"_?[xy]$", "", w) for w in words), *words, *(" ".join(words[i:i + 2]) for i in range(len(words)))]
+    words = re.findall(r"[A-Za-z][\w.]*", text)
+    candidates = [*words, *(re.sub(r"_?[xys]$", "", w) for w in words), *(" ".join(words[i:i + 2]) for i in range(len(words)))]
     wanted = re.sub(r"^M\((.*)\)$", r"\1", drawn[0])
-    for candidate in candidates:
-        if candidate and printed(candidate) == wanted:
-            return candidate
-    return f"\"{wanted}\""
+    return next((c for c in candidates if c and printed(c) == wanted), None)
 
 
 def remark(judge, place, equation, term):
@@ -684,13 +668,11 @@ def judge_page(scene, page, rows):
                 equation = Equation(b, part, cut_free, e["inertia"][-1] if turns else None, e["terms"])
                 values = [page.cell(column, row) for _, column, _ in e["terms"]]
                 scale = 1 + max(map(abs, values), default=0)
+                if not any(symbol for _, _, symbol in e["terms"]):
+                    continue
                 for (term, _, symbol), value in zip(e["terms"], values):
-                    if not symbol:
-                        whole = any(symbol for _, _, symbol in e["terms"])
-                        assert not whole or term == "turning along" or value == 0, f"{term} of {e['name']} has no symbol"
-                        continue
-                    sign, piece = pieces(symbol)[0]
-                    judge.term(place, equation, term, sign, piece, value, None, scale)
+                    if term != "turning along":
+                        judge.term(place, equation, term, symbol, value, None, scale)
         judge.finish(place)
         counts.update({f"page {k}": n for k, n in judge.counts.items()})
     return counts

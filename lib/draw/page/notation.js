@@ -61,9 +61,10 @@ function inMath(name) {
 // A formula as it is written plainly (symbols.h): words, products by a blank, signs, parentheses.
 function mathOf(text) {
   const nodes = [];
-  for (const [token] of text.matchAll(/[A-Za-z][A-Za-z0-9_']*|_[A-Za-z0-9]+|[0-9.]+|\S/g)) {
+  for (const [token] of text.matchAll(/[A-Za-z][A-Za-z0-9_']*|_[A-Za-z0-9]+|[0-9.]+|\[[a-z]+\]|\S/g)) {
     const last = nodes[nodes.length - 1];
-    if (token === "deg") nodes.push(math("mo", "°"));
+    if (token === "[deg]") nodes.push(math("mo", "°"));
+    else if (token[0] === "[") nodes.push(math("mtext", `\u00a0${token.slice(1, -1)}`));
     else if (token === "sin" || token === "cos") nodes.push(math("mi", token), math("mo", "\u2061"));
     else if (/^[A-Za-z]/.test(token)) nodes.push(mathSymbol(token));
     else if (/^[0-9.]/.test(token)) nodes.push(math("mn", token));

@@ -1,0 +1,212 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "output/samples.h"
+
+#include <gsl/gsl_rng.h>
+#include <math.h>
+#include <string.h>
+
+#include "dynamics/kinematics.h"
+#include "dynamics/modes.h"
+#include "dynamics/project.h"
+#include "model/tree.h"
+
+static const double same = 1e-9; /* relative: states that are projected are off by more than a rounding */
+
+/* ---- the states */
+
+static double between(gsl_rng *rng, double low, double high)
+{
+    return low + (high - low) * gsl_rng_uniform(rng);
+}
+
+static void move(struct fbd_state *state, gsl_rng *rng, double reach)
+{
+    const struct scene *scene = state->model->scene;
+    const struct value *until = &scene->simulate.until;
+    const size_t n = scene->coordinate_count;
+    state->t += between(rng, 0, 0.1) * reach * (until->expr ? expr_value(until->expr) : 1);
+    for (size_t i = 0; i < n; i++) {
+        const struct coordinate *c = &scene->coordinates[i];
+        const struct curve *curve = scene->bodies[c->body].motion.curve;
+        state->y[i] += reach * between(rng, -1, 1) * (c->angle ? 0.3 : 0.1);
+        if (curve) state->y[i] = fmin(fmax(state->y[i], curve->start), curve->start + curve->length);
+        state->y[n + i] += between(rng, -1, 1);
+    }
+    for (size_t i = 0; i < scene->own_count; i++) state->y[2 * n + i] += between(rng, -1, 1);
+}
+
+/* Friction that holds may have nothing to hold. */
+static void let_slip(struct fbd_state *state)
+{
+    const struct plan *plan = &state->model->plan;
+    for (size_t k = 0; k < plan->mode_count; k++)
+        if (mode_is_friction(&plan->modes[k]) && state->slip[k] == stick) state->slip[k] = slip_plus;
+}
+
+static bool draw(struct fbd_state *state, const struct fbd_state *from, gsl_rng *rng, double reach,
+                 bool slips)
+{
+    const struct fbd_model *model = from->model;
+    state_copy(state, from);
+    move(state, rng, reach);
+    if (slips) let_slip(state);
+    modes_drive(state);
+    if (model->tree && model->tree->tie_count > 0 && !state_project(state, false)) return false;
+    state->settled = true;
+    state_evaluate(state);
+    for (int i = 0; i < model->plan.n; i++)
+        if (!isfinite(state->a[i])) return false;
+    return true;
+}
+
+/* Where couplings have no state so far away, nearer ones are tried. */
+static bool draw_all(struct samples *samples, struct fbd_state *state, gsl_rng *rng)
+{
+    enum { tries = 16, tries_of_a_reach = 4 };
+    for (int i = 0; i < tries && samples->count < most_samples_of_formulas; i++) {
+        struct fbd_state *drawn = state_new(state->model);
+        if (!drawn) return false;
+        if (draw(drawn, state, rng, ldexp(1, -(i / tries_of_a_reach)), i % 2 == 1))
+            samples->states[samples->count++] = drawn;
+        else
+            state_free(drawn);
+    }
+    return true;
+}
+
+bool samples_begin(struct samples *samples, struct fbd_state *state, struct arena *arena)
+{
+    *samples = (struct samples){.count = 1, .states = {state}};
+    samples->arrows = ARENA_ARRAY(arena, diagram_most_arrows(state->model), struct arrow);
+    gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
+    const bool done = samples->arrows && rng && hand_forces_make(state->model, arena, &samples->forces) &&
+                      draw_all(samples, state, rng);
+    if (rng) gsl_rng_free(rng);
+    return done;
+}
+
+void samples_end(struct samples *samples)
+{
+    for (int i = 1; i < samples->count; i++) state_free(samples->states[i]);
+}
+
+/* ---- an arrow */
+
+static double size_of(const struct samples *samples, const struct instant *at, int body, size_t arrow)
+{
+    for (size_t i = 0; i < samples->forces.count; i++) {
+        const struct hand_force *force = &samples->forces.list[i];
+        if (force->name.body == body && force->arrow == arrow && force->part == hand_force_size)
+            return hand_force_value(samples->states[0]->model, force, at, samples->arrows);
+    }
+    return NAN;
+}
+
+/* Less than that is rounding beside the other forces on the body. */
+static double least_force(const struct arrow *arrows, size_t count)
+{
+    double most = 0;
+    for (size_t i = 0; i < count; i++) most = fmax(most, vec_norm(arrows[i].force));
+    return 1e-10 * most;
+}
+
+struct acts acts_of(const struct samples *samples, int b, const char *name, bool about_axis)
+{
+    struct acts acts = {0};
+    for (int k = 0; k < samples->count; k++) {
+        const struct fbd_state *state = samples->states[k];
+        const struct model_body *body = &state->model->bodies[b];
+        const struct instant at = state_instant(state);
+        const struct pose pose = body_pose(body, &at);
+        const struct vec about = about_axis ? pose.origin : point_motion(body, &pose, body->inertia.G).p;
+        struct arrow *arrows = samples->arrows;
+        const size_t count = diagram_list(state->model, b, &at, state->a, state->slots, arrows);
+        for (size_t i = 0; i < count; i++) {
+            if (strcmp(arrows[i].name, name) != 0) continue;
+            const double force = vec_norm(arrows[i].force);
+            if (force <= least_force(arrows, count) && arrows[i].couple == 0) break;
+            acts.list[acts.count++] = (struct act){.force = arrows[i].force,
+                                                   .arm = vec_sub(arrows[i].point, about),
+                                                   .turn = pose.rotation,
+                                                   .couple = arrows[i].couple,
+                                                   .size = size_of(samples, &at, b, i)};
+            break;
+        }
+    }
+    return acts;
+}
+
+/* ---- how it acts */
+
+bool acts_never_along(const struct acts *acts, struct vec u)
+{
+    for (int k = 0; k < acts->count; k++)
+        if (fabs(vec_dot(u, acts->list[k].force)) > same * vec_norm(acts->list[k].force)) return false;
+    return true;
+}
+
+static double reach_of(const struct acts *acts)
+{
+    double reach = 0;
+    for (int k = 0; k < acts->count; k++) reach = fmax(reach, vec_norm(acts->list[k].arm));
+    return reach;
+}
+
+bool acts_never_about(const struct acts *acts)
+{
+    const double reach = reach_of(acts);
+    for (int k = 0; k < acts->count; k++) {
+        const struct act *act = &acts->list[k];
+        if (fabs(vec_cross(act->arm, act->force)) > same * reach * vec_norm(act->force) || act->couple != 0)
+            return false;
+    }
+    return true;
+}
+
+bool acts_as_couple(const struct acts *acts)
+{
+    for (int k = 0; k < acts->count; k++)
+        if (acts->list[k].couple != 0) return true;
+    return false;
+}
+
+bool acts_along_line(const struct acts *acts, struct vec *d)
+{
+    for (int k = 0; k < acts->count; k++) {
+        const struct act *act = &acts->list[k];
+        const double force = vec_norm(act->force);
+        if (!(fabs(fabs(act->size) - force) <= same * force) || act->size == 0) return false;
+        const struct vec now = vec_scale(1 / act->size, act->force);
+        if (k == 0) *d = now;
+        if (vec_norm(vec_sub(now, *d)) > same) return false;
+    }
+    return acts->count > 1;
+}
+
+bool acts_on_lever(const struct acts *acts, double *lever)
+{
+    const double reach = reach_of(acts);
+    for (int k = 0; k < acts->count; k++) {
+        const struct act *act = &acts->list[k];
+        const double whole = act->couple != 0 ? fabs(act->couple) : vec_norm(act->force);
+        if (!(fabs(fabs(act->size) - whole) <= same * whole)) return false;
+        const double now = (act->couple + vec_cross(act->arm, act->force)) / act->size;
+        if (k == 0) *lever = now;
+        if (!(fabs(now - *lever) <= same * fmax(reach, fabs(*lever)))) return false;
+    }
+    return acts->count > 1;
+}
+
+bool acts_at_place(const struct acts *acts, bool turning, struct vec *d)
+{
+    const double reach = reach_of(acts);
+    for (int k = 0; k < acts->count; k++) {
+        const struct vec arm = acts->list[k].arm, turn = acts->list[k].turn;
+        const struct vec now = turning ? (struct vec){vec_dot(turn, arm), vec_cross(turn, arm)} : arm;
+        if (k == 0) *d = now;
+        if (vec_norm(vec_sub(now, *d)) > same * reach) return false;
+    }
+    if (fabs(d->x) <= same * reach) d->x = 0;
+    if (fabs(d->y) <= same * reach) d->y = 0;
+    return acts->count > 1;
+}
