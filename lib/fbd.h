@@ -608,6 +608,10 @@ FBD_API char *fbd_emit_c(const fbd_model *model, const fbd_options *options, fbd
 FBD_API char *fbd_equations_text(fbd_state *state);
 FBD_API char *fbd_equations_text_components(fbd_state *state); /* of fbd_assemble_components */
 
+/* The equations of every body cut free in symbols of the scene, reactions and all, a line each, with the acceleration of G where
+ * that follows from the coordinates. */
+FBD_API char *fbd_equations_symbols(fbd_state *state);
+
 /* The same as LaTeX (amsmath), each equation in symbols of the scene and with the state's numbers; of joined bodies also those
  * cut free. */
 FBD_API char *fbd_equations_latex(fbd_state *state);

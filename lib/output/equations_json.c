@@ -5,7 +5,7 @@
 #include <stdlib.h>
 
 #include "dynamics/kinematics.h"
-#include "output/formulas.h"
+#include "output/kinematic_lines.h"
 #include "output/shown.h"
 #include "output/terms.h"
 
@@ -124,6 +124,31 @@ static void write_equations(struct text *text, const struct written *written, co
     text_add(text, "\n  ],\n");
 }
 
+/* Of the bodies that are cut free. */
+static void write_kinematics(struct text *text, const struct written *written)
+{
+    const struct fbd_model *model = written->state->model;
+    const char *lines[most_kinematic_lines], *before = "  \"kinematics\": {\n    ";
+    for (size_t b = 0; written->formulas && b < model->body_count; b++) {
+        const int count = body_is_cut_free(model, (int)b, written->components)
+                              ? kinematic_lines(written->formulas, (int)b, lines)
+                              : 0;
+        for (int i = 0; i < count; i++) {
+            text->failed |= !lines[i];
+            if (!lines[i]) return;
+            if (i == 0) {
+                text_add(text, before);
+                text_json_key(text, model->bodies[b].name);
+            }
+            text_add(text, i == 0 ? "[" : ", ");
+            text_json_string(text, lines[i]);
+        }
+        if (count > 0) text_add(text, "]");
+        if (count > 0) before = ",\n    ";
+    }
+    if (before[0] == ',') text_add(text, "\n  },\n");
+}
+
 static void write_arrow(struct text *text, const fbd_arrow *arrow)
 {
     text_json_key(text, arrow->name);
@@ -189,6 +214,7 @@ static char *json_of(fbd_state *state, bool components)
         write_coordinates(&text, state);
         write_states(&text, state);
         write_equations(&text, &written, all);
+        write_kinematics(&text, &written);
         write_forces(&text, state, arrows);
         text_add(&text, "}\n");
     }

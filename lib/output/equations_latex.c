@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "base/call.h"
-#include "output/formulas.h"
+#include "output/kinematic_lines.h"
 
 /* N*m, kg*m^2, m/s^2 upright. */
 static void write_unit(struct text *text, const char *unit)
@@ -70,6 +70,24 @@ static void write_equation(struct text *text, struct formulas *formulas, const s
     text_add(text, "\n\\end{align*}\n");
 }
 
+/* Where a body is cut free, the acceleration of its G. */
+static void write_kinematics(struct text *text, struct formulas *formulas, int b)
+{
+    const char *lines[most_kinematic_lines];
+    const int count = kinematic_lines(formulas, b, lines);
+    for (int i = 0; i < count; i++) {
+        text->failed |= !lines[i];
+        if (!lines[i]) return;
+        if (i == 0) text_printf(text, "%% %s\n\\begin{align*}\n", formulas->state->model->bodies[b].name);
+        const char *equals = strchr(lines[i], '=');
+        char *left = arena_text(&formulas->arena, lines[i], (size_t)(equals - lines[i]) - 1);
+        if (left) symbol_write_latex(text, left);
+        text_add(text, " &= ");
+        symbol_write_latex(text, equals + 2);
+        text_add(text, i + 1 < count ? " \\\\\n" : "\n\\end{align*}\n");
+    }
+}
+
 static char *latex_of(fbd_state *state, bool components)
 {
     if (!state) return NULL;
@@ -81,9 +99,13 @@ static char *latex_of(fbd_state *state, bool components)
         text_add(&text, "% Equations at t = ");
         text_number(&text, state->t, 9);
         text_add(&text, " s; needs amsmath\n");
-        for (size_t i = 0; i < all->count; i++)
+        for (size_t i = 0; i < all->count; i++) {
+            const int b = all->equations[i].body;
             if (equation_in_symbols(state->model, &all->equations[i], components))
                 write_equation(&text, &formulas, &all->equations[i]);
+            const bool last = i + 1 == all->count || all->equations[i + 1].body != b;
+            if (last && body_is_cut_free(state->model, b, components)) write_kinematics(&text, &formulas, b);
+        }
     } else {
         text.failed = true;
     }

@@ -7,6 +7,7 @@
 #include "dynamics/friction.h"
 #include "output/equations.h"
 #include "output/formulas.h"
+#include "output/kinematic_lines.h"
 #include "output/laws.h"
 #include "output/terms.h"
 
@@ -98,27 +99,37 @@ static void write_states(struct text *text, const struct fbd_state *state)
     }
 }
 
-/* Of bodies that are joined, Newton's and Euler's equations with all reactions, a line each. */
+static void write_line(struct text *text, const char *line)
+{
+    text->failed |= !line;
+    if (line) text_printf(text, "    %s\n", line);
+}
+
+/* The equations of body b, and the acceleration of its G. */
+static void write_lines(struct text *text, struct formulas *formulas, const fbd_equations *all, int b,
+                        bool components)
+{
+    const struct fbd_model *model = formulas->state->model;
+    const char *lines[most_kinematic_lines];
+    text_printf(text, "  %s\n", model->bodies[b].name);
+    for (size_t i = 0; i < all->count; i++)
+        if (all->equations[i].body == b && equation_in_symbols(model, &all->equations[i], components))
+            write_line(text, formula_line(formulas, &all->equations[i]));
+    const int count = kinematic_lines(formulas, b, lines);
+    for (int i = 0; i < count; i++) write_line(text, lines[i]);
+}
+
+/* Of bodies that are joined, or of all, Newton's and Euler's equations with all reactions, a line each. */
 static void write_cut_free(struct text *text, struct fbd_state *state, bool components)
 {
     const struct fbd_model *model = state->model;
-    if (!equations_cut_free(model, components)) return;
     struct formulas formulas;
     fbd_equations *all = assemble(state, true);
     if (!formulas_begin(&formulas, state) || !all) text->failed = true;
     if (!text->failed) text_add(text, "Cut free, in symbols at this time\n");
-    int last = -1;
-    for (size_t i = 0; !text->failed && i < all->count; i++) {
-        const struct equation *equation = &all->equations[i];
-        if (!body_is_cut_free(model, equation->body, components) ||
-            !equation_in_symbols(model, equation, components))
-            continue;
-        if (equation->body != last) text_printf(text, "  %s\n", equation->public.body);
-        last = equation->body;
-        const char *line = formula_line(&formulas, equation);
-        text->failed |= !line;
-        if (line) text_printf(text, "    %s\n", line);
-    }
+    for (size_t b = 0; !text->failed && b < model->body_count; b++)
+        if (body_is_cut_free(model, (int)b, components))
+            write_lines(text, &formulas, all, (int)b, components);
     text->failed |= formulas.arena.failed;
     formulas_end(&formulas);
     fbd_equations_free(all);
@@ -142,7 +153,7 @@ void equations_write(struct text *text, struct fbd_state *state, bool components
     }
     write_states(text, state);
     fbd_equations_free(all);
-    write_cut_free(text, state, components);
+    if (equations_cut_free(state->model, components)) write_cut_free(text, state, components);
 }
 
 static char *text_of(struct fbd_state *state, bool components)
@@ -162,4 +173,13 @@ char *fbd_equations_text(fbd_state *state)
 char *fbd_equations_text_components(fbd_state *state)
 {
     return text_of(state, true);
+}
+
+char *fbd_equations_symbols(fbd_state *state)
+{
+    if (!state) return NULL;
+    struct text text = {0};
+    write_cut_free(&text, state, true);
+    if (text.failed) text_free(&text);
+    return text.data;
 }

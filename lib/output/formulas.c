@@ -85,8 +85,7 @@ static const char *slope_parameter(const struct scene *scene, struct vec e)
     return NULL;
 }
 
-/* The slope of a slide: the parameter that has its value, else in degrees. */
-static const char *slope_of(struct formulas *formulas, struct vec e)
+const char *slope_of(struct formulas *formulas, struct vec e)
 {
     const char *name = slope_parameter(formulas->state->model->scene, e);
     return name ? name
@@ -261,18 +260,19 @@ static const char *term_of(struct formulas *formulas, const struct equation *equ
                                    : share_by_symbol(formulas, equation, term->name, &acts, &letter);
 }
 
+const char *formula_add(struct formulas *formulas, const char *sum, const char *term)
+{
+    if (!sum || !term) return NULL;
+    if (!term[0] || !sum[0]) return term[0] ? term : sum;
+    const bool minus = term[0] == '-';
+    return arena_printf(&formulas->arena, "%s %s %s", sum, minus ? "-" : "+", term + minus);
+}
+
 const char *formula_right(struct formulas *formulas, const struct equation *equation)
 {
     const char *right = "";
-    for (size_t i = 0; right && i < equation->public.term_count; i++) {
-        const char *term = term_of(formulas, equation, i);
-        const bool minus = term && term[0] == '-';
-        if (term && !term[0]) continue;
-        right = !term ? NULL
-                : !right[0]
-                    ? term
-                    : arena_printf(&formulas->arena, "%s %s %s", right, minus ? "-" : "+", term + minus);
-    }
+    for (size_t i = 0; right && i < equation->public.term_count; i++)
+        right = formula_add(formulas, right, term_of(formulas, equation, i));
     return right && !right[0] ? "0" : right;
 }
 
@@ -289,7 +289,11 @@ const char *formula_left(struct formulas *formulas, const struct equation *equat
     const char *inertia = strcmp(e->inertia_name, "m") == 0
                               ? symbol_of_mass(formulas->state->model, equation->body, &formulas->arena)
                               : symbol_of_body(formulas, e->inertia_name, equation->body);
-    return inertia ? arena_printf(&formulas->arena, "%s %s", inertia, e->acceleration_name) : NULL;
+    const bool turns = strcmp(e->acceleration_name, "alpha") == 0;
+    const char *acceleration = !turns ? e->acceleration_name
+                               : strcmp(angle_name(formulas, equation->body), "angle") == 0 ? "angle_ddot"
+                                                                                            : "omega_dot";
+    return inertia ? arena_printf(&formulas->arena, "%s %s", inertia, acceleration) : NULL;
 }
 
 const char *formula_line(struct formulas *formulas, const struct equation *equation)

@@ -47,6 +47,12 @@ void formulas_end(struct formulas *formulas);
 /* The symbol of a body's own quantity: I_O, or I_O2 where there are several bodies; L, L_2. NULL when memory is out. */
 const char *symbol_of_body(struct formulas *formulas, const char *name, int body);
 
+/* A slope: the parameter that has its value, else in degrees. */
+const char *slope_of(struct formulas *formulas, struct vec e);
+
+/* A sum and one term more, which may have a minus sign; "" is zero. NULL when memory is out, or one of them is. */
+const char *formula_add(struct formulas *formulas, const char *sum, const char *term);
+
 /* The right side of an equation, "-m g sin(phi) + push"; and its left side, "m v_dot". NULL when memory is out. */
 const char *formula_right(struct formulas *formulas, const struct equation *equation);
 const char *formula_left(struct formulas *formulas, const struct equation *equation);

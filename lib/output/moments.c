@@ -89,14 +89,13 @@ struct arm {
     const char *angle; /* of those axes; NULL: those of the world */
 };
 
-static const char *arm_name(struct formulas *formulas, int b, double d)
+const char *arm_name(struct formulas *formulas, int b, double d)
 {
     return is_length(fabs(d), formulas->state->model->bodies[b].L) ? symbol_of_body(formulas, "L", b)
                                                                    : length_name(formulas, fabs(d));
 }
 
-/* Is the angle of the body in the world its coordinate? */
-static const char *angle_name(const struct formulas *formulas, int b)
+const char *angle_name(const struct formulas *formulas, int b)
 {
     const struct fbd_model *model = formulas->state->model;
     const struct model_body *body = &model->bodies[b];

@@ -18,6 +18,12 @@
 /* The component of a force along an axis: R_1x, (mu_k N)_x. NULL when memory is out. */
 const char *component_by_symbol(struct arena *arena, const char *symbol, const char *axis);
 
+/* The length |d| of body b: L, a parameter or its half, or a value. NULL when memory is out. */
+const char *arm_name(struct formulas *formulas, int b, double d);
+
+/* The angle of a body in the world: its coordinate, or `angle`. */
+const char *angle_name(const struct formulas *formulas, int b);
+
 /* The direction of the line of the ground on which body b rolls, or which it touches, by the force that is called so; false for
  * none. */
 bool ground_line_of_force(const struct fbd_model *model, int b, const char *name, struct vec *e);

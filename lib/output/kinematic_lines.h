@@ -1,0 +1,21 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * The acceleration of G of a body cut free by those of the coordinates, as a textbook writes it beside the equations:
+ *
+ *     a_Gx = a_Ox - L (angle_ddot sin(angle) + angle_dot^2 cos(angle))
+ *     a_Ox = -l (rod.omega_dot sin(rod.theta) + rod.omega^2 cos(rod.theta))
+ *
+ * O is the axis of a pivot; its acceleration follows from the body that it is on.
+ */
+#ifndef FBD_OUTPUT_KINEMATIC_LINES_H
+#define FBD_OUTPUT_KINEMATIC_LINES_H
+
+#include "output/formulas.h"
+
+enum { most_kinematic_lines = 4 };
+
+/* The lines of body b; their number, 0 where it has none: what a_G is there is no more than a name, or more than a line. A line is NULL
+ * when memory is out. */
+int kinematic_lines(struct formulas *formulas, int b, const char *lines[static most_kinematic_lines]);
+
+#endif
