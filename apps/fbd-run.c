@@ -167,16 +167,21 @@ static bool data_alone(const struct options *options)
     return options->quiet || place_is_stdout(options->svg) || place_is_stdout(options->json);
 }
 
+/* The equations as they are asked for. */
+static char *equations_of(const struct options *options, fbd_state *state, bool symbols, bool components)
+{
+    if (options->latex && components) return fbd_equations_latex_components(state);
+    if (options->latex) return fbd_equations_latex(state);
+    if (symbols) return fbd_equations_symbols(state);
+    return components ? fbd_equations_text_components(state) : fbd_equations_text(state);
+}
+
 static enum exit_code show_equations(const struct options *options, fbd_state *state)
 {
-    const bool components = options->drawing.components;
+    const bool symbols = options->drawing.symbols && !options->svg; /* else those of its arrows */
+    const bool components = options->drawing.components || symbols;
     enum exit_code code = exit_done;
-    if (!data_alone(options))
-        code =
-            print(options->latex ? (components ? fbd_equations_latex_components : fbd_equations_latex)(state)
-                  : components   ? fbd_equations_text_components(state)
-                                 : fbd_equations_text(state),
-                  code);
+    if (!data_alone(options)) code = print(equations_of(options, state, symbols, components), code);
     if (code == exit_done && options->json)
         code = write_text(options->json,
                           components ? fbd_equations_json_components(state) : fbd_equations_json(state));

@@ -7,87 +7,9 @@
 
 #include "fmu.h"
 #include "gnuplot.h"
+#include "options_help.h"
 #include "picture.h"
 #include "place.h"
-
-static const char help[] =
-    "Usage: fbd-run [options] MODEL.yaml\n"
-    "Assemble the equations of motion of a free-body diagram, simulate it, and report.\n"
-    "\n"
-    "What is simulated\n"
-    "  --set NAME=VALUE     give a parameter of the file another value (may be repeated)\n"
-    "  --without NAME       leave an effect out, as block.friction (may be repeated)\n"
-    "  --method NAME        integrate with this method (auto, rk8pd, dop853, rodas5p, msbdf, ...)\n"
-    "  --tolerance NUMBER   relative error per step (default: the file's, else 1e-10)\n"
-    "  --accuracy NUMBER    global error allowed, of the size of the motion, instead of a tolerance\n"
-    "  --step TIME          steps of this fixed size, in seconds\n"
-    "  --no-structure       integrate all bodies together by the general method\n"
-    "  --until TIME         end of the run, in seconds or with a unit (200ms)\n"
-    "\n"
-    "What is written (FILE may be - for standard output, which leaves the report out)\n"
-    "  --csv FILE           the motion, one row for each output time and event\n"
-    "  --every TIME         output interval of the rows, in seconds (default: 1/500 of the run)\n"
-    "  --ledger             add columns for every force, its work, and the energies\n"
-    "  --json FILE          final state, events, forces, energy and cost as one object; with --equations,\n"
-    "                       --linearize or --static what they show\n"
-    "  --error-bars         estimate the error of everything that is written, by a second run that goes "
-    "along\n"
-    "  --html FILE          one page that plays the motion, with plots, equations and events\n"
-    "  --live               with --html: the page has sliders and an editor, and runs anew when they move\n"
-    "  --plot FILE          plots of coordinates and energies by gnuplot; FILE ends in .svg, .png or .pdf\n"
-    "  --plot-of NAME,...   of these columns of the CSV (block.v,block.friction)\n"
-    "  --gnuplot FILE       the script of the plots, with its data\n"
-    "  --svg FILE           the free-body diagram of every body, at the start or at the time of --at;\n"
-    "                       with --linearize the eigenvalues; FILE may end in .pdf or .png\n"
-    "  --body NAME          of this body alone\n"
-    "  --components         components of forces: there, or with --html, --ledger, --equations\n"
-    "  --supports           with the ground and the bearings that the bodies are cut free from\n"
-    "  --symbols            arrows labelled m g, N, T_1 instead of names and values\n"
-    "  --scale FORCE        10 mm stand for this force, as 5 or '2 kN'\n"
-    "  --worksheet          no arrows, and lines to write on\n"
-    "  --solution           the worksheet with its arrows, symbols and values\n"
-    "  --full               all of the report, where it is short as there are many bodies\n"
-    "  --degrees            angles and their rates in degrees: in all that is written, and for --at\n"
-    "  --quiet              no report\n"
-    "  --watch              again whenever the file changes, or data that it reads; a page of --html reloads "
-    "itself\n";
-
-static const char help_without_run[] =
-    "\n"
-    "Instead of a run\n"
-    "  --equations          the assembled equations, term by term\n"
-    "  --latex              with --equations: as LaTeX, in symbols and in numbers\n"
-    "  --linearize          equilibrium, A matrix, eigenvalues, frequencies, damping ratios\n"
-    "  --static             the reactions that hold the scene at rest where it is, or what it lacks\n"
-    "  --settle             with --static: where the scene comes to rest when it is let down slowly from "
-    "there\n"
-    "  --at TIME|NAME=VALUE for these three and for --svg: at this time of the run, or with these "
-    "coordinates\n"
-    "                       (may be repeated)\n"
-    "  --explain            what is simulated and what is not, what is conservative and why\n"
-    "  --check-hand         hold the file's hand derivations against the assembly\n"
-    "  --seed NUMBER        seed of the random states for that (default 1)\n"
-    "  --emit-c FILE        the scene as one C program for GSL; FILE may be -\n"
-    "  --check              read the file and say what is wrong with it, or with its start\n"
-    "  --fmu FILE           the model as an FMU, for other simulators (ends in .fmu)\n"
-    "  --fmu-version 2|3    of the standard that it keeps to, FMI 2.0 or 3.0 (default 3)\n"
-    "\n"
-    "Answers of students (fbd-run --grade KEY.yaml ANSWER.yaml...)\n"
-    "  --grade KEY          hold each answer against the forces, moments and derivations of this model file\n"
-    "  --student NAME       whose answer it is, where values are drawn (default: the name of its file)\n"
-    "  --details            with the names of the key's forces, for the teacher\n"
-    "  --handout            print the sheet of the key MODEL.yaml; with --solution filled in\n"
-    "\n"
-    "About the program\n"
-    "  --schema             the model language as JSON Schema, for editors\n"
-    "  --completion SHELL   what makes bash, zsh or fish complete these options\n"
-    "  -h, --help, --version\n"
-    "\n"
-    "Exit codes: 0 done, 1 the run failed or ended early, or the scene is not in equilibrium (--static),\n"
-    "2 usage, 3 the model file is wrong, 4 a hand derivation differs or an answer does not pass, 5 the "
-    "accuracy\n"
-    "asked for was not reached,\n"
-    "128 + signal: interrupted, with what was computed written.\n";
 
 enum {
     option_set = option_first,
@@ -191,7 +113,10 @@ static const struct option long_options[] = {
     COMMAND_LINE_END,
 };
 
-static const struct command_line line = {"fbd-run", {help, help_without_run}, long_options, false};
+static const struct command_line line = {"fbd-run",
+                                         {options_help, options_help_without_run},
+                                         long_options,
+                                         false};
 
 static bool usage(const char *message, const char *what)
 {
@@ -367,12 +292,12 @@ bool options_use_stdout(const struct options *options)
            place_is_stdout(options->emit_c);
 }
 
-/* `components`: something else shows these. */
-static bool shapes_drawing(const struct options *options, bool components)
+/* `components`, `symbols`: something else shows these. */
+static bool shapes_drawing(const struct options *options, bool components, bool symbols)
 {
     const fbd_drawing *drawing = &options->drawing;
-    return drawing->body || (drawing->components && !components) || drawing->supports || drawing->symbols ||
-           options->scale || drawing->worksheet;
+    return drawing->body || (drawing->components && !components) || drawing->supports ||
+           (drawing->symbols && !symbols) || options->scale || drawing->worksheet;
 }
 
 /* Neither the key nor an answer is written over. */
@@ -387,7 +312,7 @@ static bool grading_agrees(const struct options *options)
         options->run.accuracy > 0 || options->run.step > 0 || options->run.no_structure ||
         isfinite(options->run.until) || options->run.error_bars || options->settle || options->fmu_version ||
         options->svg || options->html || options->plot || options->plot_of || options->gnuplot ||
-        options->ledger || options->every > 0 || options->latex || shapes_drawing(options, false) ||
+        options->ledger || options->every > 0 || options->latex || shapes_drawing(options, false, false) ||
         options->without_count || options->full || options->degrees)
         return usage("with --grade go --set, --student, --details, --csv, --json and --quiet only; with "
                      "--handout --set, --student and --solution only",
@@ -422,8 +347,10 @@ static bool drawing_agrees(const struct options *options)
 {
     const fbd_drawing *drawing = &options->drawing;
     bool eigenvalues = options->action == action_linearize;
-    const bool components = options->html || options->ledger || options->action == action_equations;
-    if ((shapes_drawing(options, components) || drawing->solution) && (!options->svg || eigenvalues))
+    const bool equations = options->action == action_equations,
+               components = options->html || options->ledger || equations;
+    if ((shapes_drawing(options, components, equations) || drawing->solution) &&
+        (!options->svg || eigenvalues))
         return usage(
             "--body, --components, --supports, --symbols, --scale, --worksheet and --solution go with the "
             "diagrams of --svg",
@@ -487,10 +414,19 @@ bool options_spare(const struct options *options, const fbd_errors *errors)
     return places_spare(&line, errors, places, place_count);
 }
 
+/* `--symbols` with nothing that has arrows: the equations in symbols. */
+static void choose_symbols(struct options *options)
+{
+    const bool runs = options->svg || options->csv || options->html || options->plot || options->gnuplot;
+    if (options->action == action_run && options->drawing.symbols && !runs)
+        options->action = action_equations;
+}
+
 bool options_read(int argc, char **argv, struct options *options, enum exit_code *code)
 {
     *options = (struct options){.run = FBD_OPTIONS_DEFAULT, .seed = 1};
     if (!command_line_options(&line, argc, argv, take_option, options, code)) return false;
+    choose_symbols(options);
     if (options->action != action_grade)
         return command_line_model(&line, argc, argv, &options->model) && options_agree(options);
     options->answers = argv + optind;

@@ -7,7 +7,7 @@
  * - columns: {n: name, u: unit} and one of {c: constant}, {of, a, b: a + b column[of]}, {d | f: number of
  * data}
  * - doubles, floats, envelope: base 64, see pack.h; `doubles` begins with the times
- * - bodies: {name, motion, parent, frame: 3 columns, shapes, G, axis | line, arrows, equations}
+ * - bodies: {name, motion, parent, frame: 3 columns, shapes, G, axis | line, arrows, equations, kinematics}
  * - links: springs and dampers that have another end; ties: couplings that hold (both: page_links.c)
  * - energy: 4 columns
  * - states: those of the file's own
@@ -22,7 +22,7 @@
 #include "draw/page.h"
 #include "draw/page_json.h"
 #include "model/outline.h"
-#include "output/formulas.h"
+#include "output/kinematic_lines.h"
 #include "output/words.h"
 
 enum { most_bytes = 3600 * 1024, most_listed_events = 60000, bytes_of_event = 26, most_details = 2000 };
@@ -276,6 +276,15 @@ static void write_equations(struct text *text, struct symbolic *symbolic, const 
         if (equation_is_written(record->model, b, false, k, record->components))
             write_coordinate_equation(text, symbolic, record, b, k);
     write_newton_equations(text, symbolic, record, b);
+    text_add(text, "],\"kinematics\":[");
+    const char *lines[most_kinematic_lines];
+    const bool shown = symbolic->equations && body_is_cut_free(record->model, b, record->components);
+    const int count = shown ? kinematic_lines(&symbolic->formulas, b, lines) : 0;
+    for (int i = 0; i < count; i++) {
+        text->failed |= !lines[i];
+        json_comma(text, (size_t)i);
+        text_json_string(text, lines[i] ? lines[i] : "");
+    }
     text_add(text, "],");
 }
 

@@ -349,20 +349,28 @@ static size_t write_unit(struct text *text, const char *unit)
     return length;
 }
 
+/* The length of "_dot" or "_ddot" at the end of a name, 0 for neither. */
+static size_t dots_behind(const char *text)
+{
+    static const char *const ends[] = {"_dot", "_ddot"};
+    for (size_t i = 0; i < sizeof ends / sizeof *ends; i++)
+        if (strncmp(text, ends[i], strlen(ends[i])) == 0) return strlen(ends[i]);
+    return 0;
+}
+
 void symbol_write_latex(struct text *text, const char *symbol)
 {
-    static const char dot[] = "_dot";
     bool below = false;
     for (const char *c = symbol; *c;) {
         size_t length = 0;
         while (is_word(c[length])) length++;
-        bool dotted = length > 0 && strncmp(c + length, dot, strlen(dot)) == 0;
+        const size_t dots = length > 0 ? dots_behind(c + length) : 0;
         bool velocity = is_velocity(c, length);
-        if (dotted) text_add(text, "\\dot{");
+        if (dots) text_add(text, dots == strlen("_dot") ? "\\dot{" : "\\ddot{");
         if (length) write_word(text, c, velocity ? 1 : length);
-        if (dotted) text_add(text, "}");
+        if (dots) text_add(text, "}");
         if (velocity) text_printf(text, "_{%c}", c[1]);
-        c += length + (dotted ? strlen(dot) : 0);
+        c += length + dots;
         if (length && below && *c != '_') text_add(text, "}"), below = false;
         if (*c == '_') {
             text_add(text, below ? "\\_" : "_{");

@@ -44,10 +44,10 @@ function math(tag, ...children) {
   return node;
 }
 
-// A symbol such as mu_k, T_cord, v_dot, I_O: one letter upright or not, what follows the line below it.
+// A symbol such as mu_k, T_cord, v_dot, I_O, rod.omega: one letter upright or not, what follows the line below it.
 function mathSymbol(name) {
-  const [, base, dotted, index] = /^([^_]*)(_dot)?_?(.*)$/.exec(name.replace(/^v([xy])(_dot)?$/, "v$2_$1"));
-  const letter = greek[base] || base, node = math("mi", letter + (dotted ? "\u0307" : ""));
+  const [, body, base, dotted, index] = /^(.*\.)?([^_]*)(_d+ot)?_?(.*)$/.exec(name.replace(/(^|\.)v([xy])(_dot)?$/, "$1v$3_$2"));
+  const letter = (body || "") + (greek[base] || base), node = math("mi", letter + ({ _dot: "\u0307", _ddot: "\u0308" }[dotted] || ""));
   if (dotted) node.setAttribute("class", "dotted"); // of two characters, which MathML would set upright
   if (!index) return node;
   const below = math(/^[0-9]+$/.test(index) ? "mn" : "mi", greek[index] || index);
@@ -61,17 +61,18 @@ function inMath(name) {
 // A formula as it is written plainly (symbols.h): words, products by a blank, signs, parentheses.
 function mathOf(text) {
   const nodes = [];
-  for (const [token] of text.matchAll(/[A-Za-z][A-Za-z0-9_']*|_[A-Za-z0-9]+|[0-9.]+|\[[a-z]+\]|\S/g)) {
+  for (const [token] of text.matchAll(/[A-Za-z][A-Za-z0-9_'.]*|\^[0-9]+|_[A-Za-z0-9]+|[0-9.]+|\[[a-z]+\]|\S/g)) {
     const last = nodes[nodes.length - 1];
     if (token === "[deg]") nodes.push(math("mo", "°"));
     else if (token[0] === "[") nodes.push(math("mtext", `\u00a0${token.slice(1, -1)}`));
     else if (token === "sin" || token === "cos") nodes.push(math("mi", token), math("mo", "\u2061"));
+    else if (token[0] === "^") nodes.push(math("msup", nodes.pop(), math("mn", token.slice(1))));
     else if (/^[A-Za-z]/.test(token)) nodes.push(mathSymbol(token));
     else if (/^[0-9.]/.test(token)) nodes.push(math("mn", token));
     else if (token.startsWith("_")) nodes.push(math("msub", nodes.pop(), math("mi", token.slice(1))));
     else nodes.push(math("mo", token === "-" ? "−" : token));
     const newest = nodes[nodes.length - 1], factors = last && last.localName !== "mo" && newest.localName !== "mo";
-    if (factors && token[0] !== "_") nodes.splice(nodes.length - 1, 0, math("mo", "\u2062"));
+    if (factors && !/^[_^[]/.test(token)) nodes.splice(nodes.length - 1, 0, math("mo", "\u2062"));
   }
   return nodes;
 }

@@ -69,6 +69,11 @@ function livingTerms(equation) {
   return equation.terms.filter(([, index]) => sizeOf(index) > roundingOf(equation.unit));
 }
 
+// Those that it is written with: in symbols those that are not zero at all times.
+function writtenTerms(equation) {
+  return equation.left ? equation.terms.filter(([, , symbol]) => symbol) : livingTerms(equation);
+}
+
 // The sign of a term: the first one's has no room around it.
 function termSign(first, text) {
   const sign = math("mo", text);
@@ -76,16 +81,17 @@ function termSign(first, text) {
   return sign;
 }
 
-// The equation as one writes it by hand; null where its terms have no symbols.
+// The equation as one writes it by hand; null where it has no symbols.
 function inSymbols(equation) {
-  const terms = livingTerms(equation);
-  if (!terms.length || terms.some(([, , symbol]) => !symbol)) return null;
+  const terms = writtenTerms(equation);
+  if (!equation.left) return null;
   const row = math("mrow", ...mathOf(equation.left), math("mo", "="));
   terms.forEach(([, , symbol], i) => {
     const negative = symbol.startsWith("-");
     if (i || negative) row.append(termSign(i === 0, negative ? "−" : "+"));
     row.append(...mathOf(negative ? symbol.slice(1) : symbol));
   });
+  if (!terms.length) row.append(math("mn", "0"));
   return mathLine(row);
 }
 
@@ -100,11 +106,13 @@ function inNumbers(equation) {
   const upright = (units) => math("mtext", `\u2009${unit(units)}`);
   row.append(number(inertiaIn(equation), (value) => show(value, 4)), upright(equation.inertiaUnit), math("mo", "·"), math("mo", "("),
     number(valueIn(equation.acceleration), (value) => show(value, 4)), upright(equation.accelerationUnit), math("mo", ")"), math("mo", "="));
-  livingTerms(equation).forEach(([, index], i) => {
+  const terms = writtenTerms(equation);
+  terms.forEach(([, index], i) => {
     const sign = document.createTextNode("");
     changing.push([sign, valueIn(index), (value) => (value < 0 ? "−" : i ? "+" : "")]);
     row.append(termSign(i === 0, sign), number(valueIn(index), (value) => show(Math.abs(value), 4)));
   });
+  if (!terms.length) row.append(math("mn", "0"));
   row.append(upright(equation.unit));
   return mathLine(row);
 }
@@ -124,9 +132,18 @@ function equationTable(equation) {
   return box;
 }
 
+// The acceleration of G by those of the coordinates.
+function kinematicLines(body) {
+  if (body.kinematics.length === 0) return [];
+  const box = document.createElement("div");
+  box.append(Object.assign(document.createElement("div"), { className: "name", textContent: `${body.name}: a of G` }));
+  for (const line of body.kinematics) box.append(mathLine(math("mrow", ...mathOf(line))));
+  return [box];
+}
+
 function makeTables(bodies) {
   changing.length = 0;
-  element("equations").replaceChildren(...bodies.flatMap((body) => body.equations.map(equationTable)));
+  element("equations").replaceChildren(...bodies.flatMap((body) => [...body.equations.map(equationTable), ...kinematicLines(body)]));
   const ledger = element("ledger"), energy = unit(run.units.energy);
   ledger.textContent = "";
   for (const index of run.energy) addChanging(ledger, run.columns[index].n.replace(".", ": "), valueIn(index), energy);
