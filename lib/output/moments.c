@@ -47,7 +47,7 @@ static bool is_taken(const struct formulas *formulas, const char *name)
     return false;
 }
 
-/* The name of a length above zero: that of a parameter, "l/2", or its number. */
+/* The name of a length above zero: that of a parameter, "(l/2)", or its value. */
 static const char *length_name(struct formulas *formulas, double length)
 {
     const struct scene *scene = formulas->state->model->scene;
@@ -56,7 +56,7 @@ static const char *length_name(struct formulas *formulas, double length)
             const struct parameter *p = &scene->parameters[i];
             if (p->input || !dim_equal(p->dim, DIM_LENGTH) || !is_length(part * length, p->value)) continue;
             if (is_taken(formulas, p->name)) continue;
-            return arena_printf(&formulas->arena, part == 1 ? "%s" : "%s/2", p->name);
+            return arena_printf(&formulas->arena, part == 1 ? "%s" : "(%s/2)", p->name);
         }
     return arena_printf(&formulas->arena, "%.9g[%s]", length, length_unit(formulas->state->model));
 }
@@ -91,8 +91,9 @@ struct arm {
 
 const char *arm_name(struct formulas *formulas, int b, double d)
 {
-    return is_length(fabs(d), formulas->state->model->bodies[b].L) ? symbol_of_body(formulas, "L", b)
-                                                                   : length_name(formulas, fabs(d));
+    const struct model_body *body = &formulas->state->model->bodies[b];
+    return body->kind == motion_pivot && is_length(fabs(d), body->L) ? symbol_of_body(formulas, "L", b)
+                                                                     : length_name(formulas, fabs(d));
 }
 
 const char *angle_name(const struct formulas *formulas, int b)

@@ -142,7 +142,7 @@ struct symbol names_absolute(struct reader *reader, enum place place, const stru
 }
 
 /* The mass `m` of a body: of one that varies what it is now, which has a rate `m_dot`. */
-static struct symbol mass_symbol(const struct names *names, int body, const char *name)
+struct symbol mass_symbol(const struct names *names, int body, const char *name)
 {
     const struct draft *draft = &names->reader->drafts[body];
     const bool rate = strcmp(name, "m_dot") == 0;
@@ -373,6 +373,7 @@ static struct symbol or_force(const struct names *names, const char *name, struc
     if (!names->reader->drafts[names->body].motion_known) return failed_before;
     symbol = force_symbol(names, name);
     if (symbol.kind == symbol_unknown) symbol = hand_place_symbol(names, names->body, name);
+    if (symbol.kind == symbol_unknown) symbol = hand_numbered_symbol(names, name);
     bool of_points = strchr(name, '.') != NULL || strncmp(name, "angle", strlen("angle")) == 0;
     if (symbol.kind == symbol_unknown && of_points) symbol = absolute_symbol(names, names->body, name);
     return symbol;

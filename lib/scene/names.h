@@ -71,9 +71,15 @@ struct symbol names_absolute(struct reader *reader, enum place place, const stru
 /* The point of a body that is called so: G, O of a pivot, one with a name; false for none. */
 bool names_point(const struct body *owner, const char *name, size_t length, struct point *point);
 
-/* In a derivation: the acceleration `a_x` of the centre of mass of a body, `P.a_y` of a point of it, `angle_ddot`, and the
- * moment of inertia `I_P` about it (names_force.c). */
+/* In a derivation: the acceleration `a_x` of the centre of mass of a body, `P.a_y` of a point of it, also `a_Py`, `angle_ddot`,
+ * and the moment of inertia `I_P` about it (names_force.c). */
 struct symbol hand_place_symbol(const struct names *names, int body, const char *name);
+
+/* m_2, I_G2, L_2 of the second body of several, as the program's own equations have them (names_force.c). */
+struct symbol hand_numbered_symbol(const struct names *names, const char *name);
+
+/* The mass of a body, `m`, and its rate, `m_dot`. */
+struct symbol mass_symbol(const struct names *names, int body, const char *name);
 
 /* A force of the diagrams in a derivation: of the body at hand, or `body.name` (names_force.c). */
 struct symbol force_symbol(const struct names *names, const char *name);

@@ -3,6 +3,7 @@
  * What a derivation by hand may name of the accelerations of a body, and the forces and moments of its diagram. Which there are, only a compiled model has:
  * without their list a derivation with a name that is not known otherwise is left out, and read again (hand_forces.h).
  */
+#include <stdlib.h>
 #include <string.h>
 
 #include "scene/names.h"
@@ -21,6 +22,14 @@ static bool is_letter(const char *letter, const char *name)
     }
 }
 
+/* push_x of push.x */
+static bool is_component(const char *component, const char *name)
+{
+    const size_t length = strlen(component);
+    return length > 2 && component[length - 2] == '.' && strlen(name) == length && name[length - 2] == '_' &&
+           memcmp(component, name, length - 2) == 0 && component[length - 1] == name[length - 1];
+}
+
 static const struct force_name *find(const struct reader *reader, int body, const char *name)
 {
     for (size_t i = 0; i < reader->force_name_count; i++) {
@@ -30,6 +39,10 @@ static const struct force_name *find(const struct reader *reader, int body, cons
     for (size_t i = 0; i < reader->force_name_count; i++) {
         const struct force_name *one = &reader->force_names[i];
         if (one->body == body && one->letter && is_letter(one->name, name)) return one;
+    }
+    for (size_t i = 0; i < reader->force_name_count; i++) {
+        const struct force_name *one = &reader->force_names[i];
+        if (one->body == body && is_component(one->name, name)) return one;
     }
     return NULL;
 }
@@ -44,6 +57,16 @@ static const struct force_name *find_dotted(const struct reader *reader, const c
             return find(reader, (int)b, dot + 1);
     }
     return NULL;
+}
+
+/* `a_Gx` is `G.a_x`. */
+static bool is_acceleration_of(const struct body *owner, const char *name, struct absolute *place)
+{
+    const size_t length = strlen(name);
+    if (length < 4 || strncmp(name, "a_", 2) != 0) return false;
+    const char axis = name[length - 1];
+    place->kind = axis == 'x' ? absolute_ax : absolute_ay;
+    return (axis == 'x' || axis == 'y') && names_point(owner, name + 2, length - 3, &place->point);
 }
 
 struct symbol hand_place_symbol(const struct names *names, int body, const char *name)
@@ -61,7 +84,7 @@ struct symbol hand_place_symbol(const struct names *names, int body, const char 
         place.kind = x ? absolute_ax : absolute_ay;
         if (!names_point(owner, dot ? name : "G", dot ? (size_t)(dot - name) : 1, &place.point))
             return unknown;
-    } else {
+    } else if (dot || !is_acceleration_of(owner, name, &place)) {
         return unknown;
     }
     return names_absolute(names->reader, place_hand, &place);
@@ -178,6 +201,28 @@ bool symbols_check(struct reader *reader, const struct node *symbols)
         }
     }
     return fine;
+}
+
+/* ---- numbered bodies */
+
+/* Of several bodies in the order of the file: m_2, L_2, I_O2, I_G2 in the lines of the second, and the mass in all lines. */
+struct symbol hand_numbered_symbol(const struct names *names, const char *name)
+{
+    static const char *const bases[] = {"m_", "L_", "I_O", "I_G"};
+    const size_t count = names->reader->scene->body_count;
+    for (size_t i = 0; count > 1 && i < sizeof bases / sizeof *bases; i++) {
+        const size_t length = strlen(bases[i]);
+        if (strncmp(name, bases[i], length) != 0 || name[length] < '1' || name[length] > '9') continue;
+        char *end;
+        const unsigned long number = strtoul(name + length, &end, 10);
+        if (*end || number > count) continue;
+        if (i == 0) return mass_symbol(names, (int)number - 1, "m");
+        return (int)number != names->body + 1 ? unknown
+                                              : hand_symbol(names, i == 1   ? "L"
+                                                                   : i == 2 ? "I_O"
+                                                                            : "I_G");
+    }
+    return unknown;
 }
 
 /* ---- both */
