@@ -78,7 +78,9 @@ static void write_kinematics(struct text *text, struct formulas *formulas, int b
     for (int i = 0; i < count; i++) {
         text->failed |= !lines[i];
         if (!lines[i]) return;
-        if (i == 0) text_printf(text, "%% %s\n\\begin{align*}\n", formulas->state->model->bodies[b].name);
+        if (i == 0)
+            text_printf(text, "%% %s: acceleration of G\n\\begin{align*}\n",
+                        formulas->state->model->bodies[b].name);
         const char *equals = strchr(lines[i], '=');
         char *left = arena_text(&formulas->arena, lines[i], (size_t)(equals - lines[i]) - 1);
         if (left) symbol_write_latex(text, left);

@@ -14,11 +14,12 @@ class Unbound(Exception):
 
 def from_latex(text):
     """The same formula, plainly."""
-    text = re.sub(r"\\dot\{\s*\\?(\w+)\s*\}", r"\1_dot", text)
+    text = re.sub(r"\\mathit\{(\w*)\}", r"\1", text)
+    text = re.sub(r"\\(d+ot)\{\s*\\?(\w+)\s*\}", r"\2_\1", text)
     text = re.sub(r"(\w+)_dot_\{(\w)\}", r"\1\2_dot", text)
     text = re.sub(r"\\,\\mathrm\{(\w+)\}", r"[\1]", text).replace(r"\,", " ").replace(r"^\circ", "[deg]")
     text = re.sub(r"\\mathit\{(\w*)\}", r"\1", text)
-    text = re.sub(r"\\([a-z]+) ", r"\1", text)
+    text = re.sub(r"\\([a-z]+) ", r"\1", text).replace(". ", ".")
     text = re.sub(r"\bv_\{([xy])\}", r"v\1", text)
     previous = None
     while previous != text:
@@ -83,18 +84,25 @@ class Formula:
         return value
 
     def product(self):
-        value = self.factor()
+        value = self.power()
         while self.next() and self.next() not in "+-)|_":
             if self.next() == "/":
                 self.take()
                 value = scaled(1 / self.factor(), value)
             else:
-                value = scaled(value, self.factor())
+                value = scaled(value, self.power())
         if self.next() == "|" and self.bars == 0:
             value = scaled(value, self.product())
         return value
 
     bars = 0
+
+    def power(self):
+        value = self.factor()
+        if self.next() == "^":
+            self.take()
+            value **= int(self.take())
+        return value
 
     def factor(self):
         token = self.take()

@@ -269,7 +269,8 @@ class Judge:
         values = {p: next((x for x in (scene.number(p, "m"), scene.number(p, "rad")) if x is not None), None)
                   for p in scene.file.get("parameters", {})}
         O, G = place.center.get((b, "O")), place.center.get((b, "G"))
-        values["L"] = values[f"L_{scene.bodies.index(b) + 1}"] = math.hypot(G[0] - O[0], G[1] - O[1]) if O and G else None
+        L = math.hypot(G[0] - O[0], G[1] - O[1]) if O and G else None
+        values.update({"L": L, f"L_{scene.bodies.index(b) + 1}": L})
         return values
 
     def force(self, place, equation, name, text, value, label):
@@ -415,6 +416,54 @@ class Judge:
             assert named or (letter == "M") == moment, f"{symbol} for a {'moment' if moment else 'force'}"
 
 
+# ---- accelerations of G
+
+def kinematics(scene, found, place, judge):
+    """The lines of a_G, and of a_O where they name it, beside the acceleration of G."""
+    known, angle_dot = {}, {}
+    for e in found["equations"]:
+        b, a = e["body"], e["acceleration"]
+        if e["coordinate"] in ("G.x", "G.y"):
+            known[f"{b}.{a['name']}"] = a["value"]
+        elif e["coordinate"] == "G.angle":
+            known[f"{b}.angle_ddot"] = a["value"]
+        elif not scene.parents[b] and scene.kind(b) in ("slide", "pivot", "particle", "planar"):
+            known[f"{b}.{a['name']}"] = a["value"]
+    for b in scene.bodies:  # parents may come later
+        chain, at = [], b
+        while at:
+            chain.append(place.values.get(f"{at}.omega", 0) if scene.kind(at) in ("pivot", "planar") else 0)
+            at = scene.parents[at]
+        angle_dot[f"{b}.angle_dot"] = sum(chain)
+    for b, lines in found.get("kinematics", {}).items():
+        if scene.kind(b) == "planar":  # its vx_dot is no number of the report
+            continue
+        values = {**judge.lengths(place, b), **place.values, **known, **angle_dot}
+        for other in scene.bodies:
+            values.update({k: v for k, v in judge.lengths(place, other).items() if k.startswith("L_")})
+            try:
+                values[f"{other}.angle"] = scene.angle(other, place.values)
+            except Unbound:
+                values[f"{other}.angle"] = None
+        values.update({name.split(".", 1)[1]: v for name, v in values.items() if name.startswith(b + ".")})
+        slope = scene.along(b) if scene.kind(b) == "slide" else None
+        values.update({p: scene.number(p, "rad") for p in scene.file.get("parameters", {}) if slope is not None and
+                       values.get(p) is None})
+        for line in sorted(lines, key=lambda line: "a_O" not in line.split(" = ")[0]):
+            left, right = line.split(" = ")
+            try:
+                got = evaluate(right, values)
+            except Unbound as unbound:
+                judge.counts[f"not judged: {unbound} of a_G"] += 1
+                continue
+            if left.startswith("a_O"):
+                values[left] = got
+                continue
+            size = sum(abs(x) for x in values.values() if isinstance(x, float) and math.isfinite(x))
+            near(got, known[f"{b}.{left}"], size, f"{left} of {b}")
+            judge.counts["accelerations of G"] += 1
+
+
 # ---- one state
 
 def labels_of(svg):
@@ -506,7 +555,6 @@ def judge_state(scene, model):
             plain.setdefault(e["body"], []).append(e["symbols"])
             assert lines.pop(f"{e['body']}.{e['coordinate']}") == e["symbols"], "LaTeX and JSON differ"
     assert not lines, f"LaTeX has {lines} besides"
-    assert lines_of(report) == plain, "report and JSON differ"
     for e in found["equations"]:
         b, coordinate = e["body"], e["coordinate"]
         cut_free = coordinate.startswith("G.")
@@ -528,13 +576,23 @@ def judge_state(scene, model):
         index = f"{scene.bodies.index(b) + 1}" if len(scene.bodies) > 1 else ""
         inertia = e["inertia"]["name"] + index if turns else "m" + (index and f"_{index}")
         whole = " + ".join(t["symbol"] for t in e["terms"] if t["symbol"]).replace("+ -", "- ")
-        whole = f"{inertia} {e['acceleration']['name']} = {whole or 0}"
-        assert e["symbols"] == whole, f"{e['symbols']!r} for {whole!r}"
+        names = ["omega_dot", "angle_ddot"] if e["acceleration"]["name"] == "alpha" else [e["acceleration"]["name"]]
+        assert e["symbols"] in [f"{inertia} {a} = {whole or 0}" for a in names], f"{e['symbols']!r} for {whole!r}"
         for term in e["terms"]:
             label = label_for(labels, b, term["name"], term["symbol"])
             judge.term(place, equation, term["name"], term["symbol"], term["value"], label, scale)
             judge.counts["lines"] += 1
     judge.finish(place)
+    kinematics(scene, found, place, judge)
+    latex = re.sub(r" \\\\$", "", model.latex(), flags=re.MULTILINE)
+    for b, lines in found.get("kinematics", {}).items():
+        plain[b] += lines
+        for line in lines:
+            left, right = line.split(" = ")
+            assert any(from_latex(p) == left and from_latex(q) == right for p, _, q in (
+                x.partition(" &= ") for x in latex.splitlines())), f"LaTeX lacks {line}"
+    assert {b: sorted(lines) for b, lines in lines_of(report).items()} == {b: sorted(lines) for b, lines in plain.items()}, \
+        "report and JSON differ"
     for (b, name), texts in labels.items():
         arrow = place.arrows[b, name]
         if len(texts) > 1:
