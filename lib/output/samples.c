@@ -35,21 +35,23 @@ static void move(struct fbd_state *state, gsl_rng *rng, double reach)
     for (size_t i = 0; i < scene->own_count; i++) state->y[2 * n + i] += between(rng, -1, 1);
 }
 
-/* Friction that holds may have nothing to hold. */
-static void let_slip(struct fbd_state *state)
+/* Friction that holds may have nothing to hold, and a rope may be slack. */
+static void take_other_modes(struct fbd_state *state)
 {
     const struct plan *plan = &state->model->plan;
-    for (size_t k = 0; k < plan->mode_count; k++)
+    for (size_t k = 0; k < plan->mode_count; k++) {
         if (mode_is_friction(&plan->modes[k]) && state->slip[k] == stick) state->slip[k] = slip_plus;
+        if (plan->modes[k].kind == mode_rope) state->slip[k] = stick;
+    }
 }
 
 static bool draw(struct fbd_state *state, const struct fbd_state *from, gsl_rng *rng, double reach,
-                 bool slips)
+                 bool other)
 {
     const struct fbd_model *model = from->model;
     state_copy(state, from);
     move(state, rng, reach);
-    if (slips) let_slip(state);
+    if (other) take_other_modes(state);
     modes_drive(state);
     if (model->tree && model->tree->tie_count > 0 && !state_project(state, false)) return false;
     state->settled = true;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Samples: a state and some states near it, in its modes and in those in which its friction slips. As a force acts at all of
+ * Samples: a state and some states near it, in its modes and in those in which its friction slips and its ropes are taut. As a force acts at all of
  * them it acts at every time: along one line of the world, at one point of a body, or with one arm.
  */
 #ifndef FBD_OUTPUT_SAMPLES_H

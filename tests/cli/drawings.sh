@@ -59,7 +59,10 @@ check 'has the reactions of the statics' says '<title>normal on foot: \(0, 1015.
 
 # ---- mistakes
 check '--worksheet has no arrows to label' exits 2 draw "$crank" --worksheet --symbols
-check '--symbols without --svg is 2' exits 2 run --symbols "$crank"
+check '--symbols without --svg: the equations' exits 0 run --symbols "$crank"
+check 'with reactions by their letters' says '^    m_3 v_dot = -R_3x$' out
+check 'and the acceleration of G' says '^    a_Gx = a_Ox - L_2 \(angle_ddot sin\(angle\) \+ angle_dot\^2 cos\(angle\)\)$' out
+check 'no page has arrows to label' exits 2 run --symbols --html crank.html "$crank"
 check 'and for eigenvalues' exits 2 run --linearize --svg - --symbols "$models/vibration/damped_oscillator.yaml"
 check 'a file that promises another picture is 2' exits 2 run --quiet --svg crank.jpg "$crank"
 check 'and none is written' test ! -e crank.jpg
