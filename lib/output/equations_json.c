@@ -143,8 +143,9 @@ static void write_kinematics(struct text *text, const struct written *written)
             text_add(text, i == 0 ? "[" : ", ");
             text_json_string(text, lines[i]);
         }
-        if (count > 0) text_add(text, "]");
-        if (count > 0) before = ",\n    ";
+        if (count == 0) continue;
+        text_add(text, "]");
+        before = ",\n    ";
     }
     if (before[0] == ',') text_add(text, "\n  },\n");
 }

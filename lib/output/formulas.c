@@ -42,7 +42,10 @@ bool equation_is_written(const struct fbd_model *model, int b, bool cut_free, in
 {
     const struct model_body *body = &model->bodies[b];
     const bool ground = is_on_ground(body);
+    const bool straight =
+        body->place.link == 0 && (body->kind == motion_slide || body->kind == motion_particle);
     if (!body_is_cut_free(model, b, components)) return !cut_free;
+    if (cut_free && part == 2 && straight) return false; /* nobody has asked what keeps it from turning */
     return cut_free ? !ground || !has_coordinate_along(body, part) : ground;
 }
 

@@ -184,6 +184,7 @@ static void equations(void **context)
     ANSWERS(fbd_equation_term, is_nan(fbd_equation_term(NULL, "spring")));
     ANSWERS(fbd_equation_term, is_nan(fbd_equation_term(&first, NULL)));
     ANSWERS(fbd_equations_text, !fbd_equations_text(NULL));
+    ANSWERS(fbd_equations_symbols, !fbd_equations_symbols(NULL));
     ANSWERS(fbd_equations_latex, !fbd_equations_latex(NULL));
     ANSWERS(fbd_equations_latex_components, !fbd_equations_latex_components(NULL));
     ANSWERS(fbd_equations_text_components, !fbd_equations_text_components(NULL));

@@ -119,6 +119,7 @@ static bool look_closer(void)
     fbd_state *state = fbd_state_new(model);
     bool done = state && some(fbd_equations_text(state)) && some(fbd_equations_latex(state)) &&
                 some(fbd_explain(model, &options));
+    done = done && some(fbd_equations_symbols(state)) && some(fbd_equations_json(state));
     done = done && some(fbd_diagram_svg(state, NULL, errors));
     done = done && fbd_model_has_columns(model, "arm.omega,block.friction", errors);
     done = done && some(fbd_check_hand(model, 1, NULL));

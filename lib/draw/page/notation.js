@@ -64,8 +64,11 @@ function mathOf(text) {
   for (const [token] of text.matchAll(/[A-Za-z][A-Za-z0-9_'.]*|\^[0-9]+|_[A-Za-z0-9]+|[0-9.]+|\[[a-z]+\]|\S/g)) {
     const last = nodes[nodes.length - 1];
     if (token === "[deg]") nodes.push(math("mo", "°"));
-    else if (token[0] === "[") nodes.push(math("mtext", `\u00a0${token.slice(1, -1)}`));
-    else if (token === "sin" || token === "cos") nodes.push(math("mi", token), math("mo", "\u2061"));
+    else if (token[0] === "[") nodes.push(math("mtext", `\u00a0${token.slice(1, -1)}\u2009`));
+    else if (token === "sin" || token === "cos") {
+      const room = last && last.localName !== "mo" ? "\u2009" : "";
+      nodes.push(math("mtext", room), math("mi", token), math("mo", "\u2061"));
+    }
     else if (token[0] === "^") nodes.push(math("msup", nodes.pop(), math("mn", token.slice(1))));
     else if (/^[A-Za-z]/.test(token)) nodes.push(mathSymbol(token));
     else if (/^[0-9.]/.test(token)) nodes.push(math("mn", token));
