@@ -160,6 +160,13 @@ enum exit_code grading(const struct options *options)
     return finish(key, errors, key ? grade_all(options, key, errors) : exit_bad_model);
 }
 
+static bool put_page(const char *path, const char *page)
+{
+    if (whole_file_put(path, page)) return true;
+    complain("fbd-run: cannot write `%s`: %s", path, strerror(errno));
+    return false;
+}
+
 enum exit_code handout(const struct options *options)
 {
     fbd_errors *errors = fbd_errors_new();
@@ -169,10 +176,15 @@ enum exit_code handout(const struct options *options)
         return exit_failed;
     }
     char *text = !key                        ? NULL
+                 : options->page             ? fbd_key_page(key, options->student, options->exam, errors)
                  : options->drawing.solution ? fbd_key_solution(key, options->student, errors)
                                              : fbd_key_handout(key, options->student, errors);
-    if (text) fputs(text, stdout);
     enum exit_code code = text ? exit_done : key ? exit_failed : exit_bad_model;
+    if (text && options->page) {
+        if (!put_page(options->page, text)) code = exit_failed;
+    } else if (text) {
+        fputs(text, stdout);
+    }
     fbd_free(text);
     return finish(key, errors, code);
 }

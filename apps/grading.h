@@ -10,7 +10,7 @@
 /* Grade all answers and write what was asked for. exit_hand_differs when one does not pass. */
 enum exit_code grading(const struct options *options);
 
-/* Print the sheet of a student. */
+/* Print the sheet of a student, or write it as a page. */
 enum exit_code handout(const struct options *options);
 
 #endif

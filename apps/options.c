@@ -77,6 +77,8 @@ static const char help_without_run[] =
     "  --student NAME       whose answer it is, where values are drawn (default: the name of its file)\n"
     "  --details            with the names of the key's forces, for the teacher\n"
     "  --handout            print the sheet of the key MODEL.yaml; with --solution filled in\n"
+    "  --page FILE          with --handout: as an HTML page to draw on, which checks what is drawn\n"
+    "  --exam               with --page: without the key in it, an answer to hand in\n"
     "\n"
     "About the program\n"
     "  --schema             the model language as JSON Schema, for editors\n"
@@ -130,6 +132,8 @@ enum {
     option_student,
     option_details,
     option_handout,
+    option_page,
+    option_exam,
     option_watch,
     option_without,
     option_live,
@@ -180,6 +184,8 @@ static const struct option long_options[] = {
     {"student", required_argument, NULL, option_student},
     {"details", no_argument, NULL, option_details},
     {"handout", no_argument, NULL, option_handout},
+    {"page", required_argument, NULL, option_page},
+    {"exam", no_argument, NULL, option_exam},
     {"watch", no_argument, NULL, option_watch},
     {"without", required_argument, NULL, option_without},
     {"live", no_argument, NULL, option_live},
@@ -326,6 +332,8 @@ static bool take_option(const struct command_line *unused, int option, void *con
     case option_student: options->student = optarg; return true;
     case option_details: options->details = true; return true;
     case option_handout: return choose_action(options, action_handout);
+    case option_page: options->page = optarg; return true;
+    case option_exam: options->exam = true; return true;
     case option_fmu: options->fmu = optarg; return fmu_can_be_made() && choose_action(options, action_fmu);
     case option_fmu_version: return take_fmu_version(&options->fmu_version);
     default: return take_drawing(options, option);
@@ -378,7 +386,9 @@ static bool shapes_drawing(const struct options *options, bool components)
 /* Neither the key nor an answer is written over. */
 static bool grading_agrees(const struct options *options)
 {
-    const struct output_place places[] = {{"--csv", options->csv}, {"--json", options->json}};
+    const struct output_place places[] = {{"--csv", options->csv},
+                                          {"--json", options->json},
+                                          {"--page", options->page}};
     bool grades = options->action == action_grade;
     if (grades && options->student && options->answer_count != 1)
         return usage("--student goes with one answer; without it each is called as its file", "");
@@ -390,12 +400,16 @@ static bool grading_agrees(const struct options *options)
         options->ledger || options->every > 0 || options->latex || shapes_drawing(options, false) ||
         options->without_count || options->full || options->degrees)
         return usage("with --grade go --set, --student, --details, --csv, --json and --quiet only; with "
-                     "--handout --set, --student and --solution only",
+                     "--handout --set, --student, --solution, --page and --exam only",
                      "");
     if (grades && options->drawing.solution)
         return usage("--solution goes with --handout, not with --grade", "");
     if (!grades && (options->csv || options->json || options->quiet || options->details))
-        return usage("with --handout go --set, --student and --solution only", "");
+        return usage("with --handout go --set, --student, --solution, --page and --exam only", "");
+    if (grades && options->page) return usage("--page goes with --handout", "");
+    if (options->page && options->drawing.solution)
+        return usage("--page is to be drawn on: --solution is without it", "");
+    if (options->exam && !options->page) return usage("--exam goes with --handout and --page", "");
     for (size_t i = 0; i < options->answer_count; i++)
         if (!places_differ(&line, options->answers[i], places, sizeof places / sizeof *places)) return false;
     return places_differ(&line, options->model, places, sizeof places / sizeof *places);
@@ -440,6 +454,7 @@ static bool options_agree(const struct options *options)
     if (options->action == action_grade || options->action == action_handout) return grading_agrees(options);
     if (options->student || options->details)
         return usage("--student and --details go with --grade and --handout", "");
+    if (options->page || options->exam) return usage("--page and --exam go with --handout", "");
     bool stands_still = options->action != action_run;
     bool draws = options->action == action_equations || options->action == action_linearize;
     bool rests = options->action == action_static;

@@ -1,0 +1,239 @@
+"use strict";
+
+// The desk of a body: its board with the tools, what is chosen as a form, the list of what is drawn, the equations.
+
+const desks = []; // of each body its elements
+
+// ---- the board
+
+function pointShapes(body) {
+  return body.points.map(({ paper: [x, y], name }) => svg("circle", { class: "point", cx: x, cy: y, r: 0.9 }, svg("title", {}, name)));
+}
+
+function makeBoard(body, b) {
+  const [left, top, width, height] = body.box, m = boardMargin;
+  const board = svg("svg", { class: "board fbd", viewBox: `${left - m} ${top - m} ${width + 2 * m} ${height + 2 * m}`, role: "group", tabindex: 0, "data-body": b,
+    "aria-label": `${body.name}, cut free. F adds a force, M a moment.` });
+  const under = svg("g", { class: "under" });
+  under.innerHTML = body.picture;
+  board.append(under, svg("g", { class: "points" }, ...pointShapes(body)), svg("g", { class: "arrows" }), svg("g", { class: "handles" }));
+  connectBoard(board);
+  return board;
+}
+
+function showBoard(b) {
+  const { board } = desks[b], own = drawing.entries.filter((entry) => entry.body === b), chosen = own.find((entry) => entry.id === drawing.selected);
+  const taken = sheet.bodies[b].points.map(({ paper }) => paper);
+  const focus = document.activeElement?.closest?.(".board") === board ? document.activeElement.dataset.id : null;
+  board.querySelector(".arrows").replaceChildren(...own.map((entry) => arrowShape(entry, taken)));
+  board.querySelector(".handles").replaceChildren(...(chosen ? handlesOf(chosen) : []));
+  board.querySelector(".points").classList.toggle("seen", own.length === 0 || Boolean(chosen) || stroke.board === board);
+  if (focus) board.querySelector(`[data-id="${focus}"]`)?.focus({ preventScroll: true });
+}
+
+function focusArrow(id) {
+  const entry = entryOf(id);
+  if (entry) desks[entry.body].board.querySelector(`[data-id="${id}"]`)?.focus({ preventScroll: true });
+}
+
+function tell(b, text) {
+  desks[b].says.textContent = text;
+}
+
+// ---- the form of what is chosen
+
+const chosenOn = (b) => drawing.entries.find((entry) => entry.id === drawing.selected && entry.body === b);
+
+function labelled(text, input, css) {
+  return make("label", { className: css || "" }, make("span", {}, text), input);
+}
+
+// A change of the chosen entry by a field of the form; changes of one field in a row are undone at once.
+function connectField(b, field, kind, take) {
+  field.addEventListener(kind, () => {
+    const entry = chosenOn(b);
+    if (!entry) return;
+    keepHistory(`${field.dataset.field}${entry.id}`);
+    take(entry);
+    changed();
+    showDesk(b, field);
+  });
+}
+
+function takeDirection(desk, entry) {
+  const body = bodyOf(entry), value = desk.direction.value;
+  if (value === "unknown") { entry.direction = null; entry.value = ""; return; }
+  if (value !== "other") entry.direction = directionsOf(body)[Number(value)];
+  else if (entry.direction) entry.direction = { ...entry.direction, body: false, other: true, angle: `${rounded(within(entry.direction.degrees), 5)} deg` };
+  else entry.direction = { degrees: 45, angle: "45 deg", body: false, other: true };
+}
+
+function takeAngle(desk, entry) {
+  const degrees = degreesOf(desk.angle.value, givenAngle);
+  desk.angle.setCustomValidity(Number.isFinite(degrees) ? "" : "an angle, as 30 deg");
+  if (Number.isFinite(degrees)) entry.direction = { degrees: within(degrees), angle: angleText(desk.angle.value.trim()), body: false, other: true };
+}
+
+// As the file has an angle: a plain one with its unit, units of others in brackets.
+function angleText(text) {
+  const plain = /^([-+]?[0-9.]+)\s*(°|deg)?$/.exec(text);
+  if (plain) return plain[2] ? `${plain[1]} deg` : text;
+  return text.replace(/([0-9.])\s*°/g, "$1[deg]").replace(/([0-9.])\s*(deg|rad)\b/g, "$1[$2]");
+}
+
+function makeForm(b) {
+  const body = sheet.bodies[b], desk = desks[b], input = (field, properties) => make("input", { type: "text", autocomplete: "off", spellcheck: false, "data-field": field, ...properties });
+  desk.name = input("name", { size: 8 });
+  desk.value = input("value", { size: 12, placeholder: "unknown" });
+  desk.point = make("select", { "data-field": "point" }, ...body.points.map(({ name }, i) => new Option(name, i)));
+  desk.direction = make("select", { "data-field": "direction" }, ...directionsOf(body).map(({ name }, i) => new Option(name, i)), new Option("another angle", "other"), new Option("unknown", "unknown"));
+  desk.angle = input("angle", { size: 10, "aria-label": "Angle from the horizontal, counter-clockwise" });
+  desk.tip = make("input", { type: "checkbox", "data-field": "tip" });
+  desk.sense = make("select", { "data-field": "sense" }, new Option("counter-clockwise", "1"), new Option("clockwise", "-1"));
+  desk.remove = make("button", { type: "button" }, "Delete");
+  connectField(b, desk.name, "input", (entry) => { entry.name = desk.name.value; });
+  connectField(b, desk.value, "input", (entry) => { entry.value = desk.value.value; });
+  connectField(b, desk.point, "change", (entry) => { if (desk.point.value !== "place") entry.point = Number(desk.point.value); });
+  connectField(b, desk.direction, "change", (entry) => takeDirection(desk, entry));
+  connectField(b, desk.angle, "input", (entry) => takeAngle(desk, entry));
+  connectField(b, desk.tip, "change", (entry) => { entry.tip = desk.tip.checked; });
+  connectField(b, desk.sense, "change", (entry) => { entry.sense = Number(desk.sense.value); });
+  desk.remove.addEventListener("click", () => { const entry = chosenOn(b); if (entry) removeEntry(entry); });
+  desk.legend = make("legend", {}, "");
+  desk.parts = { place: labelled("acts at", desk.point), way: labelled("direction", desk.direction), angle: labelled("angle", desk.angle),
+    tip: labelled("its tip is at the point", desk.tip, "box"), sense: labelled("sense", desk.sense) };
+  desk.form = make("fieldset", { className: "form" }, desk.legend, labelled("name", desk.name), labelled("magnitude", desk.value), ...Object.values(desk.parts), desk.remove);
+  desk.form.addEventListener("keydown", (event) => { if (event.key === "Escape") focusArrow(drawing.selected); });
+  return desk.form;
+}
+
+function showDirection(desk, entry) {
+  const all = directionsOf(bodyOf(entry)), { direction } = entry;
+  const known = direction && !direction.other ? all.findIndex((other) => other.angle === direction.angle && other.body === direction.body) : -1;
+  desk.direction.value = direction ? (known < 0 ? "other" : String(known)) : "unknown";
+  desk.parts.angle.hidden = entry.kind !== "force" || desk.direction.value !== "other";
+  if (document.activeElement !== desk.angle) { desk.angle.value = direction ? direction.angle : ""; desk.angle.setCustomValidity(""); }
+}
+
+function showForm(b) {
+  const desk = desks[b], entry = chosenOn(b), force = entry?.kind === "force";
+  desk.form.hidden = !entry;
+  if (!entry) return;
+  desk.legend.textContent = force ? "Force" : "Moment";
+  if (document.activeElement !== desk.name) desk.name.value = entry.name;
+  desk.name.placeholder = nameOf(entry);
+  if (document.activeElement !== desk.value) desk.value.value = entry.value;
+  desk.value.disabled = force && !entry.direction;
+  for (const option of [...desk.point.options]) if (option.value === "place") option.remove();
+  if (Array.isArray(entry.point)) desk.point.add(new Option(`at ${placeName(entry)}`, "place"));
+  desk.point.value = Array.isArray(entry.point) ? "place" : String(entry.point);
+  for (const part of ["place", "way", "tip"]) desk.parts[part].hidden = !force;
+  desk.parts.sense.hidden = force;
+  desk.tip.checked = entry.tip;
+  desk.sense.value = String(entry.sense);
+  showDirection(desk, entry);
+}
+
+// ---- the list
+
+function entryItem(entry) {
+  const mark = drawing.marks.get(entry.id), says = mark ? make("span", { className: mark.right ? "right" : "wrong" }, `${mark.right ? "✓" : "✗"} ${mark.message}`) : "";
+  const button = make("button", { type: "button", className: "entry" }, inWords(entry));
+  button.setAttribute("aria-pressed", String(entry.id === drawing.selected));
+  button.addEventListener("click", () => { choose(entry.id, true); focusArrow(entry.id); });
+  return make("li", {}, button, says);
+}
+
+function showList(b) {
+  const own = drawing.entries.filter((entry) => entry.body === b);
+  desks[b].list.replaceChildren(...own.map(entryItem));
+  desks[b].none.hidden = own.length > 0;
+}
+
+// ---- equations
+
+function makeEquations(b) {
+  const desk = desks[b];
+  desk.lines = make("textarea", { rows: 4, spellcheck: false, autocapitalize: "off", "aria-label": `Equations of ${sheet.bodies[b].name}, one a line`, placeholder: "one equation a line, as m*a_x = F - f" });
+  desk.shown = make("div", { className: "shown" });
+  desk.lines.addEventListener("input", () => {
+    keepHistory(`lines${b}`);
+    drawing.lines[b] = desk.lines.value;
+    changed();
+    showEquations(b);
+  });
+  return make("section", {}, make("h3", {}, "Equations"), desk.lines, desk.shown);
+}
+
+function showEquations(b) {
+  const desk = desks[b];
+  if (!desk.lines) return;
+  if (desk.lines.value !== drawing.lines[b]) desk.lines.value = drawing.lines[b];
+  desk.shown.replaceChildren(...linesOf(b).map((line, i) => {
+    const mark = drawing.marks.get(`${b}:${i}`), row = make("div", { className: "line" }, typeset(line));
+    if (mark) row.append(make("span", { className: mark.right ? "right" : "wrong" }, `${mark.right ? "✓" : "✗"} ${mark.message}`));
+    return row;
+  }));
+}
+
+// ---- the desk
+
+function makeTools(b) {
+  const tool = (kind) => {
+    const button = make("button", { type: "button", className: "tool" }, kind === "force" ? "↗ Force" : "↺ Moment");
+    button.dataset.kind = kind;
+    button.addEventListener("click", () => setMode(kind));
+    return button;
+  };
+  const add = make("button", { type: "button" }, "Add");
+  add.title = "Add one that is then moved by keys or by the form";
+  add.addEventListener("click", () => addByKey(b, drawing.mode));
+  return make("div", { className: "tools", role: "group", "aria-label": "What a stroke draws" }, tool("force"), tool("moment"), add);
+}
+
+function setMode(kind) {
+  drawing.mode = kind;
+  for (const button of document.querySelectorAll(".tool")) button.setAttribute("aria-pressed", String(button.dataset.kind === kind));
+}
+
+function makeDesk(body, b) {
+  const desk = { body };
+  desks.push(desk);
+  desk.board = makeBoard(body, b);
+  desk.says = make("p", { className: "says" });
+  desk.says.setAttribute("aria-live", "polite");
+  desk.list = make("ol", { className: "entries" });
+  desk.none = make("p", { className: "none" }, "Nothing is drawn yet: drag on the body, or press Add.");
+  const side = make("div", { className: "side" }, make("h3", {}, "Forces and moments"), desk.none, desk.list, makeForm(b));
+  if (asksHand(body)) side.append(makeEquations(b));
+  const section = make("section", { className: "body" }, make("h2", {}, body.name), make("div", { className: "desk" }, make("div", {}, makeTools(b), desk.board, desk.says), side));
+  section.setAttribute("aria-label", body.name);
+  element("bodies").append(section);
+}
+
+// All of a desk but the field that is being written in.
+function showDesk(b) {
+  showBoard(b);
+  showForm(b);
+  showList(b);
+}
+
+function showAll() {
+  sheet.bodies.forEach((body, b) => { showDesk(b); showEquations(b); });
+}
+
+function choose(id, keepFocus) {
+  drawing.selected = id;
+  sheet.bodies.forEach((body, b) => showDesk(b));
+  if (id && !keepFocus) focusArrow(id);
+}
+
+function removeEntry(entry) {
+  keepHistory();
+  drawing.entries = drawing.entries.filter((other) => other !== entry);
+  drawing.selected = 0;
+  changed();
+  showDesk(entry.body);
+  tell(entry.body, `${nameOf(entry)} is deleted`);
+  desks[entry.body].board.focus({ preventScroll: true });
+}

@@ -1,0 +1,109 @@
+"use strict";
+
+// What is drawn: forces and moments as entries, as arrows on the boards, and in words.
+//
+// entry: {id, body, kind: "force" or "moment", name, value, point: index or [x, y] on paper,
+//   direction: {degrees, angle, body} or null where it is unknown, tip: its tip is at the point, length: mm, sense: 1 or -1}
+
+const drawing = { entries: [], lines: sheet.bodies.map(() => ""), next: 1, selected: 0, marks: new Map() };
+const usualLength = 24, headLength = 3.2, arcRadius = 8;
+
+const entryOf = (id) => drawing.entries.find((entry) => entry.id === id);
+const bodyOf = (entry) => sheet.bodies[entry.body];
+const placeOf = (entry) => (Array.isArray(entry.point) ? entry.point : bodyOf(entry).points[entry.point].paper);
+const nameOf = (entry) => entry.name.trim() || `${entry.kind === "force" ? "F" : "M"}${entry.id}`;
+
+function newEntry(body, kind, properties) {
+  const entry = { id: drawing.next++, body, kind, name: "", value: "", point: 0, direction: directionsOf(sheet.bodies[body])[1], tip: false,
+    length: usualLength, sense: 1, ...properties };
+  drawing.entries.push(entry);
+  return entry;
+}
+
+// Where an arrow begins and ends on paper.
+function endsOf(entry) {
+  const at = placeOf(entry), reach = times(entry.length, unitOf(entry.direction ? entry.direction.degrees : 45));
+  return entry.tip ? [minusOf(at, reach), at] : [at, plus(at, reach)];
+}
+
+// ---- in words
+
+function placeName(entry) {
+  return Array.isArray(entry.point) ? placeText(bodyOf(entry), entry.point) : bodyOf(entry).points[entry.point].name;
+}
+
+function directionName(entry) {
+  if (entry.kind === "moment") return entry.sense > 0 ? "counter-clockwise" : "clockwise";
+  if (!entry.direction) return "in an unknown direction";
+  const known = directionsOf(bodyOf(entry)).find((other) => other.angle === entry.direction.angle && other.body === entry.direction.body);
+  return known ? known.name : entry.direction.angle;
+}
+
+function inWords(entry) {
+  const where = entry.kind === "force" ? ` at ${placeName(entry)}` : "";
+  return `${nameOf(entry)}: ${entry.kind}${where}, ${directionName(entry)}, ${entry.value.trim() ? `magnitude ${entry.value.trim()}` : "magnitude unknown"}`;
+}
+
+// ---- as arrows
+
+// A_x, mu_k, N' as a label: what follows the line stands lower.
+function labelOf(text, at, anchor) {
+  const [, base, index] = /^([^_]*)_?(.*)$/.exec(text), label = svg("text", { x: at[0], y: at[1], class: "name", "text-anchor": anchor });
+  label.append(greek[base] || base);
+  if (index) label.append(svg("tspan", { dy: 1, class: "below" }, greek[index] || index));
+  return label;
+}
+
+function headAt(tip, degrees) {
+  const back = times(-headLength, unitOf(degrees)), side = times(0.42 * headLength, unitOf(degrees + 90));
+  const corners = [tip, plus(plus(tip, back), side), minusOf(plus(tip, back), side)];
+  return svg("polygon", { class: "head", points: corners.map((corner) => corner.join(",")).join(" ") });
+}
+
+function forceShape(entry) {
+  const [tail, tip] = endsOf(entry), degrees = entry.direction ? entry.direction.degrees : 45;
+  const neck = minusOf(tip, times(0.8 * headLength, unitOf(degrees)));
+  const line = (css) => svg("line", { class: css, x1: tail[0], y1: tail[1], x2: neck[0], y2: neck[1] });
+  return [line("reach"), line("shaft"), headAt(tip, degrees)];
+}
+
+// Three quarters of a circle around its point.
+function momentShape(entry) {
+  const [x, y] = placeOf(entry), r = arcRadius, from = entry.sense > 0 ? -45 : 225, to = from + entry.sense * 255;
+  const start = plus([x, y], times(r, unitOf(from))), end = plus([x, y], times(r, unitOf(to)));
+  const arc = (css) => svg("path", { class: css, d: `M${start} A${r} ${r} 0 1 ${entry.sense > 0 ? 0 : 1} ${end}` });
+  return [arc("reach"), arc("shaft"), headAt(plus([x, y], times(r, unitOf(to + entry.sense * 15))), to + entry.sense * 97)];
+}
+
+// Beside the free end of the arrow, on the side where fewer other labels and arrows are.
+function labelPlace(entry, taken) {
+  if (entry.kind === "moment") {
+    const at = plus(placeOf(entry), [0, -arcRadius - 2]);
+    return [at, "middle"];
+  }
+  const [tail, tip] = endsOf(entry), free = entry.tip ? tail : tip, out = times(1 / (away(tail, tip) || 1), minusOf(free, entry.tip ? tip : tail));
+  const side = [-out[1], out[0]];
+  const spots = [[1.5, 3], [1.5, -3], [-6, 3.4], [-6, -3.4], [4.5, 0]].map(([a, b]) => plus(plus(free, times(a, out)), plus(times(b, side), [0, 1.2])));
+  const crowd = (spot) => taken.reduce((sum, other) => sum + Math.max(0, 7 - away(spot, other)), 0);
+  const best = spots.reduce((a, b) => (crowd(b) < crowd(a) - 0.01 ? b : a));
+  return [best, "middle"];
+}
+
+function arrowShape(entry, taken) {
+  const chosen = entry.id === drawing.selected, mark = drawing.marks.get(entry.id);
+  const [place, anchor] = labelPlace(entry, taken);
+  taken.push(place);
+  const label = labelOf(nameOf(entry), place, anchor);
+  if (mark) label.append(svg("tspan", { class: "mark", dx: 1 }, mark.right ? "✓" : "✗"));
+  const css = ["arrow", entry.kind, chosen ? "chosen" : "", entry.direction || entry.kind === "moment" ? "" : "free", mark ? (mark.right ? "right" : "wrong") : ""];
+  return svg("g", { class: css.filter(Boolean).join(" "), "data-id": entry.id, tabindex: 0, role: "button", "aria-pressed": chosen,
+    "aria-label": `${inWords(entry)}${mark ? `. ${mark.message}` : ""}` },
+  ...(entry.kind === "force" ? forceShape(entry) : momentShape(entry)), label);
+}
+
+// The free end of the chosen arrow, to be dragged.
+function handlesOf(entry) {
+  if (entry.kind === "moment") return [];
+  const [tail, tip] = endsOf(entry), [x, y] = entry.tip ? tail : tip;
+  return [svg("circle", { class: "handle", cx: x, cy: y, r: 2 })];
+}

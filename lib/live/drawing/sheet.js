@@ -1,0 +1,121 @@
+"use strict";
+
+// The sheet as a whole: what can be undone, the draft that the browser keeps, the file to hand in. `fbd` is for whoever
+// drives the page by a script.
+
+const kept = { past: [], future: [], field: "" };
+
+const snapshot = () => JSON.stringify([drawing.entries, drawing.lines, drawing.next]);
+
+// Before a change; a field's changes in a row are one.
+function keepHistory(field = "") {
+  if (field && field === kept.field) return;
+  kept.field = field;
+  kept.past.push(snapshot());
+  kept.future = [];
+}
+
+function restore(text) {
+  const [entries, lines, next] = JSON.parse(text);
+  Object.assign(drawing, { entries, lines, next });
+  if (!entryOf(drawing.selected)) drawing.selected = 0;
+  kept.field = "";
+  changed();
+  showAll();
+}
+
+function undo() {
+  if (!kept.past.length) return;
+  kept.future.push(snapshot());
+  restore(kept.past.pop());
+}
+
+function redo() {
+  if (!kept.future.length) return;
+  kept.past.push(snapshot());
+  restore(kept.future.pop());
+}
+
+// ---- the draft
+
+const draftKey = () => {
+  let hash = 0;
+  for (const letter of sheet.sheet) hash = (Math.imul(hash, 31) + letter.codePointAt(0)) | 0;
+  return `fbd sheet ${sheet.student} ${hash}`;
+};
+
+function keepDraft() {
+  try { localStorage.setItem(draftKey(), snapshot()); } catch { /* a browser that keeps nothing of files */ }
+}
+
+function takeDraft() {
+  try {
+    const draft = localStorage.getItem(draftKey());
+    if (draft) restore(draft);
+  } catch { /* as before */ }
+}
+
+// ---- the file
+
+const answerName = () => `${sheet.student.replace(/[^\w.@ -]/g, "_")}.yaml`;
+
+function saveAnswer() {
+  const link = make("a", { href: URL.createObjectURL(new Blob([answerOf().text], { type: "text/yaml" })), download: answerName() });
+  link.click();
+  setTimeout(() => URL.revokeObjectURL(link.href), 1000);
+  drawing.saved = true;
+  element("says").textContent = `saved as ${link.download}`;
+}
+
+// What was checked belongs to what was drawn then.
+function changed() {
+  drawing.marks.clear();
+  drawing.saved = false;
+  element("verdict").hidden = true;
+  element("says").textContent = "";
+  element("answer").textContent = answerOf().text;
+  element("undo").disabled = !kept.past.length;
+  element("redo").disabled = !kept.future.length;
+  keepDraft();
+}
+
+// ---- the start
+
+function showHead() {
+  element("title").textContent = sheet.title || "Free-body diagram";
+  const equations = sheet.bodies.some(asksHand) ? ", and write its equations" : "";
+  element("asked").textContent = `Sheet of ${sheet.student}. Draw every force and moment on ${sheet.bodies.length > 1 ? "each body" : "the body"}${equations}. ${sheet.reactions}`;
+  element("given").replaceChildren(...givenValues().flatMap(([name, text]) => {
+    const symbol = make("dt", {});
+    symbol.append(inMath(name));
+    return [symbol, make("dd", {}, `= ${unit(text)}`)];
+  }));
+  element("how").textContent = sheet.exam ? "Save the answer and hand the file in."
+    : canGrade() ? "" : `Save the answer: fbd-run --grade KEY.yaml ${answerName()} says what is right.`;
+}
+
+function undoKeys(event) {
+  if (!(event.ctrlKey || event.metaKey) || event.target.matches("input[type=text], textarea")) return;
+  const key = event.key.toLowerCase();
+  if (key !== "z" && key !== "y") return;
+  event.preventDefault();
+  if (key === "y" || event.shiftKey) redo(); else undo();
+}
+
+function begin() {
+  showHead();
+  sheet.bodies.forEach(makeDesk);
+  setMode("force");
+  connectVerdict();
+  element("save").addEventListener("click", saveAnswer);
+  element("undo").addEventListener("click", undo);
+  element("redo").addEventListener("click", redo);
+  document.addEventListener("keydown", undoKeys);
+  addEventListener("beforeunload", (event) => { if (!drawing.saved && kept.past.length) event.preventDefault(); });
+  changed();
+  showAll();
+  takeDraft();
+}
+
+begin();
+window.fbd = { drawing, answer: () => answerOf().text };
