@@ -93,15 +93,13 @@ static void add_made(struct text *text, const char *name, struct text *made)
 /* The text before and behind the places where an answer has its lists: see drawing_body.c for the bodies. */
 static bool make_data(struct drawing_page *page, bool exam, fbd_errors *errors)
 {
-    struct text *text = &page->data;
+    struct text *text = &page->data, reactions = {0};
     const struct scene *scene = page->key->model->scene;
-    struct text reactions = {0};
-    handout_reactions(&reactions, &scene->grading);
     if (!write_sheet(page, &page->source, true)) {
-        text_free(&reactions);
         diag_out_of_memory(errors);
         return false;
     }
+    handout_reactions(&reactions, &scene->grading);
     text_add(text, "{");
     json_text_member(text, "title", scene->title);
     json_text_member(text, "student", page->student);
