@@ -79,6 +79,7 @@ static const char help_without_run[] =
     "  --handout            print the sheet of the key MODEL.yaml; with --solution filled in\n"
     "  --page FILE          with --handout: as an HTML page to draw on, which checks what is drawn\n"
     "  --exam               with --page: without the key in it, an answer to hand in\n"
+    "  --exam               with --page: without the key in it, an answer to hand in\n"
     "\n"
     "About the program\n"
     "  --schema             the model language as JSON Schema, for editors\n"

@@ -60,7 +60,8 @@ void live_write_parts(struct text *text, const void *context)
     page_add_json(text, context);
     text_add(text, "\n</script>\n<script type=\"text/plain\" id=\"live-wasm\">\n");
     if (wasm) text_add_bytes(text, (const char *)wasm->data, wasm->size);
-    text_add(text, "\n</script>");
+    text_add(text, "\n</script>\n");
+    write_asset(text, "wasm.license");
 }
 
 /* ---- the model */

@@ -137,7 +137,8 @@ function showForm(b) {
 // ---- the list
 
 function entryItem(entry) {
-  const mark = drawing.marks.get(entry.id), says = mark ? make("span", { className: mark.right ? "right" : "wrong" }, `${mark.right ? "✓" : "✗"} ${mark.message}`) : "";
+  const mark = drawing.marks.get(entry.id), fault = faultOf(entry);
+  const says = mark ? make("span", { className: mark.right ? "right" : "wrong" }, `${mark.right ? "✓" : "✗"} ${mark.message}`) : fault ? make("span", { className: "wrong" }, fault) : "";
   const button = make("button", { type: "button", className: "entry" }, inWords(entry));
   button.setAttribute("aria-pressed", String(entry.id === drawing.selected));
   button.addEventListener("click", () => { choose(entry.id, true); focusArrow(entry.id); });

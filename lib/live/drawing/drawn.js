@@ -26,6 +26,13 @@ function endsOf(entry) {
   return entry.tip ? [minusOf(at, reach), at] : [at, plus(at, reach)];
 }
 
+// What is wrong with an entry by itself, before anything is graded; or "".
+function faultOf(entry) {
+  const name = fileName(entry);
+  if (drawing.entries.some((other) => other !== entry && other.body === entry.body && fileName(other) === name)) return `two are called ${name}`;
+  return entry.value.trim() && !treeOf(entry.value) ? "its magnitude cannot be read" : "";
+}
+
 // ---- in words
 
 function placeName(entry) {

@@ -36,6 +36,11 @@ function redo() {
   restore(kept.future.pop());
 }
 
+function clearSheet() {
+  keepHistory();
+  restore(JSON.stringify([[], sheet.bodies.map(() => ""), drawing.next]));
+}
+
 // ---- the draft
 
 const draftKey = () => {
@@ -45,14 +50,14 @@ const draftKey = () => {
 };
 
 function keepDraft() {
-  try { localStorage.setItem(draftKey(), snapshot()); } catch { /* a browser that keeps nothing of files */ }
+  try { localStorage.setItem(draftKey(), snapshot()); } catch { drawing.lost = kept.past.length > 0; } // some keep nothing of files
 }
 
+// What was drawn when the page was last open, or an empty sheet.
 function takeDraft() {
-  try {
-    const draft = localStorage.getItem(draftKey());
-    if (draft) restore(draft);
-  } catch { /* as before */ }
+  let draft = null;
+  try { draft = localStorage.getItem(draftKey()); } catch { /* as before */ }
+  restore(draft || snapshot());
 }
 
 // ---- the file
@@ -63,14 +68,13 @@ function saveAnswer() {
   const link = make("a", { href: URL.createObjectURL(new Blob([answerOf().text], { type: "text/yaml" })), download: answerName() });
   link.click();
   setTimeout(() => URL.revokeObjectURL(link.href), 1000);
-  drawing.saved = true;
+  drawing.lost = false;
   element("says").textContent = `saved as ${link.download}`;
 }
 
 // What was checked belongs to what was drawn then.
 function changed() {
   drawing.marks.clear();
-  drawing.saved = false;
   element("verdict").hidden = true;
   element("says").textContent = "";
   element("answer").textContent = answerOf().text;
@@ -111,9 +115,8 @@ function begin() {
   element("undo").addEventListener("click", undo);
   element("redo").addEventListener("click", redo);
   document.addEventListener("keydown", undoKeys);
-  addEventListener("beforeunload", (event) => { if (!drawing.saved && kept.past.length) event.preventDefault(); });
-  changed();
-  showAll();
+  element("clear").addEventListener("click", clearSheet);
+  addEventListener("beforeunload", (event) => { if (drawing.lost) event.preventDefault(); });
   takeDraft();
 }
 
