@@ -7,6 +7,7 @@
 
 #include "fmu.h"
 #include "gnuplot.h"
+#include "grading.h"
 #include "picture.h"
 #include "place.h"
 
@@ -78,7 +79,6 @@ static const char help_without_run[] =
     "  --details            with the names of the key's forces, for the teacher\n"
     "  --handout            print the sheet of the key MODEL.yaml; with --solution filled in\n"
     "  --page FILE          with --handout: as an HTML page to draw on, which checks what is drawn\n"
-    "  --exam               with --page: without the key in it, an answer to hand in\n"
     "  --exam               with --page: without the key in it, an answer to hand in\n"
     "\n"
     "About the program\n"
@@ -384,36 +384,15 @@ static bool shapes_drawing(const struct options *options, bool components)
            options->scale || drawing->worksheet;
 }
 
-/* Neither the key nor an answer is written over. */
-static bool grading_agrees(const struct options *options)
+/* What no answer or sheet has to do with; of drawings --solution is one of a sheet. */
+static bool runs_or_draws(const struct options *options)
 {
-    const struct output_place places[] = {{"--csv", options->csv},
-                                          {"--json", options->json},
-                                          {"--page", options->page}};
-    bool grades = options->action == action_grade;
-    if (grades && options->student && options->answer_count != 1)
-        return usage("--student goes with one answer; without it each is called as its file", "");
-    if (!grades && !options->student) return usage("--handout needs --student NAME", "");
-    if (options->watch || options->at_count || options->run.method || options->run.tolerance > 0 ||
-        options->run.accuracy > 0 || options->run.step > 0 || options->run.no_structure ||
-        isfinite(options->run.until) || options->run.error_bars || options->settle || options->fmu_version ||
-        options->svg || options->html || options->plot || options->plot_of || options->gnuplot ||
-        options->ledger || options->every > 0 || options->latex || shapes_drawing(options, false) ||
-        options->without_count || options->full || options->degrees)
-        return usage("with --grade go --set, --student, --details, --csv, --json and --quiet only; with "
-                     "--handout --set, --student, --solution, --page and --exam only",
-                     "");
-    if (grades && options->drawing.solution)
-        return usage("--solution goes with --handout, not with --grade", "");
-    if (!grades && (options->csv || options->json || options->quiet || options->details))
-        return usage("with --handout go --set, --student, --solution, --page and --exam only", "");
-    if (grades && options->page) return usage("--page goes with --handout", "");
-    if (options->page && options->drawing.solution)
-        return usage("--page is to be drawn on: --solution is without it", "");
-    if (options->exam && !options->page) return usage("--exam goes with --handout and --page", "");
-    for (size_t i = 0; i < options->answer_count; i++)
-        if (!places_differ(&line, options->answers[i], places, sizeof places / sizeof *places)) return false;
-    return places_differ(&line, options->model, places, sizeof places / sizeof *places);
+    return options->watch || options->at_count || options->run.method || options->run.tolerance > 0 ||
+           options->run.accuracy > 0 || options->run.step > 0 || options->run.no_structure ||
+           isfinite(options->run.until) || options->run.error_bars || options->settle ||
+           options->fmu_version || options->svg || options->html || options->plot || options->plot_of ||
+           options->gnuplot || options->ledger || options->every > 0 || options->latex ||
+           shapes_drawing(options, false) || options->without_count || options->full || options->degrees;
 }
 
 /* What is written again and again has to be a file, and what is read again too. */
@@ -452,7 +431,8 @@ static bool drawing_agrees(const struct options *options)
 /* Options that would be passed over in silence are mistakes. */
 static bool options_agree(const struct options *options)
 {
-    if (options->action == action_grade || options->action == action_handout) return grading_agrees(options);
+    if (options->action == action_grade || options->action == action_handout)
+        return grading_agrees(options, &line, runs_or_draws(options));
     if (options->student || options->details)
         return usage("--student and --details go with --grade and --handout", "");
     if (options->page || options->exam) return usage("--page and --exam go with --handout", "");

@@ -105,7 +105,7 @@ check 'what students see does not name the key' sh -c \
 check 'a sheet is a page to draw on, which for an exam has nothing of the key' sh -c \
     '"$FBD_RUN" --handout --student anna --page sheet.html --exam key.yaml && grep -q "Sheet of anna" sheet.html && ! grep -E "P\*L|pull" sheet.html'
 check 'a page without --handout: usage' says 'go with --handout' "$FBD_RUN" --page sheet.html key.yaml
-check 'of grading: usage' says 'goes with --handout' "$FBD_RUN" --grade key.yaml --page sheet.html answer.yaml
+check 'of grading: usage' says 'go with --handout' "$FBD_RUN" --grade key.yaml --page sheet.html answer.yaml
 check '--exam without a page: usage' says 'goes with --handout and --page' "$FBD_RUN" --handout --student anna --exam key.yaml
 check 'a solution to draw on: usage' says 'to be drawn on' "$FBD_RUN" --handout --student anna --solution --page sheet.html key.yaml
 check 'a page is not written over the key' says 'over' "$FBD_RUN" --handout --student anna --page ./key.yaml key.yaml

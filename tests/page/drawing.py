@@ -68,11 +68,18 @@ simulate: {until: 1 s}
 # Keys of WebDriver.
 UP, DOWN, ENTER, TAB, DELETE, CONTROL, ESCAPE = "\ue013", "\ue015", "\ue007", "\ue004", "\ue017", "\ue009", "\ue00c"
 
-AT = """const [b, name, dx, dy] = arguments, board = desks[b].board, point = sheet.bodies[b].points.find((p) => p.name === name);
+# Places of the window beside points of the first body, in millimetres, y down.
+AT = """const { board } = desks[0];
   board.scrollIntoView({ block: "center" });
-  const m = board.getScreenCTM(), [x, y] = [point.paper[0] + dx, point.paper[1] + dy];
-  return [m.a * x + m.e, m.d * y + m.f];"""
-FIELD = "const [b, field, text] = arguments; desks[b][field].value = text; desks[b][field].dispatchEvent(new Event(field === 'value' || field === 'name' || field === 'lines' || field === 'angle' ? 'input' : 'change'));"
+  const m = board.getScreenCTM();
+  return arguments[0].map(([name, dx, dy]) => {
+    const [x, y] = sheet.bodies[0].points.find((p) => p.name === name).paper;
+    return [m.a * (x + dx) + m.e, m.d * (y + dy) + m.f];
+  });"""
+FIELDS = """for (const [field, text] of Object.entries(arguments[0])) {
+    desks[0][field].value = text;
+    desks[0][field].dispatchEvent(new Event(desks[0][field].localName === "select" ? "change" : "input"));
+  }"""
 SHOT = 34  # mm that a stroke is long
 
 
@@ -84,21 +91,19 @@ class Page:
         run("--handout", "--student", student, "--page", self.path, *options, self.key)
         browser.open(self.path)
 
-    def at(self, point, dx=0, dy=0, body=0):
-        return self.browser.run(AT, body, point, dx, dy)
+    def at(self, *places):
+        return self.browser.run(AT, places)
 
     def draw(self, point, dx, dy, name, value="", pointer="mouse", pressing=False, kind="force"):
         """An arrow from a point to a place beside it in millimetres, y down; or from there to the point."""
-        self.browser.run("setMode(arguments[0])", kind)
-        start, end = self.at(point), self.at(point, dx, dy)
-        ends = [end, start] if pressing else [start, end]
-        middle = [(ends[0][0] + ends[1][0]) / 2, (ends[0][1] + ends[1][1]) / 2]
-        self.browser.drag([ends[0], middle, ends[1]], pointer)
-        self.say("name", name)
-        self.say("value", value)
+        if kind == "moment":
+            self.browser.run("setMode('moment')")
+        places = self.at((point, 0, 0), (point, dx / 2, dy / 2), (point, dx, dy))
+        self.browser.drag(places[::-1] if pressing else places, pointer)
+        self.say(name=name, value=value)
 
-    def say(self, field, text, body=0):
-        self.browser.run(FIELD, body, field, text)
+    def say(self, **fields):
+        self.browser.run(FIELDS, fields)
 
     def verdict(self):
         """What fbd-run says of the file that the page saves."""
@@ -128,10 +133,23 @@ def draw_wheel(page, pointer="mouse"):
     page.draw("G", 1, SHOT, "W", "m*g", pointer)
     page.draw("bottom of the rim", 0, 25, "N", "N", pointer, pressing=True)
     page.draw("bottom of the rim", -SHOT, 0, "f", "", pointer)
-    page.say("lines", "F - f = m*ax\nN = m*g")
+    page.say(lines="F - f = m*ax\nN = m*g")
 
 
-def check_mouse(browser, folder):
+def check_layout(browser, pictures):
+    for width, height in ((400, 1600), (1400, 1000)):
+        with claim(f"nothing is wider than a window of {width} pixels, and all that is to be pressed has a name"):
+            browser.resize(width, height)
+            assert browser.run("return document.documentElement.scrollWidth") <= width
+            nameless = browser.run("""return [...document.querySelectorAll("button, input, select, textarea, [role=button]")].filter((e) =>
+                !(e.getAttribute("aria-label") || e.textContent.trim() || e.labels?.length)).map((e) => e.outerHTML)""")
+            assert nameless == [], nameless
+        if pictures:
+            browser.run("scrollTo(0, 0)")
+            browser.screenshot(pictures / f"drawing-{width}.png")
+
+
+def check_mouse(browser, folder, pictures):
     page = Page(browser, folder, "wheel", WHEEL, "--exam")
     with claim("the page for an exam has nothing of the key, and no library"):
         text = page.path.read_text(encoding="utf-8")
@@ -142,14 +160,15 @@ def check_mouse(browser, folder):
         draw_wheel(page)
         page.all_points()
         page.quiet()
+    check_layout(browser, pictures)
     with claim("the equations are shown in mathematics"):
         shown = browser.run("return [...document.querySelectorAll('.shown math')].map((m) => m.textContent)")
         assert shown == ["F−f=m\u2009ax", "N=m\u2062g"], shown
     with claim("the end of an arrow that is dragged turns it: the verdict names it"):
         browser.run("choose(fbd.drawing.entries[3].id)")
-        browser.drag([page.at("bottom of the rim", -SHOT, 0), page.at("bottom of the rim", 10, 10), page.at("bottom of the rim", SHOT, 0)])
+        browser.drag(page.at(("bottom of the rim", -SHOT, 0), ("bottom of the rim", 10, 10), ("bottom of the rim", SHOT, 0)))
         wrong = [(test["name"], test["kind"]) for test in page.verdict()["tests"] if test["points"] < test["max_points"]]
-        assert wrong == [("wheel: f", "sense"), ("wheel", "missing")], wrong  # and the equation that names it
+        assert wrong == [("wheel: f", "sense")], wrong
     with claim("Ctrl Z takes that back, and Ctrl Y does it again"):
         browser.chord(CONTROL, "z")
         page.all_points()
@@ -157,7 +176,7 @@ def check_mouse(browser, folder):
         assert "sense" in page.kinds()
         browser.chord(CONTROL, "z")
     with claim("an arrow at another point has another line of action; one too many is superfluous"):
-        browser.drag([page.at("G", 27, 1), page.at("top of the rim", 20, 0), page.at("top of the rim", 27, 1)])
+        browser.drag(page.at(("G", 27, 1), ("top of the rim", 20, 0), ("top of the rim", 27, 1)))
         page.draw("left of the rim", -20, 20, "C", "5 N")
         kinds = page.kinds()
         assert "place" in kinds and "superfluous" in kinds, page.verdict()
@@ -179,7 +198,7 @@ def check_touch(browser, folder):
     with claim("a pin by a force of unknown direction, and a roller that pulls"):
         browser.run("for (const name of ['A_x', 'A_y', 'B']) removeEntry(fbd.drawing.entries.find((e) => e.name === name))")
         page.draw("left", 20, -20, "A", "", "touch")
-        page.say("direction", "unknown")
+        page.say(direction="unknown")
         page.draw("right", 0, SHOT, "B", "", "touch")
         kinds = page.kinds()
         assert kinds.count("right") == 2 and "sense" in kinds, page.verdict()
@@ -205,13 +224,13 @@ def check_body_frame(browser, folder):
         page.draw("G", 0, SHOT, "W", "3[kg]*g")
         page.draw("right", 0, -SHOT, "T", "5 N")
         choice = browser.run("return [...desks[0].direction.options].find((o) => o.text.startsWith('along the body')).value")
-        page.say("direction", choice)
+        page.say(direction=choice)
         page.draw("O", 12, 3, "M", "2 N*m", kind="moment")
         page.all_points()
     with claim("any angle may be typed, and is drawn"):
         browser.run("choose(fbd.drawing.entries[1].id)")
-        page.say("direction", "other")
-        page.say("angle", "40 deg + 0°")
+        page.say(direction="other")
+        page.say(angle="40 deg + 0°")
         assert abs(browser.run("return fbd.drawing.entries[1].direction.degrees") - 40) < 1e-9
         assert "angle: \"40[deg] + 0[deg]\"" in browser.run("return fbd.answer()"), browser.run("return fbd.answer()")
 
@@ -241,21 +260,6 @@ def check_verdict(browser, folder):
         assert browser.run("return document.querySelectorAll('.arrow.wrong').length") == 1
 
 
-def check_layout(browser, folder, pictures):
-    page = Page(browser, folder, "looked-at", WHEEL)
-    draw_wheel(page)
-    for width, height in ((1400, 1000), (400, 1600)):
-        with claim(f"nothing is wider than a window of {width} pixels, and all that is to be pressed has a name"):
-            browser.resize(width, height)
-            assert browser.run("return document.documentElement.scrollWidth") <= width
-            nameless = browser.run("""return [...document.querySelectorAll("button, input, select, textarea, [role=button]")].filter((e) =>
-                !(e.getAttribute("aria-label") || e.textContent.trim() || e.labels?.length)).map((e) => e.outerHTML)""")
-            assert nameless == [], nameless
-        if pictures:
-            browser.run("scrollTo(0, 0)")
-            browser.screenshot(pictures / f"drawing-{width}.png")
-
-
 def main():
     pictures = Path(sys.argv[1]) if len(sys.argv) > 1 else None
     with tempfile.TemporaryDirectory(prefix="fbd-drawing-") as name:
@@ -265,9 +269,9 @@ def main():
         except Missing as missing:
             skip(str(missing))
         with browser:
-            for check in (check_mouse, check_touch, check_keyboard, check_body_frame, check_verdict):
+            check_mouse(browser, folder, pictures)
+            for check in (check_touch, check_keyboard, check_body_frame, check_verdict):
                 check(browser, folder)
-            check_layout(browser, folder, pictures)
     finish()
 
 

@@ -46,7 +46,7 @@ function clearSheet() {
 const draftKey = () => {
   let hash = 0;
   for (const letter of sheet.sheet) hash = (Math.imul(hash, 31) + letter.codePointAt(0)) | 0;
-  return `fbd sheet ${sheet.student} ${hash}`;
+  return `fbd ${sheet.exam ? "exam" : "sheet"} ${sheet.student} ${hash}`;
 };
 
 function keepDraft() {
