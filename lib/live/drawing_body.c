@@ -2,8 +2,7 @@
  *
  * What the drawing page has of each body, with lengths on paper in millimetres, y down:
  *
- * - name, hand: are derivations asked?
- * - picture (SVG), box: [left, top, width, height]
+ * - name, box: [left, top, width, height] of its picture
  * - points: what a force may be snapped to, {name, paper: [x, y], at}, `at` as the file says it, "" for the usual place
  * - directions: {name, degrees, angle, body}, `angle` as the file says it, `body`: it turns with the body
  * - frame, which places beside the points are told in: {paper: [x, y] of its origin, degrees, millimetres per length}, or
@@ -28,7 +27,7 @@ struct cut_free {
     struct panel panel;
     struct vec taken[most_drawing_points]; /* on paper */
     size_t point_count, direction_count;
-    struct text *text;
+    struct text *text, *pictures;
 };
 
 /* ---- points */
@@ -299,14 +298,14 @@ static void add_directions(struct cut_free *cut)
 
 static void add_picture(struct cut_free *cut)
 {
-    struct text picture = {0};
     const struct panel *panel = &cut->panel;
     struct vec low = panel->extent.low, size = vec_sub(panel->extent.high, low);
-    if (panel->under.data) text_add(&picture, panel->under.data);
-    panel_write_notes(panel, &picture);
-    json_text_member(cut->text, "picture", picture.data ? picture.data : "");
-    cut->text->failed |= picture.failed || panel->under.failed;
-    text_free(&picture);
+    text_add(cut->pictures, "<svg>\n");
+    if (panel->under.data) text_add(cut->pictures, panel->under.data);
+    panel_write_notes(panel, cut->pictures);
+    text_add(cut->pictures, "</svg>\n");
+    cut->pictures->failed |= panel->under.failed;
+    cut->pictures->odd |= panel->under.odd;
     text_printf(cut->text, "\"box\":[%.6g,%.6g,%.6g,%.6g],\n", low.x, low.y, size.x, size.y);
 }
 
@@ -326,13 +325,13 @@ static void add_frame(struct cut_free *cut)
     text_add(cut->text, "}}");
 }
 
-bool drawing_add_bodies(struct text *text, const struct fbd_state *state)
+bool drawing_add_bodies(struct text *text, struct text *pictures, const struct fbd_state *state)
 {
     const fbd_drawing drawing = {.worksheet = true};
     struct arena arena = {0};
     text_add(text, "[");
     for (size_t b = 0; b < state->model->body_count && !arena.failed; b++) {
-        struct cut_free cut = {.text = text};
+        struct cut_free cut = {.text = text, .pictures = pictures};
         if (!panel_start(&cut.panel, state, b, &drawing, &arena)) break;
         panel_draw(&cut.panel);
         text_add(text, b ? ",\n{" : "{");
@@ -344,7 +343,7 @@ bool drawing_add_bodies(struct text *text, const struct fbd_state *state)
         text_free(&cut.panel.under);
     }
     text_add(text, "]");
-    bool done = !arena.failed && !text->failed;
+    bool done = !arena.failed && !text->failed && !pictures->failed;
     arena_free(&arena);
     return done;
 }

@@ -21,7 +21,7 @@ struct drawing_page {
     const fbd_key *key;
     const char *student;
     fbd_model *sheet;
-    struct text source, data, engine; /* the open sheet; what the page shows; the key and the library */
+    struct text source, pictures, data, engine; /* the open sheet; what the page shows; the key and the library */
 };
 
 /* ---- the sheet */
@@ -68,11 +68,11 @@ static bool add_bodies(struct drawing_page *page, fbd_errors *errors)
     }
     state_ready(state);
     if (start_finite(state, &lack))
-        done = drawing_add_bodies(&page->data, state);
+        done = drawing_add_bodies(&page->data, &page->pictures, state);
     else
         lack_note(&lack, errors);
     if (!done && fbd_errors_failed_count(errors) == 0) diag_out_of_memory(errors);
-    if (done && page->data.odd) {
+    if (done && (page->data.odd || page->pictures.odd)) {
         diag_add(errors, FBD_ERROR, "not-finite", (struct pos){0, 0}, NULL,
                  "the sheet cannot be drawn: a length is too large or too small for any scale");
         done = false;
@@ -143,6 +143,12 @@ static void write_style(struct text *text, const void *context)
     text_add(text, svg_style);
 }
 
+static void write_pictures(struct text *text, const void *context)
+{
+    const struct text *pictures = context;
+    text_add_bytes(text, pictures->data, pictures->length);
+}
+
 static void write_data(struct text *text, const void *context)
 {
     page_add_json(text, context);
@@ -159,11 +165,12 @@ static char *fill(const struct drawing_page *page, bool grades, fbd_errors *erro
     struct page_part parts[] = {{"POLICY", grades ? live_write_policy : page_write_policy, NULL},
                                 {"TITLE", write_title, page},
                                 {"DRAWING-STYLE", write_style, NULL},
+                                {"PICTURES", write_pictures, &page->pictures},
                                 {"DATA", write_data, &page->data},
                                 {"LIVE-PARTS", live_write_parts, &page->engine},
                                 {"LIVE-ENGINE", write_engine, "engine.js"},
                                 {0}};
-    if (!grades) parts[4] = (struct page_part){0}; /* and what is behind it */
+    if (!grades) parts[5] = (struct page_part){0}; /* and what is behind it */
     struct text text = {0};
     page_fill(&text, page_asset_find("drawing.html"), parts);
     if (!text.failed && !page->data.failed && !page->engine.failed) return text.data;
@@ -186,6 +193,7 @@ static char *make_page(const fbd_key *key, const char *student, bool exam, fbd_e
         made = fill(&page, grades, errors);
     fbd_model_free(page.sheet);
     text_free(&page.source);
+    text_free(&page.pictures);
     text_free(&page.data);
     text_free(&page.engine);
     return made;

@@ -47,12 +47,14 @@ function answerOf() {
   let text = parts[0];
   const here = () => text.split("\n").length;
   for (let i = 1; i < parts.length; i += 3) {
-    const b = sheet.bodies.findIndex((body) => body.name === parts[i + 1]), own = drawing.entries.filter((entry) => entry.body === b);
+    const b = sheet.bodies.findIndex((body) => body.name === parts[i + 1]);
+    const own = drawing.entries.filter((entry) => entry.body === b);
     for (const kind of ["force", "moment"]) {
       const list = own.filter((entry) => entry.kind === kind);
       text += listText(`${kind}s`, list.map(entryText), here(), (line, k) => places.set(line, { entry: list[k] }));
     }
-    if (parts[i] === "\v") text += listText("hand", linesOf(b).map((line) => JSON.stringify(line)), here(), (line, k) => places.set(line, { body: b, line: k }));
+    const lines = linesOf(b).map((line) => JSON.stringify(line));
+    if (parts[i] === "\v") text += listText("hand", lines, here(), (line, k) => places.set(line, { body: b, line: k }));
     text += parts[i + 2];
   }
   return { text, places };

@@ -15,12 +15,8 @@ function make(tag, properties, ...children) {
   return node;
 }
 
-// The name of SVG's space is an address: it is that of an element which the page's own text has.
-const svgSpace = (() => {
-  const box = document.createElement("div");
-  box.innerHTML = "<svg></svg>";
-  return box.firstChild.namespaceURI;
-})();
+// The name of SVG's space is an address, which this page has none of: the pictures that it begins with know it.
+const pictures = [...element("pictures").children], svgSpace = pictures[0].namespaceURI;
 
 function svg(tag, attributes, ...children) {
   const node = document.createElementNS(svgSpace, tag);
@@ -75,7 +71,8 @@ function placeText(body, at) {
 // What can be chosen for a body: its own directions first; of those that are one on the paper the first.
 function directionsOf(body) {
   if (body.all) return body.all;
-  const all = [], add = (direction) => { if (!all.some((other) => apart(other.degrees, direction.degrees) < 0.01)) all.push(direction); };
+  const all = [];
+  const add = (direction) => { if (!all.some((other) => apart(other.degrees, direction.degrees) < 0.01)) all.push(direction); };
   const names = { 0: "to the right", 90: "up", 180: "to the left", "-90": "down" };
   const turn = (degrees) => ({ degrees, angle: `${degrees} deg`, body: false, name: names[degrees] || `${show(degrees)}°` });
   for (const degrees of [0, 90, 180, -90]) add(turn(degrees));

@@ -12,17 +12,16 @@ function pointShapes(body) {
 
 function makeBoard(body, b) {
   const [left, top, width, height] = body.box, m = boardMargin;
-  const board = svg("svg", { class: "board fbd", viewBox: `${left - m} ${top - m} ${width + 2 * m} ${height + 2 * m}`, role: "group", tabindex: 0, "data-body": b,
-    "aria-label": `${body.name}, cut free. F adds a force, M a moment.` });
-  const under = svg("g", { class: "under" });
-  under.innerHTML = body.picture;
-  board.append(under, svg("g", { class: "points" }, ...pointShapes(body)), svg("g", { class: "arrows" }), svg("g", { class: "handles" }));
+  const board = svg("svg", { class: "board fbd", viewBox: `${left - m} ${top - m} ${width + 2 * m} ${height + 2 * m}`, role: "group", tabindex: 0,
+    "data-body": b, "aria-label": `${body.name}, cut free. F adds a force, M a moment.` });
+  board.append(svg("g", { class: "under" }, ...pictures[b].childNodes), svg("g", { class: "points" }, ...pointShapes(body)),
+    svg("g", { class: "arrows" }), svg("g", { class: "handles" }));
   connectBoard(board);
   return board;
 }
 
 function showBoard(b) {
-  const { board } = desks[b], own = drawing.entries.filter((entry) => entry.body === b), chosen = own.find((entry) => entry.id === drawing.selected);
+  const { board } = desks[b], own = drawing.entries.filter((entry) => entry.body === b), chosen = chosenOn(b);
   const taken = sheet.bodies[b].points.map(({ paper }) => paper);
   const focus = document.activeElement?.closest?.(".board") === board ? document.activeElement.dataset.id : null;
   board.querySelector(".arrows").replaceChildren(...own.map((entry) => arrowShape(entry, taken)));
@@ -56,7 +55,8 @@ function connectField(b, field, kind, take) {
     keepHistory(`${field.dataset.field}${entry.id}`);
     take(entry);
     changed();
-    showDesk(b, field);
+    showDesk(b);
+    tell(b, "");
   });
 }
 
@@ -82,14 +82,17 @@ function angleText(text) {
 }
 
 function makeForm(b) {
-  const body = sheet.bodies[b], desk = desks[b], input = (field, properties) => make("input", { type: "text", autocomplete: "off", spellcheck: false, "data-field": field, ...properties });
+  const body = sheet.bodies[b], desk = desks[b];
+  const input = (field, properties) => make("input", { type: "text", autocomplete: "off", spellcheck: false, "data-field": field, ...properties });
+  const select = (field, ...options) => make("select", { "data-field": field }, ...options.map(([text, value]) => new Option(text, value)));
+  const choices = (list) => list.map(({ name }, i) => [name, i]);
   desk.name = input("name", { size: 8 });
   desk.value = input("value", { size: 12, placeholder: "unknown" });
-  desk.point = make("select", { "data-field": "point" }, ...body.points.map(({ name }, i) => new Option(name, i)));
-  desk.direction = make("select", { "data-field": "direction" }, ...directionsOf(body).map(({ name }, i) => new Option(name, i)), new Option("another angle", "other"), new Option("unknown", "unknown"));
+  desk.point = select("point", ...choices(body.points));
+  desk.direction = select("direction", ...choices(directionsOf(body)), ["another angle", "other"], ["unknown", "unknown"]);
   desk.angle = input("angle", { size: 10, "aria-label": "Angle from the horizontal, counter-clockwise" });
   desk.tip = make("input", { type: "checkbox", "data-field": "tip" });
-  desk.sense = make("select", { "data-field": "sense" }, new Option("counter-clockwise", "1"), new Option("clockwise", "-1"));
+  desk.sense = select("sense", ["counter-clockwise", "1"], ["clockwise", "-1"]);
   desk.remove = make("button", { type: "button" }, "Delete");
   connectField(b, desk.name, "input", (entry) => { entry.name = desk.name.value; });
   connectField(b, desk.value, "input", (entry) => { entry.value = desk.value.value; });
@@ -102,7 +105,8 @@ function makeForm(b) {
   desk.legend = make("legend", {}, "");
   desk.parts = { place: labelled("acts at", desk.point), way: labelled("direction", desk.direction), angle: labelled("angle", desk.angle),
     tip: labelled("its tip is at the point", desk.tip, "box"), sense: labelled("sense", desk.sense) };
-  desk.form = make("fieldset", { className: "form" }, desk.legend, labelled("name", desk.name), labelled("magnitude", desk.value), ...Object.values(desk.parts), desk.remove);
+  desk.form = make("fieldset", { className: "form" }, desk.legend, labelled("name", desk.name), labelled("magnitude", desk.value),
+    ...Object.values(desk.parts), desk.remove);
   desk.form.addEventListener("keydown", (event) => { if (event.key === "Escape") focusArrow(drawing.selected); });
   return desk.form;
 }
@@ -136,9 +140,14 @@ function showForm(b) {
 
 // ---- the list
 
+// What was found at an entry or a line, or null.
+function markOf(key) {
+  const mark = drawing.marks.get(key);
+  return mark ? make("span", { className: mark.right ? "right" : "wrong" }, `${mark.right ? "✓" : "✗"} ${mark.message}`) : null;
+}
+
 function entryItem(entry) {
-  const mark = drawing.marks.get(entry.id), fault = faultOf(entry);
-  const says = mark ? make("span", { className: mark.right ? "right" : "wrong" }, `${mark.right ? "✓" : "✗"} ${mark.message}`) : fault ? make("span", { className: "wrong" }, fault) : "";
+  const fault = faultOf(entry), says = markOf(entry.id) || (fault ? make("span", { className: "wrong" }, fault) : "");
   const button = make("button", { type: "button", className: "entry" }, inWords(entry));
   button.setAttribute("aria-pressed", String(entry.id === drawing.selected));
   button.addEventListener("click", () => { choose(entry.id, true); focusArrow(entry.id); });
@@ -155,7 +164,8 @@ function showList(b) {
 
 function makeEquations(b) {
   const desk = desks[b];
-  desk.lines = make("textarea", { rows: 4, spellcheck: false, autocapitalize: "off", "aria-label": `Equations of ${sheet.bodies[b].name}, one a line`, placeholder: "one equation a line, as m*a_x = F - f" });
+  desk.lines = make("textarea", { rows: 4, spellcheck: false, autocapitalize: "off", placeholder: "one equation a line, as m*a_x = F - f",
+    "aria-label": `Equations of ${sheet.bodies[b].name}, one a line` });
   desk.shown = make("div", { className: "shown" });
   desk.lines.addEventListener("input", () => {
     keepHistory(`lines${b}`);
@@ -171,9 +181,8 @@ function showEquations(b) {
   if (!desk.lines) return;
   if (desk.lines.value !== drawing.lines[b]) desk.lines.value = drawing.lines[b];
   desk.shown.replaceChildren(...linesOf(b).map((line, i) => {
-    const mark = drawing.marks.get(`${b}:${i}`), row = make("div", { className: "line" }, typeset(line));
-    if (mark) row.append(make("span", { className: mark.right ? "right" : "wrong" }, `${mark.right ? "✓" : "✗"} ${mark.message}`));
-    return row;
+    const mark = markOf(`${b}:${i}`);
+    return make("div", { className: "line" }, typeset(line), ...(mark ? [mark] : []));
   }));
 }
 
@@ -207,7 +216,8 @@ function makeDesk(body, b) {
   desk.none = make("p", { className: "none" }, "Nothing is drawn yet: drag on the body, or press Add.");
   const side = make("div", { className: "side" }, make("h3", {}, "Forces and moments"), desk.none, desk.list, makeForm(b));
   if (asksHand(body)) side.append(makeEquations(b));
-  const section = make("section", { className: "body" }, make("h2", {}, body.name), make("div", { className: "desk" }, make("div", {}, makeTools(b), desk.board, desk.says), side));
+  const paper = make("div", {}, makeTools(b), desk.board, desk.says);
+  const section = make("section", { className: "body" }, make("h2", {}, body.name), make("div", { className: "desk" }, paper, side));
   section.setAttribute("aria-label", body.name);
   element("bodies").append(section);
 }

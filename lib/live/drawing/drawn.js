@@ -14,8 +14,8 @@ const placeOf = (entry) => (Array.isArray(entry.point) ? entry.point : bodyOf(en
 const nameOf = (entry) => entry.name.trim() || `${entry.kind === "force" ? "F" : "M"}${entry.id}`;
 
 function newEntry(body, kind, properties) {
-  const entry = { id: drawing.next++, body, kind, name: "", value: "", point: 0, direction: directionsOf(sheet.bodies[body])[1], tip: false,
-    length: usualLength, sense: 1, ...properties };
+  const entry = { id: drawing.next++, body, kind, name: "", value: "", point: 0, direction: directionsOf(sheet.bodies[body])[1],
+    tip: false, length: usualLength, sense: 1, ...properties };
   drawing.entries.push(entry);
   return entry;
 }
@@ -29,7 +29,8 @@ function endsOf(entry) {
 // What is wrong with an entry by itself, before anything is graded; or "".
 function faultOf(entry) {
   const name = fileName(entry);
-  if (drawing.entries.some((other) => other !== entry && other.body === entry.body && fileName(other) === name)) return `two are called ${name}`;
+  const twin = drawing.entries.some((other) => other !== entry && other.body === entry.body && fileName(other) === name);
+  if (twin) return `two are called ${name}`;
   return entry.value.trim() && !treeOf(entry.value) ? "its magnitude cannot be read" : "";
 }
 
@@ -48,7 +49,7 @@ function directionName(entry) {
 
 function inWords(entry) {
   const where = entry.kind === "force" ? ` at ${placeName(entry)}` : "";
-  return `${nameOf(entry)}: ${entry.kind}${where}, ${directionName(entry)}, ${entry.value.trim() ? `magnitude ${entry.value.trim()}` : "magnitude unknown"}`;
+  return `${nameOf(entry)}: ${entry.kind}${where}, ${directionName(entry)}, magnitude ${entry.value.trim() || "unknown"}`;
 }
 
 // ---- as arrows
@@ -88,9 +89,10 @@ function labelPlace(entry, taken) {
     const at = plus(placeOf(entry), [0, -arcRadius - 2]);
     return [at, "middle"];
   }
-  const [tail, tip] = endsOf(entry), free = entry.tip ? tail : tip, out = times(1 / (away(tail, tip) || 1), minusOf(free, entry.tip ? tip : tail));
-  const side = [-out[1], out[0]];
-  const spots = [[1.5, 3], [1.5, -3], [-6, 3.4], [-6, -3.4], [4.5, 0]].map(([a, b]) => plus(plus(free, times(a, out)), plus(times(b, side), [0, 1.2])));
+  const [tail, tip] = endsOf(entry), free = entry.tip ? tail : tip, fixed = entry.tip ? tip : tail;
+  const out = times(1 / away(tail, tip), minusOf(free, fixed)), side = [-out[1], out[0]];
+  const spots = [[1.5, 3], [1.5, -3], [-6, 3.4], [-6, -3.4], [4.5, 0]]
+    .map(([a, b]) => plus(plus(free, times(a, out)), plus(times(b, side), [0, 1.2])));
   const crowd = (spot) => taken.reduce((sum, other) => sum + Math.max(0, 7 - away(spot, other)), 0);
   const best = spots.reduce((a, b) => (crowd(b) < crowd(a) - 0.01 ? b : a));
   return [best, "middle"];
@@ -102,7 +104,8 @@ function arrowShape(entry, taken) {
   taken.push(place);
   const label = labelOf(nameOf(entry), place, anchor);
   if (mark) label.append(svg("tspan", { class: "mark", dx: 1 }, mark.right ? "✓" : "✗"));
-  const css = ["arrow", entry.kind, chosen ? "chosen" : "", entry.direction || entry.kind === "moment" ? "" : "free", mark ? (mark.right ? "right" : "wrong") : ""];
+  const free = !entry.direction && entry.kind === "force", judged = mark ? (mark.right ? "right" : "wrong") : "";
+  const css = ["arrow", entry.kind, chosen ? "chosen" : "", free ? "free" : "", judged];
   return svg("g", { class: css.filter(Boolean).join(" "), "data-id": entry.id, tabindex: 0, role: "button", "aria-pressed": chosen,
     "aria-label": `${inWords(entry)}${mark ? `. ${mark.message}` : ""}` },
   ...(entry.kind === "force" ? forceShape(entry) : momentShape(entry)), label);

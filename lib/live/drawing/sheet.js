@@ -88,7 +88,8 @@ function changed() {
 function showHead() {
   element("title").textContent = sheet.title || "Free-body diagram";
   const equations = sheet.bodies.some(asksHand) ? ", and write its equations" : "";
-  element("asked").textContent = `Sheet of ${sheet.student}. Draw every force and moment on ${sheet.bodies.length > 1 ? "each body" : "the body"}${equations}. ${sheet.reactions}`;
+  const bodies = sheet.bodies.length > 1 ? "each body" : "the body";
+  element("asked").textContent = `Sheet of ${sheet.student}. Draw every force and moment on ${bodies}${equations}. ${sheet.reactions}`;
   element("given").replaceChildren(...givenValues().flatMap(([name, text]) => {
     const symbol = make("dt", {});
     symbol.append(inMath(name));

@@ -28,8 +28,9 @@ function beginStroke(event) {
   if (event.button !== 0 || stroke.board) return;
   event.preventDefault();
   board.setPointerCapture(event.pointerId);
-  const id = free ? drawing.selected : Number(arrow?.dataset.id || 0), anew = !free && pointNear(sheet.bodies[b], from.at, reachOf(event) * from.pixel) >= 0;
-  Object.assign(stroke, { board, pointer: event.pointerId, body: b, from, moved: false, touched: id, id: anew ? 0 : id, end: free ? "free" : "point" });
+  const touched = free ? drawing.selected : Number(arrow?.dataset.id || 0);
+  const anew = !free && pointNear(sheet.bodies[b], from.at, reachOf(event) * from.pixel) >= 0;
+  Object.assign(stroke, { board, pointer: event.pointerId, body: b, from, moved: false, touched, id: anew ? 0 : touched, end: free ? "free" : "point" });
   if (stroke.id) stroke.place = placeOf(entryOf(stroke.id));
 }
 

@@ -8,113 +8,146 @@ const functions = ["sin", "cos", "tan", "asin", "acos", "atan", "sqrt", "exp", "
 
 // Of a text its words, numbers and signs; \left and \right say nothing.
 function tokensOf(text) {
-  return [...text.replace(/\\(left|right)\b/g, "").matchAll(/\\?[A-Za-z\u0370-\u03ff][\w.\u0370-\u03ff]*'*|[0-9]+\.?[0-9]*(?:[eE][-+]?[0-9]+)?|\.[0-9]+|<=|>=|==|\\[,; ]|\S/g)]
-    .map(([token]) => token).filter((token) => !/^\\[,; ]$/.test(token));
+  const word = "\\\\?[A-Za-z\\u0370-\\u03ff][\\w.\\u0370-\\u03ff]*'*", number = "[0-9]+\\.?[0-9]*(?:[eE][-+]?[0-9]+)?|\\.[0-9]+";
+  const tokens = new RegExp(`${word}|${number}|<=|>=|==|\\\\[,; ]|\\S`, "g");
+  return [...text.replace(/\\(left|right)\b/g, "").matchAll(tokens)].map(([token]) => token).filter((token) => !/^\\[,; ]$/.test(token));
 }
 
 // A reader of tokens; each rule returns a tree {is, of: [...]}.
-function readerOf(tokens) {
-  let at = 0;
-  const next = () => tokens[at], is = (...signs) => signs.includes(tokens[at]);
-  const take = () => tokens[at++];
-  const need = (sign) => { if (take() !== sign) throw new SyntaxError(sign); };
-  const group = (open, close) => { need(open); const inside = sum(); need(close); return inside; };
+class Reader {
+  constructor(tokens) { Object.assign(this, { tokens, at: 0 }); }
 
-  function power() {
-    let base = primary();
-    while (is("^", "²", "³")) {
-      const sign = take(), index = { "²": "2", "³": "3" }[sign];
-      base = { is: "power", of: [base, index ? { is: "number", text: index } : is("{") ? group("{", "}") : is("-") ? signed() : primary()] };
+  get next() { return this.tokens[this.at]; }
+
+  is(...signs) { return signs.includes(this.next); }
+
+  take() { return this.tokens[this.at++]; }
+
+  need(token) { if (this.take() !== token) throw new SyntaxError(token); }
+
+  group(open, close) {
+    this.need(open);
+    const inside = this.sum();
+    this.need(close);
+    return inside;
+  }
+
+  // What stands between brackets, as it is written.
+  until(close) {
+    let text = "";
+    while (!this.is(close) && this.next !== undefined) text += this.take();
+    this.need(close);
+    return text;
+  }
+
+  line() {
+    const sides = [this.sum()], signs = [];
+    while (relations.includes(this.next)) {
+      signs.push(this.take().replace("==", "="));
+      sides.push(this.sum());
     }
-    return base;
+    if (this.next !== undefined) throw new SyntaxError(this.next);
+    return { is: "line", signs, of: sides };
   }
 
-  function signed() {
-    if (!is("-", "+", "−")) return power();
-    const sign = take() === "+" ? "+" : "−";
-    return { is: "signed", sign, of: [power()] };
+  sum() {
+    const first = this.is("-", "+", "−") && (this.take() === "+" ? "+" : "−");
+    let left = first ? { is: "signed", sign: first, of: [this.product()] } : this.product();
+    while (this.is("+", "-", "−")) {
+      const between = this.take() === "+" ? "+" : "−";
+      left = { is: "sum", sign: between, of: [left, this.product()] };
+    }
+    return left;
   }
 
-  function product() {
-    let left = power();
+  product() {
+    let left = this.power();
     for (;;) {
-      if (is("/")) { take(); left = { is: "quotient", of: [left, signed()] }; }
-      else if (is("*", "·", "\\cdot", "\\times")) { take(); left = { is: "product", of: [left, signed()] }; }
-      else if (next() !== undefined && /^[\w\\(.\u0370-\u03ff]/.test(next()) && !is("\\cdot")) left = { is: "product", of: [left, power()] };
+      if (this.is("/")) {
+        this.take();
+        left = { is: "quotient", of: [left, this.signed()] };
+      } else if (this.is("*", "·", "\\cdot", "\\times")) {
+        this.take();
+        left = { is: "product", of: [left, this.signed()] };
+      } else if (this.next !== undefined && /^[\w\\(.\u0370-\u03ff]/.test(this.next)) left = { is: "product", of: [left, this.power()] };
       else return left;
     }
   }
 
-  function sum() {
-    const minus = is("-", "+", "−") && (take() === "+" ? "+" : "−");
-    let left = minus ? { is: "signed", sign: minus, of: [product()] } : product();
-    while (is("+", "-", "−")) { const sign = take() === "+" ? "+" : "−"; left = { is: "sum", sign, of: [left, product()] }; }
-    return left;
+  signed() {
+    if (!this.is("-", "+", "−")) return this.power();
+    return { is: "signed", sign: this.take() === "+" ? "+" : "−", of: [this.power()] };
   }
 
-  function call(name) {
-    const raisedTo = is("^") ? (take(), primary()) : null;
-    const of = is("(") ? list() : [is("{") ? group("{", "}") : power()];
-    return { is: "call", name, power: raisedTo, of };
+  power() {
+    let base = this.primary();
+    while (this.is("^", "²", "³")) base = { is: "power", of: [base, this.index()] };
+    return base;
   }
 
-  function list() {
-    need("(");
-    const parts = [sum()];
-    while (is(",")) { take(); parts.push(sum()); }
-    need(")");
+  index() {
+    const index = { "²": "2", "³": "3" }[this.take()];
+    if (index) return { is: "number", text: index };
+    return this.is("{") ? this.group("{", "}") : this.signed();
+  }
+
+  primary() {
+    if (this.next === undefined) throw new SyntaxError("end");
+    if (this.is("(")) return { is: "round", of: [this.group("(", ")")] };
+    if (this.is("{")) return this.group("{", "}");
+    if (this.is("[")) return this.unit();
+    if (/^[0-9.]/.test(this.next)) return this.number();
+    if (/^[\\A-Za-z\u0370-\u03ff]/.test(this.next)) return this.word();
+    throw new SyntaxError(this.next);
+  }
+
+  unit() {
+    this.need("[");
+    return { is: "unit", text: this.until("]") };
+  }
+
+  number() {
+    const number = { is: "number", text: this.take() };
+    if (this.is("[")) return { is: "measure", of: [number, this.unit()] };
+    if (!this.is("°")) return number;
+    this.take();
+    return { is: "measure", of: [number, { is: "unit", text: "deg" }] };
+  }
+
+  word() {
+    const token = this.take(), name = token.replace(/^\\/, "");
+    if (/^\\[td]?frac$/.test(token)) return { is: "quotient", of: [this.group("{", "}"), this.group("{", "}")] };
+    if (/^\\d?dot$/.test(token)) return { is: "dotted", dots: token === "\\dot" ? 1 : 2, of: [this.is("{") ? this.group("{", "}") : this.word()] };
+    if (functions.includes(name)) return this.call(name);
+    if (token.startsWith("\\") && !greek[name.split("_")[0]]) throw new SyntaxError(token);
+    if (name.endsWith("_") && this.is("{")) {
+      this.take();
+      return { is: "name", text: name + this.until("}") };
+    }
+    return this.is("(") ? { is: "call", name, power: null, of: this.list() } : { is: "name", text: name };
+  }
+
+  call(name) {
+    const power = this.is("^") ? (this.take(), this.primary()) : null;
+    const of = this.is("(") ? this.list() : [this.is("{") ? this.group("{", "}") : this.power()];
+    return { is: "call", name, power, of };
+  }
+
+  list() {
+    this.need("(");
+    const parts = [this.sum()];
+    while (this.is(",")) {
+      this.take();
+      parts.push(this.sum());
+    }
+    this.need(")");
     return parts;
   }
-
-  function word() {
-    const token = take(), name = token.replace(/^\\/, "");
-    if (token === "\\frac" || token === "\\tfrac" || token === "\\dfrac") return { is: "quotient", of: [group("{", "}"), group("{", "}")] };
-    if (token === "\\dot" || token === "\\ddot") {
-      const inside = is("{") ? (need("{"), word()) : word();
-      if (is("}")) take();
-      return { is: "dotted", dots: token === "\\dot" ? 1 : 2, of: [inside] };
-    }
-    if (functions.includes(name)) return call(name);
-    if (token.startsWith("\\") && !greek[name.split("_")[0]]) throw new SyntaxError(token);
-    if (name.endsWith("_") && is("{")) {
-      take();
-      let below = "";
-      while (!is("}") && next() !== undefined) below += take();
-      need("}");
-      return { is: "name", text: name + below };
-    }
-    if (is("(")) return { is: "call", name, power: null, of: list() };
-    return { is: "name", text: name };
-  }
-
-  function primary() {
-    const token = next();
-    if (token === undefined) throw new SyntaxError("end");
-    if (token === "(") return { is: "round", of: [group("(", ")")] };
-    if (token === "{") return group("{", "}");
-    if (token === "[") { take(); let text = ""; while (!is("]") && next() !== undefined) text += take(); need("]"); return { is: "unit", text }; }
-    if (/^[0-9.]/.test(token)) {
-      const number = { is: "number", text: take() };
-      if (is("[")) return { is: "measure", of: [number, primary()] };
-      if (is("°")) { take(); return { is: "measure", of: [number, { is: "unit", text: "deg" }] }; }
-      return number;
-    }
-    if (/^[\\A-Za-z\u0370-\u03ff]/.test(token)) return word();
-    throw new SyntaxError(token);
-  }
-
-  function line() {
-    const sides = [sum()], signs = [];
-    while (relations.includes(next())) { signs.push(take().replace("==", "=")); sides.push(sum()); }
-    if (at < tokens.length) throw new SyntaxError(next());
-    return { is: "line", signs, of: sides };
-  }
-  return line();
 }
 
 // Its tree, or null where it cannot be read.
 function treeOf(text) {
-  try { return readerOf(tokensOf(text)); } catch { return null; }
+  try { return new Reader(tokensOf(text)).line(); } catch { return null; }
 }
 
 // ---- as mathematics
@@ -126,11 +159,6 @@ const fenced = (...inside) => [sign("("), ...inside, sign(")")];
 function symbolOf(text) {
   const primes = /'+$/.exec(text), node = mathSymbol(text.replace(/'+$/, "").replace(/^([av])(G?[xy])(?=_dot$|$)/, "$1_$2"));
   return primes ? math("msup", node, sign("′".repeat(primes[0].length))) : node;
-}
-
-function dotted(tree) {
-  const node = mathOfTree(tree.of[0])[0];
-  return math("mover", node, sign("˙¨"[tree.dots - 1]));
 }
 
 function callOf({ name, power, of }) {
@@ -160,11 +188,11 @@ function mathOfTree(tree) {
     case "quotient": return [math("mfrac", row(bare(tree.of[0])), row(bare(tree.of[1])))];
     case "power": return [math("msup", row(tree.of[0]), row(bare(tree.of[1])))];
     case "signed": return [sign(tree.sign), ...mathOfTree(tree.of[0])];
-    case "dotted": return [dotted(tree)];
+    case "dotted": return [math("mover", mathOfTree(tree.of[0])[0], sign("˙¨"[tree.dots - 1]))];
     case "product": return [...mathOfTree(tree.of[0]), timesSign(tree.of[1]), ...mathOfTree(tree.of[1])];
     case "sum": return [...mathOfTree(tree.of[0]), sign(tree.sign), ...mathOfTree(tree.of[1])];
     case "call": return callOf(tree);
-    default: return tree.of.flatMap((side, i) => [...(i ? [sign({ "<=": "≤", ">=": "≥" }[tree.signs[i - 1]] || tree.signs[i - 1])] : []), ...mathOfTree(side)]);
+    default: return tree.of.flatMap((side, i) => [...(i ? [sign(tree.signs[i - 1].replace("<=", "≤").replace(">=", "≥"))] : []), ...mathOfTree(side)]);
   }
 }
 
@@ -178,8 +206,8 @@ function typeset(text) {
 // ---- as a number
 
 // The value of a tree for named numbers; NaN where one of them is none.
-function valueOf(tree, names) {
-  const values = () => tree.of.map((part) => valueOf(part, names));
+function numberOf(tree, names) {
+  const values = () => tree.of.map((part) => numberOf(part, names));
   switch (tree.is) {
     case "number": return Number(tree.text);
     case "name": return tree.text === "pi" ? Math.PI : names(tree.text);
@@ -199,5 +227,5 @@ function valueOf(tree, names) {
 // An angle in degrees: "30 deg", "-90°", "phi + 90 deg", "1.2"; NaN where it is none.
 function degreesOf(text, names) {
   const tree = treeOf(text.replace(/([0-9.])\s*(deg|rad)\b/g, "$1[$2]"));
-  return tree ? valueOf(tree, names) * 180 / Math.PI : NaN;
+  return tree ? numberOf(tree, names) * 180 / Math.PI : NaN;
 }

@@ -19,7 +19,8 @@ function markFindings(tests, places) {
 
 function findingItem({ name, points, max_points: most, message }) {
   const worth = most > 0 || points !== 0 ? `${show(points)} of ${show(most)}` : "";
-  return make("li", {}, make("span", { className: "worth" }, worth), make("span", { className: most > 0 && points >= most ? "right" : "" }, `${name ? `${name}: ` : ""}${message}`));
+  const text = make("span", { className: most > 0 && points >= most ? "right" : "" }, `${name ? `${name}: ` : ""}${message}`);
+  return make("li", {}, make("span", { className: "worth" }, worth), text);
 }
 
 function showVerdict(answer, places) {
