@@ -91,7 +91,7 @@ function labelPlace(entry, taken) {
   }
   const [tail, tip] = endsOf(entry), free = entry.tip ? tail : tip, fixed = entry.tip ? tip : tail;
   const out = times(1 / away(tail, tip), minusOf(free, fixed)), side = [-out[1], out[0]];
-  const spots = [[1.5, 3], [1.5, -3], [-6, 3.4], [-6, -3.4], [4.5, 0]]
+  const spots = [[2, 3.2], [2, -3.2], [-6, 3.4], [-6, -3.4], [5, 0]]
     .map(([a, b]) => plus(plus(free, times(a, out)), plus(times(b, side), [0, 1.2])));
   const crowd = (spot) => taken.reduce((sum, other) => sum + Math.max(0, 7 - away(spot, other)), 0);
   const best = spots.reduce((a, b) => (crowd(b) < crowd(a) - 0.01 ? b : a));
@@ -115,5 +115,5 @@ function arrowShape(entry, taken) {
 function handlesOf(entry) {
   if (entry.kind === "moment") return [];
   const [tail, tip] = endsOf(entry), [x, y] = entry.tip ? tail : tip;
-  return [svg("circle", { class: "handle", cx: x, cy: y, r: 2 })];
+  return [svg("circle", { class: "handle", cx: x, cy: y, r: 1.6 })];
 }
