@@ -130,19 +130,21 @@ static void add_names(const struct fbd_key *key, size_t b, struct text *text)
 }
 
 /* A model cannot list its reactions, which act already: warn the author that answers have to draw them, where
- * the key does not say so. */
-static void tell_reactions(const struct fbd_key *key, fbd_errors *errors)
+ * the key does not say so. False for lack of memory. */
+static bool tell_reactions(const struct fbd_key *key, fbd_errors *errors)
 {
     struct text text = {0};
-    if (key->model->scene->grading.reactions_given) return;
+    if (key->model->scene->grading.reactions_given) return true;
     for (size_t b = 0; b < key->model->body_count; b++) add_names(key, b, &text);
     if (text.length > 0)
         diag_add(
             errors, FBD_WARNING, "key-differs", (struct pos){0, 0},
             "say `grading: {reactions: all}` if this is meant, else `none` or the names of those to be drawn",
             "an answer has to draw reactions too: %.600s", text.data);
-    if (text.failed) diag_out_of_memory(errors);
+    bool failed = text.failed;
+    if (failed) diag_out_of_memory(errors);
     text_free(&text);
+    return !failed;
 }
 
 static const fbd_finding *first_fault(const fbd_grade *grade)
@@ -155,7 +157,8 @@ static const fbd_finding *first_fault(const fbd_grade *grade)
     return NULL;
 }
 
-/* Grade the key with itself, and warn of the entries that do not get full marks; false with a note when it has none. */
+/* Grade the key with itself, and warn of the entries that do not get full marks; false with a note when it has
+ * none, or for lack of memory. */
 static bool check_itself(struct fbd_key *key, fbd_errors *errors)
 {
     if (!has_points(key, errors)) return false;
@@ -167,9 +170,9 @@ static bool check_itself(struct fbd_key *key, fbd_errors *errors)
                  "`fbd-run --grade KEY KEY --details` says all, `--check-hand` more of derivations",
                  "graded against itself the key has not all points: %.80s%s%.200s: %.200s", fault->body,
                  *fault->name ? ": " : "", fault->name, fault->message);
+    bool graded = grade != NULL;
     fbd_grade_free(grade);
-    tell_reactions(key, errors);
-    return true;
+    return graded && tell_reactions(key, errors);
 }
 
 /* The texts are copied. */
