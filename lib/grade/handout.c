@@ -229,6 +229,7 @@ static char *make_handout(const fbd_key *key, const char *student, bool solved, 
         if (!solved || handout.model) made = write_handout(&handout, errors);
         fbd_model_free(handout.model);
     }
+    arena_free(&arena);
     diag_end(&call);
     return made;
 }
