@@ -1047,9 +1047,9 @@ FBD_API char *fbd_grade_json(const fbd_grade *grade, bool details);
 
 /* The sheet of a student as one HTML file to draw on: the bodies cut free, forces and moments drawn by mouse, finger or
  * keyboard, derivations as they are typed. What is drawn is saved as the answer that fbd_grade_new reads. With `exam` the
- * page has nothing of the key; without it, where fbd_has_live(), it has the key and grades. To be freed with fbd_free;
- * NULL with a note in `errors`: `no-sheet` (what is left of the key is no model), `not-finite`, `no-page` (built without
- * pages), or memory is out. */
+ * page has nothing of the key; without it, it has the key and the library, and grades. To be freed with fbd_free; NULL
+ * with a note in `errors`: `no-sheet` (what is left of the key is no model), `not-finite`, `no-live` (without `exam`: not
+ * fbd_has_live()), `no-page` (built without pages), or memory is out. */
 FBD_API char *fbd_key_page(const fbd_key *key, const char *student, bool exam, fbd_errors *errors);
 
 /* What of the file can be moved by a slider or switched off, and where it stands in the text, as one JSON object

@@ -183,14 +183,17 @@ static char *make_page(const fbd_key *key, const char *student, bool exam, fbd_e
 {
     struct drawing_page page = {.key = key, .student = student};
     char *made = NULL;
-    bool grades = !exam && fbd_has_live();
     diag_in_file(errors, key->file);
     if (!page_asset_find("drawing.html"))
         diag_add(errors, FBD_ERROR, "no-page", (struct pos){0, 0}, "build again without -Dhtml=disabled",
                  "this fbd was built without the pages");
+    else if (!exam && !fbd_has_live())
+        diag_add(errors, FBD_ERROR, "no-live", (struct pos){0, 0},
+                 "an exam (`--exam`) saves answers for `--grade` instead; or `make live`, and build again",
+                 "this fbd was built without live pages: none of its pages can check what is drawn");
     else if (compile_sheet(&page, errors) && make_data(&page, exam, errors) &&
-             (!grades || make_engine(&page, errors)))
-        made = fill(&page, grades, errors);
+             (exam || make_engine(&page, errors)))
+        made = fill(&page, !exam, errors);
     fbd_model_free(page.sheet);
     text_free(&page.source);
     text_free(&page.pictures);

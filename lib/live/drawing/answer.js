@@ -16,7 +16,7 @@ function fileName(entry) {
 }
 
 function valueText(entry) {
-  const value = entry.value.trim() || "unknown";
+  const value = fileNumber(entry.value, isGiven) || "unknown";
   if (entry.kind === "force" || entry.sense > 0) return value;
   return /^[\w.]+( [\w*/^.]+)?$/.test(value) ? `-${value}` : `-(${value})`;
 }
@@ -26,11 +26,14 @@ function entryText(entry) {
   if (entry.kind === "force") {
     keys.push(`angle: ${entry.direction ? scalar(entry.direction.angle) : "unknown"}`);
     if (entry.direction?.body) keys.push("frame: body");
-    const at = Array.isArray(entry.point) ? placeText(bodyOf(entry), entry.point) : bodyOf(entry).points[entry.point].at;
+    const at = Array.isArray(entry.point) ? `[${placeTexts(entry).map(scalar).join(", ")}]` : bodyOf(entry).points[entry.point].at;
     if (at) keys.push(`at: ${at}`);
   }
   return `applied: {${keys.join(", ")}}`;
 }
+
+// A place beside the points: as it was typed, or else as it was drawn.
+const placeTexts = (entry) => (entry.typed ? entry.typed.map((text) => fileNumber(text, isGiven)) : placeNumbers(bodyOf(entry), entry.point));
 
 const linesOf = (body) => drawing.lines[body].split("\n").map((line) => line.trim()).filter(Boolean);
 
@@ -62,14 +65,22 @@ function answerOf() {
 
 const asksHand = (body) => sheet.sheet.includes(`\v${body.name}\n`);
 
+// What the sheet says of a body in one line each: its shape, mass, motion.
+function dataOf(body) {
+  const [before] = sheet.sheet.split(new RegExp(`^[\\f\\v]${body.name}\n`, "m"));
+  return [...before.slice(before.lastIndexOf(`\n  ${body.name}:\n`)).matchAll(/^ {4}(\w+: .+)$/gm)].map(([, line]) => line).join(", ");
+}
+
 // The parameters that the sheet gives, [name, text].
 function givenValues() {
   const rows = /^parameters:\n((?: {2}.*\n)*)/m.exec(sheet.sheet);
   return rows ? [...rows[1].matchAll(/^ {2}(\w+): (.*)$/gm)].map(([, name, text]) => [name, /^\{value: ([^,}]*)/.exec(text)?.[1] || text]) : [];
 }
 
-// A given angle as a number, for directions that name it.
-function givenAngle(name) {
+const isGiven = (name) => givenValues().some(([other]) => other === name);
+
+// A given angle or length as a number, for directions and places that name it; NaN for others.
+function givenValue(name) {
   const row = givenValues().find(([other]) => other === name);
-  return row ? radians(degreesOf(row[1], () => NaN)) : NaN;
+  return row ? valueOf(row[1], () => NaN) : NaN;
 }

@@ -56,14 +56,18 @@ function pointNear(body, at, reach) {
   return best;
 }
 
-// A place beside the points in the frame of the body, as the file says it.
-function placeText(body, at) {
+// A place beside the points in the frame of the body, as two numbers of the file, and the place of such numbers.
+function placeNumbers(body, at) {
   const { paper, degrees, millimetres } = body.frame, [dx, dy] = minusOf(at, paper), turn = radians(degrees);
   const x = dx / millimetres, y = -dy / millimetres;
   const along = x * Math.cos(turn) + y * Math.sin(turn), across = y * Math.cos(turn) - x * Math.sin(turn);
-  const size = Math.max(body.box[2], body.box[3]) / millimetres;
-  const short = (number) => (Math.abs(number) < 1e-3 * size ? 0 : rounded(number, 3));
-  return `[${short(along)}, ${short(across)}]`;
+  const short = (number) => (Math.abs(number) * millimetres < 1 ? 0 : rounded(number, 3)); // on an axis is meant
+  return [String(short(along)), String(short(across))];
+}
+
+function placeAt(body, [x, y]) {
+  const { paper, degrees, millimetres } = body.frame, [a, b] = unitOf(degrees);
+  return plus(paper, times(millimetres, [a * x + b * y, b * x - a * y]));
 }
 
 // ---- directions

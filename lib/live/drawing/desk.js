@@ -14,17 +14,32 @@ function makeBoard(body, b) {
   const [left, top, width, height] = body.box, m = boardMargin;
   const board = svg("svg", { class: "board fbd", viewBox: `${left - m} ${top - m} ${width + 2 * m} ${height + 2 * m}`, role: "group", tabindex: 0,
     "data-body": b, "aria-label": `${body.name}, cut free. F adds a force, M a moment.` });
+  const notes = svg("g", { class: "notes" }, ...pictures[b].querySelectorAll("text"));
   board.append(svg("g", { class: "under" }, ...pictures[b].childNodes), svg("g", { class: "points" }, ...pointShapes(body)),
-    svg("g", { class: "arrows" }), svg("g", { class: "handles" }));
+    svg("g", { class: "arrows" }), notes, svg("g", { class: "handles" }));
   connectBoard(board);
   return board;
 }
 
+// Notes of the picture make way for arrows; returns their places.
+function placeNotes(board, spots) {
+  return [...board.querySelectorAll(".notes text")].map((note) => {
+    const { x, y, width, height } = note.getBBox(), middle = [x + width / 2, y + height / 2];
+    const crowd = (way) => spots.filter((spot) => {
+      const [dx, dy] = minusOf(spot, plus(middle, way));
+      return Math.abs(dx) < width / 2 + 2 && Math.abs(dy) < height / 2 + 1;
+    }).length;
+    const way = [[0, 0], [0, -4], [0, 4], [-4, -4], [4, 4], [0, -8], [0, 8]].reduce((a, b) => (crowd(b) < crowd(a) ? b : a));
+    note.setAttribute("transform", `translate(${way})`);
+    return plus(middle, way);
+  });
+}
+
 function showBoard(b) {
   const { board } = desks[b], own = drawing.entries.filter((entry) => entry.body === b), chosen = chosenOn(b);
-  const taken = sheet.bodies[b].points.map(({ paper }) => paper);
+  const taken = [...sheet.bodies[b].points.map(({ paper }) => paper), ...placeNotes(board, own.flatMap(spotsOf))];
   const focus = document.activeElement?.closest?.(".board") === board ? document.activeElement.dataset.id : null;
-  board.querySelector(".arrows").replaceChildren(...own.map((entry) => arrowShape(entry, taken)));
+  board.querySelector(".arrows").replaceChildren(...own.map((entry) => arrowShape(entry, taken, own)));
   board.querySelector(".handles").replaceChildren(...(chosen ? handlesOf(chosen) : []));
   board.querySelector(".points").classList.toggle("seen", own.length === 0 || Boolean(chosen) || stroke.board === board);
   if (focus) board.querySelector(`[data-id="${focus}"]`)?.focus({ preventScroll: true });
@@ -54,9 +69,10 @@ function connectField(b, field, kind, take) {
     if (!entry) return;
     keepHistory(`${field.dataset.field}${entry.id}`);
     take(entry);
+    const fault = field.validationMessage;
     changed();
     showDesk(b);
-    tell(b, "");
+    tell(b, fault);
   });
 }
 
@@ -69,16 +85,21 @@ function takeDirection(desk, entry) {
 }
 
 function takeAngle(desk, entry) {
-  const degrees = degreesOf(desk.angle.value, givenAngle);
+  const angle = fileNumber(desk.angle.value, isGiven), degrees = valueOf(desk.angle.value, givenValue) * 180 / Math.PI;
   desk.angle.setCustomValidity(Number.isFinite(degrees) ? "" : "an angle, as 30 deg");
-  if (Number.isFinite(degrees)) entry.direction = { degrees: within(degrees), angle: angleText(desk.angle.value.trim()), body: false, other: true };
+  if (Number.isFinite(degrees)) entry.direction = { degrees: within(degrees), angle, body: false, other: true };
 }
 
-// As the file has an angle: a plain one with its unit, units of others in brackets.
-function angleText(text) {
-  const plain = /^([-+]?[0-9.]+)\s*(°|deg)?$/.exec(text);
-  if (plain) return plain[2] ? `${plain[1]} deg` : text;
-  return text.replace(/([0-9.])\s*°/g, "$1[deg]").replace(/([0-9.])\s*(deg|rad)\b/g, "$1[$2]");
+function takePoint(desk, entry) {
+  delete entry.typed;
+  entry.point = desk.point.value === "place" ? placeOf(entry) : Number(desk.point.value);
+}
+
+function takePlace(desk, entry) {
+  const typed = desk.beside.value.split(","), values = typed.map((text) => valueOf(text, givenValue));
+  const read = values.length === 2 && values.every(Number.isFinite);
+  desk.beside.setCustomValidity(read ? "" : "two lengths, as 0.5 m, 0");
+  if (read) Object.assign(entry, { typed, point: placeAt(bodyOf(entry), values) });
 }
 
 function makeForm(b) {
@@ -88,7 +109,8 @@ function makeForm(b) {
   const choices = (list) => list.map(({ name }, i) => [name, i]);
   desk.name = input("name", { size: 8 });
   desk.value = input("value", { size: 12, placeholder: "unknown" });
-  desk.point = select("point", ...choices(body.points));
+  desk.point = select("point", ...choices(body.points), ...(body.frame ? [["another place", "place"]] : []));
+  desk.beside = input("beside", { size: 12 });
   desk.direction = select("direction", ...choices(directionsOf(body)), ["another angle", "other"], ["unknown", "unknown"]);
   desk.angle = input("angle", { size: 10, "aria-label": "Angle from the horizontal, counter-clockwise" });
   desk.tip = make("input", { type: "checkbox", "data-field": "tip" });
@@ -96,14 +118,16 @@ function makeForm(b) {
   desk.remove = make("button", { type: "button" }, "Delete");
   connectField(b, desk.name, "input", (entry) => { entry.name = desk.name.value; });
   connectField(b, desk.value, "input", (entry) => { entry.value = desk.value.value; });
-  connectField(b, desk.point, "change", (entry) => { if (desk.point.value !== "place") entry.point = Number(desk.point.value); });
+  connectField(b, desk.point, "change", (entry) => takePoint(desk, entry));
+  connectField(b, desk.beside, "input", (entry) => takePlace(desk, entry));
   connectField(b, desk.direction, "change", (entry) => takeDirection(desk, entry));
   connectField(b, desk.angle, "input", (entry) => takeAngle(desk, entry));
   connectField(b, desk.tip, "change", (entry) => { entry.tip = desk.tip.checked; });
   connectField(b, desk.sense, "change", (entry) => { entry.sense = Number(desk.sense.value); });
   desk.remove.addEventListener("click", () => { const entry = chosenOn(b); if (entry) removeEntry(entry); });
   desk.legend = make("legend", {}, "");
-  desk.parts = { place: labelled("acts at", desk.point), way: labelled("direction", desk.direction), angle: labelled("angle", desk.angle),
+  desk.parts = { place: labelled("acts at", desk.point), beside: labelled("place x, y on the body", desk.beside),
+    way: labelled("direction", desk.direction), angle: labelled("angle", desk.angle),
     tip: labelled("its tip is at the point", desk.tip, "box"), sense: labelled("sense", desk.sense) };
   desk.form = make("fieldset", { className: "form" }, desk.legend, labelled("name", desk.name), labelled("magnitude", desk.value),
     ...Object.values(desk.parts), desk.remove);
@@ -119,6 +143,15 @@ function showDirection(desk, entry) {
   if (document.activeElement !== desk.angle) { desk.angle.value = direction ? direction.angle : ""; desk.angle.setCustomValidity(""); }
 }
 
+function showPlace(desk, entry) {
+  const beside = Array.isArray(entry.point);
+  desk.point.value = beside ? "place" : String(entry.point);
+  desk.parts.beside.hidden = !beside;
+  if (!beside || document.activeElement === desk.beside) return;
+  desk.beside.value = entry.typed?.join(",") || placeNumbers(bodyOf(entry), entry.point).join(", ");
+  desk.beside.setCustomValidity("");
+}
+
 function showForm(b) {
   const desk = desks[b], entry = chosenOn(b), force = entry?.kind === "force";
   desk.form.hidden = !entry;
@@ -128,13 +161,11 @@ function showForm(b) {
   desk.name.placeholder = nameOf(entry);
   if (document.activeElement !== desk.value) desk.value.value = entry.value;
   desk.value.disabled = force && !entry.direction;
-  for (const option of [...desk.point.options]) if (option.value === "place") option.remove();
-  if (Array.isArray(entry.point)) desk.point.add(new Option(`at ${placeName(entry)}`, "place"));
-  desk.point.value = Array.isArray(entry.point) ? "place" : String(entry.point);
   for (const part of ["place", "way", "tip"]) desk.parts[part].hidden = !force;
   desk.parts.sense.hidden = force;
   desk.tip.checked = entry.tip;
   desk.sense.value = String(entry.sense);
+  showPlace(desk, entry);
   showDirection(desk, entry);
 }
 
@@ -217,7 +248,7 @@ function makeDesk(body, b) {
   const side = make("div", { className: "side" }, make("h3", {}, "Forces and moments"), desk.none, desk.list, makeForm(b));
   if (asksHand(body)) side.append(makeEquations(b));
   const paper = make("div", {}, makeTools(b), desk.board, desk.says);
-  const section = make("section", { className: "body" }, make("h2", {}, body.name), make("div", { className: "desk" }, paper, side));
+  const section = make("section", { className: "body" }, make("h2", {}, body.name), make("p", { className: "data" }, dataOf(body)), make("div", { className: "desk" }, paper, side));
   section.setAttribute("aria-label", body.name);
   element("bodies").append(section);
 }

@@ -3,7 +3,7 @@
 // What is drawn: forces and moments as entries, as arrows on the boards, and in words.
 //
 // entry: {id, body, kind: "force" or "moment", name, value, point: index or [x, y] on paper,
-//   direction: {degrees, angle, body} or null where it is unknown, tip: its tip is at the point, length: mm, sense: 1 or -1}
+//   typed: [x, y] as texts where the place was typed, direction: {degrees, angle, body} or null where it is unknown, tip: its tip is at the point, length: mm, sense: 1 or -1}
 
 const drawing = { entries: [], lines: sheet.bodies.map(() => ""), next: 1, selected: 0, marks: new Map() };
 const usualLength = 24, headLength = 3.2, arcRadius = 8;
@@ -37,7 +37,7 @@ function faultOf(entry) {
 // ---- in words
 
 function placeName(entry) {
-  return Array.isArray(entry.point) ? placeText(bodyOf(entry), entry.point) : bodyOf(entry).points[entry.point].name;
+  return Array.isArray(entry.point) ? `[${placeTexts(entry).join(", ")}]` : bodyOf(entry).points[entry.point].name;
 }
 
 function directionName(entry) {
@@ -55,8 +55,8 @@ function inWords(entry) {
 // ---- as arrows
 
 // A_x, mu_k, N' as a label: what follows the line stands lower.
-function labelOf(text, at, anchor) {
-  const [, base, index] = /^([^_]*)_?(.*)$/.exec(text), label = svg("text", { x: at[0], y: at[1], class: "name", "text-anchor": anchor });
+function labelOf(text, at) {
+  const [, base, index] = /^([^_]*)_?(.*)$/.exec(text), label = svg("text", { x: at[0], y: at[1], class: "name", "text-anchor": "middle" });
   label.append(greek[base] || base);
   if (index) label.append(svg("tspan", { dy: 1, class: "below" }, greek[index] || index));
   return label;
@@ -83,26 +83,37 @@ function momentShape(entry) {
   return [arc("reach"), arc("shaft"), headAt(plus([x, y], times(r, unitOf(to + entry.sense * 15))), to + entry.sense * 97)];
 }
 
-// Beside the free end of the arrow, on the side where fewer other labels and arrows are.
-function labelPlace(entry, taken) {
-  if (entry.kind === "moment") {
-    const at = plus(placeOf(entry), [0, -arcRadius - 2]);
-    return [at, "middle"];
-  }
-  const [tail, tip] = endsOf(entry), free = entry.tip ? tail : tip, fixed = entry.tip ? tip : tail;
-  const out = times(1 / away(tail, tip), minusOf(free, fixed)), side = [-out[1], out[0]];
-  const spots = [[2, 3.2], [2, -3.2], [-6, 3.4], [-6, -3.4], [5, 0]]
-    .map(([a, b]) => plus(plus(free, times(a, out)), plus(times(b, side), [0, 1.2])));
-  const crowd = (spot) => taken.reduce((sum, other) => sum + Math.max(0, 7 - away(spot, other)), 0);
-  const best = spots.reduce((a, b) => (crowd(b) < crowd(a) - 0.01 ? b : a));
-  return [best, "middle"];
+// Places of an arrow that no label should cover.
+function spotsOf(entry) {
+  const part = [0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1];
+  if (entry.kind === "moment") return part.map((k) => plus(placeOf(entry), times(arcRadius, unitOf(360 * k))));
+  const [tail, tip] = endsOf(entry);
+  return part.map((k) => plus(tail, times(k, minusOf(tip, tail))));
 }
 
-function arrowShape(entry, taken) {
+// Where a label may be: around a moment; beside the free end of a force.
+function labelSpots(entry) {
+  if (entry.kind === "moment")
+    return [90, 135, 45, 180, 0, -135].map((degrees) => plus(plus(placeOf(entry), times(arcRadius + 3.5, unitOf(degrees))), [0, 1.2]));
+  const [tail, tip] = endsOf(entry), free = entry.tip ? tail : tip, fixed = entry.tip ? tip : tail;
+  const out = times(1 / away(tail, tip), minusOf(free, fixed)), side = [-out[1], out[0]];
+  const half = 1.1 * nameOf(entry).length, room = ([x, y]) => 2 + Math.abs(x) * half + Math.abs(y) * 1.6, beside = room(side);
+  return [[2, beside], [2, -beside], [-6, beside], [-6, -beside], [room(out), 0]]
+    .map(([a, b]) => plus(plus(free, times(a, out)), plus(times(b, side), [0, 1.2])));
+}
+
+// Of these the one with least beside it.
+function labelPlace(entry, taken) {
+  const crowd = (spot) => taken.reduce((sum, other) => sum + Math.max(0, 7 - away(spot, other)), 0);
+  return labelSpots(entry).reduce((a, b) => (crowd(b) < crowd(a) - 0.01 ? b : a));
+}
+
+// `taken` are places of labels and points, `all` the arrows of its board.
+function arrowShape(entry, taken, all) {
   const chosen = entry.id === drawing.selected, mark = drawing.marks.get(entry.id);
-  const [place, anchor] = labelPlace(entry, taken);
+  const place = labelPlace(entry, [...taken, ...all.flatMap((other) => (other === entry ? [] : spotsOf(other)))]);
   taken.push(place);
-  const label = labelOf(nameOf(entry), place, anchor);
+  const label = labelOf(nameOf(entry), place);
   if (mark) label.append(svg("tspan", { class: "mark", dx: 1 }, mark.right ? "✓" : "✗"));
   const free = !entry.direction && entry.kind === "force", judged = mark ? (mark.right ? "right" : "wrong") : "";
   const css = ["arrow", entry.kind, chosen ? "chosen" : "", free ? "free" : "", judged];
@@ -111,9 +122,17 @@ function arrowShape(entry, taken) {
   ...(entry.kind === "force" ? forceShape(entry) : momentShape(entry)), label);
 }
 
-// The free end of the chosen arrow, to be dragged.
+// The axes in which a place beside the points is told.
+function axesOf({ paper, degrees }) {
+  return ["x", "y"].flatMap((name, i) => {
+    const turn = degrees + 90 * i, tip = plus(paper, times(9, unitOf(turn))), [x, y] = plus(tip, plus(times(2.4, unitOf(turn)), [0, 1.2]));
+    return [svg("line", { class: "frame", x1: paper[0], y1: paper[1], x2: tip[0], y2: tip[1] }), svg("text", { class: "middle", x, y }, name)];
+  });
+}
+
+// The free end of the chosen arrow, to be dragged; the axes where its place is not one of the points.
 function handlesOf(entry) {
   if (entry.kind === "moment") return [];
   const [tail, tip] = endsOf(entry), [x, y] = entry.tip ? tail : tip;
-  return [svg("circle", { class: "handle", cx: x, cy: y, r: 1.6 })];
+  return [...(Array.isArray(entry.point) ? axesOf(bodyOf(entry).frame) : []), svg("circle", { class: "handle", cx: x, cy: y, r: 1.6 })];
 }

@@ -43,9 +43,10 @@ function clearSheet() {
 
 // ---- the draft
 
+// Another key, or another version of the page with other points, begins anew.
 const draftKey = () => {
   let hash = 0;
-  for (const letter of sheet.sheet) hash = (Math.imul(hash, 31) + letter.codePointAt(0)) | 0;
+  for (const letter of element("data").textContent) hash = (Math.imul(hash, 31) + letter.codePointAt(0)) | 0;
   return `fbd ${sheet.exam ? "exam" : "sheet"} ${sheet.student} ${hash}`;
 };
 
@@ -90,13 +91,9 @@ function showHead() {
   const equations = sheet.bodies.some(asksHand) ? ", and write its equations" : "";
   const bodies = sheet.bodies.length > 1 ? "each body" : "the body";
   element("asked").textContent = `Sheet of ${sheet.student}. Draw every force and moment on ${bodies}${equations}. ${sheet.reactions}`;
-  element("given").replaceChildren(...givenValues().flatMap(([name, text]) => {
-    const symbol = make("dt", {});
-    symbol.append(inMath(name));
-    return [symbol, make("dd", {}, `= ${unit(text)}`)];
-  }));
-  element("how").textContent = sheet.exam ? "Save the answer and hand the file in."
-    : canGrade() ? "" : `Save the answer: fbd-run --grade KEY.yaml ${answerName()} says what is right.`;
+  element("given").replaceChildren(...givenValues().map(([name, text]) =>
+    make("div", {}, make("dt", {}, inMath(name)), make("dd", {}, `= ${unit(text).replace(" deg", "°")}`))));
+  element("how").textContent = sheet.exam ? "Save the answer and hand the file in." : "";
 }
 
 function undoKeys(event) {

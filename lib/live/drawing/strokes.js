@@ -38,6 +38,7 @@ function beginStroke(event) {
 function moveEnd(entry, here, event) {
   const body = bodyOf(entry);
   if (stroke.end === "point") {
+    delete entry.typed;
     entry.point = snapped(body, { at: plus(stroke.place, minusOf(here.at, stroke.from.at)), pixel: here.pixel }, event);
     return;
   }
@@ -102,6 +103,7 @@ function cancelStroke(event) {
 // ---- keys
 
 function stepPoint(entry, step) {
+  delete entry.typed;
   const { points } = bodyOf(entry), from = Array.isArray(entry.point) ? pointNear(bodyOf(entry), entry.point, Infinity) : entry.point + step;
   entry.point = (from + points.length) % points.length;
 }

@@ -173,6 +173,7 @@ function callOf({ name, power, of }) {
 function timesSign(right) {
   const first = right.is === "power" ? right.of[0] : right;
   if (first.is === "number" || first.is === "measure") return sign("·");
+  if (first.is === "call") return math("mtext", "\u2009");
   return first.is === "name" && /^[A-Za-z]{2}/.test(first.text) && !greek[first.text.split("_")[0]] ? math("mtext", "\u2009") : sign("\u2062");
 }
 
@@ -205,13 +206,15 @@ function typeset(text) {
 
 // ---- as a number
 
+const unitSizes = { deg: Math.PI / 180, rad: 1, m: 1, mm: 0.001, cm: 0.01, km: 1000, in: 0.0254, ft: 0.3048 };
+
 // The value of a tree for named numbers; NaN where one of them is none.
 function numberOf(tree, names) {
   const values = () => tree.of.map((part) => numberOf(part, names));
   switch (tree.is) {
     case "number": return Number(tree.text);
     case "name": return tree.text === "pi" ? Math.PI : names(tree.text);
-    case "unit": return { deg: Math.PI / 180, rad: 1 }[tree.text] ?? NaN;
+    case "unit": return unitSizes[tree.text] ?? NaN;
     case "round": return values()[0];
     case "measure":
     case "product": { const [a, b] = values(); return a * b; }
@@ -224,8 +227,18 @@ function numberOf(tree, names) {
   }
 }
 
-// An angle in degrees: "30 deg", "-90°", "phi + 90 deg", "1.2"; NaN where it is none.
-function degreesOf(text, names) {
-  const tree = treeOf(text.replace(/([0-9.])\s*(deg|rad)\b/g, "$1[$2]"));
-  return tree ? numberOf(tree, names) * 180 / Math.PI : NaN;
+// A number as it is typed ("20 N", "-90°", "20 kg*g", "L/2 + 3 cm") as the file has it: units within a formula in brackets.
+// `isName`: is it a quantity that the sheet gives?
+function fileNumber(text, isName) {
+  const units = "(?:kN|N|kg|deg|°|rad|mm|cm|km|m|in|ft|lbf|lb|s)", power = "(?:\\^[0-9])?", typed = text.trim().replace(/·/g, "*");
+  const plain = new RegExp(`^([-+]?[0-9.]+(?:e[-+]?[0-9]+)?)\\s*(${units}${power}(?:[*/]${units}${power})*)?$`).exec(typed);
+  if (plain) return plain[2] ? `${plain[1]} ${plain[2].replace("°", "deg")}` : typed;
+  return typed.replace(new RegExp(`\\b([0-9.]+)\\s*(${units})(?!\\w)`, "g"),
+    (whole, number, name) => (isName(name) ? `${number}*${name}` : `${number}[${name.replace("°", "deg")}]`));
+}
+
+// The value of such a number in radians or metres; NaN where it is none of these.
+function valueOf(text, names) {
+  const tree = treeOf(fileNumber(text, (name) => !Number.isNaN(names(name))).replace(/^([-+0-9.e]+) (\w+)$/, "$1[$2]"));
+  return tree ? numberOf(tree, names) : NaN;
 }

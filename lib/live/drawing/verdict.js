@@ -1,10 +1,8 @@
 "use strict";
 
-// The verdict of `fbd-run --grade` on what is drawn, where the page has the library and the key.
+// The verdict of `fbd-run --grade` on what is drawn, where the page has the library and the key: an exam has neither.
 
 const verdict = { asker: null };
-
-const canGrade = () => typeof makeAsker === "function";
 
 // Each finding is marked at what it is about: the worse one of two.
 function markFindings(tests, places) {
@@ -58,6 +56,6 @@ async function check() {
 }
 
 function connectVerdict() {
-  element("check").hidden = !canGrade();
+  element("check").hidden = sheet.exam;
   element("check").addEventListener("click", check);
 }
