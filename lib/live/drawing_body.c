@@ -15,6 +15,7 @@
 
 #include "draw/page_json.h"
 #include "draw/panel.h"
+#include "dynamics/constraint.h"
 #include "dynamics/tree.h"
 #include "model/outline.h"
 
@@ -88,7 +89,7 @@ static const char *side_of(struct vec way)
     static const char *const words[3][3] = {{"upper left", "upper", "upper right"},
                                             {"left", "inner", "right"},
                                             {"lower left", "lower", "lower right"}};
-    const double slight = 0.2 * vec_norm(way);
+    const double slight = 0.1 * vec_norm(way);
     int row = way.y < -slight  ? 0
               : way.y > slight ? 2
                                : 1,
@@ -149,11 +150,13 @@ static struct vec in_body(const struct cut_free *cut, struct vec world)
     return vec_add(cut->panel.body->pin, vec_turn(back, arm));
 }
 
-/* Where a coupling or contact acts: on a circle, at the place that it keeps while the body turns. */
-static void add_place(struct cut_free *cut, const char *name, struct vec world)
+/* Where a coupling, a contact or another body acts: on a circle, at the place that it keeps while the body turns. */
+static void add_place(struct cut_free *cut, const char *acting, struct vec world)
 {
     const struct body *source = cut->panel.body->source;
     struct vec point = in_body(cut, world);
+    char name[80];
+    snprintf(name, sizeof name, "where `%.*s` acts", (int)fmin(50, (double)strcspn(acting, ".")), acting);
     for (size_t i = 0; i < source->part_count; i++) {
         struct outline_part part = outline_of_part(&source->parts[i]);
         struct vec arm = vec_sub(point, part.center);
@@ -164,16 +167,29 @@ static void add_place(struct cut_free *cut, const char *name, struct vec world)
     add_point(cut, name, point);
 }
 
+/* Those of one end of a coupling or contact; one that is open has none. */
+static void add_places_of_end(struct cut_free *cut, const struct tie *tie, int end)
+{
+    const struct tree_work *tree = cut->panel.at.tree;
+    const struct row *row = &tree->rows[tie->first_row];
+    for (int i = 0; i < row->port_count; i++)
+        if (row->ports[i].end == end)
+            add_place(cut, tie->end[end].name[0],
+                      vec_add(tree->links[row->ports[i].link].p, row->ports[i].arm));
+}
+
 static void add_places(struct cut_free *cut)
 {
-    const struct panel *panel = &cut->panel;
-    char name[80];
-    for (size_t i = 0; i < panel->arrow_count; i++) {
-        const struct arrow *arrow = &panel->arrows[i];
-        if (!isfinite(arrow->point.x) || !isfinite(arrow->point.y)) continue;
-        snprintf(name, sizeof name, "where `%.*s` acts", (int)fmin(50, (double)strcspn(arrow->name, ".")),
-                 arrow->name);
-        add_place(cut, name, arrow->point);
+    const struct fbd_model *model = cut->panel.model;
+    const struct tree *tree = model->tree;
+    int index = (int)(cut->panel.body - model->bodies);
+    for (int i = 0; tree && i < tree->tie_count; i++)
+        for (int end = 0; end < tree->ties[i].end_count; end++)
+            if (tree->ties[i].end[end].body == index) add_places_of_end(cut, &tree->ties[i], end);
+    for (size_t b = 0; b < model->body_count; b++) { /* a slide acts on all of its surface */
+        const struct model_body *other = &model->bodies[b];
+        if (other->parent == index && other->kind != motion_slide)
+            add_place(cut, other->name, cut->panel.at.tree->links[other->place.link].p);
     }
 }
 

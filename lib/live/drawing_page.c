@@ -21,7 +21,8 @@ struct drawing_page {
     const fbd_key *key;
     const char *student;
     fbd_model *sheet;
-    struct text source, pictures, data, engine; /* the open sheet; what the page shows; the key and the library */
+    struct text source, pictures, data,
+        engine; /* the open sheet; what the page shows; the key and the library */
 };
 
 /* ---- the sheet */

@@ -76,6 +76,15 @@ bodies:
 couplings: [rod: {name: cord, between: [rear, front]}]
 simulate: {until: 1 s}
 """
+OVER = """fbd: 1
+title: A crate above a floor
+parameters: {phi: 30 deg}
+ground: {lines: {floor: {along: 0 deg}}}
+bodies:
+  crate: {shape: prism, mass: 2 kg, a: 0.2 m, b: 2 m, motion: planar, initial: {y: 3 m, theta: 10 deg}, forces: [gravity]}
+contacts: [{name: floor, between: [crate, ground.floor]}]
+simulate: {until: 0.1 s}
+"""
 PENDULUM = """fbd: 1
 title: A driven rod
 grading: {reactions: none}
@@ -170,6 +179,27 @@ def check_layout(browser, pictures):
             browser.screenshot(pictures / f"drawing-{width}.png")
 
 
+def check_labels(browser):
+    boxes = browser.run("""return [...desks[0].board.querySelectorAll("text")].map((text) => {
+        const { left, top, right, bottom } = text.getBoundingClientRect();
+        return [text.textContent, left, top + 0.25 * (bottom - top), right, bottom - 0.25 * (bottom - top)]; })""")
+    for i, (name, left, top, right, bottom) in enumerate(boxes):
+        for other, x0, y0, x1, y1 in boxes[:i]:
+            assert right < x0 or x1 < left or bottom < y0 or y1 < top, (name, other)
+
+
+def check_points(browser, folder):
+    page = Page(browser, folder, "over", OVER, "--exam")
+    with claim("points are those of the body, with a name each: not where a contact is open"):
+        names = browser.run("return sheet.bodies[0].points.map((point) => point.name)")
+        assert len(set(names)) == len(names) and "lower left corner" in names, names
+        assert not any("floor" in name for name in names), names
+    with claim("what is given of the body and of the scene is shown"):
+        text = browser.run("return document.body.innerText")
+        assert "shape: prism" in text and "= 30°" in text, text
+        page.quiet()
+
+
 def check_mouse(browser, folder, pictures):
     page = Page(browser, folder, "wheel", WHEEL, "--exam")
     with claim("the page for an exam has nothing of the key, and no library"):
@@ -181,6 +211,8 @@ def check_mouse(browser, folder, pictures):
         draw_wheel(page)
         page.all_points()
         page.quiet()
+    with claim("no name lies over another"):
+        check_labels(browser)
     check_layout(browser, pictures)
     with claim("the equations are shown in mathematics"):
         shown = browser.run("return [...document.querySelectorAll('.shown math')].map((m) => m.textContent)")
@@ -339,7 +371,7 @@ def main():
             skip(str(missing))
         with browser:
             check_mouse(browser, folder, pictures)
-            for check in (check_touch, check_keyboard, check_body_frame, check_typed_place, check_several):
+            for check in (check_touch, check_keyboard, check_body_frame, check_typed_place, check_several, check_points):
                 check(browser, folder)
             if check_without_live(folder):
                 check_verdict(browser, folder)

@@ -4,6 +4,12 @@
 
 const sheet = JSON.parse(element("data").textContent);
 
+// Points of one name are numbered.
+for (const { points } of sheet.bodies) {
+  const of = (name) => points.filter((point) => point.name === name);
+  for (const { name } of [...points]) if (of(name).length > 1) of(name).forEach((point, i) => { point.name += ` ${i + 1}`; });
+}
+
 // ---- elements
 
 function make(tag, properties, ...children) {

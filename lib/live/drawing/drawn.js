@@ -97,7 +97,7 @@ function labelSpots(entry) {
     return [90, 135, 45, 180, 0, -135].map((degrees) => plus(plus(placeOf(entry), times(arcRadius + 3.5, unitOf(degrees))), [0, 1.2]));
   const [tail, tip] = endsOf(entry), free = entry.tip ? tail : tip, fixed = entry.tip ? tip : tail;
   const out = times(1 / away(tail, tip), minusOf(free, fixed)), side = [-out[1], out[0]];
-  const half = 1.1 * nameOf(entry).length, room = ([x, y]) => 2 + Math.abs(x) * half + Math.abs(y) * 1.6, beside = room(side);
+  const half = 1.1 * nameOf(entry).length + (drawing.marks.has(entry.id) ? 2 : 0), room = ([x, y]) => 2 + Math.abs(x) * half + Math.abs(y) * 1.6, beside = room(side);
   return [[2, beside], [2, -beside], [-6, beside], [-6, -beside], [room(out), 0]]
     .map(([a, b]) => plus(plus(free, times(a, out)), plus(times(b, side), [0, 1.2])));
 }

@@ -17,7 +17,7 @@ function markFindings(tests, places) {
 
 function findingItem({ name, points, max_points: most, message }) {
   const worth = most > 0 || points !== 0 ? `${show(points)} of ${show(most)}` : "";
-  const text = make("span", { className: most > 0 && points >= most ? "right" : "" }, `${name ? `${name}: ` : ""}${message}`);
+  const text = make("span", { className: most > 0 ? (points >= most ? "right" : "wrong") : "" }, `${name ? `${name}: ` : ""}${message}`);
   return make("li", {}, make("span", { className: "worth" }, worth), text);
 }
 
