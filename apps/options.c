@@ -263,7 +263,7 @@ static bool take_fmu_version(int *version)
 
 static const double tiny = 1e-300; /* above 0 */
 
-/* What a drawing shows, and how. */
+/* What a drawing, a sheet or a grade shows, and how. */
 static bool take_drawing(struct options *options, int option)
 {
     switch (option) {
@@ -274,6 +274,10 @@ static bool take_drawing(struct options *options, int option)
     case option_scale: options->scale = optarg; return true;
     case option_worksheet: options->drawing.worksheet = true; return true;
     case option_solution: options->drawing.solution = true; return true;
+    case option_student: options->student = optarg; return true;
+    case option_details: options->details = true; return true;
+    case option_page: options->page = optarg; return true;
+    case option_exam: options->exam = true; return true;
     default: return usage("unknown option, or an option without its value", "");
     }
 }
@@ -330,11 +334,7 @@ static bool take_option(const struct command_line *unused, int option, void *con
     case option_check: return choose_action(options, action_check);
     case option_emit_c: options->emit_c = optarg; return choose_action(options, action_emit_c);
     case option_grade: options->model = optarg; return choose_action(options, action_grade);
-    case option_student: options->student = optarg; return true;
-    case option_details: options->details = true; return true;
     case option_handout: return choose_action(options, action_handout);
-    case option_page: options->page = optarg; return true;
-    case option_exam: options->exam = true; return true;
     case option_fmu: options->fmu = optarg; return fmu_can_be_made() && choose_action(options, action_fmu);
     case option_fmu_version: return take_fmu_version(&options->fmu_version);
     default: return take_drawing(options, option);

@@ -83,13 +83,13 @@ static void add_point_beside(struct cut_free *cut, const char *name, struct vec 
     if (begin_point(cut, vec_add(on_paper(cut, center), on_body))) end_point(cut, name, at);
 }
 
-/* "lower left", where a direction on paper leads. */
+/* "lower left": the nearest of eight directions on paper. */
 static const char *side_of(struct vec way)
 {
     static const char *const words[3][3] = {{"upper left", "upper", "upper right"},
                                             {"left", "inner", "right"},
                                             {"lower left", "lower", "lower right"}};
-    const double slight = 0.1 * vec_norm(way);
+    const double slight = sin(pi / 8) * vec_norm(way);
     int row = way.y < -slight  ? 0
               : way.y > slight ? 2
                                : 1,
@@ -99,16 +99,21 @@ static const char *side_of(struct vec way)
     return words[row][column];
 }
 
+/* Corner i lies between the middles of two sides, and is called so, however long they are. */
 static void add_corners(struct cut_free *cut, const struct outline_part *part)
 {
     char name[60];
-    struct vec center = on_paper(cut, part->center);
+    struct vec center = on_paper(cut, part->center), middle[4], way[4];
     for (int i = 0; i < 4; i++) {
-        struct vec middle = vec_scale(0.5, vec_add(part->corner[i], part->corner[(i + 1) % 4]));
-        snprintf(name, sizeof name, "%s corner", side_of(vec_sub(on_paper(cut, part->corner[i]), center)));
+        middle[i] = vec_scale(0.5, vec_add(part->corner[i], part->corner[(i + 1) % 4]));
+        way[i] = vec_sub(on_paper(cut, middle[i]), center);
+        way[i] = vec_scale(1 / vec_norm(way[i]), way[i]);
+    }
+    for (int i = 0; i < 4; i++) {
+        snprintf(name, sizeof name, "%s corner", side_of(vec_add(way[(i + 3) % 4], way[i])));
         add_point(cut, name, part->corner[i]);
-        snprintf(name, sizeof name, "middle of the %s side", side_of(vec_sub(on_paper(cut, middle), center)));
-        add_point(cut, name, middle);
+        snprintf(name, sizeof name, "middle of the %s side", side_of(way[i]));
+        add_point(cut, name, middle[i]);
     }
 }
 
