@@ -12,7 +12,6 @@
 /* Of the file, and of a body: what the student is to find out, and what the teacher says for himself. */
 static const char *const kept_back[] = {"grading", "description", "$schema", "output", NULL};
 static const char *const asked[] = {"forces", "moments", "hand", "exact", "description", NULL};
-static const char *const inertia_keys[] = {"inertia", NULL};
 
 static bool is_one_of(const char *key, const char *const *names)
 {
@@ -125,13 +124,17 @@ static void write_lists(const struct handout *handout, const struct pair *body, 
 static void write_body(const struct handout *handout, const struct pair *body)
 {
     struct text *text = handout->text;
-    bool asks_inertia = handout->key->model->scene->grading.points.inertia > 0, hand = false;
+    bool asks_inertia = !handout->scene && handout->key->model->scene->grading.points.inertia > 0,
+         hand = false;
     text_printf(text, "  %s:\n", body->key);
     for (size_t i = 0; i < body->value->count && body->value->kind == node_map; i++) {
         const struct pair *pair = &body->value->pairs[i];
         hand = hand || strcmp(pair->key, "hand") == 0;
-        if (is_one_of(pair->key, asked) || (asks_inertia && is_one_of(pair->key, inertia_keys))) continue;
-        write_pair(text, 2, pair->key, pair->value);
+        if (is_one_of(pair->key, asked)) continue;
+        if (!asks_inertia || strcmp(pair->key, "inertia") != 0)
+            write_pair(text, 2, pair->key, pair->value);
+        else if (handout->open)
+            text_printf(text, "%c%s\n", sheet_inertia, body->key);
     }
     if (handout->open)
         text_printf(text, "%c%s\n", hand ? sheet_hand : sheet_lists, body->key);

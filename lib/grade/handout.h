@@ -14,11 +14,13 @@ struct handout {
     const struct fbd_key *key;
     const char *student;
     fbd_model *model; /* of a solution: the key with the values of the student; else NULL */
-    bool open;        /* a line in the place of what is asked of a body, see below */
+    bool open;        /* lines in the place of what is asked of a body, see below */
+    bool scene;       /* with its inertia, even where that is asked: the scene by itself */
 };
 
-/* In an open sheet: what begins that line, without and with derivations. The name of the body follows. */
-enum { sheet_lists = '\f', sheet_hand = '\v' };
+/* In an open sheet: what begins the line in the place of the lists, without and with derivations, and of the inertia.
+ * The name of the body follows. */
+enum { sheet_lists = '\f', sheet_hand = '\v', sheet_inertia = '\x0e' };
 
 /* Write the sheet. False when memory is out. */
 bool handout_write(struct handout *handout);

@@ -30,14 +30,19 @@ struct drawing_page {
 static bool write_sheet(const struct drawing_page *page, struct text *text, bool open)
 {
     struct arena arena = {0};
-    struct handout handout = {
-        .text = text, .arena = &arena, .key = page->key, .student = page->student, .open = open};
+    struct handout handout = {.text = text,
+                              .arena = &arena,
+                              .key = page->key,
+                              .student = page->student,
+                              .open = open,
+                              .scene = !open};
     bool done = handout_write(&handout);
     arena_free(&arena);
     return done;
 }
 
-/* The sheet as the student gets it, compiled: what is drawn follows from nothing else. */
+/* The sheet as the student gets it, compiled, with the inertia that a motion needs: the pictures and points of its bodies
+ * follow from nothing else. */
 static bool compile_sheet(struct drawing_page *page, fbd_errors *errors)
 {
     struct text plain = {0};

@@ -85,6 +85,12 @@ bodies:
 contacts: [{name: floor, between: [crate, ground.floor]}]
 simulate: {until: 0.1 s}
 """
+FLYWHEEL = """fbd: 1
+title: A flywheel
+grading: {reactions: none, points: {inertia: 2}}
+bodies: {wheel: {mass: 4 kg, inertia: 0.125 kg*m^2, motion: {pivot: {at: [0, 0], point: [0, 0]}}, initial: {omega: 3 rad/s}, forces: [gravity]}}
+simulate: {until: 1 s}
+"""
 PENDULUM = """fbd: 1
 title: A driven rod
 grading: {reactions: none}
@@ -347,6 +353,16 @@ def check_several(browser, folder):
         page.all_points()
 
 
+def check_inertia(browser, folder):
+    page = Page(browser, folder, "flywheel", FLYWHEEL, "--exam")
+    with claim("a moment of inertia that is asked is typed, and is not in the page"):
+        assert "0.125" not in page.path.read_text(encoding="utf-8")
+        page.draw("G", 0, SHOT, "W", "4 kg*g")
+        page.say(inertia="0.5*0.25 kg*m^2")
+        page.all_points()
+        page.quiet()
+
+
 def check_verdict(browser, folder):
     page = Page(browser, folder, "graded", WHEEL)
     with claim("the page gives the verdict of fbd-run"):
@@ -371,7 +387,7 @@ def main():
             skip(str(missing))
         with browser:
             check_mouse(browser, folder, pictures)
-            for check in (check_touch, check_keyboard, check_body_frame, check_typed_place, check_several, check_points):
+            for check in (check_touch, check_keyboard, check_body_frame, check_typed_place, check_several, check_points, check_inertia):
                 check(browser, folder)
             if check_without_live(folder):
                 check_verdict(browser, folder)

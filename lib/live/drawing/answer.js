@@ -46,12 +46,17 @@ function listText(key, entries, from, note) {
 
 // {text, places}: what stands on each line, {entry} or {body, line}.
 function answerOf() {
-  const parts = sheet.sheet.split(/^([\f\v])(.*)\n/m), places = new Map();
+  const parts = sheet.sheet.split(/^([\f\v\x0e])(.*)\n/m), places = new Map();
   let text = parts[0];
   const here = () => text.split("\n").length;
   for (let i = 1; i < parts.length; i += 3) {
     const b = sheet.bodies.findIndex((body) => body.name === parts[i + 1]);
     const own = drawing.entries.filter((entry) => entry.body === b);
+    if (parts[i] === "\x0e") {
+      const inertia = fileNumber(drawing.inertia[b], isGiven);
+      text += `${inertia ? `    inertia: ${scalar(inertia)}\n` : ""}${parts[i + 2]}`;
+      continue;
+    }
     for (const kind of ["force", "moment"]) {
       const list = own.filter((entry) => entry.kind === kind);
       text += listText(`${kind}s`, list.map(entryText), here(), (line, k) => places.set(line, { entry: list[k] }));
@@ -64,6 +69,7 @@ function answerOf() {
 }
 
 const asksHand = (body) => sheet.sheet.includes(`\v${body.name}\n`);
+const asksInertia = (body) => sheet.sheet.includes(`\x0e${body.name}\n`);
 
 // What the sheet says of a body in one line each: its shape, mass, motion.
 function dataOf(body) {

@@ -191,7 +191,18 @@ function showList(b) {
   desks[b].none.hidden = own.length > 0;
 }
 
-// ---- equations
+// ---- inertia and equations
+
+function makeInertia(b) {
+  const field = make("input", { type: "text", autocomplete: "off", spellcheck: false, placeholder: "as m*R^2/2 or 0.1 kg*m^2" });
+  desks[b].inertia = field;
+  field.addEventListener("input", () => {
+    keepHistory(`inertia${b}`);
+    drawing.inertia[b] = field.value;
+    changed();
+  });
+  return labelled("moment of inertia about G", field, "wide");
+}
 
 function makeEquations(b) {
   const desk = desks[b];
@@ -209,6 +220,7 @@ function makeEquations(b) {
 
 function showEquations(b) {
   const desk = desks[b];
+  if (desk.inertia && desk.inertia.value !== drawing.inertia[b]) desk.inertia.value = drawing.inertia[b];
   if (!desk.lines) return;
   if (desk.lines.value !== drawing.lines[b]) desk.lines.value = drawing.lines[b];
   desk.shown.replaceChildren(...linesOf(b).map((line, i) => {
@@ -246,6 +258,7 @@ function makeDesk(body, b) {
   desk.list = make("ol", { className: "entries" });
   desk.none = make("p", { className: "none" }, "Nothing is drawn yet: drag on the body, or press Add.");
   const side = make("div", { className: "side" }, make("h3", {}, "Forces and moments"), desk.none, desk.list, makeForm(b));
+  if (asksInertia(body)) side.append(makeInertia(b));
   if (asksHand(body)) side.append(makeEquations(b));
   const paper = make("div", {}, makeTools(b), desk.board, desk.says);
   const section = make("section", { className: "body" }, make("h2", {}, body.name), make("p", { className: "data" }, dataOf(body)), make("div", { className: "desk" }, paper, side));

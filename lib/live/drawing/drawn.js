@@ -5,7 +5,7 @@
 // entry: {id, body, kind: "force" or "moment", name, value, point: index or [x, y] on paper,
 //   typed: [x, y] as texts where the place was typed, direction: {degrees, angle, body} or null where it is unknown, tip: its tip is at the point, length: mm, sense: 1 or -1}
 
-const drawing = { entries: [], lines: sheet.bodies.map(() => ""), next: 1, selected: 0, marks: new Map() };
+const drawing = { entries: [], lines: sheet.bodies.map(() => ""), inertia: sheet.bodies.map(() => ""), next: 1, selected: 0, marks: new Map() };
 const usualLength = 24, headLength = 3.2, arcRadius = 8;
 
 const entryOf = (id) => drawing.entries.find((entry) => entry.id === id);

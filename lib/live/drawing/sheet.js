@@ -5,7 +5,7 @@
 
 const kept = { past: [], future: [], field: "" };
 
-const snapshot = () => JSON.stringify([drawing.entries, drawing.lines, drawing.next]);
+const snapshot = () => JSON.stringify([drawing.entries, drawing.lines, drawing.next, drawing.inertia]);
 
 // Before a change; a field's changes in a row are one.
 function keepHistory(field = "") {
@@ -16,8 +16,8 @@ function keepHistory(field = "") {
 }
 
 function restore(text) {
-  const [entries, lines, next] = JSON.parse(text);
-  Object.assign(drawing, { entries, lines, next });
+  const [entries, lines, next, inertia] = JSON.parse(text);
+  Object.assign(drawing, { entries, lines, next, inertia });
   if (!entryOf(drawing.selected)) drawing.selected = 0;
   kept.field = "";
   changed();
@@ -38,7 +38,8 @@ function redo() {
 
 function clearSheet() {
   keepHistory();
-  restore(JSON.stringify([[], sheet.bodies.map(() => ""), drawing.next]));
+  const none = sheet.bodies.map(() => "");
+  restore(JSON.stringify([[], none, drawing.next, none]));
 }
 
 // ---- the draft

@@ -230,11 +230,15 @@ function numberOf(tree, names) {
 // A number as it is typed ("20 N", "-90°", "20 kg*g", "L/2 + 3 cm") as the file has it: units within a formula in brackets.
 // `isName`: is it a quantity that the sheet gives?
 function fileNumber(text, isName) {
-  const units = "(?:kN|N|kg|deg|°|rad|mm|cm|km|m|in|ft|lbf|lb|s)", power = "(?:\\^[0-9])?", typed = text.trim().replace(/·/g, "*");
-  const plain = new RegExp(`^([-+]?[0-9.]+(?:e[-+]?[0-9]+)?)\\s*(${units}${power}(?:[*/]${units}${power})*)?$`).exec(typed);
-  if (plain) return plain[2] ? `${plain[1]} ${plain[2].replace("°", "deg")}` : typed;
-  return typed.replace(new RegExp(`\\b([0-9.]+)\\s*(${units})(?!\\w)`, "g"),
-    (whole, number, name) => (isName(name) ? `${number}*${name}` : `${number}[${name.replace("°", "deg")}]`));
+  const one = "(?:kN|N|kg|deg|rad|mm|cm|km|m|in|ft|lbf|lb|s)(?:\\^[0-9])?", units = `${one}(?:[*/]${one})*(?!\\w)`;
+  const typed = text.trim().replace(/·/g, "*").replace(/([0-9.])\s*°/g, "$1 deg");
+  const plain = new RegExp(`^([-+]?[0-9.]+(?:e[-+]?[0-9]+)?)\\s*(${units})?$`).exec(typed);
+  if (plain) return plain[2] ? `${plain[1]} ${plain[2]}` : typed;
+  return typed.replace(new RegExp(`\\b([0-9.]+)\\s*(${units})`, "g"), (whole, number, found) => {
+    const parts = found.split(/(?=[*/])/), end = parts.findIndex((part) => isName(part.replace(/^[*/]|\^.*/g, "")));
+    if (end === 0) return `${number}*${found}`;
+    return end < 0 ? `${number}[${found}]` : `${number}[${parts.slice(0, end).join("")}]${parts.slice(end).join("")}`;
+  });
 }
 
 // The value of such a number in radians or metres; NaN where it is none of these.
