@@ -109,7 +109,11 @@ check 'of grading: usage' says 'go with --handout' "$FBD_RUN" --grade key.yaml -
 check '--exam without a page: usage' says 'goes with --handout and --page' "$FBD_RUN" --handout --student anna --exam key.yaml
 check 'a solution to draw on: usage' says 'to be drawn on' "$FBD_RUN" --handout --student anna --solution --page sheet.html key.yaml
 check 'a page is not written over the key' says 'over' "$FBD_RUN" --handout --student anna --page ./key.yaml key.yaml
-check 'a page that cannot be written is 1' exits 1 "$FBD_RUN" --handout --student anna --page nowhere/sheet.html key.yaml
+check 'a page that cannot be written is 1' exits 1 "$FBD_RUN" --handout --student anna --page nowhere/sheet.html --exam key.yaml
+check 'and says so' says 'cannot write `nowhere/sheet.html`' "$FBD_RUN" --handout --student anna --page nowhere/sheet.html --exam key.yaml
+check 'a page may go to standard output' sh -c \
+    '"$FBD_RUN" --handout --student anna --page - --exam key.yaml | cmp - sheet.html'
+check 'a page needs a name' says 'student' "$FBD_RUN" --handout --page sheet.html key.yaml
 check 'a page of a key without bodies is 3' exits 3 "$FBD_RUN" --handout --student anna --page none.html list.yaml
 check 'and nothing is written of it' test ! -e none.html
 

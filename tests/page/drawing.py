@@ -364,11 +364,12 @@ def check_inertia(browser, folder):
 
 
 def check_verdict(browser, folder):
-    page = Page(browser, folder, "graded", WHEEL)
+    page = Page(browser, folder, "graded", WHEEL, "--set", "F=25 N", "--set", "m=3 kg")
     with claim("the page gives the verdict of fbd-run"):
         draw_wheel(page)
         browser.run("element('check').click()")
         wait_for(browser, "!element('verdict').hidden")
+        assert "F=25 N" not in browser.run("return fbd.answer()")
         assert "6 of 6" in browser.run("return element('points').textContent")
         page.quiet()
     with claim("and marks what is wrong where it is drawn"):
