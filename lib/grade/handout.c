@@ -134,7 +134,7 @@ static void write_body(const struct handout *handout, const struct pair *body)
         if (!asks_inertia || strcmp(pair->key, "inertia") != 0)
             write_pair(text, 2, pair->key, pair->value);
         else if (handout->open)
-            text_printf(text, "%c%s\n", sheet_inertia, body->key);
+            text_printf(text, "%c%c%s\n", sheet_lists, sheet_hand, body->key);
     }
     if (handout->open)
         text_printf(text, "%c%s\n", hand ? sheet_hand : sheet_lists, body->key);

@@ -18,9 +18,9 @@ struct handout {
     bool scene;       /* with its inertia, even where that is asked: the scene by itself */
 };
 
-/* In an open sheet: what begins the line in the place of the lists, without and with derivations, and of the inertia.
- * The name of the body follows. */
-enum { sheet_lists = '\f', sheet_hand = '\v', sheet_inertia = '\x0e' };
+/* In an open sheet: what begins the line in the place of the lists, without and with derivations; both of them begin that
+ * of the inertia. The name of the body follows. */
+enum { sheet_lists = '\f', sheet_hand = '\v' };
 
 /* Write the sheet. False when memory is out. */
 bool handout_write(struct handout *handout);

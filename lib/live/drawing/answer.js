@@ -46,13 +46,13 @@ function listText(key, entries, from, note) {
 
 // {text, places}: what stands on each line, {entry} or {body, line}.
 function answerOf() {
-  const parts = sheet.sheet.split(/^([\f\v\x0e])(.*)\n/m), places = new Map();
+  const parts = sheet.sheet.split(/^(\f\v|\f|\v)(.*)\n/m), places = new Map();
   let text = parts[0];
   const here = () => text.split("\n").length;
   for (let i = 1; i < parts.length; i += 3) {
     const b = sheet.bodies.findIndex((body) => body.name === parts[i + 1]);
     const own = drawing.entries.filter((entry) => entry.body === b);
-    if (parts[i] === "\x0e") {
+    if (parts[i] === "\f\v") {
       const inertia = fileNumber(drawing.inertia[b], isGiven);
       text += `${inertia ? `    inertia: ${scalar(inertia)}\n` : ""}${parts[i + 2]}`;
       continue;
@@ -68,8 +68,8 @@ function answerOf() {
   return { text, places };
 }
 
-const asksHand = (body) => sheet.sheet.includes(`\v${body.name}\n`);
-const asksInertia = (body) => sheet.sheet.includes(`\x0e${body.name}\n`);
+const asksHand = (body) => sheet.sheet.includes(`\n\v${body.name}\n`);
+const asksInertia = (body) => sheet.sheet.includes(`\f\v${body.name}\n`);
 
 // What the sheet says of a body in one line each: its shape, mass, motion.
 function dataOf(body) {
@@ -88,5 +88,5 @@ const isGiven = (name) => givenValues().some(([other]) => other === name);
 // A given angle or length as a number, for directions and places that name it; NaN for others.
 function givenValue(name) {
   const row = givenValues().find(([other]) => other === name);
-  return row ? valueOf(row[1], () => NaN) : NaN;
+  return row ? amountOf(row[1], () => NaN) : NaN;
 }

@@ -85,7 +85,7 @@ function takeDirection(desk, entry) {
 }
 
 function takeAngle(desk, entry) {
-  const angle = fileNumber(desk.angle.value, isGiven), degrees = valueOf(desk.angle.value, givenValue) * 180 / Math.PI;
+  const angle = fileNumber(desk.angle.value, isGiven), degrees = amountOf(desk.angle.value, givenValue) * 180 / Math.PI;
   desk.angle.setCustomValidity(Number.isFinite(degrees) ? "" : "an angle, as 30 deg");
   if (Number.isFinite(degrees)) entry.direction = { degrees: within(degrees), angle, body: false, other: true };
 }
@@ -96,7 +96,7 @@ function takePoint(desk, entry) {
 }
 
 function takePlace(desk, entry) {
-  const typed = desk.beside.value.split(","), values = typed.map((text) => valueOf(text, givenValue));
+  const typed = desk.beside.value.split(","), values = typed.map((text) => amountOf(text, givenValue));
   const read = values.length === 2 && values.every(Number.isFinite);
   desk.beside.setCustomValidity(read ? "" : "two lengths, as 0.5 m, 0");
   if (read) Object.assign(entry, { typed, point: placeAt(bodyOf(entry), values) });
@@ -261,7 +261,8 @@ function makeDesk(body, b) {
   if (asksInertia(body)) side.append(makeInertia(b));
   if (asksHand(body)) side.append(makeEquations(b));
   const paper = make("div", {}, makeTools(b), desk.board, desk.says);
-  const section = make("section", { className: "body" }, make("h2", {}, body.name), make("p", { className: "data" }, dataOf(body)), make("div", { className: "desk" }, paper, side));
+  const section = make("section", { className: "body" }, make("h2", {}, body.name), make("p", { className: "data" }, dataOf(body)),
+    make("div", { className: "desk" }, paper, side));
   section.setAttribute("aria-label", body.name);
   element("bodies").append(section);
 }

@@ -3,7 +3,8 @@
 // What is drawn: forces and moments as entries, as arrows on the boards, and in words.
 //
 // entry: {id, body, kind: "force" or "moment", name, value, point: index or [x, y] on paper,
-//   typed: [x, y] as texts where the place was typed, direction: {degrees, angle, body} or null where it is unknown, tip: its tip is at the point, length: mm, sense: 1 or -1}
+//   typed: [x, y] as texts where the place was typed, direction: {degrees, angle, body} or null where it is unknown,
+//   tip: its tip is at the point, length: mm, sense: 1 or -1}
 
 const drawing = { entries: [], lines: sheet.bodies.map(() => ""), inertia: sheet.bodies.map(() => ""), next: 1, selected: 0, marks: new Map() };
 const usualLength = 24, headLength = 3.2, arcRadius = 8;
@@ -97,7 +98,8 @@ function labelSpots(entry) {
     return [90, 135, 45, 180, 0, -135].map((degrees) => plus(plus(placeOf(entry), times(arcRadius + 3.5, unitOf(degrees))), [0, 1.2]));
   const [tail, tip] = endsOf(entry), free = entry.tip ? tail : tip, fixed = entry.tip ? tip : tail;
   const out = times(1 / away(tail, tip), minusOf(free, fixed)), side = [-out[1], out[0]];
-  const half = 1.1 * nameOf(entry).length + (drawing.marks.has(entry.id) ? 2 : 0), room = ([x, y]) => 2 + Math.abs(x) * half + Math.abs(y) * 1.6, beside = room(side);
+  const half = 1.1 * nameOf(entry).length + (drawing.marks.has(entry.id) ? 2 : 0);
+  const room = ([x, y]) => 2 + Math.abs(x) * half + Math.abs(y) * 1.6, beside = room(side);
   return [[2, beside], [2, -beside], [-6, beside], [-6, -beside], [room(out), 0]]
     .map(([a, b]) => plus(plus(free, times(a, out)), plus(times(b, side), [0, 1.2])));
 }

@@ -242,7 +242,7 @@ function fileNumber(text, isName) {
 }
 
 // The value of such a number in radians or metres; NaN where it is none of these.
-function valueOf(text, names) {
+function amountOf(text, names) {
   const tree = treeOf(fileNumber(text, (name) => !Number.isNaN(names(name))).replace(/^([-+0-9.e]+) (\w+)$/, "$1[$2]"));
   return tree ? numberOf(tree, names) : NaN;
 }
