@@ -49,7 +49,7 @@ static bool compile_sheet(struct drawing_page *page, fbd_errors *errors)
     fbd_errors *others = fbd_errors_new(); /* its warnings are for the author of the key, who has been told */
     if (others && write_sheet(page, &plain, false))
         page->sheet = fbd_model_parse(plain.data, plain.length, page->key->file, NULL, 0, others);
-    const fbd_error *error = page->sheet ? NULL : first_error(others);
+    const fbd_error *error = page->sheet || !others || others->out_of_memory ? NULL : first_error(others);
     if (error)
         diag_add(
             errors, FBD_ERROR, "no-sheet", (struct pos){0, 0},
