@@ -1082,7 +1082,7 @@ typedef struct fbd_live_options {
 } fbd_live_options;
 
 /* As fbd_result_html, with the library itself and the text of the model in it: the page has sliders, an editor and
- * checkboxes, and runs anew whenever something moves. At most 1.5 MB. NULL with a note in `errors`: `no-live` where the
+ * checkboxes, and runs anew whenever something moves. At most 2 MB. NULL with a note in `errors`: `no-live` where the
  * library was built without it, `cannot-read` for the data file of a table, and those of fbd_result_html. */
 FBD_API char *fbd_result_live_html(fbd_result *result, const fbd_live_options *options, fbd_errors *errors);
 

@@ -15,7 +15,7 @@
 #include "record/result.h"
 
 /* What the page may have in all; what is not its numbers takes some 900 KB, and base 64 four bytes for three. */
-enum { most_page_bytes = 1500000, most_script_bytes = 260000 };
+enum { most_page_bytes = 2000000, most_script_bytes = 260000 };
 
 struct live_page {
     struct text parts; /* the model, and the texts of the worker */
