@@ -72,6 +72,8 @@ const char options_help_without_run[] =
     "  --student NAME       whose answer it is, where values are drawn (default: the name of its file)\n"
     "  --details            with the names of the key's forces, for the teacher\n"
     "  --handout            print the sheet of the key MODEL.yaml; with --solution filled in\n"
+    "  --page FILE          with --handout: as an HTML page to draw on, which checks what is drawn\n"
+    "  --exam               with --page: without the key in it, an answer to hand in\n"
     "\n"
     "About the program\n"
     "  --schema             the model language as JSON Schema, for editors\n"
