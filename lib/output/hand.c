@@ -236,11 +236,10 @@ double hand_lack_at(const struct fbd_state *state, int b, int index, double *siz
     return lack;
 }
 
-/* Draw states of one model and sample every one that is admissible and moves (a body at rest has no equation
+/* Draw states of one model and visit every one that is admissible and moves (a body at rest has no equation
  * of motion). */
-static bool sample_model(struct hand_check *check, const fbd_model *model, gsl_rng *rng)
+static bool visit_model(const fbd_model *model, gsl_rng *rng, hand_visit *visit, void *context)
 {
-    const struct hand *hand = &model->scene->bodies[check->body].hands[check->index];
     struct fbd_state *state = state_new(model);
     size_t n = (size_t)model->plan.n, extended = hand_room(model);
     double *y = calloc(extended + random_path_room(model), sizeof *y);
@@ -249,17 +248,41 @@ static bool sample_model(struct hand_check *check, const fbd_model *model, gsl_r
     struct hand_named named;
     if (state && model->assembles) state_project(state, true);
     if (y && state) memcpy(path.y, state->y, n * sizeof *y);
-    bool done = state && y && hand_named_find(model, &arena, &named);
+    bool done = state && y && hand_named_find(model, &arena, &named), first = true;
     for (int i = 0; done && i < states_of_a_draw; i++)
-        for (int k = 0; k < tries_of_a_state && check->count < most_samples; k++) {
+        for (int k = 0; k < tries_of_a_state; k++) {
             if (!random_state(rng, state, &path) || !random_admissible(state)) continue;
-            take_sample(check, hand, &named, state, y);
+            done = visit(context, state, &named, y, first);
+            first = false;
             break;
         }
     free(y);
     state_free(state);
     arena_free(&arena);
     return done;
+}
+
+bool hand_each_state(const struct hand_check *check, gsl_rng *rng, hand_visit *visit, void *context)
+{
+    if (!visit_model(check->model, rng, visit, context)) return false;
+    for (int draw = 1; draw < parameter_draws; draw++) {
+        fbd_model *changed;
+        bool done = random_model(&check->document, check->model, rng, check->spread, &changed) &&
+                    (!changed || visit_model(changed, rng, visit, context));
+        model_free(changed);
+        if (!done) return false;
+    }
+    return true;
+}
+
+static bool visit_sample(void *context, struct fbd_state *state, const struct hand_named *named, double *y,
+                         bool first)
+{
+    (void)first;
+    struct hand_check *check = context;
+    const struct hand *hand = &state->model->scene->bodies[check->body].hands[check->index];
+    if (check->count < most_samples) take_sample(check, hand, named, state, y);
+    return true;
 }
 
 /* ---- the verdict */
@@ -338,15 +361,10 @@ bool hand_take_samples(struct hand_check *check, const struct document *document
     check->says = 0;
     check->open_force[0] = '\0';
     check->no_memory = false;
-    if (!sample_model(check, check->model, rng)) return false;
-    for (int draw = 1; draw < parameter_draws; draw++) {
-        fbd_model *changed;
-        bool done = random_model(document, check->model, rng, spread, &changed) &&
-                    (!changed || sample_model(check, changed, rng));
-        model_free(changed);
-        if (!done) return false;
-    }
-    return !check->no_memory;
+    check->document = *document;
+    check->spread = spread;
+    check->rng = rng;
+    return hand_each_state(check, rng, visit_sample, check) && !check->no_memory;
 }
 
 /* Check one equation; 1 differs, 0 agrees, -1 out of memory. */

@@ -69,19 +69,30 @@ struct hand_check {
     int open_body; /* a force in it that the equations do not determine, */
     char open_force[128]; /* empty where it is the normal force of a surface */
     bool no_memory;
+    struct document document; /* of which the states were drawn, */
+    double spread;
+    gsl_rng *rng;
     size_t count;
     struct hand_sample *samples;     /* most_samples */
     bool accelerates[most_summands]; /* this summand is (part of) the left side I a */
 };
+
+struct hand_named;
 
 /* Sample the equation at random states of the model and of eleven others, whose parameters differ by up to `spread`.
  * False when memory is out. */
 bool hand_take_samples(struct hand_check *check, const struct document *document, gsl_rng *rng,
                        double spread);
 
+/* Visit one admissible state: `y` has hand_room places; `first`: of its model. False ends it. */
+typedef bool hand_visit(void *context, struct fbd_state *state, const struct hand_named *named, double *y,
+                        bool first);
+
+/* Draw states of check->model and of eleven others, as above, and visit each. False when memory is out. */
+bool hand_each_state(const struct hand_check *check, gsl_rng *rng, hand_visit *visit, void *context);
+
 /* What a derivation of body b evaluates over: the state and what else it may name, see enum hand_slot. */
 size_t hand_room(const struct fbd_model *model);
-struct hand_named;
 void hand_extend(const struct fbd_state *state, int b, const struct hand_named *named, double *y);
 
 /* Does a line change with how the state's load is shared where the equations do not tell? `size`: of what it adds up.
@@ -100,6 +111,10 @@ double hand_lack_at(const struct fbd_state *state, int body, int index, double *
 /* Say in which term the samples that have slip `slip` differ from the assembly, or that no single term
  * explains it. */
 void hand_diagnose(const struct hand_check *check, int slip, struct text *text);
+
+/* Say by which slip of the pen a line differs: the first that explains it at all states that have slip `slip`
+ * (hand_blame.c). False where none does. */
+bool hand_blame(const struct hand_check *check, int slip, struct text *text);
 
 /* The same by comparing the equation's own summands with the terms, one by one; false when that tells
  * nothing.
