@@ -45,7 +45,8 @@ static void count_samples(const struct hand_check *check, double tolerance, stru
         int slip = sample->slip + 1;
         line->seen[slip]++;
         double size = tolerance > 1e-6 ? sample->mechanics : sample->size; /* rounding, or rounded numbers */
-        line->agreed[slip] += isfinite(size) && fabs(sample->lack) <= tolerance * size;
+        line->agreed[slip] +=
+            !check->elsewhere[0] && isfinite(size) && fabs(sample->lack) <= tolerance * size;
     }
 }
 

@@ -333,6 +333,10 @@ static bool write_verdict(const struct hand_check *check, struct text *text)
         return false;
     }
     if (write_open(check, text)) return false;
+    if (check->elsewhere[0]) {
+        hand_diagnose(check, 0, text);
+        return false;
+    }
     if (agree == states) {
         text_printf(text, "  agrees at %zu random states (worst difference %.1e of the terms)\n", states,
                     worst);
@@ -364,7 +368,11 @@ bool hand_take_samples(struct hand_check *check, const struct document *document
     check->document = *document;
     check->spread = spread;
     check->rng = rng;
-    return hand_each_state(check, rng, visit_sample, check) && !check->no_memory;
+    check->elsewhere[0] = '\0';
+    if (!hand_each_state(check, rng, visit_sample, check) || check->no_memory) return false;
+    bool any = false;
+    for (size_t i = 0; i < check->count; i++) any = any || agrees(&check->samples[i]);
+    return !any || hand_find_point(check);
 }
 
 /* Check one equation; 1 differs, 0 agrees, -1 out of memory. */

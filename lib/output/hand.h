@@ -69,6 +69,7 @@ struct hand_check {
     int open_body; /* a force in it that the equations do not determine, */
     char open_force[128]; /* empty where it is the normal force of a surface */
     bool no_memory;
+    char elsewhere[64]; /* the point about which a true line has moments, where it says another; else "" */
     struct document document; /* of which the states were drawn, */
     double spread;
     gsl_rng *rng;
@@ -115,6 +116,9 @@ void hand_diagnose(const struct hand_check *check, int slip, struct text *text);
 /* Say by which slip of the pen a line differs: the first that explains it at all states that have slip `slip`
  * (hand_blame.c). False where none does. */
 bool hand_blame(const struct hand_check *check, int slip, struct text *text);
+
+/* Set check->elsewhere of a line that says about which point it has moments. False when memory is out. */
+bool hand_find_point(struct hand_check *check);
 
 /* The same by comparing the equation's own summands with the terms, one by one; false when that tells
  * nothing.

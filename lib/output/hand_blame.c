@@ -270,7 +270,10 @@ static void say_force(const struct inquiry *inquiry, const struct suspect *s, st
 static void say_point(const struct inquiry *inquiry, const struct suspect *s, struct text *text)
 {
     const struct place_of *places = inquiry->look.places;
-    if (s->kind == suspect_place && inquiry->look.about) {
+    if (s->kind == suspect_place && inquiry->look.about && s->which == 0) {
+        text_printf(text, "  wrong point: the inertia is that about `%s`, not about `%s`\n",
+                    places[s->other].name, places[0].name);
+    } else if (s->kind == suspect_place && inquiry->look.about) {
         text_printf(text, "  wrong point: the arms are those about `%s`, not about `%s`\n",
                     places[s->which].name, places[0].name);
     } else if (s->kind == suspect_place) {

@@ -217,11 +217,20 @@ static bool inertia_is_right(const struct hand_check *check, int slip)
 
 void hand_diagnose(const struct hand_check *check, int slip, struct text *text)
 {
+    const struct hand *hand = &check->model->scene->bodies[check->body].hands[check->index];
+    if (check->elsewhere[0]) {
+        text_printf(text,
+                    "  wrong point: it is true, but the equation of moments about `%s`, not about `%s`\n",
+                    check->elsewhere, hand->about_name);
+        return;
+    }
     /* An equation for N is one across the line: the terms, which act along it, say nothing of it. */
     bool across = check->part < 0 && check->says & 1U << hand_N;
     bool found = !across && !(check->says & (unsigned)hand_named_forces) && !inertia_is_right(check, slip) &&
                  blame_inertia(check, slip, text);
-    const bool named = (check->says & (unsigned)hand_named_forces) != 0;
+    /* Terms are those along the coordinate of a body by itself. */
+    const bool named =
+        (check->says & (unsigned)hand_named_forces) != 0 || check->model->bodies[check->body].place.link > 0;
     if (!found && !across && !named) found = blame_term(check, slip, text) || hand_match(check, slip, text);
     if (!found) found = hand_blame(check, slip, text);
     if (!found) text_add(text, "  no single term explains the difference\n");

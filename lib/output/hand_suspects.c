@@ -361,8 +361,8 @@ struct suspect *suspects_list(const struct suspects_look *look, struct arena *ar
     add_letters(look, &listing);
     add_terms(look, &listing);
     for (size_t p = 0; p < look->place_count; p++)
-        for (size_t q = 0; q < (look->about ? 1 : look->place_count); q++)
-            if (p != q) add(&listing, suspect_place, p, q, 0, false);
+        for (size_t q = 0; q < look->place_count; q++)
+            if (p != q && (p == 0 || q == 0 || !look->about)) add(&listing, suspect_place, p, q, 0, false);
     *count = listing.count;
     return listing.list;
 }
@@ -448,6 +448,30 @@ double suspect_value(const struct suspects_look *look, const struct suspect *sus
     }
     const struct vec arm = vec_sub(look->places[suspect->other].p, look->places[n].p);
     return factor_as(look, look->factor_of_arms[n]) * cross(arm, look->m_a);
+}
+
+bool suspects_is_about(const struct suspects_look *look, size_t place)
+{
+    const int equation = equation_moment + (int)place;
+    const double factor = look->factor_of_arms[place], rounding = 1e-9;
+    double arm = 0, force = 0;
+    for (size_t i = 0; i < look->arrow_count; i++) {
+        force = fmax(force, vec_norm(look->arrows[i].force));
+        arm = fmax(arm, vec_norm(vec_sub(look->arrows[i].point, look->places[place].p)));
+    }
+    for (size_t n = 0; n < look->letter_count; n++) {
+        double sign;
+        const struct hand_force *one = force_of(look, &look->letters[n], &sign);
+        if (!one || one->part == hand_force_at_x || one->part == hand_force_at_y) continue;
+        const double coefficient =
+            sign * factor * coefficient_of(look, one, sign * look->y[look->letters[n].slot], equation);
+        if (!(fabs(look->slope[n] - coefficient) <= 1e-6 * fabs(look->slope[n]))) return false;
+    }
+    for (size_t i = 0; i < look->arrow_count; i++)
+        if (arrow_is_reaction(look->model, &look->arrows[i]) && !suspects_name(look, i) &&
+            fabs(term_of(look, &look->arrows[i], equation)) > rounding * force * arm)
+            return false;
+    return true;
 }
 
 bool suspects_name(const struct suspects_look *look, size_t arrow)

@@ -104,6 +104,10 @@ struct suspect *suspects_list(const struct suspects_look *look, struct arena *ar
 /* V, NAN where it has none. */
 double suspect_value(const struct suspects_look *look, const struct suspect *suspect);
 
+/* Is the line the equation of moments about place k, times some factor? Its names of forces have the coefficients of that, and
+ * no reaction with a moment about it is left out. */
+bool suspects_is_about(const struct suspects_look *look, size_t place);
+
 /* Is the force of arrow i named in the line, or written out as a summand? */
 bool suspects_name(const struct suspects_look *look, size_t arrow);
 
