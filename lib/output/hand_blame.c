@@ -282,7 +282,10 @@ static void say_point(const struct inquiry *inquiry, const struct suspect *s, st
     } else {
         text_add(text, "  wrong point: `");
         add_letter(inquiry, s->which, text);
-        text_printf(text, "` stands where that of `%s` belongs\n", places[s->other].name);
+        text_printf(text,
+                    s->kind == suspect_inertia ? "` stands where `I_%s` belongs\n"
+                                               : "` stands where that of `%s` belongs\n",
+                    places[s->other].name);
     }
 }
 

@@ -82,7 +82,7 @@ static const struct {
     {"bar", "left", I_LEFT_TERMS " = -" WEIGHT, "the moment of `wrist` about `left` is missing"},
     {"bar", "left",
      "I_G*angle_ddot + m*B/2*(cos(angle)*left.a_y - sin(angle)*left.a_x) = -" WEIGHT " + " WRIST,
-     "wrong point: `I_G` stands where that of `O` belongs"},
+     "wrong point: `I_G` stands where `I_O` belongs"},
     {"bar", "left", "I_left*angle_ddot + m*B/2*(cos(angle)*a_y - sin(angle)*a_x) = -" WEIGHT " + " WRIST,
      "belongs"},
     {"bar", "left", I_LEFT_TERMS " = -" WEIGHT " + B*cos(angle)*pin.y - B*sin(angle)*wrist.x",
