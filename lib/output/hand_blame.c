@@ -125,6 +125,12 @@ static bool is_alike(const struct inquiry *inquiry, const struct suspect *s)
     return forces->list[s->other].name.letter == (!own || is_letter(forces, own->force));
 }
 
+static bool is_other_term(const struct inquiry *inquiry, const struct suspect *s)
+{
+    (void)inquiry;
+    return s->kind == suspect_exchange && is(s->k, 1);
+}
+
 static bool is_other_point(const struct inquiry *inquiry, const struct suspect *s)
 {
     (void)inquiry;
@@ -147,8 +153,8 @@ static bool is_factor_of_term(const struct inquiry *inquiry, const struct suspec
 typedef bool suspect_test(const struct inquiry *inquiry, const struct suspect *suspect);
 
 static suspect_test *const order[] = {
-    is_wrong_sign, is_missing,     is_alike,  is_other_force,    is_part_missing,
-    is_wrong_term, is_other_point, is_factor, is_factor_of_term,
+    is_wrong_sign, is_missing,    is_alike,       is_other_force, is_part_missing,
+    is_wrong_term, is_other_term, is_other_point, is_factor,      is_factor_of_term,
 };
 
 static const struct suspect *first_suspect(const struct inquiry *inquiry)
@@ -295,9 +301,15 @@ static void say_term(const struct inquiry *inquiry, const struct suspect *s, str
                                         "component along the motion", "component across the motion"};
     const struct suspects_look *look = &inquiry->look;
     const bool moment = s->equation >= equation_moment;
-    text_printf(text, "  the %s of `%s%s`", moment ? "moment" : along[s->equation],
-                look->arrows[s->which].name, s->kind == suspect_part ? (s->upright ? ".y" : ".x") : "");
+    text_printf(text,
+                s->kind == suspect_exchange ? "  wrong reaction: the %s of `%s%s`" : "  the %s of `%s%s`",
+                moment ? "moment" : along[s->equation], look->arrows[s->which].name,
+                s->kind == suspect_part ? (s->upright ? ".y" : ".x") : "");
     if (moment) text_printf(text, " about `%s`", look->places[s->equation - equation_moment].name);
+    if (s->kind == suspect_exchange) {
+        text_printf(text, " stands where that of `%s` belongs\n", look->arrows[s->other].name);
+        return;
+    }
     if (is(s->k, -1))
         text_add(text, " is missing\n");
     else if (is(s->k, -2))
@@ -316,6 +328,7 @@ static void say(const struct inquiry *inquiry, const struct suspect *s, struct t
     case suspect_acceleration:
     case suspect_place: say_point(inquiry, s, text); break;
     case suspect_term:
+    case suspect_exchange:
     case suspect_part: say_term(inquiry, s, text); break;
     }
 }

@@ -336,17 +336,24 @@ static void find_kinds(const struct suspects_look *look, bool *forces, bool *mom
     *moments = !dim_equal(own, force);
 }
 
+/* The terms of an arrow in an equation, and those of others that may stand in its place. */
+static void add_term(const struct suspects_look *look, struct listing *listing, size_t i, int equation)
+{
+    add(listing, suspect_term, i, 0, equation, false);
+    if (equation >= equation_moment) add(listing, suspect_part, i, 0, equation, true);
+    if (equation >= equation_moment) add(listing, suspect_part, i, 0, equation, false);
+    for (size_t j = 0; j < look->arrow_count; j++)
+        if (j != i) add(listing, suspect_exchange, i, j, equation, false);
+}
+
 static void add_terms(const struct suspects_look *look, struct listing *listing)
 {
     bool forces, moments;
     find_kinds(look, &forces, &moments);
     for (size_t i = 0; i < look->arrow_count; i++) {
-        for (int k = 0; k < equation_moment && forces; k++) add(listing, suspect_term, i, 0, k, false);
-        for (int k = 0; moments && k < (int)look->place_count && (k == 0 || !look->about); k++) {
-            add(listing, suspect_term, i, 0, equation_moment + k, false);
-            add(listing, suspect_part, i, 0, equation_moment + k, true);
-            add(listing, suspect_part, i, 0, equation_moment + k, false);
-        }
+        for (int k = 0; k < equation_moment && forces; k++) add_term(look, listing, i, k);
+        for (int k = 0; moments && k < (int)look->place_count && (k == 0 || !look->about); k++)
+            add_term(look, listing, i, equation_moment + k);
     }
 }
 
@@ -354,7 +361,7 @@ struct suspect *suspects_list(const struct suspects_look *look, struct arena *ar
 {
     struct listing listing = {.room = look->hand->summand_count};
     listing.room += look->letter_count * (1 + look->forces.count + 2 * look->place_count);
-    listing.room += look->arrow_count * (equation_moment + 3 * look->place_count);
+    listing.room += look->arrow_count * (equation_moment + look->place_count) * (3 + look->arrow_count);
     listing.room += look->place_count * look->place_count + 1;
     listing.list = ARENA_ARRAY(arena, listing.room, struct suspect);
     for (size_t j = 0; j < look->hand->summand_count; j++) add(&listing, suspect_summand, j, 0, 0, false);
@@ -421,7 +428,14 @@ static double term_value(const struct suspects_look *look, const struct suspect 
     const struct arrow *arrow = &look->arrows[suspect->which];
     const double factor = factor_as(look, look->factor[suspect->equation]);
     const struct vec F = arrow->force, part = suspect->upright ? (struct vec){0, F.y} : (struct vec){F.x, 0};
-    if (suspect->kind == suspect_term) return factor * term_of(look, arrow, suspect->equation);
+    const double term = term_of(look, arrow, suspect->equation);
+    if (suspect->kind == suspect_exchange) {
+        const double other = term_of(look, &look->arrows[suspect->other], suspect->equation);
+        return fmin(fabs(term), fabs(other)) <= 1e-9 * fmax(fabs(term), fabs(other))
+                   ? NAN
+                   : factor * (term - other);
+    }
+    if (suspect->kind == suspect_term) return factor * term;
     return factor * part_along(look, part, arrow->point, 0, suspect->equation);
 }
 
@@ -443,6 +457,7 @@ double suspect_value(const struct suspects_look *look, const struct suspect *sus
     case suspect_inertia: return change_by(look, n, I_about(look, look->places[suspect->other].frame));
     case suspect_acceleration: return change_of_point(look, suspect);
     case suspect_term:
+    case suspect_exchange:
     case suspect_part: return term_value(look, suspect);
     case suspect_place: break;
     }

@@ -10,6 +10,7 @@
  *     a name in the place of another   what the line changes by when the other one is put there: k = 1
  *     a term of the body's equation    the component or moment of an arrow of its diagram, times what the line has been
  *                                      multiplied by: k = -1 where it is missing, -2 with the wrong sign
+ *     a term in the place of another   the difference of the two: k = 1
  *     moments about another point      (P - Q) x m a_G: k = 1 when the arms are from P, and the inertia is about Q
  *
  * By what a line has been multiplied, the coefficients of the names in it tell: most of them.
@@ -55,6 +56,7 @@ struct suspect {
         suspect_acceleration, /* of another point */
         suspect_term,
         suspect_part, /* of a term that is a moment: that of one component */
+        suspect_exchange, /* the term of another arrow in the place of one */
         suspect_place,
     } kind;
     size_t which; /* summand, letter, arrow, or place of the arms */
