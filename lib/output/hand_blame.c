@@ -39,7 +39,10 @@ static bool holds(const struct suspects_look *look, struct suspect *suspect)
         if (fabs(V) <= large) return fabs(lack) <= 1e3 * large;
         suspect->k = lack / V;
     }
-    suspect->seen += fabs(V) > tolerance * look->size;
+    if (fabs(V) > tolerance * look->size && suspect_shows(look, suspect)) {
+        if (suspect_contradicted(look, suspect)) return false;
+        suspect->seen++;
+    }
     return fabs(lack - suspect->k * V) <= tolerance * (look->size + fabs(suspect->k * V));
 }
 
@@ -154,7 +157,7 @@ typedef bool suspect_test(const struct inquiry *inquiry, const struct suspect *s
 
 static suspect_test *const order[] = {
     is_wrong_sign, is_missing,    is_alike,       is_other_force, is_part_missing,
-    is_wrong_term, is_other_term, is_other_point, is_factor,      is_factor_of_term,
+    is_other_term, is_wrong_term, is_other_point, is_factor,      is_factor_of_term,
 };
 
 static const struct suspect *first_suspect(const struct inquiry *inquiry)

@@ -229,8 +229,8 @@ void hand_diagnose(const struct hand_check *check, int slip, struct text *text)
     bool found = !across && !(check->says & (unsigned)hand_named_forces) && !inertia_is_right(check, slip) &&
                  blame_inertia(check, slip, text);
     /* Terms are those along the coordinate of a body by itself. */
-    const bool named =
-        (check->says & (unsigned)hand_named_forces) != 0 || check->model->bodies[check->body].place.link > 0;
+    const bool named = (check->says & ((unsigned)hand_named_forces | (unsigned)hand_others)) != 0 ||
+                       check->model->bodies[check->body].place.link > 0;
     if (!found && !across && !named) found = blame_term(check, slip, text) || hand_match(check, slip, text);
     if (!found) found = hand_blame(check, slip, text);
     if (!found) text_add(text, "  no single term explains the difference\n");

@@ -55,7 +55,7 @@ struct suspect {
         suspect_inertia,      /* the moment of inertia about another point */
         suspect_acceleration, /* of another point */
         suspect_term,
-        suspect_part, /* of a term that is a moment: that of one component */
+        suspect_part,     /* of a term that is a moment: that of one component */
         suspect_exchange, /* the term of another arrow in the place of one */
         suspect_place,
     } kind;
@@ -105,6 +105,12 @@ struct suspect *suspects_list(const struct suspects_look *look, struct arena *ar
 
 /* V, NAN where it has none. */
 double suspect_value(const struct suspects_look *look, const struct suspect *suspect);
+
+/* Does a state tell anything of it? Not where one of two forces that are exchanged is zero, or a summand is all of the line. */
+bool suspect_shows(const struct suspects_look *look, const struct suspect *suspect);
+
+/* Do names in the line have the right coefficients that would have wrong ones by this slip? */
+bool suspect_contradicted(const struct suspects_look *look, const struct suspect *suspect);
 
 /* Is the line the equation of moments about place k, times some factor? Its names of forces have the coefficients of that, and
  * no reaction with a moment about it is left out. */
