@@ -34,7 +34,7 @@ static bool is(double a, double b)
 static bool holds(const struct suspects_look *look, struct suspect *suspect)
 {
     const double V = suspect_value(look, suspect), lack = look->lack, large = 1e-3 * look->size;
-    if (!isfinite(V)) return false;
+    if (!isfinite(V)) return fabs(lack) <= tolerance * look->size; /* a slack rope has no direction */
     if (isnan(suspect->k)) {
         if (fabs(V) <= large) return fabs(lack) <= 1e3 * large;
         suspect->k = lack / V;
