@@ -174,6 +174,9 @@ static void take_sample(struct hand_check *check, const struct hand *hand, const
     double added = 0;
     const unsigned says = depends_on(hand, model, named, state->t, y, &added);
     check->says |= says;
+    double form[hand_unknowns];
+    hand_form_at(state, check->body, check->index, named, y, form);
+    for (int k = 0; k < hand_unknowns; k++) check->unknowns |= form[k] != 0 ? 1ULL << k : 0;
     double slope = 0, scale = 1;
     /* Several unknowns in one equation: side against side. */
     bool jointed =
@@ -217,7 +220,7 @@ static void take_sample(struct hand_check *check, const struct hand *hand, const
     check->samples[check->count++] = sample;
 }
 
-double hand_lack_at(const struct fbd_state *state, int b, int index, double *size)
+double hand_lack_at(const struct fbd_state *state, int b, int index, double *size, double *form)
 {
     const struct fbd_model *model = state->model;
     const struct hand *hand = &model->scene->bodies[b].hands[index];
@@ -227,6 +230,7 @@ double hand_lack_at(const struct fbd_state *state, int b, int index, double *siz
     *size = 0;
     if (y && hand_named_find(model, &arena, &named)) {
         hand_extend(state, b, &named, y);
+        if (form) hand_form_at(state, b, index, &named, y, form);
         lack = expr_eval(hand->left, state->t, y, NULL) - expr_eval(hand->right, state->t, y, NULL);
         for (size_t j = 0; j < hand->summand_count; j++)
             *size += fabs(expr_eval(hand->summands[j].expr, state->t, y, NULL));
@@ -363,6 +367,7 @@ bool hand_take_samples(struct hand_check *check, const struct document *document
     check->count = 0;
     check->part = -1;
     check->says = 0;
+    check->unknowns = 0;
     check->open_force[0] = '\0';
     check->no_memory = false;
     check->document = *document;
