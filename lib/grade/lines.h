@@ -132,6 +132,12 @@ const struct node *line_over_parameters(struct fbd_grade *grade, const struct no
 const struct node *coordinates_of_sheet(struct fbd_grade *grade, const struct node *answer,
                                         const struct node *hand, const char *body);
 
+/* Find how derivations name the reactions that are drawn rightly and unknown; and these names as `symbols` of a body, or NULL for
+ * none (drawn_forces.c). */
+void drawn_find_forces(struct fbd_grade *grade);
+const struct node *drawn_symbols(struct fbd_grade *grade, const struct node *answer, const char *body,
+                                 struct pos at);
+
 /* Is this a name that an answer must not define? */
 bool name_is_of_equations(const char *name);
 
