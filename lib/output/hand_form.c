@@ -70,9 +70,10 @@ void hand_form_at(const struct fbd_state *state, int b, int index, const struct 
         expr_eval_slot(hand->right, state->t, y, 1 + first + k, NULL, &right);
         const double slope = left - right;
         if (fabs(slope) <= 1e-9 * (fabs(left) + fabs(right))) continue;
-        if (k == hand_N) add_normal(state, b, named->arrows, slope, form);
-        if (k == hand_N) continue;
-        if (kind != absolute_force) form[k < hand_mass ? k : most_coordinates_of_a_body] += slope;
+        if (k == hand_N)
+            add_normal(state, b, named->arrows, slope, form);
+        else if (kind != absolute_force)
+            form[k < hand_mass ? k : most_coordinates_of_a_body] += slope;
         const struct hand_sum *sum = kind == absolute_force ? &named->of[k - hand_slots] : NULL;
         for (size_t i = 0; sum && i < sum->count; i++)
             add_named(state, sum->forces[i], named->arrows, slope * sum->signs[i], form);

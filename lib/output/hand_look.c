@@ -251,6 +251,17 @@ static double find_factor(const struct suspects_look *look, int equation, bool a
     return most_votes(&votes);
 }
 
+bool look_inertia_fits(const struct suspects_look *look, int equation, double factor)
+{
+    struct votes votes = {.count = 0};
+    for (size_t n = 0; n < look->letter_count && factor != 0; n++)
+        if (look->letters[n].kind == letter_acceleration && look->slope[n] != 0)
+            vote_by_inertia(look, &look->letters[n], look->slope[n], equation, &votes);
+    for (size_t i = 0; i < votes.count; i++)
+        if (fabs(votes.of[i] - factor) <= 1e-6 * fabs(factor)) return true;
+    return votes.count == 0;
+}
+
 /* ---- looking */
 
 static bool open_model(struct suspects_look *look, const struct fbd_model *model)

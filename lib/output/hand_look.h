@@ -28,4 +28,8 @@ double look_term(const struct suspects_look *look, const struct arrow *arrow, in
 double look_coefficient(const struct suspects_look *look, const struct hand_force *force, double value,
                         int equation);
 
+/* Has the angular acceleration, where the line has it, the coefficient that it has in an equation that was multiplied by `factor`
+ * (0: nothing is known of that)? */
+bool look_inertia_fits(const struct suspects_look *look, int equation, double factor);
+
 #endif

@@ -59,8 +59,8 @@ static void find_kinds(const struct suspects_look *look, bool *forces, bool *mom
 static void add_term(const struct suspects_look *look, struct listing *listing, size_t i, int equation)
 {
     add(listing, suspect_term, i, 0, equation, false);
-    if (equation >= equation_moment) add(listing, suspect_part, i, 0, equation, true);
-    if (equation >= equation_moment) add(listing, suspect_part, i, 0, equation, false);
+    for (int upright = 0; upright < 2 && equation >= equation_moment; upright++)
+        add(listing, suspect_part, i, 0, equation, upright != 0);
     for (size_t j = 0; j < look->arrow_count; j++)
         if (j != i) add(listing, suspect_exchange, i, j, equation, false);
 }
@@ -239,6 +239,7 @@ bool suspects_is_about(const struct suspects_look *look, size_t place)
     const int equation = equation_moment + (int)place;
     const double factor = look->factor_of_arms[place], rounding = 1e-9;
     double arm = 0, force = 0;
+    if (!look_inertia_fits(look, equation, factor)) return false;
     for (size_t i = 0; i < look->arrow_count; i++) {
         force = fmax(force, vec_norm(look->arrows[i].force));
         arm = fmax(arm, vec_norm(vec_sub(look->arrows[i].point, look->places[place].p)));

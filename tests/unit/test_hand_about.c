@@ -139,11 +139,52 @@ static void a_point_that_is_not_there(void **unused)
     fbd_errors_free(errors);
 }
 
+/* Of two lines of a key, by the reactions that they name. */
+static void reactions_count_by_themselves(void **unused)
+{
+    (void)unused;
+    static const struct {
+        const char *hand;
+        double points;
+    } answers[] = {
+        {"['I_G*alpha = L*(R_x*sin(theta) - R_y*cos(theta))', 'R_x = m*a_x', 'R_y = m*g + m*a_y']", 3},
+        {"['m*a_x - R_x = 0', 'R_y - m*g = m*a_y']", 2},
+        {"['R_x = m*a_x', '2*R_x = 2*m*a_x']", 1},
+        {"['R_x = m*a_y', 'R_y = m*g + m*a_y']", 1},
+        {"{about: G, equation: 'I_G*alpha = L*(R_x*sin(theta) - R_y*cos(theta))'}", 1},
+        {"{about: right, equation: 'I_G*alpha = L*(R_x*sin(theta) - R_y*cos(theta))'}", 0},
+    };
+    static const char scene[] = "fbd: 1\n"
+                                "grading: {reactions: none, points: {force: 0, derivation: 1}}\n"
+                                "bodies:\n"
+                                "  rod:\n"
+                                "    {shape: rod, mass: 2 kg, length: 0.8 m, initial: {theta: 40 deg},\n"
+                                "     motion: {pivot: {at: [0, 0], point: left}}, forces: [gravity],\n"
+                                "     hand: %s}\n"
+                                "simulate: {until: 1 s}\n";
+    char text[1200];
+    snprintf(text, sizeof text, scene, answers[0].hand);
+    fbd_errors *errors = fbd_errors_new();
+    fbd_key *key = fbd_key_parse(text, strlen(text), "key.yaml", NULL, 0, errors);
+    assert_non_null(key);
+    for (size_t i = 0; i < sizeof answers / sizeof *answers; i++) {
+        snprintf(text, sizeof text, scene, answers[i].hand);
+        fbd_grade *grade = fbd_grade_parse(key, text, strlen(text), "anna", errors);
+        assert_non_null(grade);
+        if (fbd_grade_points(grade) != answers[i].points) print_error("%s\n", answers[i].hand);
+        assert_true(fbd_grade_points(grade) == answers[i].points);
+        fbd_grade_free(grade);
+    }
+    fbd_key_free(key);
+    fbd_errors_free(errors);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(moments_about_a_point),
         cmocka_unit_test(a_point_that_is_not_there),
+        cmocka_unit_test(reactions_count_by_themselves),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
