@@ -95,6 +95,10 @@ static void add_word(const struct rewriting *rewriting, struct text *text, const
 {
     const char *dot = memchr(word, '.', length);
     const struct drawn *drawn = dot ? NULL : find_drawn(rewriting, word, length);
+    if (drawn && drawn->force && !rewriting->varied) {
+        text_add_bytes(text, word, length); /* one of the symbols */
+        return;
+    }
     if (drawn) {
         text_add(text, rewriting->varied && drawn->parameter ? drawn->parameter : drawn->value);
         return;

@@ -45,6 +45,9 @@ struct drawn {
     bool minus;                       /* unknown: drawn against its direction */
     double size;                      /* of a reaction that is right: its value at the start; else NAN */
     const char *parameter, *unit;     /* of that, where it is varied (statics.c) */
+    const char *reaction;             /* that of the key, where it is this one alone; else NULL, */
+    struct vec along;                 /* its direction; (0, 0) of a moment, */
+    const char *force;                /* and as derivations name it, with a sign: `-pin.x`; else NULL */
     struct drawn *next;
 };
 

@@ -12,28 +12,6 @@
 #include "grade/lines.h"
 #include "scene/node_edit.h"
 
-enum { slips = 3 }; /* of a body's friction: back, none, forth */
-
-/* What one equation says, and where it is true. */
-struct line {
-    unsigned says;
-    size_t seen[slips], agreed[slips];
-    unsigned counts; /* bit k: slip k - 1 is one of the motion of the sheet, or all are */
-    bool checked;
-    bool dynamic;         /* it fails when other forces act: it is not of the motion alone */
-    unsigned met;         /* the unknowns of the line of the key that it has met */
-    bool in_numbers;      /* for the values of the sheet, not for others */
-    const double *rest;   /* an equation of rest (statics.c): how it changes with the parameters */
-    double share;         /* of a line of the key: in how many of its cases it is met */
-    fbd_finding *finding; /* what is said of a line of the key */
-};
-
-/* The lines of a body, in the order of the file: its own, and those of the key. */
-struct body_lines {
-    struct line *own, *key;
-    size_t count, key_count;
-};
-
 /* ---- one line */
 
 static void count_samples(const struct hand_check *check, double tolerance, struct line *line)
@@ -45,13 +23,9 @@ static void count_samples(const struct hand_check *check, double tolerance, stru
         int slip = sample->slip + 1;
         line->seen[slip]++;
         double size = tolerance > 1e-6 ? sample->mechanics : sample->size; /* rounding, or rounded numbers */
-        line->agreed[slip] += isfinite(size) && fabs(sample->lack) <= tolerance * size;
+        line->agreed[slip] +=
+            !check->elsewhere[0] && isfinite(size) && fabs(sample->lack) <= tolerance * size;
     }
-}
-
-static bool agrees_at(const struct line *line, int slip)
-{
-    return line->seen[slip] > 0 && line->agreed[slip] == line->seen[slip];
 }
 
 /* The senses of slip of which bit k is set: those of the motion of the sheet, or where a line does not hold there, all. */
@@ -60,22 +34,6 @@ static void count_slips(struct line *line, unsigned of_motion)
     unsigned seen = 0;
     for (unsigned slip = 0; slip < slips; slip++) seen |= line->seen[slip] > 0 ? 1U << slip : 0;
     line->counts = (seen & of_motion) != 0 ? seen & of_motion : seen;
-}
-
-static bool agrees_somewhere(const struct line *line)
-{
-    for (int slip = 0; slip < slips; slip++)
-        if ((line->counts >> slip & 1U) && agrees_at(line, slip)) return true;
-    return false;
-}
-
-/* The senses of slip for which a line of the key has to be matched: those for which it holds itself. */
-static unsigned wanted_slips(const struct line *key)
-{
-    unsigned wanted = 0;
-    for (unsigned slip = 0; slip < slips; slip++)
-        if ((key->counts >> slip & 1U) && agrees_at(key, (int)slip)) wanted |= 1U << slip;
-    return wanted ? wanted : key->counts;
 }
 
 static bool is_of_name(char c)
@@ -147,6 +105,7 @@ static bool sample_line(struct lines *lines, const struct node *root, double spr
     lines->check.index = 0;
     if (!lines->alone || !hand_take_samples(&lines->check, &document, lines->rng, spread)) return false;
     line->says = lines->check.says;
+    line->unknowns = lines->check.unknowns;
     count_samples(&lines->check, tolerance, line);
     count_slips(line, lines->slips[lines->check.body]);
     return true;
@@ -181,13 +140,24 @@ static bool look_at_values(struct lines *lines, const char *text, double *tolera
     bool rounded = has_numbers(text), own = has_own_names(lines, text, &rounded);
     if (!rounded && !own) return true;
     if (!sample_line(lines, lines->root, 0, *tolerance, line)) return false;
-    if (!agrees_somewhere(line) && rounded) {
+    if (!line_agrees(line) && rounded) {
         *tolerance = 0.3 * lines->model->scene->grading.tolerance;
         if (!sample_line(lines, lines->root, 0, *tolerance, line)) return false;
     }
-    line->in_numbers = agrees_somewhere(line);
+    line->in_numbers = line_agrees(line);
     if (!line->in_numbers) *line = general;
     return true;
+}
+
+/* An equation that names forces, as a form of its unknowns at the start. */
+static bool take_form(struct lines *lines, int body, struct line *line)
+{
+    double size;
+    if (!(line->says & (unsigned)hand_named_forces)) return true;
+    fbd_state *state = lines_start_of(lines->alone);
+    if (state) hand_lack_at(state, body, 0, &size, line->form);
+    state_free(state);
+    return state != NULL;
 }
 
 /* For all values of the parameters, or for those of the sheet. */
@@ -200,34 +170,26 @@ static bool look_at_line(struct lines *lines, int body, int index, struct line *
     lines->index = index;
     if (diagram_arrows(model, body) >= most_terms) return true;
     line->checked = true;
-    if (!sample_line(lines, lines->root, 0.3, tolerance, line)) return false;
-    if (!agrees_somewhere(line) &&
+    if (!sample_line(lines, lines->root, 0.3, tolerance, line) || !take_form(lines, body, line)) return false;
+    if (!line_agrees(line) &&
         !look_at_values(lines, model->scene->bodies[body].hands[index].text, &tolerance, line))
         return false;
     const struct hand *hand = &model->scene->bodies[body].hands[index];
     const char *text = lines->answer ? line_as_read(lines, model->bodies[body].name, hand) : hand->text;
-    bool in_general = agrees_somewhere(line) && !line->in_numbers;
+    bool in_general = line_agrees(line) && !line->in_numbers;
     if (line->says == 0 && !in_general && !line_is_of_rest(lines, body, text, &line->rest)) return false;
-    if (agrees_somewhere(line)) return look_at_pushed(lines, tolerance, line);
+    if (line_agrees(line)) return look_at_pushed(lines, tolerance, line);
     struct line again;
     return sample_line(lines, lines->root, 0.3, 1e-9, &again); /* for what is said of it */
 }
 
 /* ---- what is said of it */
 
-/* Accelerations and the normal force, or where a line names none of them, inertia and arms. */
-static unsigned unknowns(unsigned says)
-{
-    const unsigned accelerations = (1U << hand_mass) - 1, N = 1U << hand_N;
-    unsigned first = says & (accelerations | (unsigned)hand_others), second = says & N;
-    return first ? first : second ? second : says;
-}
-
 /* Kinematics is asked for where the key has it. */
 static bool is_asked(const struct line *line, const struct line *keys, size_t count)
 {
     for (size_t k = 0; k < count; k++)
-        if (!keys[k].dynamic && (unknowns(keys[k].says) & unknowns(line->says))) return true;
+        if (!keys[k].dynamic && (line_unknowns(&keys[k]) & line_unknowns(line))) return true;
     return false;
 }
 
@@ -237,7 +199,7 @@ static void note_student_line(struct lines *lines, int body, int index, const st
     const struct body *source = &lines->model->scene->bodies[body];
     const struct hand *hand = &source->hands[index];
     if (line->rest) return;
-    bool good = agrees_somewhere(line), empty = good && !asked && (line->says == 0 || !line->dynamic);
+    bool good = line_agrees(line), empty = good && !asked && (line->says == 0 || !line->dynamic);
     size_t seen = line->seen[0] + line->seen[1] + line->seen[2];
     if (good && !empty && !line->in_numbers) return;
     fbd_finding *finding = finding_add(grade, good && !empty ? FBD_FINDING_RIGHT : FBD_FINDING_DERIVATION,
@@ -255,68 +217,20 @@ static void note_student_line(struct lines *lines, int body, int index, const st
     text_free(&text);
 }
 
-static const char *unknown_of(const struct lines *lines, int body, unsigned says)
+static const char *unknown_of(const struct lines *lines, int body, const struct line *key)
 {
     const struct body *source = &lines->model->scene->bodies[body];
     const struct coordinate *coordinates = &lines->model->scene->coordinates[source->first];
-    unsigned asked = unknowns(says);
+    const unsigned asked = key->says;
     for (int k = 0; k < source->count; k++)
         if (asked & (1U << k)) return coordinates[k].acceleration_name;
-    return (asked & (1U << hand_N)) != 0 ? "N" : NULL;
-}
-
-/* One line of the answer meets one line of the key, or several about the same (for each sense of slip). */
-static bool meets(const struct line *own, const struct line *key, int slip)
-{
-    unsigned asked = unknowns(key->says);
-    return agrees_at(own, slip) && (unknowns(own->says) & asked) && (own->dynamic || !key->dynamic) &&
-           (own->met == 0 || own->met == asked);
-}
-
-/* A line that meets this one, if possible one about the same unknowns. */
-static bool find_line(struct line *own, size_t count, const struct line *key, int slip)
-{
-    for (int same = 1; same >= 0; same--)
-        for (size_t i = 0; i < count; i++) {
-            if (!meets(&own[i], key, slip) || (same && unknowns(own[i].says) != unknowns(key->says)))
-                continue;
-            own[i].met = unknowns(key->says);
-            return true;
-        }
-    return false;
-}
-
-/* By which share of its cases a line of the key is met. */
-static double share_met(const struct line *key, struct line *own, size_t count)
-{
-    unsigned wanted = wanted_slips(key);
-    int cases = 0, met = 0;
-    for (int slip = 0; slip < slips; slip++) {
-        if (!(wanted >> slip & 1U)) continue;
-        cases++;
-        met += find_line(own, count, key, slip);
-    }
-    return cases ? (double)met / cases : 0;
-}
-
-/* The next equation of rest that does not follow from those that have matched one of the key: `base` has these. */
-static bool find_line_of_rest(const struct lines *lines, struct line *own, size_t count, double *base,
-                              size_t *met)
-{
-    for (size_t i = 0; i < count; i++) {
-        if (!own[i].rest || own[i].met != 0) continue;
-        own[i].met = 1;
-        if (!rest_is_new(lines, own[i].rest, base, *met)) continue;
-        ++*met;
-        return true;
-    }
-    return false;
+    return (asked & (1U << hand_N)) != 0 && !(asked & (unsigned)hand_named_forces) ? "N" : NULL;
 }
 
 static void say_of_key_line(struct lines *lines, int body, const struct line *key)
 {
     struct fbd_grade *grade = lines->grade;
-    const char *name = unknown_of(lines, body, key->says);
+    const char *name = unknown_of(lines, body, key);
     struct text text = {0};
     fbd_finding *finding = key->finding;
     finding->kind = key->share > 0 ? FBD_FINDING_RIGHT : FBD_FINDING_MISSING;
@@ -358,7 +272,7 @@ static double share_agreed(unsigned wanted, const struct line *line)
     for (int slip = 0; slip < slips; slip++) {
         if (!(wanted >> slip & 1U)) continue;
         cases++;
-        agreed += agrees_at(line, slip);
+        agreed += line_agrees_at(line, slip);
     }
     return cases ? (double)agreed / cases : 0;
 }
@@ -379,7 +293,7 @@ static void meet_by_another(struct lines *lines, struct body_lines *bodies, size
         }
         for (size_t i = 0; i < bodies[b].count; i++) {
             struct line *own = &bodies[b].own[i];
-            if (!is_of_motion(own) || own->met != 0 || !agrees_somewhere(own) || given) continue;
+            if (!is_of_motion(own) || own->met != 0 || !line_agrees(own) || given) continue;
             given = own;
             other = b;
         }
@@ -387,7 +301,7 @@ static void meet_by_another(struct lines *lines, struct body_lines *bodies, size
     if (!wanted || !given) return;
     for (int k = 0; k < lines_pushes; k++) lines_push(lines, k);
     if (!lines_one_freedom(lines)) return;
-    wanted->share = share_agreed(body == other ? wanted_slips(wanted) : given->counts, given);
+    wanted->share = share_agreed(body == other ? line_wanted_slips(wanted) : given->counts, given);
     say_of_key_line(lines, (int)body, wanted);
 }
 
@@ -403,10 +317,10 @@ static bool look_at_lines(struct lines *lines, int body, struct line *found, siz
 static bool look_at_own(struct lines *lines, struct lines *plain, int body, int index, struct line *line)
 {
     if (!look_at_line(lines, body, index, line)) return false;
-    if (!plain->model || agrees_somewhere(line)) return true;
+    if (!plain->model || line_agrees(line)) return true;
     struct line other;
     if (!look_at_line(plain, body, index, &other)) return false;
-    if (agrees_somewhere(&other)) *line = other;
+    if (line_agrees(&other)) *line = other;
     return true;
 }
 
@@ -424,16 +338,8 @@ static bool grade_body(struct lines *lines, struct lines *plain, struct lines *s
             note_student_line(lines, body, (int)i, &found->own[i],
                               is_asked(&found->own[i], found->key, found->key_count));
     }
-    double *base = ARENA_ARRAY(&lines->grade->arena, (found->key_count + 1) * rest_room, double);
-    done = done && base;
-    for (size_t k = 0, met = 0; done && k < found->key_count; k++) {
-        struct line *key = &found->key[k];
-        if (key->rest)
-            key->share = find_line_of_rest(lines, found->own, found->count, base, &met) ? 1 : 0;
-        else
-            key->share = share_met(key, found->own, found->count);
-        note_key_line(lines, body, (int)k, &found->key[k]);
-    }
+    done = done && lines_meet(lines, found);
+    for (size_t k = 0; done && k < found->key_count; k++) note_key_line(lines, body, (int)k, &found->key[k]);
     return done;
 }
 

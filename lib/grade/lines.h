@@ -34,6 +34,46 @@ struct lines {
     gsl_rng *rng;
 };
 
+enum { slips = 3 }; /* of a body's friction: back, none, forth */
+
+/* What one equation says, and where it is true. */
+struct line {
+    unsigned says;
+    size_t seen[slips], agreed[slips];
+    unsigned counts; /* bit k: slip k - 1 is one of the motion of the sheet, or all are */
+    bool checked;
+    bool dynamic;                /* it fails when other forces act: it is not of the motion alone */
+    unsigned long long unknowns; /* of hand_form_at: bit k */
+    double form[hand_unknowns];  /* at the start, where it names forces */
+    unsigned long long met;      /* the unknowns of the line of the key that it has met, */
+    const struct line *met_by;   /* and the first of these */
+    bool in_numbers;             /* for the values of the sheet, not for others */
+    const double *rest;          /* an equation of rest (statics.c): how it changes with the parameters */
+    double share;                /* of a line of the key: in how many of its cases it is met */
+    fbd_finding *finding;        /* what is said of a line of the key */
+};
+
+/* The lines of a body, in the order of the file: its own, and those of the key. */
+struct body_lines {
+    struct line *own, *key;
+    size_t count, key_count;
+};
+
+/* ---- which meets which (lines_meet.c) */
+
+/* Is it true at all states of a sense of slip; of one of those that count? */
+bool line_agrees_at(const struct line *line, int slip);
+bool line_agrees(const struct line *line);
+
+/* The senses of slip for which a line of the key has to be matched: those for which it holds itself. */
+unsigned line_wanted_slips(const struct line *key);
+
+/* What a line is about, as a set: accelerations, and reactions where it names forces or nothing else. */
+unsigned long long line_unknowns(const struct line *line);
+
+/* The share of each line of the key that is met. False when memory is out. */
+bool lines_meet(struct lines *lines, struct body_lines *found);
+
 /* The value of a key of a mapping, or NULL. */
 const struct node *lines_value(const struct node *map, const char *key);
 
@@ -71,6 +111,12 @@ bool lines_one_freedom(struct lines *lines);
  * False when memory is out. */
 bool line_is_of_rest(struct lines *lines, int body, const char *text, const double **changes);
 
+/* The start, settled; NULL where there is none. */
+fbd_state *lines_start_of(const fbd_model *model);
+
+/* Does a form of so many numbers not follow from `count` others? `base` has these, orthonormal, and gets one more. */
+bool form_is_new(const double *form, int numbers, double *base, size_t count);
+
 /* Do changes not follow from `count` others? `base` has these (orthonormal, rest_room numbers each), and gets one more. */
 enum { rest_room = 32 };
 bool rest_is_new(const struct lines *lines, const double *changes, double *base, size_t count);
@@ -85,6 +131,12 @@ const struct node *line_over_parameters(struct fbd_grade *grade, const struct no
  * memory is out, or `hand` is. */
 const struct node *coordinates_of_sheet(struct fbd_grade *grade, const struct node *answer,
                                         const struct node *hand, const char *body);
+
+/* Find how derivations name the reactions that are drawn rightly and unknown; and these names as `symbols` of a body, or NULL for
+ * none (drawn_forces.c). */
+void drawn_find_forces(struct fbd_grade *grade);
+const struct node *drawn_symbols(struct fbd_grade *grade, const struct node *answer, const char *body,
+                                 struct pos at);
 
 /* Is this a name that an answer must not define? */
 bool name_is_of_equations(const char *name);

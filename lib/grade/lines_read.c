@@ -50,6 +50,9 @@ static const struct node *with_lines(struct fbd_grade *grade, const struct node 
         const struct node *same =
             as_they_are ? hand : coordinates_of_sheet(grade, answer, hand, bodies->pairs[b].key);
         const struct node *body = node_with(arena, bodies->pairs[b].value, "hand", same);
+        const struct node *symbols =
+            as_they_are || !hand ? NULL : drawn_symbols(grade, answer, bodies->pairs[b].key, hand->at);
+        if (body && symbols) body = node_with(arena, body, "symbols", symbols);
         made = body ? node_with(arena, made, bodies->pairs[b].key, body) : NULL;
     }
     return made ? node_with(arena, root, "bodies", made) : NULL;
@@ -179,6 +182,7 @@ void lines_read(struct lines *lines, const struct node *answer)
 {
     struct fbd_grade *grade = lines->grade;
     struct arena *arena = &grade->arena;
+    drawn_find_forces(grade);
     const struct node *key = grade->key->document.root, *written = with_lines(grade, key, answer, true);
     if (written) written = with_parameters(arena, written, answer);
     lines->paper = answer;

@@ -73,8 +73,7 @@ static fbd_model *changed_model(struct fbd_grade *grade, const struct node *root
     return model;
 }
 
-/* The start, settled; NULL where there is none. */
-static fbd_state *start_of(const fbd_model *model)
+fbd_state *lines_start_of(const fbd_model *model)
 {
     fbd_state *state = state_new(model);
     if (state && model->assembles) state_project(state, true);
@@ -103,7 +102,7 @@ static bool add_sums(struct lines *lines, const fbd_model *model, double length,
                      double *sum, double *size)
 {
     const fbd_model *key = lines->grade->sheet;
-    fbd_state *state = start_of(model);
+    fbd_state *state = lines_start_of(model);
     struct arrow *arrows = calloc(diagram_most_arrows(model) + 1, sizeof *arrows);
     struct instant at = state ? state_instant(state) : (struct instant){.t = 0};
     for (size_t b = 0; state && arrows && b < model->body_count; b++) {
@@ -292,8 +291,8 @@ static double rest_beyond(double *a, const double *base, int count)
 
 static double lack_of(const fbd_model *model, int body, double *size)
 {
-    fbd_state *state = model ? start_of(model) : NULL;
-    double lack = state ? hand_lack_at(state, body, 0, size) : NAN;
+    fbd_state *state = model ? lines_start_of(model) : NULL;
+    double lack = state ? hand_lack_at(state, body, 0, size, NULL) : NAN;
     state_free(state);
     return lack;
 }
@@ -354,14 +353,18 @@ bool line_is_of_rest(struct lines *lines, int body, const char *text, const doub
     return !lines->grade->arena.failed;
 }
 
+bool form_is_new(const double *form, int numbers, double *base, size_t count)
+{
+    const double apart = 0.03;
+    double *made = base + count * (size_t)numbers;
+    memcpy(made, form, (size_t)numbers * sizeof *made);
+    double before = rest_norm(made, numbers), after = before;
+    for (size_t k = 0; k < count; k++) after = rest_beyond(made, base + k * (size_t)numbers, numbers);
+    for (int k = 0; k < numbers; k++) made[k] /= after;
+    return after > apart * before;
+}
+
 bool rest_is_new(const struct lines *lines, const double *changes, double *base, size_t count)
 {
-    const int draws = lines->rest->draws;
-    const double apart = 0.03;
-    double *made = base + count * rest_room;
-    memcpy(made, changes, (size_t)draws * sizeof *made);
-    double before = rest_norm(made, draws), after = before;
-    for (size_t k = 0; k < count; k++) after = rest_beyond(made, base + k * rest_room, draws);
-    for (int k = 0; k < draws; k++) made[k] /= after;
-    return after > apart * before;
+    return form_is_new(changes, lines->rest->draws, base, count);
 }

@@ -24,6 +24,9 @@ static void keep_values(struct fbd_grade *grade, const fbd_model *answer, const 
         drawn->unit = moment ? (us ? "lb*ft" : "N*m") : us ? "lb" : "N";
         bool constant = source->value.expr && expr_is_constant(source->value.expr);
         drawn->size = drawn->unknown ? values[j] : constant ? expr_value(source->value.expr) : NAN;
+        drawn->reaction =
+            drawn->unknown && !drawn->free && support->key_count == 1 ? support->key[0]->name : NULL;
+        drawn->along = support->parts[j]->at[reaction_when(sides, support->key[0])].force;
         if (drawn->unknown && isfinite(values[j]))
             drawn->value = arena_printf(&grade->arena, "(%.17g[%s])", values[j], drawn->unit);
     }

@@ -174,6 +174,9 @@ static void take_sample(struct hand_check *check, const struct hand *hand, const
     double added = 0;
     const unsigned says = depends_on(hand, model, named, state->t, y, &added);
     check->says |= says;
+    double form[hand_unknowns];
+    hand_form_at(state, check->body, check->index, named, y, form);
+    for (int k = 0; k < hand_unknowns; k++) check->unknowns |= form[k] != 0 ? 1ULL << k : 0;
     double slope = 0, scale = 1;
     /* Several unknowns in one equation: side against side. */
     bool jointed =
@@ -217,7 +220,7 @@ static void take_sample(struct hand_check *check, const struct hand *hand, const
     check->samples[check->count++] = sample;
 }
 
-double hand_lack_at(const struct fbd_state *state, int b, int index, double *size)
+double hand_lack_at(const struct fbd_state *state, int b, int index, double *size, double *form)
 {
     const struct fbd_model *model = state->model;
     const struct hand *hand = &model->scene->bodies[b].hands[index];
@@ -227,6 +230,7 @@ double hand_lack_at(const struct fbd_state *state, int b, int index, double *siz
     *size = 0;
     if (y && hand_named_find(model, &arena, &named)) {
         hand_extend(state, b, &named, y);
+        if (form) hand_form_at(state, b, index, &named, y, form);
         lack = expr_eval(hand->left, state->t, y, NULL) - expr_eval(hand->right, state->t, y, NULL);
         for (size_t j = 0; j < hand->summand_count; j++)
             *size += fabs(expr_eval(hand->summands[j].expr, state->t, y, NULL));
@@ -236,11 +240,10 @@ double hand_lack_at(const struct fbd_state *state, int b, int index, double *siz
     return lack;
 }
 
-/* Draw states of one model and sample every one that is admissible and moves (a body at rest has no equation
+/* Draw states of one model and visit every one that is admissible and moves (a body at rest has no equation
  * of motion). */
-static bool sample_model(struct hand_check *check, const fbd_model *model, gsl_rng *rng)
+static bool visit_model(const fbd_model *model, gsl_rng *rng, hand_visit *visit, void *context)
 {
-    const struct hand *hand = &model->scene->bodies[check->body].hands[check->index];
     struct fbd_state *state = state_new(model);
     size_t n = (size_t)model->plan.n, extended = hand_room(model);
     double *y = calloc(extended + random_path_room(model), sizeof *y);
@@ -249,17 +252,41 @@ static bool sample_model(struct hand_check *check, const fbd_model *model, gsl_r
     struct hand_named named;
     if (state && model->assembles) state_project(state, true);
     if (y && state) memcpy(path.y, state->y, n * sizeof *y);
-    bool done = state && y && hand_named_find(model, &arena, &named);
+    bool done = state && y && hand_named_find(model, &arena, &named), first = true;
     for (int i = 0; done && i < states_of_a_draw; i++)
-        for (int k = 0; k < tries_of_a_state && check->count < most_samples; k++) {
+        for (int k = 0; k < tries_of_a_state; k++) {
             if (!random_state(rng, state, &path) || !random_admissible(state)) continue;
-            take_sample(check, hand, &named, state, y);
+            done = visit(context, state, &named, y, first);
+            first = false;
             break;
         }
     free(y);
     state_free(state);
     arena_free(&arena);
     return done;
+}
+
+bool hand_each_state(const struct hand_check *check, gsl_rng *rng, hand_visit *visit, void *context)
+{
+    if (!visit_model(check->model, rng, visit, context)) return false;
+    for (int draw = 1; draw < parameter_draws; draw++) {
+        fbd_model *changed;
+        bool done = random_model(&check->document, check->model, rng, check->spread, &changed) &&
+                    (!changed || visit_model(changed, rng, visit, context));
+        model_free(changed);
+        if (!done) return false;
+    }
+    return true;
+}
+
+static bool visit_sample(void *context, struct fbd_state *state, const struct hand_named *named, double *y,
+                         bool first)
+{
+    (void)first;
+    struct hand_check *check = context;
+    const struct hand *hand = &state->model->scene->bodies[check->body].hands[check->index];
+    if (check->count < most_samples) take_sample(check, hand, named, state, y);
+    return true;
 }
 
 /* ---- the verdict */
@@ -310,6 +337,10 @@ static bool write_verdict(const struct hand_check *check, struct text *text)
         return false;
     }
     if (write_open(check, text)) return false;
+    if (check->elsewhere[0]) {
+        hand_diagnose(check, 0, text);
+        return false;
+    }
     if (agree == states) {
         text_printf(text, "  agrees at %zu random states (worst difference %.1e of the terms)\n", states,
                     worst);
@@ -336,17 +367,17 @@ bool hand_take_samples(struct hand_check *check, const struct document *document
     check->count = 0;
     check->part = -1;
     check->says = 0;
+    check->unknowns = 0;
     check->open_force[0] = '\0';
     check->no_memory = false;
-    if (!sample_model(check, check->model, rng)) return false;
-    for (int draw = 1; draw < parameter_draws; draw++) {
-        fbd_model *changed;
-        bool done = random_model(document, check->model, rng, spread, &changed) &&
-                    (!changed || sample_model(check, changed, rng));
-        model_free(changed);
-        if (!done) return false;
-    }
-    return !check->no_memory;
+    check->document = *document;
+    check->spread = spread;
+    check->rng = rng;
+    check->elsewhere[0] = '\0';
+    if (!hand_each_state(check, rng, visit_sample, check) || check->no_memory) return false;
+    bool any = false;
+    for (size_t i = 0; i < check->count; i++) any = any || agrees(&check->samples[i]);
+    return !any || hand_find_point(check);
 }
 
 /* Check one equation; 1 differs, 0 agrees, -1 out of memory. */

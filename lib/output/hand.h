@@ -27,6 +27,9 @@ enum {
     hand_named_forces = 2 << hand_slots
 };
 
+/* The unknowns of an equation (hand_form_at). */
+enum { hand_unknowns = 32, hand_unknown_force = most_coordinates_of_a_body + 1 };
+
 /* Factors that derivations forget, as they are at a state. Those that do not apply are NAN. */
 enum hand_factor {
     factor_cos_angle, /* of the coordinate theta */
@@ -66,22 +69,35 @@ struct hand_check {
     int part;      /* coordinate whose acceleration it is about, -1 for none */
     unsigned says; /* bit k: it depends on hand slot k; hand_others: on the acceleration of another body;
                       hand_named_forces: on a force of a diagram, by its name */
-    int open_body; /* a force in it that the equations do not determine, */
-    char open_force[128]; /* empty where it is the normal force of a surface */
+    unsigned long long unknowns; /* bit k: on unknown k, see hand_form_at */
+    int open_body;               /* a force in it that the equations do not determine, */
+    char open_force[128];        /* empty where it is the normal force of a surface */
     bool no_memory;
+    char elsewhere[64]; /* the point about which a true line has moments, where it says another; else "" */
+    struct document document; /* of which the states were drawn, */
+    double spread;
+    gsl_rng *rng;
     size_t count;
     struct hand_sample *samples;     /* most_samples */
     bool accelerates[most_summands]; /* this summand is (part of) the left side I a */
 };
+
+struct hand_named;
 
 /* Sample the equation at random states of the model and of eleven others, whose parameters differ by up to `spread`.
  * False when memory is out. */
 bool hand_take_samples(struct hand_check *check, const struct document *document, gsl_rng *rng,
                        double spread);
 
+/* Visit one admissible state: `y` has hand_room places; `first`: of its model. False ends it. */
+typedef bool hand_visit(void *context, struct fbd_state *state, const struct hand_named *named, double *y,
+                        bool first);
+
+/* Draw states of check->model and of eleven others, as above, and visit each. False when memory is out. */
+bool hand_each_state(const struct hand_check *check, gsl_rng *rng, hand_visit *visit, void *context);
+
 /* What a derivation of body b evaluates over: the state and what else it may name, see enum hand_slot. */
 size_t hand_room(const struct fbd_model *model);
-struct hand_named;
 void hand_extend(const struct fbd_state *state, int b, const struct hand_named *named, double *y);
 
 /* Does a line change with how the state's load is shared where the equations do not tell? `size`: of what it adds up.
@@ -94,12 +110,26 @@ bool hand_is_open(struct hand_check *check, const struct hand *hand, const struc
 bool hand_check_document(const struct fbd_model *model, struct document *document, unsigned seed,
                          struct text *text, size_t *differing);
 
-/* Left less right of one equation at a state; *size: the sum of absolute terms. NAN when memory is out. */
-double hand_lack_at(const struct fbd_state *state, int body, int index, double *size);
+/* Left less right of one equation at a state; *size: the sum of absolute terms; `form`: as of hand_form_at, or NULL. NAN when
+ * memory is out. */
+double hand_lack_at(const struct fbd_state *state, int body, int index, double *size, double *form);
+
+/* The unknowns of an equation on body b at a state: the accelerations of its coordinates, those of others together, and each
+ * component of a force or couple of a diagram (and what all normal forces are to N). form[k]: how left less right changes
+ * with unknown k; where there are more, several share one (hand_form.c). `y`: as extended. */
+void hand_form_at(const struct fbd_state *state, int b, int index, const struct hand_named *named,
+                  const double *y, double form[hand_unknowns]);
 
 /* Say in which term the samples that have slip `slip` differ from the assembly, or that no single term
  * explains it. */
 void hand_diagnose(const struct hand_check *check, int slip, struct text *text);
+
+/* Say by which slip of the pen a line differs: the first that explains it at all states that have slip `slip`
+ * (hand_blame.c). False where none does. */
+bool hand_blame(const struct hand_check *check, int slip, struct text *text);
+
+/* Set check->elsewhere of a line that says about which point it has moments. False when memory is out. */
+bool hand_find_point(struct hand_check *check);
 
 /* The same by comparing the equation's own summands with the terms, one by one; false when that tells
  * nothing.

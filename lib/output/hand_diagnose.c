@@ -215,42 +215,24 @@ static bool inertia_is_right(const struct hand_check *check, int slip)
     return true;
 }
 
-/* ---- lines that name forces: summand by summand */
-
-static double summand(const struct hand_sample *sample, int index)
-{
-    return sample->summands[index];
-}
-
-/* A line is right with the factor s on one summand if it lacks (s - 1) times that at every state. */
-static bool blame_summand(const struct hand_check *check, int slip, struct text *text)
-{
-    const struct hand *hand = &check->model->scene->bodies[check->body].hands[check->index];
-    for (size_t j = 0; j < hand->summand_count; j++) {
-        double lack;
-        if (!explains(check, slip, summand, (int)j, &lack)) continue;
-        text_add(text, "  the summand `");
-        text_shown(text, hand->summands[j].text);
-        if (same(lack, -2))
-            text_add(text, "` has the wrong sign\n");
-        else if (same(lack, -1))
-            text_add(text, "` is one too many\n");
-        else
-            text_printf(text, "` is right with the factor %.6g\n", 1 + lack);
-        return true;
-    }
-    return false;
-}
-
 void hand_diagnose(const struct hand_check *check, int slip, struct text *text)
 {
+    const struct hand *hand = &check->model->scene->bodies[check->body].hands[check->index];
+    if (check->elsewhere[0]) {
+        text_printf(text,
+                    "  wrong point: it is true, but the equation of moments about `%s`, not about `%s`\n",
+                    check->elsewhere, hand->about_name);
+        return;
+    }
     /* An equation for N is one across the line: the terms, which act along it, say nothing of it. */
     bool across = check->part < 0 && check->says & 1U << hand_N;
     bool found = !across && !(check->says & (unsigned)hand_named_forces) && !inertia_is_right(check, slip) &&
                  blame_inertia(check, slip, text);
-    const bool named = (check->says & (unsigned)hand_named_forces) != 0;
-    if (named) found = blame_summand(check, slip, text);
+    /* Terms are those along the coordinate of a body by itself. */
+    const bool named = (check->says & ((unsigned)hand_named_forces | (unsigned)hand_others)) != 0 ||
+                       check->model->bodies[check->body].place.link > 0;
     if (!found && !across && !named) found = blame_term(check, slip, text) || hand_match(check, slip, text);
+    if (!found) found = hand_blame(check, slip, text);
     if (!found) text_add(text, "  no single term explains the difference\n");
     show_worst(check, slip, text);
 }

@@ -186,6 +186,8 @@ static const struct field hand_fields[] = {
                "left = right"),
     FIELD_NODE(offsetof(struct hand_keys, when), "when", field_scalar, 0, NULL,
                "a condition: where the equation claims to hold"),
+    FIELD_NODE(offsetof(struct hand_keys, about), "about", field_scalar, 0, NULL,
+               "the point about which it has moments: of the body, `G`, of the ground, or a joint"),
 };
 
 const struct group hand_group = {

@@ -91,6 +91,61 @@ static const struct expr *read_condition(struct reader *reader, const struct nod
     return when;
 }
 
+/* ---- the point about which it has moments */
+
+/* A place `name.x`, `name.y` of the world, by what an equation may name. */
+static bool name_place(struct reader *reader, const char *name, const struct scope *scope, struct hand *hand)
+{
+    const struct expr_want want = {.dim = DIM_LENGTH, .what = "about"};
+    for (int k = 0; k < 2; k++) {
+        const char *text = arena_printf(reader->arena, "%s.%c", name, k == 0 ? 'x' : 'y');
+        hand->about[k] =
+            text ? expr_compile(reader->arena, text, hand->at, scope, &want, reader->errors) : NULL;
+    }
+    return hand->about[0] && hand->about[1];
+}
+
+static bool ground_place(struct reader *reader, const struct pair *pair, struct hand *hand)
+{
+    const struct ground_point *point = &reader->ground_points[pair - reader->points->pairs];
+    hand->about[0] = expr_constant(reader->arena, point->where.x, DIM_LENGTH);
+    hand->about[1] = expr_constant(reader->arena, point->where.y, DIM_LENGTH);
+    return point->valid && hand->about[0] && hand->about[1];
+}
+
+/* A point of the body, of the ground, of another body, or where a force of the diagram acts. */
+static bool read_about(struct reader *reader, int index, const struct node *node, const struct scope *scope,
+                       struct hand *hand)
+{
+    const struct names *names = scope->context;
+    const char *name = node->text, *dot = strchr(name, '.');
+    const size_t before = dot ? (size_t)(dot - name) : 0;
+    struct point point = {.kind = point_absent};
+    hand->about_name = arena_text(reader->arena, name, node->length);
+    if (!hand->about_name) return false;
+    const struct body *body = &reader->scene->bodies[index];
+    if (names_point(body, name, node->length, &point))
+        return name_place(reader, arena_printf(reader->arena, "%s.%s", body->name, name), scope, hand);
+    const bool ground = before == strlen("ground") && strncmp(name, "ground", before) == 0;
+    const struct pair *pair = reader->points ? node_find(reader->points, ground ? dot + 1 : name) : NULL;
+    if (pair) return ground_place(reader, pair, hand);
+    for (size_t b = 0; dot && b < reader->scene->body_count; b++) {
+        const struct body *other = &reader->scene->bodies[b];
+        if (strncmp(other->name, name, before) != 0 || other->name[before]) continue;
+        if (names_point(other, dot + 1, strlen(dot + 1), &point))
+            return name_place(reader, name, scope, hand);
+    }
+    const char *at = arena_printf(reader->arena, "%s.at", name);
+    const char *x = arena_printf(reader->arena, "%s.at.x", name);
+    const int kind = at && x ? (int)force_symbol(names, x).kind : (int)symbol_failed;
+    if (kind == symbol_variable) return name_place(reader, at, scope, hand);
+    if (kind == symbol_unknown)
+        diag_add(reader->errors, FBD_ERROR, "unknown-point", node->at,
+                 "write `G`, a point of the body, `ground.NAME`, or a joint or force of its diagram",
+                 "there is no point `%s` to take moments about", name);
+    return false;
+}
+
 static bool read_hand(struct reader *reader, int index, const struct node *node, struct hand *hand)
 {
     struct names names = {.reader = reader, .place = place_hand, .body = index};
@@ -108,6 +163,7 @@ static bool read_hand(struct reader *reader, int index, const struct node *node,
             fine = false;
     }
     if (keys.when) hand->when = read_condition(reader, keys.when, &scope);
+    if (keys.about && !read_about(reader, index, keys.about, &scope, hand)) fine = false;
     return fine && (!keys.when || hand->when);
 }
 

@@ -42,6 +42,8 @@ struct hand {
     struct pos at;
     const struct expr *left, *right; /* over the extended slots below */
     const struct expr *when;         /* truth value: where it claims to hold; NULL everywhere */
+    const char *about_name;          /* the point about which it has moments; NULL where it does not say, */
+    const struct expr *about[2];     /* and where that is in the world */
     size_t summand_count;
     struct hand_summand *summands;
 };

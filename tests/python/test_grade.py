@@ -85,3 +85,22 @@ def test_what_is_no_key_is_said(tmp_path):
             fbd.Key(KEY).page(wrong, exam=True)
         with pytest.raises((TypeError, ValueError)):
             fbd.Key(KEY).grade(wrong)
+
+
+def test_a_drawn_reaction_is_named_in_hints():
+    cases = SOURCE / "tests/grade/cases"
+    grade = fbd.Key(cases / "atwood_key.yaml").grade(cases / "atwood_answer_tension_reversed.yaml")
+    said = grade.text(details=True)
+    assert "`T + m1*g = m1*a`" in said and "the summand `m1*g` has the wrong sign" in said
+    assert "[N]" not in said and grade.points == 6
+
+
+def test_each_reaction_counts_by_itself():
+    cases = SOURCE / "tests/grade/cases"
+    key, text = fbd.Key(cases / "hoist_key.yaml"), (cases / "hoist_answer_system.yaml").read_text()
+    assert key.grade(text=text).points == 8
+    for line, said in {"T + f = m*a": "the summand `f` has the wrong sign", "T = m*a": "`friction` is missing",
+                       "N - f = m*a": "wrong reaction: `N` stands where `T` belongs",
+                       "2*T - f = m*a": "the summand `2*T` is right with the factor 0.5"}.items():
+        grade = key.grade(text=text.replace("T - f = m*a", line))
+        assert grade.points == 7 and said in grade.text(details=True)

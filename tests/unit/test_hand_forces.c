@@ -178,6 +178,12 @@ static void slips_are_named(void **unused)
         {"T + f = m*a", "the summand `f` has the wrong sign"},
         {"T - 2*f = m*a", "the summand `2*f` is right with the factor 0.5"},
         {"T - f + N = m*a", "the summand `N` is one too many"},
+        {"(T + f)/m = a", "`f` has the wrong sign"},
+        {"2*(T + f) = 2*m*a", "`f` has the wrong sign"},
+        {"T = m*a", "the component along x of `friction` is missing"},
+        {"a = -f/m", "the component along x of `cord` is missing"},
+        {"N - f = m*a", "wrong reaction: `N` stands where `T` belongs"},
+        {"T - N = m*a", "wrong reaction: `N` stands where `f` belongs"},
     };
     for (size_t i = 0; i < sizeof slips / sizeof *slips; i++) {
         char text[2400], hand[400];

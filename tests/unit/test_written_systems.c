@@ -45,11 +45,23 @@ struct written {
     const char *inertia;   /* that about which the moment of inertia is */
     size_t count;
     struct summand_written terms[most_written_terms];
-    bool slip;
-    char text[4000];
+    const char *about; /* `about` says it, or NULL */
+    int form;          /* in which it is written */
+    enum slip_kind {
+        no_slip,
+        wrong_sign,
+        wrong_factor,
+        missing_term,
+        wrong_reaction,
+        wrong_point,
+        kinds_of_slips
+    } slip;
+    const char *culprit; /* the force whose term it is */
+    char text[8200];
 };
 
 static size_t lines_written, slips_made, slips_false, not_unique, models_written, models_seen;
+static size_t slips_of[kinds_of_slips], names_of[kinds_of_slips];
 
 /* ---- text */
 
@@ -63,7 +75,7 @@ static void append(char *text, size_t room, const char *format, ...)
 }
 
 /* Which components of an arrow have names? A moment has no force, and not every force a couple. */
-static bool is_named(const struct hand_forces *forces, int body, size_t arrow, enum hand_force_part part)
+static bool has_name(const struct hand_forces *forces, int body, size_t arrow, enum hand_force_part part)
 {
     for (size_t i = 0; i < forces->count; i++) {
         const struct hand_force *one = &forces->list[i];
@@ -86,19 +98,19 @@ static void write_moment(struct written *line, const struct fbd_model *model, co
     append(line->text, room, ")");
 }
 
-static void write_text(struct written *line, const struct fbd_model *model, const struct arrow *arrows,
-                       const struct hand_forces *forces)
+static void write_sides(struct written *line, const struct fbd_model *model, const struct arrow *arrows,
+                        const struct hand_forces *forces)
 {
     const char *body = model->bodies[line->body].name, *Q = line->point;
     char *text = line->text;
-    size_t room = sizeof line->text;
+    const size_t room = sizeof line->text;
     text[0] = '\0';
     append(text, room, "0");
     for (size_t i = 0; i < line->count; i++) {
         const struct summand_written *term = &line->terms[i];
         const char *name = arrows[term->arrow].name;
-        bool force = is_named(forces, line->body, term->arrow, hand_force_x);
-        bool couple = is_named(forces, line->body, term->arrow, hand_force_couple);
+        bool force = has_name(forces, line->body, term->arrow, hand_force_x);
+        bool couple = has_name(forces, line->body, term->arrow, hand_force_couple);
         if (term->part != about_point && !force) continue;
         append(text, room, " %c ", term->factor < 0 ? '-' : '+');
         if (fabs(term->factor) != 1) append(text, room, "%.17g*", fabs(term->factor));
@@ -113,6 +125,22 @@ static void write_text(struct written *line, const struct fbd_model *model, cons
         append(text, room,
                " = I_%s*angle_ddot + %s.m*((%s.G.x - %s.%s.x)*%s.a_y - (%s.G.y - %s.%s.y)*%s.a_x)",
                line->inertia, body, body, body, Q, Q, body, body, Q, Q);
+}
+
+/* One of several ways to write the same. */
+static void write_text(struct written *line, const struct fbd_model *model, const struct arrow *arrows,
+                       const struct hand_forces *forces)
+{
+    static const char *const forms[] = {"%s = %s", "(%s)/2 = (%s)/2", "-(%s) = -(%s)", "(%s) - (%s) = 0",
+                                        "0.7*(%s) = 0.7*(%s)"};
+    static char left[sizeof line->text / 2], whole[sizeof line->text];
+    write_sides(line, model, arrows, forces);
+    char *equals = strstr(line->text, " = ");
+    assert_non_null(equals);
+    *equals = '\0';
+    assert_true((size_t)snprintf(left, sizeof left, "%s", line->text) < sizeof left);
+    append(strcpy(whole, ""), sizeof whole, forms[line->form], left, equals + strlen(" = "));
+    memcpy(line->text, whole, sizeof whole);
 }
 
 /* ---- numbers */
@@ -149,7 +177,7 @@ static double share_off(const struct written *line, const struct fbd_state *stat
                                                : arrow_moment(arrow, P);
         sum += term->factor * value;
         size += fabs(term->factor * value);
-        double reach = term->part == about_point ? vec_norm(vec_sub(arrow->point, P)) : 1;
+        double reach = term->part == about_point ? vec_norm(vec_sub(arrow->point, P)) + 1e-6 : 1;
         largest = fmax(largest, vec_norm(arrow->force) * reach);
     }
     struct vec a = mass_center_acceleration(body, &at, state->a);
@@ -206,20 +234,35 @@ static void slip(struct written *line, const struct fbd_model *model, const stru
                                       : fabs(term->part == along_x ? arrow->force.x : arrow->force.y) > 1e-9)
             break;
     }
-    line->slip = true;
+    line->culprit = arrows[term->arrow].name;
     switch (gsl_rng_uniform_int(rng, line->sum == sum_moments ? 6 : 4)) {
-    case 0: term->factor = -1; break;
-    case 1: term->factor = factors[gsl_rng_uniform_int(rng, sizeof factors / sizeof *factors)]; break;
-    case 2: *term = line->terms[--line->count]; break;
+    case 0:
+        line->slip = wrong_sign;
+        term->factor = -1;
+        break;
+    case 1:
+        line->slip = wrong_factor;
+        term->factor = factors[gsl_rng_uniform_int(rng, sizeof factors / sizeof *factors)];
+        break;
+    case 2:
+        line->slip = missing_term;
+        *term = line->terms[--line->count];
+        break;
     case 3:
+        line->slip = wrong_reaction;
         if (gsl_rng_uniform(rng) < 0.5 && term->part != about_point)
             term->part = term->part == along_x ? along_y : along_x;
         else
             term->arrow = line->terms[gsl_rng_uniform_int(rng, line->count)].arrow;
         break;
-    case 4: line->arms_from = some_point(model, line->body, rng); break;
-    case 5: line->inertia = some_point(model, line->body, rng); break;
-    default: break;
+    case 4:
+        line->slip = wrong_point;
+        line->arms_from = some_point(model, line->body, rng);
+        break;
+    default:
+        line->slip = wrong_point;
+        line->inertia = some_point(model, line->body, rng);
+        break;
     }
 }
 
@@ -268,6 +311,8 @@ static void write_lines(struct page *page, size_t slips)
             slip(line, model, page->arrows, page->rng);
         }
         for (size_t i = first; i < page->count; i++)
+            page->lines[i].form = (int)gsl_rng_uniform_int(page->rng, 5);
+        for (size_t i = first; i < page->count; i++)
             write_text(&page->lines[i], model, page->arrows, &forces);
     }
     state_free(state);
@@ -315,6 +360,26 @@ static void look(struct page *page, const struct fbd_model *model, double *off)
     state_free(state);
 }
 
+/* Is the slip named, and the force in which it is? What else explains the line at all states is as good a name for it: two
+ * terms that are all of it, forces that are always equal. */
+static bool is_named(const struct written *line, const char *verdict, size_t length)
+{
+    static const char *const words[kinds_of_slips] = {
+        [wrong_sign] = "the wrong sign",     [wrong_factor] = "factor",     [missing_term] = "is missing",
+        [wrong_reaction] = "wrong reaction", [wrong_point] = "wrong point",
+    };
+    char text[2000];
+    snprintf(text, sizeof text, "%.*s", (int)(length < sizeof text ? length : sizeof text - 1), verdict);
+    char *end = strstr(text, "\n  at t"); /* the state at which it is worst */
+    if (end) *end = '\0';
+    const bool with_zero =
+        line->slip == wrong_reaction && (strstr(text, "is missing") || strstr(text, "factor 2"));
+    const bool force =
+        line->slip == wrong_point || line->slip == wrong_reaction || strstr(text, line->culprit);
+    if (with_zero || (line->slip == wrong_factor && strstr(text, "one too many"))) return true;
+    return strstr(text, words[line->slip]) && force;
+}
+
 static void judge(struct checks *checks, const char *path, const struct page *page, const double *off,
                   const char *verdicts)
 {
@@ -330,10 +395,18 @@ static void judge(struct checks *checks, const char *path, const struct page *pa
         const bool accepted = strncmp(next, "agrees", 6) == 0;
         const bool open = strncmp(next, "not unique", 10) == 0;
         lines_written += !line->slip;
-        slips_made += line->slip;
+        slips_made += line->slip != no_slip;
         not_unique += open;
         slips_false += line->slip && off[i] > 1e-7;
         bool fine = off[i] > 1e-7 ? !accepted : off[i] > 1e-10 || accepted || (open && line->slip);
+        if (line->slip && off[i] > 1e-7 && !open) {
+            const bool says = is_named(line, next, (size_t)(verdicts - next));
+            slips_of[line->slip]++;
+            names_of[line->slip] += says;
+            if (!says && getenv("FBD_SHOW"))
+                print_message("%d %s\n%s: %s\n%.*s\n", (int)line->slip, path, line->culprit, line->text,
+                              (int)(verdicts - next), next);
+        }
         if (fine) continue;
         print_error("%s: %s is off by %.2e:\n%.300s\n", path, line->text, off[i], next);
         check_that(checks, path, false);
@@ -402,6 +475,14 @@ static void systems_of_the_gallery(void **state)
     print_message("%zu models, %zu right lines; %zu with slips, %zu of them false; %zu not unique\n",
                   models_written, lines_written, slips_made, slips_false, not_unique);
     assert_true(slips_false > slips_made / 5);
+    size_t all_made = 0, all_named = 0;
+    for (int k = 1; k < kinds_of_slips; k++) {
+        static const char *const kinds[] = {"", "sign", "factor", "missing term", "reaction", "point"};
+        print_message("%s: %zu of %zu named\n", kinds[k], names_of[k], slips_of[k]);
+        all_made += slips_of[k];
+        all_named += names_of[k];
+    }
+    assert_true(100 * all_named >= 95 * all_made);
     checks_end(checks);
 }
 

@@ -1,0 +1,35 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * What a state gives of a line of a derivation, for the suspects (hand_suspects.h).
+ */
+#ifndef FBD_OUTPUT_HAND_LOOK_H
+#define FBD_OUTPUT_HAND_LOOK_H
+
+#include "output/hand_suspects.h"
+
+/* Left less right. */
+double look_line(const struct suspects_look *look);
+
+const struct model_body *look_body(const struct suspects_look *look);
+
+/* The force for which a letter stands, of this body; NULL where it is a sum, or another body's. */
+const struct hand_force *look_force(const struct suspects_look *look, const struct letter *letter,
+                                    double *sign);
+
+/* Is it where a force acts? */
+bool look_is_place(const struct hand_force *force);
+
+/* A force at a point, and a couple, in an equation of the body: a component, or the moment. */
+double look_part(const struct suspects_look *look, struct vec F, struct vec point, double couple,
+                 int equation);
+double look_term(const struct suspects_look *look, const struct arrow *arrow, int equation);
+
+/* What the coefficient of a force of this value is in an equation. */
+double look_coefficient(const struct suspects_look *look, const struct hand_force *force, double value,
+                        int equation);
+
+/* Has the angular acceleration, where the line has it, the coefficient that it has in an equation that was multiplied by `factor`
+ * (0: nothing is known of that)? */
+bool look_inertia_fits(const struct suspects_look *look, int equation, double factor);
+
+#endif

@@ -1,0 +1,122 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * Slips of the pen that a line of a derivation may have, as numbers at a state.
+ *
+ * A line that is false lacks something: left less right. Each suspect has a value V at a state such that the lack is k V
+ * with the same k at every state, when the line has that slip and no other:
+ *
+ *     a summand of the line            its value: k = -2 with the wrong sign, -1 where it is one too many
+ *     a name in the line               what the line changes by in all with it: k = 2 with the wrong sign
+ *     a name in the place of another   what the line changes by when the other one is put there: k = 1
+ *     a term of the body's equation    the component or moment of an arrow of its diagram, times what the line has been
+ *                                      multiplied by: k = -1 where it is missing, -2 with the wrong sign
+ *     a term in the place of another   the difference of the two: k = 1
+ *     moments about another point      (P - Q) x m a_G: k = 1 when the arms are from P, and the inertia is about Q
+ *
+ * By what a line has been multiplied, the coefficients of the names in it tell: most of them.
+ */
+#ifndef FBD_OUTPUT_HAND_SUSPECTS_H
+#define FBD_OUTPUT_HAND_SUSPECTS_H
+
+#include "output/hand.h"
+#include "output/hand_forces.h"
+
+enum { most_places = 12, most_letters = 48 };
+
+/* The equations of a body: sums of forces along an axis, of moments about a point. */
+enum equation_kind {
+    equation_x,
+    equation_y,
+    equation_along, /* +x of a slide or track */
+    equation_across,
+    equation_moment, /* about place 0; about place k: equation_moment + k */
+};
+
+/* A point about which moments may be taken. */
+struct place_of {
+    const char *name;
+    bool own;         /* a point of the body, */
+    struct vec frame; /* there */
+    struct vec p;     /* in the world */
+};
+
+/* A name in the line: its slot in y, and the names that may stand in its place. */
+struct letter {
+    int slot;
+    enum letter_kind { letter_force, letter_acceleration, letter_inertia } kind;
+    const struct absolute *absolute; /* NULL of what has a slot of its own (enum hand_slot) */
+};
+
+struct suspect {
+    enum suspect_kind {
+        suspect_summand,
+        suspect_letter,
+        suspect_force,        /* another force in the place of a letter */
+        suspect_inertia,      /* the moment of inertia about another point */
+        suspect_acceleration, /* of another point */
+        suspect_term,
+        suspect_part,     /* of a term that is a moment: that of one component */
+        suspect_exchange, /* the term of another arrow in the place of one */
+        suspect_place,
+    } kind;
+    size_t which; /* summand, letter, arrow, or place of the arms */
+    size_t other; /* what is in its place; the place of the inertia */
+    int equation; /* of a term */
+    bool upright; /* of a part: the moment of the component along y */
+    bool dead;
+    size_t seen;
+    double k; /* NAN before it is known */
+};
+
+/* What a state gives. */
+struct suspects_look {
+    const struct hand_check *check;
+    struct arena arena;            /* of one model */
+    const struct fbd_model *model; /* whose forces these are */
+    const struct hand *hand;
+    struct hand_forces forces;
+    struct arrow *arrows;
+    size_t arrow_count;
+    size_t place_count, letter_count;
+    bool about; /* the first place is the one that the line is about */
+    struct place_of places[most_places];
+    struct letter letters[most_letters];
+    const struct fbd_state *state;
+    const struct hand_named *named;
+    struct instant at;
+    double *y;
+    double lack, size;
+    double slope[most_letters]; /* of left less right by each letter */
+    double factor[equation_moment +
+                  most_places]; /* by what the line has been multiplied, as an equation of that kind; */
+    double factor_of_arms[most_places]; /* by the forces alone. 0: nothing tells */
+    struct vec m_a;
+};
+
+/* Forget the model. */
+void suspects_close(struct suspects_look *look);
+
+/* Look at a state; false when memory is out. */
+bool suspects_look_at(struct suspects_look *look, const struct fbd_state *state,
+                      const struct hand_named *named, double *y);
+
+/* All suspects of a line, in the arena; NULL when memory is out. */
+struct suspect *suspects_list(const struct suspects_look *look, struct arena *arena, size_t *count);
+
+/* V, NAN where it has none. */
+double suspect_value(const struct suspects_look *look, const struct suspect *suspect);
+
+/* Does a state tell anything of it? Not where one of two forces that are exchanged is zero, or a summand is all of the line. */
+bool suspect_shows(const struct suspects_look *look, const struct suspect *suspect);
+
+/* Do names in the line have the right coefficients that would have wrong ones by this slip? */
+bool suspect_contradicted(const struct suspects_look *look, const struct suspect *suspect);
+
+/* Is the line the equation of moments about place k, times some factor? Its names of forces have the coefficients of that, and
+ * no reaction with a moment about it is left out. */
+bool suspects_is_about(const struct suspects_look *look, size_t place);
+
+/* Is the force of arrow i named in the line, or written out as a summand? */
+bool suspects_name(const struct suspects_look *look, size_t arrow);
+
+#endif
