@@ -21,7 +21,7 @@ static bool is_letter(const char *letter, const char *name)
     }
 }
 
-static const struct force_name *find(const struct reader *reader, int body, const char *name)
+static const struct force_name *find_in(const struct reader *reader, int body, const char *name)
 {
     for (size_t i = 0; i < reader->force_name_count; i++) {
         const struct force_name *one = &reader->force_names[i];
@@ -34,14 +34,55 @@ static const struct force_name *find(const struct reader *reader, int body, cons
     return NULL;
 }
 
-/* `body.name`, of another body. */
-static const struct force_name *find_dotted(const struct reader *reader, const char *name)
+bool names_take_force(const struct names *names)
 {
+    return names->of_force == absolute_work || names->of_force == absolute_impulse;
+}
+
+bool names_sense(void *context, const char *word)
+{
+    static const struct {
+        const char *word;
+        enum hand_sense sense;
+        enum absolute_kind of_force;
+    } known[] = {{"initial", sense_initial, absolute_force},
+                 {"before", sense_before, absolute_force},
+                 {"after", sense_after, absolute_force},
+                 {"work", sense_now, absolute_work},
+                 {"impulse", sense_now, absolute_impulse}};
+    struct names *names = context;
+    const bool inside = names->place != place_hand || names->sense != sense_now || names_take_force(names);
+    if (!word) {
+        names->sense = sense_now;
+        names->of_force = absolute_force;
+    }
+    for (size_t i = 0; word && !inside && i < sizeof known / sizeof *known; i++) {
+        if (strcmp(known[i].word, word) != 0) continue;
+        names->sense = known[i].sense;
+        names->of_force = known[i].of_force;
+        return true;
+    }
+    return false;
+}
+
+/* Work is done by forces, too, whose size has no sign: the name of their component stands for them. */
+static const struct force_name *find(const struct names *names, int body, const char *name)
+{
+    const struct force_name *one = find_in(names->reader, body, name);
+    if (one || names->of_force != absolute_work) return one;
+    const char *component = arena_printf(names->reader->arena, "%s.x", name);
+    return component ? find_in(names->reader, body, component) : NULL;
+}
+
+/* `body.name`, of another body. */
+static const struct force_name *find_dotted(const struct names *names, const char *name)
+{
+    const struct reader *reader = names->reader;
     const char *dot = strchr(name, '.');
     for (size_t b = 0; dot && b < reader->scene->body_count; b++) {
         const char *body = reader->scene->bodies[b].name;
         if (body && strlen(body) == (size_t)(dot - name) && memcmp(body, name, (size_t)(dot - name)) == 0)
-            return find(reader, (int)b, dot + 1);
+            return find(names, (int)b, dot + 1);
     }
     return NULL;
 }
@@ -69,20 +110,25 @@ struct symbol hand_place_symbol(const struct names *names, int body, const char 
 
 static struct symbol slot_of(const struct names *names, const struct absolute *force, struct dim dim)
 {
-    struct symbol symbol = names_absolute(names->reader, place_hand, force);
+    struct absolute wanted = *force;
+    if (names_take_force(names)) wanted.kind = names->of_force;
+    struct symbol symbol = names_absolute(names->reader, place_hand, &wanted);
     symbol.dim = dim;
+    if (wanted.kind == absolute_work) symbol.dim = DIM_MOMENT;
+    if (wanted.kind == absolute_impulse) symbol.dim = dim_times(dim, DIM_TIME);
     return symbol;
 }
 
 /* ---- symbols of the file's own */
 
 /* The only size of that name: where it is the same number on all bodies that have it. */
-static const struct force_name *find_anywhere(const struct reader *reader, const char *name)
+static const struct force_name *find_anywhere(const struct names *names, const char *name)
 {
+    const struct reader *reader = names->reader;
     const size_t length = strlen(name);
     if (length > 2 && name[length - 2] == '.') return NULL; /* a component is of one body */
     for (size_t b = 0; b < reader->scene->body_count; b++) {
-        const struct force_name *one = find(reader, (int)b, name);
+        const struct force_name *one = find(names, (int)b, name);
         if (one) return one;
     }
     return NULL;
@@ -114,9 +160,9 @@ static bool add_force(const struct names *names, const struct node *item, struct
     const char *name = item->text;
     const bool minus = *name == '-';
     while (*name == '-' || *name == '+' || *name == ' ') name++;
-    const struct force_name *one = find(reader, names->body, name);
-    if (!one) one = find_dotted(reader, name);
-    if (!one) one = find_anywhere(reader, name);
+    const struct force_name *one = find(names, names->body, name);
+    if (!one) one = find_dotted(names, name);
+    if (!one) one = find_anywhere(names, name);
     if (!one) {
         const char *const *known;
         size_t count = names_list((void *)names, &known);
@@ -191,8 +237,8 @@ struct symbol force_symbol(const struct names *names, const char *name)
         return (struct symbol){.kind = symbol_failed};
     }
     if (value) return declared_symbol(names, name, value);
-    const struct force_name *one = find(reader, names->body, name);
-    if (!one) one = find_dotted(reader, name);
+    const struct force_name *one = find(names, names->body, name);
+    if (!one) one = find_dotted(names, name);
     if (!one) return unknown;
     const char *own = arena_text(reader->arena, one->name, strlen(one->name));
     if (!own) return (struct symbol){.kind = symbol_failed};
