@@ -12,17 +12,16 @@ enum { most_steps = 400, most_impacts = 100, most_shots = most_steps + most_impa
 
 /* ---- what is to be kept */
 
-static void mark_bodies(struct hand_run *run, const struct expr *expr)
+void hand_run_mark(const struct fbd_model *model, const struct expr *expr, bool *bodies)
 {
-    const struct fbd_model *model = run->model;
     const struct scene *scene = model->scene;
     const int *slots;
     const size_t n = scene->coordinate_count, first = scene_size(scene) + hand_slots,
                  count = expr ? expr_variables(expr, &slots) : 0;
     for (size_t i = 0; i < count; i++) {
         const size_t k = (size_t)(slots[i] - 1) % hand_sense_size(scene);
-        if (k < 2 * n) run->named_bodies[scene->coordinates[k % n].body] = true;
-        if (k >= first) run->named_bodies[model->absolutes[k - first].body] = true;
+        if (k < 2 * n) bodies[scene->coordinates[k % n].body] = true;
+        if (k >= first) bodies[model->absolutes[k - first].body] = true;
     }
 }
 
@@ -35,8 +34,8 @@ static void mark_lines(struct hand_run *run)
             if (body->hands[i].kind == hand_of_states) continue;
             if (run->place[b] < 0) run->place[b] = (int)run->bodies++;
             run->named_bodies[b] = true;
-            mark_bodies(run, body->hands[i].left);
-            mark_bodies(run, body->hands[i].right);
+            hand_run_mark(run->model, body->hands[i].left, run->named_bodies);
+            hand_run_mark(run->model, body->hands[i].right, run->named_bodies);
         }
     }
 }
@@ -97,13 +96,32 @@ static bool is_integral(const struct hand_run *run, size_t k)
            run->model->absolutes[k].kind == absolute_impulse;
 }
 
+enum { covered = -2 };
+
+/* The load that has the work of a force of a sum; `covered` where it is that of another one of the sum, -1 for none. */
+static int load_of(struct hand_run *run, const struct hand_sum *sum, size_t i)
+{
+    struct tie_place place;
+    const struct hand_force *force = sum->forces[i];
+    const struct arrow *arrow = arrow_of(run, force);
+    int load = arrow->load;
+    if (load >= 0 || sum->count < 2 || !tie_of_force(run->model, force->name.body, arrow->name, &place))
+        return load;
+    load = run->model->tree->ties[place.tie].load;
+    for (size_t k = 0; k < sum->count; k++) /* all of a contact is listed with its friction */
+        if (k != i && arrow_of(run, sum->forces[k])->load == load) return covered;
+    return -1;
+}
+
 static void choose_ledger(struct hand_run *run)
 {
     for (size_t k = 0; k < run->model->absolute_count; k++) {
         const struct hand_sum *sum = &run->named.of[k];
         run->by_ledger[k] = run->model->absolutes[k].kind == absolute_work;
-        for (size_t i = 0; i < sum->count; i++)
-            run->by_ledger[k] &= is_of_one_body(run->model, arrow_of(run, sum->forces[i])->load);
+        for (size_t i = 0; i < sum->count; i++) {
+            const int load = load_of(run, sum, i);
+            run->by_ledger[k] &= load == covered || is_of_one_body(run->model, load);
+        }
     }
 }
 
@@ -170,7 +188,8 @@ static double ledger_sum(struct hand_run *run, size_t k, const double *without)
     const struct hand_sum *sum = &run->named.of[k];
     double work = 0;
     for (size_t i = 0; i < sum->count; i++) {
-        int load = arrow_of(run, sum->forces[i])->load;
+        const int load = load_of(run, sum, i);
+        if (load == covered) continue;
         work += ledger_work(&run->ledger, run->state, (size_t)load, run->works);
         if (without && run->ledger.counted[load]) work -= run->ledger.struck[load] - without[load];
     }
@@ -190,6 +209,21 @@ static void write_names(struct hand_run *run, const double *without, double *y)
             if (is_integral(run, k))
                 own[first + k] = run->by_ledger[k] ? ledger_sum(run, k, without) : run->integrals[k];
     }
+}
+
+/* run->state becomes that at the end of the last step before its impacts. */
+static bool look_before(struct hand_run *run)
+{
+    const struct ensemble *ensemble = run->ensemble;
+    if (!ensemble_look_before(run->ensemble, ensemble->t, run->state)) return false;
+    for (size_t g = 0; g < ensemble->count; g++) {
+        const struct group *group = &ensemble->groups[g];
+        if (group->run->state->t != ensemble->t) continue;
+        for (size_t i = 0; i < plan_size(&group->model->plan); i++)
+            run->state->y[group_component(run->model, group, i)] = group->run->work.y[i];
+    }
+    state_evaluate(run->state);
+    return true;
 }
 
 /* Leave every second of the shots of steps. */
@@ -232,7 +266,7 @@ static bool take_shot(struct hand_run *run, double t, bool impact, size_t event)
     shot->impact = impact;
     shot->event = event;
     if (!ledger_within(&run->ledger, run->ensemble, t, run->works)) return false;
-    if (impact && !ensemble_look_before(run->ensemble, t, run->state)) return false;
+    if (impact && !look_before(run)) return false;
     if (impact) write_names(run, struck_before(run), shot->before);
     if (impact) lose_integrals(run, shot->before, ensemble_state(run->ensemble)->y);
     if (t == run->ensemble->t)
@@ -250,7 +284,7 @@ static bool jumps(struct hand_run *run)
 {
     const size_t n = run->model->scene->coordinate_count;
     const double *after = ensemble_state(run->ensemble)->y + n;
-    if (!ensemble_look_before(run->ensemble, run->ensemble->t, run->state)) return false;
+    if (!look_before(run)) return false;
     return memcmp(run->state->y + n, after, n * sizeof *after) != 0;
 }
 

@@ -60,6 +60,9 @@ struct hand_run {
 bool hand_run_make(struct hand_run *run, const struct fbd_model *model, fbd_errors *errors);
 void hand_run_free(struct hand_run *run);
 
+/* Mark the bodies that an expression names, in any sense. */
+void hand_run_mark(const struct fbd_model *model, const struct expr *expr, bool *bodies);
+
 /* Judge a line; false when it does not hold (hand_run_judge.c). */
 bool hand_run_judge(struct hand_run *run, int body, const struct hand *hand, struct text *text);
 

@@ -33,8 +33,9 @@ struct judge {
     size_t count, failed, first; /* judged, those that fail, the first of these */
     struct judged *list;
     double tolerance;
-    bool moves; /* something that it names */
-    bool known; /* all works and impulses are */
+    bool *bodies; /* that it names */
+    bool moves;   /* something that it names */
+    bool known;   /* all works and impulses are */
     bool varies[most_summands];
     size_t agents[most_agents]; /* of those of the run: what may be lacking, */
     size_t agent_count;
@@ -228,7 +229,7 @@ static bool blame_summand(const struct judge *judge, bool constant, struct text 
         double factor = 1 - best_factor(judge, summand, j);
         if (!isfinite(factor) || !fits(judge, summand, j, 1 - factor)) continue;
         if (fabs(factor) < 1e-6 && hand->summand_count < 2) continue;
-        if (end_of(judge) < 3 && !is_plain(factor)) continue;
+        if ((end_of(judge) < 3 || hand->kind == hand_of_impacts) && !is_plain(factor)) continue;
         text_add(text, constant ? "  with " : "  the summand `");
         if (constant) text_printf(text, "%.6g times `", factor);
         text_shown(text, hand->summands[j].text);
@@ -386,8 +387,7 @@ static bool comes_from_outside(const struct judge *judge, const struct run_shot 
             const struct tie *tie = &model->tree->ties[k];
             if (!is_impact(&ensemble->events[i]) || tie->load != ensemble->events[i].load) continue;
             for (int end = 0; end < tie->end_count; end++)
-                if (tie->end[end].body == ground_body || !judge->run->named_bodies[tie->end[end].body])
-                    return true;
+                if (tie->end[end].body == ground_body || !judge->bodies[tie->end[end].body]) return true;
         }
     return false;
 }
@@ -405,6 +405,8 @@ static void blame_impact(const struct judge *judge, const struct run_shot *shot,
             if (event->t == shot->t && is_impact(event)) work -= event->impact.work;
         }
         text_printf(text, "  the impact takes %.6g %s\n", work, energy_unit(judge->run->model));
+    } else if (judge->hand->kind == hand_of_impacts) {
+        text_add(text, "  no single term explains the difference\n");
     }
 }
 
@@ -444,7 +446,8 @@ static void diagnose(struct judge *judge, struct text *text)
 
 static const char *places(const struct judge *judge)
 {
-    return judge->hand->kind == hand_of_impacts ? "impacts" : "times";
+    if (judge->hand->kind != hand_of_impacts) return "times";
+    return judge->count == 1 ? "impact" : "impacts";
 }
 
 static void say_failure(struct judge *judge, struct text *text)
@@ -468,12 +471,12 @@ static void say_failure(struct judge *judge, struct text *text)
 static void say_constant(const struct judge *judge, struct text *text)
 {
     const struct hand *hand = judge->hand;
-    for (size_t j = 0; hand->kind == hand_conserved && hand->summand_count > 1 && j < hand->summand_count;
-         j++) {
-        if (judge->varies[j]) continue;
+    for (size_t j = 0; hand->summand_count > 1 && j < hand->summand_count; j++) {
+        if (judge->varies[j] || strcmp(hand->summands[j].text, "0") == 0) continue;
         text_add(text, "  `");
         text_shown(text, hand->summands[j].text);
-        text_add(text, "` does not change in this run: nothing is told of its factor and sign\n");
+        text_printf(text, "` %s in this run: nothing is told of its factor and sign\n",
+                    hand->kind == hand_conserved ? "does not change" : "is zero");
     }
 }
 
@@ -493,8 +496,8 @@ static bool say_verdict(struct judge *judge, struct text *text)
         return false;
     }
     if (!judge->known) {
-        text_add(text, "  not checked: it names the work or impulse of a force whose part in an impact is "
-                       "not known, or a number that is not finite\n");
+        text_add(text, "  not checked: what a force in it does alone in an impact is not known, or a number "
+                       "is not finite\n");
         return false;
     }
     if (judge->failed > 0) {
@@ -516,8 +519,11 @@ bool hand_run_judge(struct hand_run *run, int body, const struct hand *hand, str
     judge.block = hand_sense_size(run->model->scene);
     judge.y = ARENA_ARRAY(&run->arena, hand_senses * judge.block, double);
     judge.list = ARENA_ARRAY(&run->arena, run->count + 1, struct judged);
-    run->no_memory = run->no_memory || !judge.y || !judge.list;
+    judge.bodies = ARENA_ARRAY(&run->arena, run->model->body_count, bool);
+    run->no_memory = run->no_memory || run->arena.failed;
     if (run->no_memory) return false;
+    hand_run_mark(run->model, hand->left, judge.bodies);
+    hand_run_mark(run->model, hand->right, judge.bodies);
     judge_all(&judge);
     return say_verdict(&judge, text);
 }

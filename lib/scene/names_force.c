@@ -65,11 +65,20 @@ bool names_sense(void *context, const char *word)
     return false;
 }
 
+/* Is it the name of a component, or of the place where a force acts? Work is that of a whole force. */
+static bool is_part(const struct force_name *force)
+{
+    const char *dot = strrchr(force->name, '.'), last = force->name[strlen(force->name) - 1];
+    return force->dim.mass == 0 || (force->letter && (last == 'x' || last == 'y')) ||
+           (dot && (strcmp(dot, ".x") == 0 || strcmp(dot, ".y") == 0));
+}
+
 /* Work is done by forces, too, whose size has no sign: the name of their component stands for them. */
 static const struct force_name *find(const struct names *names, int body, const char *name)
 {
     const struct force_name *one = find_in(names->reader, body, name);
-    if (one || names->of_force != absolute_work) return one;
+    if (names->of_force != absolute_work) return one;
+    if (one) return is_part(one) ? NULL : one;
     const char *component = arena_printf(names->reader->arena, "%s.x", name);
     return component ? find_in(names->reader, body, component) : NULL;
 }
@@ -182,6 +191,18 @@ static bool add_force(const struct names *names, const struct node *item, struct
     return own != NULL;
 }
 
+static struct symbol sum_symbol(const struct names *names, const char *name, const struct force_sum *sum,
+                                struct dim dim)
+{
+    const char *key = arena_printf(names->reader->arena, "=%s", name); /* no name of a diagram */
+    const struct absolute force = {.body = names->body,
+                                   .point = {.kind = point_fixed},
+                                   .kind = absolute_force,
+                                   .force = key,
+                                   .sum = sum};
+    return key ? slot_of(names, &force, dim) : (struct symbol){.kind = symbol_failed};
+}
+
 static struct symbol declared_symbol(const struct names *names, const char *name, const struct node *value)
 {
     static const struct symbol noted = {.kind = symbol_failed};
@@ -192,13 +213,7 @@ static struct symbol declared_symbol(const struct names *names, const char *name
     if (!sum || !sum->forces) return noted;
     for (size_t i = 0; i < count_of(value); i++)
         if (!add_force(names, value->kind == node_list ? value->items[i] : value, sum, &dim)) return noted;
-    const char *key = arena_printf(reader->arena, "=%s", name); /* no name of a diagram */
-    const struct absolute force = {.body = names->body,
-                                   .point = {.kind = point_fixed},
-                                   .kind = absolute_force,
-                                   .force = key,
-                                   .sum = sum};
-    return key ? slot_of(names, &force, dim) : noted;
+    return sum_symbol(names, name, sum, dim);
 }
 
 bool symbols_check(struct reader *reader, const struct node *symbols)
@@ -228,6 +243,25 @@ bool symbols_check(struct reader *reader, const struct node *symbols)
 
 /* ---- both */
 
+/* The work of a contact or a roll is that of its normal force and its friction. */
+static struct symbol contact_symbol(const struct names *names, const char *name)
+{
+    static const char *const parts[] = {"normal", "friction"};
+    struct arena *arena = names->reader->arena;
+    struct force_sum *sum = ARENA_NEW(arena, struct force_sum);
+    if (names->of_force != absolute_work || !sum) return unknown;
+    sum->forces = ARENA_ARRAY(arena, 2, struct signed_force);
+    for (size_t i = 0; sum->forces && i < 2; i++) {
+        const char *part = arena_printf(arena, "%s.%s", name, parts[i]);
+        const struct force_name *one = part ? find(names, names->body, part) : NULL;
+        if (part && !one) one = find_dotted(names, part);
+        if (!one) return unknown;
+        const char *own = arena_text(arena, one->name, strlen(one->name));
+        sum->forces[sum->count++] = (struct signed_force){one->body, own, 1};
+    }
+    return sum_symbol(names, name, sum, DIM_FORCE);
+}
+
 struct symbol force_symbol(const struct names *names, const char *name)
 {
     struct reader *reader = names->reader;
@@ -239,7 +273,7 @@ struct symbol force_symbol(const struct names *names, const char *name)
     if (value) return declared_symbol(names, name, value);
     const struct force_name *one = find(names, names->body, name);
     if (!one) one = find_dotted(names, name);
-    if (!one) return unknown;
+    if (!one) return contact_symbol(names, name);
     const char *own = arena_text(reader->arena, one->name, strlen(one->name));
     if (!own) return (struct symbol){.kind = symbol_failed};
     const struct absolute force = {.body = one->body,
