@@ -65,6 +65,36 @@ unsigned *lines_slips(struct fbd_grade *grade);
 /* Has the scene one degree of freedom? Its pushes are made (freedom.c). */
 bool lines_one_freedom(struct lines *lines);
 
+/* The tree of that scene; it is compiled as lines->alone, which is NULL where memory is out (lines_run.c). */
+const struct node *line_compile(struct lines *lines, const struct node *root, int body);
+
+/* ---- values of the answer's own (lines_values.c) */
+
+/* Has it a number that was rounded, perhaps: one of two digits or more, that is no part of a name? */
+bool line_has_numbers(const char *text);
+
+/* Does it name parameters that the sheet does not have? Those follow from others, and are not varied with them.
+ * *rounded: one of them may be a number that was rounded. */
+bool line_has_own_names(const struct lines *lines, const char *text, bool *rounded);
+
+/* ---- lines of energy and momentum (lines_run.c) */
+
+/* Beside the bits of hand_check.says. */
+enum { line_says_run = 4 << hand_slots };
+
+struct line_of_run {
+    bool holds, empty;   /* it is true whatever the velocities are */
+    const char *verdict; /* NULL: it is no such line, */
+    size_t count;
+    const double *slopes; /* how left less right changes with velocities, at some times */
+};
+
+/* Judge the equation lines->index of a body. False when memory is out. */
+bool line_judge_by_run(struct lines *lines, int body, struct line_of_run *line);
+
+/* Do they say the same of the velocities, or are both no such lines? */
+bool lines_of_run_agree(const struct line_of_run *a, const struct line_of_run *b);
+
 /* ---- equations of rest (statics.c) */
 
 /* *changes: how left less right changes with the parameters, where the equation is one of rest that is right; else NULL.

@@ -7,6 +7,7 @@
 
 #include "loop/options.h"
 #include "output/hand.h"
+#include "output/hand_run_judge.h"
 
 enum { most_steps = 400, most_impacts = 100, most_shots = most_steps + most_impacts };
 
@@ -90,12 +91,6 @@ static bool is_impulsive(const struct fbd_model *model, int load)
     return source->kind == load_normal || source->kind == load_friction || source->kind == moment_friction;
 }
 
-static bool is_integral(const struct hand_run *run, size_t k)
-{
-    return run->model->absolutes[k].kind == absolute_work ||
-           run->model->absolutes[k].kind == absolute_impulse;
-}
-
 enum { covered = -2 };
 
 /* The load that has the work of a force of a sum; `covered` where it is that of another one of the sum, -1 for none. */
@@ -132,7 +127,7 @@ static void add_rates(struct hand_run *run, double weight)
     struct instant at = state_instant(run->state);
     int body = -1;
     for (size_t k = 0; k < model->absolute_count; k++)
-        if (is_integral(run, k) && !run->by_ledger[k])
+        if (is_integral(run->model, k) && !run->by_ledger[k])
             run->integrals[k] += weight * hand_named_rate(run->state, &run->named, k);
     for (size_t i = 0; i < run->agent_count; i++) {
         const struct agent *agent = &run->agents[i];
@@ -170,7 +165,7 @@ static void lose_integrals(struct hand_run *run, const double *before, const dou
     const struct fbd_model *model = run->model;
     for (size_t k = 0; k < model->absolute_count; k++) {
         const struct hand_sum *sum = &run->named.of[k];
-        for (size_t i = 0; is_integral(run, k) && !run->by_ledger[k] && i < sum->count; i++) {
+        for (size_t i = 0; is_integral(run->model, k) && !run->by_ledger[k] && i < sum->count; i++) {
             const struct model_body *body = &model->bodies[sum->forces[i]->name.body];
             const size_t first = (size_t)body->first_rate, size = (size_t)body->count * sizeof *before;
             if (is_impulsive(model, arrow_of(run, sum->forces[i])->load) &&
@@ -206,7 +201,7 @@ static void write_names(struct hand_run *run, const double *without, double *y)
         double *own = y + (size_t)run->place[b] * room;
         hand_extend(run->state, (int)b, &run->named, own);
         for (size_t k = 0; k < model->absolute_count; k++)
-            if (is_integral(run, k))
+            if (is_integral(run->model, k))
                 own[first + k] = run->by_ledger[k] ? ledger_sum(run, k, without) : run->integrals[k];
     }
 }
@@ -288,12 +283,6 @@ static bool jumps(struct hand_run *run)
     return memcmp(run->state->y + n, after, n * sizeof *after) != 0;
 }
 
-static bool is_impact(const struct run_event *event)
-{
-    return event->kind == FBD_EVENT_IMPACT || event->kind == FBD_EVENT_ROPE_TAUT ||
-           event->kind == FBD_EVENT_LANDING || event->kind == FBD_EVENT_REST || event->kind == FBD_EVENT_JAM;
-}
-
 /* Into how many parts the last step is divided, at whose ends the lines are judged: what the integrals need, and few steps
  * of a run are long ones. */
 static int parts_of_step(const struct hand_run *run)
@@ -316,7 +305,7 @@ static bool advance(struct hand_run *run)
     ensemble_advance(ensemble);
     run->steps++;
     if (ensemble->outcome == FBD_OUT_OF_MEMORY) return false;
-    while (event < ensemble->event_count && !is_impact(&ensemble->events[event])) event++;
+    while (event < ensemble->event_count && !run_event_is_impact(&ensemble->events[event])) event++;
     bool impact = event < ensemble->event_count && jumps(run) && run->impacts++ < most_impacts;
     const int parts = parts_of_step(run);
     double from = ensemble->from;

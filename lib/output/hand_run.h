@@ -63,6 +63,11 @@ void hand_run_free(struct hand_run *run);
 /* Mark the bodies that an expression names, in any sense. */
 void hand_run_mark(const struct fbd_model *model, const struct expr *expr, bool *bodies);
 
+/* How left less right of a line changes with velocities, at some times of the run or at impacts: their number. They are in
+ * the arena; 0 when memory is out (hand_run_judge.c). */
+size_t hand_run_slopes(struct hand_run *run, int body, const struct hand *hand, struct arena *arena,
+                       double **slopes);
+
 /* Judge a line; false when it does not hold (hand_run_judge.c). */
 bool hand_run_judge(struct hand_run *run, int body, const struct hand *hand, struct text *text);
 
