@@ -60,28 +60,35 @@ static bool is_plain(double factor)
     return false;
 }
 
-/* A line is right with the factor s on one summand if it lacks (1 - s) times that. At one impact any factor makes it right. */
-static bool blame_summand(const struct judge *judge, bool constant, struct text *text)
+static bool blame_one(const struct judge *judge, unsigned j, bool plain, struct text *text)
 {
     const struct hand *hand = judge->hand;
-    for (unsigned j = 0; j < hand->summand_count; j++) {
-        double factor = 1 - best_factor(judge, summand, j);
-        if (!isfinite(factor) || !fits(judge, summand, j, 1 - factor)) continue;
-        if (fabs(factor) < 1e-6 && hand->summand_count < 2) continue;
-        if ((end_of(judge) < 3 || hand->kind == hand_of_impacts) && !is_plain(factor)) continue;
-        text_add(text, constant ? "  with " : "  the summand `");
-        if (constant) text_printf(text, "%.6g times `", factor);
-        text_shown(text, hand->summands[j].text);
-        if (constant)
-            text_add(text, "` it would be constant\n");
-        else if (fabs(factor + 1) < 1e-6)
-            text_add(text, "` has the wrong sign\n");
-        else if (fabs(factor) < 1e-6)
-            text_add(text, "` is one too many\n");
-        else
-            text_printf(text, "` is right with the factor %.6g\n", factor);
-        return true;
-    }
+    const bool constant = hand->kind == hand_conserved;
+    const double factor = 1 - best_factor(judge, summand, j);
+    if (!isfinite(factor) || is_plain(factor) != plain || !fits(judge, summand, j, 1 - factor)) return false;
+    if (fabs(factor) < 1e-6 && hand->summand_count < 2) return false;
+    text_add(text, constant ? "  with " : "  the summand `");
+    if (constant) text_printf(text, "%.6g times `", factor);
+    text_shown(text, hand->summands[j].text);
+    if (constant)
+        text_add(text, "` it would be constant\n");
+    else if (fabs(factor + 1) < 1e-6)
+        text_add(text, "` has the wrong sign\n");
+    else if (fabs(factor) < 1e-6)
+        text_add(text, "` is one too many\n");
+    else
+        text_printf(text, "` is right with the factor %.6g\n", factor);
+    return true;
+}
+
+/* A line is right with the factor s on one summand if it lacks (1 - s) times that: first with factors that people forget.
+ * Others only where there are times enough to tell. */
+static bool blame_summand(const struct judge *judge, bool plain, struct text *text)
+{
+    const bool few = end_of(judge) < 3 || judge->hand->kind == hand_of_impacts;
+    for (int others = 0; others <= !(plain || few); others++)
+        for (unsigned j = 0; j < judge->hand->summand_count; j++)
+            if (blame_one(judge, j, !others, text)) return true;
     return false;
 }
 
@@ -265,7 +272,7 @@ void judge_diagnose(struct judge *judge, struct text *text)
         if (outside || !blame_summand(judge, false, text)) blame_impact(judge, shot, text);
     } else if (kind == hand_conserved) {
         bool found = blame_agents(judge, 1, text);
-        found = blame_summand(judge, true, text) || found;
+        found = blame_summand(judge, found, text) || found;
         if (!found && !blame_agents(judge, -1, text))
             text_add(text, "  no single term explains the difference\n");
     } else if (!blame_agents(judge, 1, text) && !blame_agents(judge, -1, text) &&

@@ -155,17 +155,21 @@ static void say_failure(struct judge *judge, struct text *text)
     judge_diagnose(judge, text);
 }
 
-/* What is not told from any other constant. */
+/* What may have any factor. */
 static void say_constant(const struct judge *judge, struct text *text)
 {
     const struct hand *hand = judge->hand;
+    const char *before = "  the run tells nothing of the factor and the sign of `";
+    size_t count = 0;
     for (size_t j = 0; hand->summand_count > 1 && j < hand->summand_count; j++) {
         if (judge->varies[j] || strcmp(hand->summands[j].text, "0") == 0) continue;
-        text_add(text, "  `");
+        text_add(text, before);
         text_shown(text, hand->summands[j].text);
-        text_printf(text, "` %s in this run: nothing is told of its factor and sign\n",
-                    hand->kind == hand_conserved ? "does not change" : "is zero");
+        before = "`, `";
+        count++;
     }
+    if (count > 0)
+        text_printf(text, "`: %s throughout\n", hand->kind == hand_conserved ? "constant" : "zero");
 }
 
 static bool say_verdict(struct judge *judge, struct text *text)

@@ -47,11 +47,11 @@ static inline bool is_integral(const struct fbd_model *model, size_t k)
     return model->absolutes[k].kind == absolute_work || model->absolutes[k].kind == absolute_impulse;
 }
 
-/* Does an event make velocities jump? */
+/* Is it an impact? The end of a series of impacts is none: the laws of a single one do not hold there. */
 static inline bool run_event_is_impact(const struct run_event *event)
 {
     return event->kind == FBD_EVENT_IMPACT || event->kind == FBD_EVENT_ROPE_TAUT ||
-           event->kind == FBD_EVENT_LANDING || event->kind == FBD_EVENT_REST || event->kind == FBD_EVENT_JAM;
+           event->kind == FBD_EVENT_LANDING || event->kind == FBD_EVENT_JAM;
 }
 
 /* Evaluate a line at a shot, or just before its impact. */
