@@ -9,7 +9,7 @@
 #include "output/hand.h"
 #include "output/hand_run_judge.h"
 
-enum { most_steps = 400, most_impacts = 100, most_shots = most_steps + most_impacts };
+enum { most_steps = 400, most_shots = most_steps + most_run_impacts };
 
 /* ---- what is to be kept */
 
@@ -306,7 +306,7 @@ static bool advance(struct hand_run *run)
     run->steps++;
     if (ensemble->outcome == FBD_OUT_OF_MEMORY) return false;
     while (event < ensemble->event_count && !run_event_is_impact(&ensemble->events[event])) event++;
-    bool impact = event < ensemble->event_count && jumps(run) && run->impacts++ < most_impacts;
+    bool impact = event < ensemble->event_count && jumps(run) && run->impacts++ < most_run_impacts;
     const int parts = parts_of_step(run);
     double from = ensemble->from;
     for (int i = 1; i <= parts; i++) {

@@ -19,6 +19,9 @@
 /* How forces of the diagrams may change a line: by their work, by their impulses in x and y and along the coordinates. */
 enum { by_work, by_x, by_y, by_coordinate, agent_parts = by_coordinate + most_coordinates_of_a_body };
 
+/* Impacts that are looked at. */
+enum { most_run_impacts = 100 };
+
 /* A force on a body that lines of a run name. */
 struct agent {
     int body;

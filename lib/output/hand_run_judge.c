@@ -98,19 +98,36 @@ static bool is_asked(const struct judge *judge, const struct run_shot *shot)
     return false;
 }
 
+/* Is it the last impact of a series, behind which the body is put at rest? That stands for infinitely many more. */
+static bool ends_series(const struct judge *judge, const struct run_shot *shot)
+{
+    const struct ensemble *ensemble = judge->run->ensemble;
+    for (size_t i = shot->event; i < ensemble->event_count && ensemble->events[i].t == shot->t; i++) {
+        const struct run_event *event = &ensemble->events[i];
+        size_t next = i + 1;
+        while (next < ensemble->event_count && (ensemble->events[next].load != event->load ||
+                                                (ensemble->events[next].kind != FBD_EVENT_REST &&
+                                                 ensemble->events[next].kind != event->kind)))
+            next++;
+        if (event->kind == FBD_EVENT_IMPACT && next < ensemble->event_count &&
+            ensemble->events[next].kind == FBD_EVENT_REST)
+            return true;
+    }
+    return false;
+}
+
 static void judge_shot(struct judge *judge, const struct run_shot *shot)
 {
     const struct hand *hand = judge->hand;
     const bool impacts = hand->kind == hand_of_impacts;
-    if ((impacts && !shot->impact) || !is_asked(judge, shot)) return;
+    if (impacts && (!shot->impact || ends_series(judge, shot))) return;
+    if (!is_asked(judge, shot)) return;
     put(judge, shot, false);
     if (hand->when && expr_eval(hand->when, shot->t, judge->y, NULL) == 0) return;
     bool moves = names_motion(judge, hand->left) || names_motion(judge, hand->right);
     if (impacts && !moves) return;
     judge->moves |= moves;
     struct judged judged = judge_evaluate(judge, shot, false);
-    for (size_t j = 0; j < hand->summand_count; j++)
-        judge->varies[j] |= fabs(judged.summands[j]) > 1e-9 * judged.size;
     judge->known &= isfinite(judged.size);
     judge->list[judge->count++] = judged;
 }
@@ -123,6 +140,9 @@ static void judge_all(struct judge *judge)
     for (size_t i = 0; i < run->count; i++) judge_shot(judge, &run->shots[i]);
     for (size_t i = 0; i < judge->count; i++) size = fmax(size, judge->list[i].size);
     judge->tolerance = energy_explained(run->ensemble->options.tolerance, steps, size, size);
+    for (size_t i = 0; i < judge->count; i++)
+        for (size_t j = 0; j < judge->hand->summand_count; j++)
+            judge->varies[j] |= fabs(judge->list[i].summands[j]) > 2 * judge->tolerance;
     for (size_t i = judge->count; i-- > 0;)
         if (!(fabs(lack_of(&judge->list[i])) <= judge->tolerance)) {
             judge->failed++;
@@ -201,6 +221,9 @@ static bool say_verdict(struct judge *judge, struct text *text)
     text_printf(text, "  holds at %zu %s of the run", judge->count, places(judge));
     if (judge->hand->kind != hand_of_impacts) text_printf(text, " up to t = %.6g", ensemble->t);
     text_printf(text, " (worst difference %.1e of the terms)\n", worst);
+    if (judge->run->impacts > most_run_impacts)
+        text_printf(text, "  of %zu impacts the first %d are looked at\n", judge->run->impacts,
+                    most_run_impacts);
     say_constant(judge, text);
     return true;
 }
