@@ -73,7 +73,8 @@ static bool is_of_one_body(const struct fbd_model *model, int load)
 {
     if (load < 0) return false;
     if ((size_t)load < model->coupled_count)
-        return !model->loads[load].in_joint && model->loads[load].partner < 0;
+        return model->loads[load].in_joint ? model->bodies[model->loads[load].body].parent < 0
+                                           : model->loads[load].partner < 0;
     for (int i = 0; model->tree && i < model->tree->tie_count; i++) {
         const struct tie *tie = &model->tree->ties[i];
         int moving = 0;
