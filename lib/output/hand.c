@@ -359,8 +359,10 @@ static int judge_by_run(struct hand_check *check, const struct hand *hand, struc
         if (error) text_printf(text, "  not checked: %s\n", error->message);
         bool out = !errors || errors->out_of_memory;
         fbd_errors_free(errors);
-        if (!made) hand_run_free(&check->run);
-        if (!made) return out ? -1 : 1;
+        if (!made) {
+            hand_run_free(&check->run);
+            return out ? -1 : 1;
+        }
     }
     bool holds = hand_run_judge(&check->run, check->body, hand, text);
     return check->run.no_memory ? -1 : !holds;

@@ -263,8 +263,10 @@ static bool take_shot(struct hand_run *run, double t, bool impact, size_t event)
     shot->event = event;
     if (!ledger_within(&run->ledger, run->ensemble, t, run->works)) return false;
     if (impact && !look_before(run)) return false;
-    if (impact) write_names(run, struck_before(run), shot->before);
-    if (impact) lose_integrals(run, shot->before, ensemble_state(run->ensemble)->y);
+    if (impact) {
+        write_names(run, struck_before(run), shot->before);
+        lose_integrals(run, shot->before, ensemble_state(run->ensemble)->y);
+    }
     if (t == run->ensemble->t)
         state_copy(run->state, ensemble_state(run->ensemble));
     else if (!ensemble_look(run->ensemble, t, run->state))

@@ -86,9 +86,10 @@ static bool blame_one(const struct judge *judge, unsigned j, bool plain, struct 
 static bool blame_summand(const struct judge *judge, bool plain, struct text *text)
 {
     const bool few = end_of(judge) < 3 || judge->hand->kind == hand_of_impacts;
-    for (int others = 0; others <= !(plain || few); others++)
-        for (unsigned j = 0; j < judge->hand->summand_count; j++)
-            if (blame_one(judge, j, !others, text)) return true;
+    for (unsigned j = 0; j < judge->hand->summand_count; j++)
+        if (blame_one(judge, j, true, text)) return true;
+    for (unsigned j = 0; !plain && !few && j < judge->hand->summand_count; j++)
+        if (blame_one(judge, j, false, text)) return true;
     return false;
 }
 

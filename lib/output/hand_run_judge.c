@@ -257,7 +257,7 @@ size_t hand_run_slopes(struct hand_run *run, int body, const struct hand *hand, 
     enum { most_times = 16 };
     static const enum hand_sense senses[] = {sense_now, sense_before, sense_after};
     const size_t n = run->model ? run->model->scene->coordinate_count : 0;
-    const size_t count = most_times * 3 * n;
+    const size_t count = (size_t)most_times * 3 * n;
     struct judge judge;
     *slopes = ARENA_ARRAY(arena, count + 1, double);
     if (n == 0 || !*slopes || !begin(&judge, run, body, hand)) return 0;
