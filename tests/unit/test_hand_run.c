@@ -154,7 +154,8 @@ static const struct line lines[] = {
     {hoist, "m*v^2/2 - m*v0^2/2 = work(friction)", false, "the work of `cord` is missing"},
     {hoist, "m*v - m*v0 = impulse(T) - impulse(f)", true, NULL},
     {hoist, "2.5[kg]*v^2 - 2.5[kg]*v0^2 = weight.m*g*(weight.x - weight.x0) + work(friction)", true, NULL},
-    {hoist, "{conserved: (m + weight.m)*v^2/2 - weight.m*g*weight.x}", false, "it changes by the work of `friction`"},
+    {hoist, "{conserved: (m + weight.m)*v^2/2 - weight.m*g*weight.x}", false,
+     "it changes by the work of `friction`"},
 };
 
 static char *verdict_of(const char *scene, const char *line, size_t *differing)
@@ -239,6 +240,50 @@ static void a_parameter_is_no_initial_value(void **unused)
     char *verdict = verdict_of(scene, "m*initial(v) = m*v0/3", &differing);
     assert_int_equal(differing, 0);
     free(verdict);
+}
+
+/* ---- grades */
+
+/* A line of the key is met by one that says the same in another form, and by no other. */
+static void lines_of_a_run_are_graded(void **unused)
+{
+    (void)unused;
+    static const struct {
+        const char *line;
+        double points;
+    } answers[] = {
+        {"m*v^2/2 - m*v0^2/2 = work(push) + work(friction)", 1},
+        {"v^2 = v0^2 + 2*work(push)/m + 2*work(friction)/m", 1},
+        {"{conserved: m*v^2/2 - work(push) - work(f)}", 1},
+        {"m*v^2/2 - m*v0^2/2 = work(push) - work(friction)", 0},
+        {"m*v^2/2 - m*v0^2/2 = work(push)", 0},
+        {"{conserved: m*v^2/2}", 0},
+        {"m*v - m*v0 = impulse(push) - impulse(f)", 0}, /* is right, and something else */
+        {"m*v^2/2 + v0 - v0 = m*v^2/2", 0},             /* says nothing */
+        {"m*a = push - f", 0},
+    };
+    char text[1600];
+    const char *key_line = "\"m*v^2/2 - m*v0^2/2 = work(push) + work(friction)\"";
+    fbd_errors *errors = fbd_errors_new();
+    size_t length = (size_t)snprintf(text, sizeof text, push, key_line);
+    snprintf(text + length, sizeof text - length, "grading: {points: {force: 0, derivation: 1}}\n");
+    fbd_key *key = fbd_key_parse(text, strlen(text), "key.yaml", NULL, 0, errors);
+    assert_non_null(key);
+    for (size_t i = 0; i < sizeof answers / sizeof *answers; i++) {
+        const char *quote = answers[i].line[0] == '{' ? "" : "\"";
+        snprintf(text, sizeof text,
+                 "bodies: {block: {forces: [gravity, normal, {friction: mu}, {applied: {name: push, value: "
+                 "F*cos(w*t)}}], hand: [%s%s%s]}}\n",
+                 quote, answers[i].line, quote);
+        fbd_grade *grade = fbd_grade_parse(key, text, strlen(text), "anna", errors);
+        assert_non_null(grade);
+        if (fbd_grade_points(grade) != answers[i].points)
+            print_error("%s: %g points\n", answers[i].line, fbd_grade_points(grade));
+        assert_true(fbd_grade_points(grade) == answers[i].points);
+        fbd_grade_free(grade);
+    }
+    fbd_key_free(key);
+    fbd_errors_free(errors);
 }
 
 /* ---- random scenes */
@@ -389,9 +434,8 @@ static void random_lines_are_judged(void **unused)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(lines_of_a_run_are_judged),
-        cmocka_unit_test(lines_that_mix_times_are_refused),
-        cmocka_unit_test(a_parameter_is_no_initial_value),
+        cmocka_unit_test(lines_of_a_run_are_judged),       cmocka_unit_test(lines_that_mix_times_are_refused),
+        cmocka_unit_test(a_parameter_is_no_initial_value), cmocka_unit_test(lines_of_a_run_are_graded),
         cmocka_unit_test(random_lines_are_judged),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
