@@ -267,10 +267,7 @@ static bool take_shot(struct hand_run *run, double t, bool impact, size_t event)
         write_names(run, struck_before(run), shot->before);
         lose_integrals(run, shot->before, ensemble_state(run->ensemble)->y);
     }
-    if (t == run->ensemble->t)
-        state_copy(run->state, ensemble_state(run->ensemble));
-    else if (!ensemble_look(run->ensemble, t, run->state))
-        return false;
+    if (!ensemble_look(run->ensemble, t, run->state)) return false;
     write_names(run, NULL, shot->y);
     memcpy(shot->done, run->integrals + run->model->absolute_count,
            run->agent_count * agent_parts * sizeof *shot->done);
@@ -372,7 +369,7 @@ static bool make_room(struct hand_run *run)
     run->state = state_new(model);
     if (run->arena.failed || !run->state || !hand_named_find(model, &run->arena, &run->named)) return false;
     run->struck = run->works + model->load_count;
-    state_copy(run->state, ensemble_state(run->ensemble));
+    if (!ensemble_look(run->ensemble, run->ensemble->t, run->state)) return false;
     mark_lines(run);
     return list_agents(run) && make_shots(run) && ledger_init(&run->ledger, model, run->state, true);
 }
