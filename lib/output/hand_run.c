@@ -94,19 +94,35 @@ static bool is_impulsive(const struct fbd_model *model, int load)
 
 enum { covered = -2 };
 
-/* The load that has the work of a force of a sum; `covered` where it is that of another one of the sum, -1 for none. */
+/* How many arrows of a body are of a load: a contact that touches at two points is one. */
+static size_t count_arrows(struct hand_run *run, int body, int load)
+{
+    struct instant at = state_instant(run->state);
+    const size_t arrows =
+        diagram_fill(run->model, body, &at, run->state->a, run->state->slots, run->named.arrows);
+    size_t count = 0;
+    for (size_t i = 0; i < arrows; i++) count += run->named.arrows[i].load == load;
+    return count;
+}
+
+/* The load that has the work of force i of a sum: `covered` where it is that of another one, -1 for none, or where it is
+ * that of others as well. */
 static int load_of(struct hand_run *run, const struct hand_sum *sum, size_t i)
 {
     struct tie_place place;
     const struct hand_force *force = sum->forces[i];
     const struct arrow *arrow = arrow_of(run, force);
-    int load = arrow->load;
-    if (load >= 0 || sum->count < 2 || !tie_of_force(run->model, force->name.body, arrow->name, &place))
-        return load;
-    load = run->model->tree->ties[place.tie].load;
-    for (size_t k = 0; k < sum->count; k++) /* all of a contact is listed with its friction */
-        if (k != i && arrow_of(run, sum->forces[k])->load == load) return covered;
-    return -1;
+    const int load = arrow->load;
+    const bool of_tie = tie_of_force(run->model, force->name.body, arrow->name, &place);
+    const int of_all = load < 0 && of_tie ? run->model->tree->ties[place.tie].load : load;
+    size_t own = 0, before = 0;
+    for (size_t k = 0; of_all >= 0 && k < sum->count; k++) {
+        const bool same = arrow_of(run, sum->forces[k])->load == of_all;
+        own += same;
+        before += same && k < i;
+    }
+    if (own == 0 || own < count_arrows(run, force->name.body, of_all)) return -1;
+    return load < 0 || before > 0 ? covered : load;
 }
 
 static void choose_ledger(struct hand_run *run)

@@ -83,17 +83,27 @@ static const struct force_name *find(const struct names *names, int body, const 
     return component ? find_in(names->reader, body, component) : NULL;
 }
 
+/* The body of `body.name`, and the name; the body at hand for any other. */
+static int split_name(const struct names *names, const char **name)
+{
+    const struct scene *scene = names->reader->scene;
+    const char *dot = strchr(*name, '.');
+    for (size_t b = 0; dot && b < scene->body_count; b++) {
+        const char *body = scene->bodies[b].name;
+        if (!body || strlen(body) != (size_t)(dot - *name) || strncmp(body, *name, strlen(body)) != 0)
+            continue;
+        *name = dot + 1;
+        return (int)b;
+    }
+    return names->body;
+}
+
 /* `body.name`, of another body. */
 static const struct force_name *find_dotted(const struct names *names, const char *name)
 {
-    const struct reader *reader = names->reader;
-    const char *dot = strchr(name, '.');
-    for (size_t b = 0; dot && b < reader->scene->body_count; b++) {
-        const char *body = reader->scene->bodies[b].name;
-        if (body && strlen(body) == (size_t)(dot - name) && memcmp(body, name, (size_t)(dot - name)) == 0)
-            return find(names, (int)b, dot + 1);
-    }
-    return NULL;
+    const char *own = name;
+    const int body = split_name(names, &own);
+    return own != name ? find(names, body, own) : NULL;
 }
 
 struct symbol hand_place_symbol(const struct names *names, int body, const char *name)
@@ -243,23 +253,33 @@ bool symbols_check(struct reader *reader, const struct node *symbols)
 
 /* ---- both */
 
-/* The work of a contact or a roll is that of its normal force and its friction. */
+/* Is it a normal force or friction of the contact or roll `name`: `floor.normal`, `floor.friction_2`? */
+static bool is_of_contact(const struct force_name *force, const char *name)
+{
+    const size_t length = strlen(name);
+    const char *part = force->name + length + 1;
+    if (strncmp(force->name, name, length) != 0 || force->name[length] != '.' || is_part(force)) return false;
+    const size_t word = strncmp(part, "normal", 6) == 0 ? 6 : strncmp(part, "friction", 8) == 0 ? 8 : 0;
+    return word > 0 && (part[word] == '\0' || (part[word] == '_' && !strchr(part, '.')));
+}
+
+/* The work of a contact or a roll is that of all its normal forces and friction on the body. */
 static struct symbol contact_symbol(const struct names *names, const char *name)
 {
-    static const char *const parts[] = {"normal", "friction"};
-    struct arena *arena = names->reader->arena;
-    struct force_sum *sum = ARENA_NEW(arena, struct force_sum);
+    const struct reader *reader = names->reader;
+    const char *contact = name;
+    const int body = split_name(names, &contact);
+    struct force_sum *sum = ARENA_NEW(reader->arena, struct force_sum);
     if (names->of_force != absolute_work || !sum) return unknown;
-    sum->forces = ARENA_ARRAY(arena, 2, struct signed_force);
-    for (size_t i = 0; sum->forces && i < 2; i++) {
-        const char *part = arena_printf(arena, "%s.%s", name, parts[i]);
-        const struct force_name *one = part ? find(names, names->body, part) : NULL;
-        if (part && !one) one = find_dotted(names, part);
-        if (!one) return unknown;
-        const char *own = arena_text(arena, one->name, strlen(one->name));
-        sum->forces[sum->count++] = (struct signed_force){one->body, own, 1};
+    sum->forces = ARENA_ARRAY(reader->arena, reader->force_name_count, struct signed_force);
+    for (size_t i = 0; sum->forces && i < reader->force_name_count; i++) {
+        const struct force_name *one = &reader->force_names[i];
+        if (one->body != body || !is_of_contact(one, contact)) continue;
+        const char *own = arena_text(reader->arena, one->name, strlen(one->name));
+        if (!own) return (struct symbol){.kind = symbol_failed};
+        sum->forces[sum->count++] = (struct signed_force){body, own, 1};
     }
-    return sum_symbol(names, name, sum, DIM_FORCE);
+    return sum->count > 0 ? sum_symbol(names, name, sum, DIM_FORCE) : unknown;
 }
 
 struct symbol force_symbol(const struct names *names, const char *name)
