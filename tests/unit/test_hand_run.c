@@ -92,6 +92,29 @@ static const char hoist[] =
     "couplings: [{rope: {name: cord, through: [block.G, ground.top, weight.G]}}]\n"
     "simulate: {until: 0.4 s}\n";
 
+static const char joined[] =
+    "fbd: 1\n"
+    "parameters: {L: 1 m}\n"
+    "bodies:\n"
+    "  rod: {shape: rod, mass: 1 kg, length: L, motion: {pivot: {point: left}}, initial: {theta: 20 deg},\n"
+    "        forces: [gravity]}\n"
+    "  tip: {shape: rod, mass: 2 kg, length: L, motion: {pivot: {on: rod, at: right, point: left}},\n"
+    "        initial: {theta: 50 deg, omega: 1 rad/s}, forces: [gravity],\n"
+    "        hand: [%s]}\n"
+    "simulate: {until: 2 s}\n";
+
+static const char crate[] =
+    "fbd: 1\n"
+    "ground: {lines: {floor: {along: 0 deg}}}\n"
+    "bodies:\n"
+    "  crate: {shape: prism, a: 0.4 m, b: 0.6 m, c: 0.3 m, mass: 5 kg, motion: planar, initial: {y: 0.3 m},\n"
+    "          forces: [gravity, {applied: {name: push, fx: \"10[N/s]*t\", at: [-0.2 m, 0.2 m]}}],\n"
+    "          hand: [%s]}\n"
+    "contacts: [{name: floor, between: [crate, ground.floor], static: 0.3, kinetic: 0.3}]\n"
+    "simulate: {until: 3 s}\n";
+
+#define KINETIC "m*(G.vx^2 + G.vy^2)/2 + I_G*angle_dot^2/2"
+
 struct line {
     const char *scene, *line;
     bool right;
@@ -150,6 +173,19 @@ static const struct line lines[] = {
      false, "the impact takes"},
     {blow, "{conserved: m1*v + m2*b.v}", false, "from outside acts there: `wall`"},
     {blow, "{conserved: m1*v^2/2 + m2*b.v^2/2}", false, "it changes by the impact `blow`"},
+    {joined, KINETIC " - initial(" KINETIC ") = work(gravity) + work(pin)", true, NULL},
+    {joined, KINETIC " - initial(" KINETIC ") = work(gravity)", false, "the work of `pin` is missing"},
+    {joined, "rod.I_O*rod.omega^2/2 = work(rod.gravity) + work(rod.tip.pin)", true, NULL},
+    {joined, "{conserved: rod.I_O*rod.omega^2/2 + " KINETIC " + rod.m*g*rod.G.y + m*g*G.y}", true, NULL},
+    {joined, "{conserved: rod.I_O*rod.omega^2/2 + " KINETIC " + rod.m*g*rod.G.y}", false,
+     "the work of `gravity`"},
+    {joined, "m*G.vx = m*initial(G.vx) + impulse(pin.x)", true, NULL},
+    {joined, "m*G.vx = m*initial(G.vx) - impulse(pin.x)", false, "`impulse(pin.x)` has the wrong sign"},
+    {crate, KINETIC " = work(gravity) + work(push) + work(floor)", true, NULL},
+    {crate, KINETIC " = work(gravity) + work(push) + work(floor.friction) + work(floor.friction_2)", true,
+     NULL},
+    {crate, KINETIC " = work(gravity) + work(push) + work(floor.friction)", false,
+     "`floor.friction_2` is missing"},
     {hoist, "m*v^2/2 - m*v0^2/2 = work(cord) + work(friction)", true, NULL},
     {hoist, "m*v^2/2 - m*v0^2/2 = work(friction)", false, "the work of `cord` is missing"},
     {hoist, "m*v - m*v0 = impulse(T) - impulse(f)", true, NULL},
