@@ -10,6 +10,36 @@
 #include "standard_streams.h"
 #include "whole_file.h"
 
+/* Neither the key nor an answer is written over. */
+bool grading_agrees(const struct options *options, const struct command_line *line, bool others)
+{
+    const struct output_place places[] = {{"--csv", options->csv},
+                                          {"--json", options->json},
+                                          {"--page", options->page}};
+    bool grades = options->action == action_grade, solution = options->drawing.solution;
+    bool of_answers = options->csv || options->json || options->quiet || options->details;
+    const char *wrong = NULL;
+    if (grades && options->student && options->answer_count != 1)
+        wrong = "--student goes with one answer; without it each is called as its file";
+    else if (!grades && !options->student)
+        wrong = "--handout needs --student NAME";
+    else if (others)
+        wrong = "with --grade go --set, --student, --details, --csv, --json and --quiet only; with "
+                "--handout --set, --student, --solution, --page and --exam only";
+    else if (grades && (solution || options->page))
+        wrong = "--solution and --page go with --handout, not with --grade";
+    else if (!grades && of_answers)
+        wrong = "with --handout go --set, --student, --solution, --page and --exam only";
+    else if (options->page && solution)
+        wrong = "--page is to be drawn on: --solution is without it";
+    else if (options->exam && !options->page)
+        wrong = "--exam goes with --handout and --page";
+    if (wrong) return command_line_usage(line, wrong, "");
+    for (size_t i = 0; i < options->answer_count; i++)
+        if (!places_differ(line, options->answers[i], places, sizeof places / sizeof *places)) return false;
+    return places_differ(line, options->model, places, sizeof places / sizeof *places);
+}
+
 /* What is written besides the text. */
 struct tables {
     struct whole_file json, csv;
@@ -160,6 +190,13 @@ enum exit_code grading(const struct options *options)
     return finish(key, errors, key ? grade_all(options, key, errors) : exit_bad_model);
 }
 
+static bool put_page(const char *path, const char *page)
+{
+    if (whole_file_put(path, page)) return true;
+    complain("fbd-run: cannot write `%s`: %s", path, strerror(errno));
+    return false;
+}
+
 enum exit_code handout(const struct options *options)
 {
     fbd_errors *errors = fbd_errors_new();
@@ -169,10 +206,15 @@ enum exit_code handout(const struct options *options)
         return exit_failed;
     }
     char *text = !key                        ? NULL
+                 : options->page             ? fbd_key_page(key, options->student, options->exam, errors)
                  : options->drawing.solution ? fbd_key_solution(key, options->student, errors)
                                              : fbd_key_handout(key, options->student, errors);
-    if (text) fputs(text, stdout);
     enum exit_code code = text ? exit_done : key ? exit_failed : exit_bad_model;
+    if (text && options->page) {
+        if (!put_page(options->page, text)) code = exit_failed;
+    } else if (text) {
+        fputs(text, stdout);
+    }
     fbd_free(text);
     return finish(key, errors, code);
 }

@@ -10,7 +10,10 @@
 /* Grade all answers and write what was asked for. exit_hand_differs when one does not pass. */
 enum exit_code grading(const struct options *options);
 
-/* Print the sheet of a student. */
+/* Do the options of --grade and --handout go together? `others`: there are some of runs or drawings. */
+bool grading_agrees(const struct options *options, const struct command_line *line, bool others);
+
+/* Print the sheet of a student, or write it as a page. */
 enum exit_code handout(const struct options *options);
 
 #endif

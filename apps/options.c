@@ -7,6 +7,7 @@
 
 #include "fmu.h"
 #include "gnuplot.h"
+#include "grading.h"
 #include "picture.h"
 #include "place.h"
 
@@ -77,6 +78,8 @@ static const char help_without_run[] =
     "  --student NAME       whose answer it is, where values are drawn (default: the name of its file)\n"
     "  --details            with the names of the key's forces, for the teacher\n"
     "  --handout            print the sheet of the key MODEL.yaml; with --solution filled in\n"
+    "  --page FILE          with --handout: as an HTML page to draw on, which checks what is drawn\n"
+    "  --exam               with --page: without the key in it, an answer to hand in\n"
     "\n"
     "About the program\n"
     "  --schema             the model language as JSON Schema, for editors\n"
@@ -130,6 +133,8 @@ enum {
     option_student,
     option_details,
     option_handout,
+    option_page,
+    option_exam,
     option_watch,
     option_without,
     option_live,
@@ -180,6 +185,8 @@ static const struct option long_options[] = {
     {"student", required_argument, NULL, option_student},
     {"details", no_argument, NULL, option_details},
     {"handout", no_argument, NULL, option_handout},
+    {"page", required_argument, NULL, option_page},
+    {"exam", no_argument, NULL, option_exam},
     {"watch", no_argument, NULL, option_watch},
     {"without", required_argument, NULL, option_without},
     {"live", no_argument, NULL, option_live},
@@ -256,7 +263,7 @@ static bool take_fmu_version(int *version)
 
 static const double tiny = 1e-300; /* above 0 */
 
-/* What a drawing shows, and how. */
+/* What a drawing, a sheet or a grade shows, and how. */
 static bool take_drawing(struct options *options, int option)
 {
     switch (option) {
@@ -267,6 +274,10 @@ static bool take_drawing(struct options *options, int option)
     case option_scale: options->scale = optarg; return true;
     case option_worksheet: options->drawing.worksheet = true; return true;
     case option_solution: options->drawing.solution = true; return true;
+    case option_student: options->student = optarg; return true;
+    case option_details: options->details = true; return true;
+    case option_page: options->page = optarg; return true;
+    case option_exam: options->exam = true; return true;
     default: return usage("unknown option, or an option without its value", "");
     }
 }
@@ -323,8 +334,6 @@ static bool take_option(const struct command_line *unused, int option, void *con
     case option_check: return choose_action(options, action_check);
     case option_emit_c: options->emit_c = optarg; return choose_action(options, action_emit_c);
     case option_grade: options->model = optarg; return choose_action(options, action_grade);
-    case option_student: options->student = optarg; return true;
-    case option_details: options->details = true; return true;
     case option_handout: return choose_action(options, action_handout);
     case option_fmu: options->fmu = optarg; return fmu_can_be_made() && choose_action(options, action_fmu);
     case option_fmu_version: return take_fmu_version(&options->fmu_version);
@@ -375,30 +384,15 @@ static bool shapes_drawing(const struct options *options, bool components)
            options->scale || drawing->worksheet;
 }
 
-/* Neither the key nor an answer is written over. */
-static bool grading_agrees(const struct options *options)
+/* What no answer or sheet has to do with; of drawings --solution is one of a sheet. */
+static bool runs_or_draws(const struct options *options)
 {
-    const struct output_place places[] = {{"--csv", options->csv}, {"--json", options->json}};
-    bool grades = options->action == action_grade;
-    if (grades && options->student && options->answer_count != 1)
-        return usage("--student goes with one answer; without it each is called as its file", "");
-    if (!grades && !options->student) return usage("--handout needs --student NAME", "");
-    if (options->watch || options->at_count || options->run.method || options->run.tolerance > 0 ||
-        options->run.accuracy > 0 || options->run.step > 0 || options->run.no_structure ||
-        isfinite(options->run.until) || options->run.error_bars || options->settle || options->fmu_version ||
-        options->svg || options->html || options->plot || options->plot_of || options->gnuplot ||
-        options->ledger || options->every > 0 || options->latex || shapes_drawing(options, false) ||
-        options->without_count || options->full || options->degrees)
-        return usage("with --grade go --set, --student, --details, --csv, --json and --quiet only; with "
-                     "--handout --set, --student and --solution only",
-                     "");
-    if (grades && options->drawing.solution)
-        return usage("--solution goes with --handout, not with --grade", "");
-    if (!grades && (options->csv || options->json || options->quiet || options->details))
-        return usage("with --handout go --set, --student and --solution only", "");
-    for (size_t i = 0; i < options->answer_count; i++)
-        if (!places_differ(&line, options->answers[i], places, sizeof places / sizeof *places)) return false;
-    return places_differ(&line, options->model, places, sizeof places / sizeof *places);
+    return options->watch || options->at_count || options->run.method || options->run.tolerance > 0 ||
+           options->run.accuracy > 0 || options->run.step > 0 || options->run.no_structure ||
+           isfinite(options->run.until) || options->run.error_bars || options->settle ||
+           options->fmu_version || options->svg || options->html || options->plot || options->plot_of ||
+           options->gnuplot || options->ledger || options->every > 0 || options->latex ||
+           shapes_drawing(options, false) || options->without_count || options->full || options->degrees;
 }
 
 /* What is written again and again has to be a file, and what is read again too. */
@@ -437,9 +431,11 @@ static bool drawing_agrees(const struct options *options)
 /* Options that would be passed over in silence are mistakes. */
 static bool options_agree(const struct options *options)
 {
-    if (options->action == action_grade || options->action == action_handout) return grading_agrees(options);
+    if (options->action == action_grade || options->action == action_handout)
+        return grading_agrees(options, &line, runs_or_draws(options));
     if (options->student || options->details)
         return usage("--student and --details go with --grade and --handout", "");
+    if (options->page || options->exam) return usage("--page and --exam go with --handout", "");
     bool stands_still = options->action != action_run;
     bool draws = options->action == action_equations || options->action == action_linearize;
     bool rests = options->action == action_static;

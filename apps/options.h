@@ -39,7 +39,8 @@ struct options {
     const char *scale; /* of the drawing: a force with its unit, or NULL */
     unsigned seed;
     const char *student; /* of the answer, or NULL */
-    bool details;
+    const char *page;    /* of action_handout: where the drawing page goes, or NULL */
+    bool details, exam;
     char **answers;
     size_t answer_count;
     const char *fmu;

@@ -1045,6 +1045,13 @@ FBD_API char *fbd_grade_json(const fbd_grade *grade, bool details);
 
 /* ---------------------------------------------------------------- pages that run */
 
+/* The sheet of a student as one HTML file to draw on: the bodies cut free, forces and moments drawn by mouse, finger or
+ * keyboard, derivations as they are typed. What is drawn is saved as the answer that fbd_grade_new reads. With `exam` the
+ * page has nothing of the key; without it, it has the key and the library, and grades. To be freed with fbd_free; NULL
+ * with a note in `errors`: `no-sheet` (what is left of the key is no model), `not-finite`, `no-live` (without `exam`: not
+ * fbd_has_live()), `no-page` (built without pages), or memory is out. */
+FBD_API char *fbd_key_page(const fbd_key *key, const char *student, bool exam, fbd_errors *errors);
+
 /* What of the file can be moved by a slider or switched off, and where it stands in the text, as one JSON object
  * (lib/live/controls.c says what is in it). To be freed with fbd_free; NULL with a note in `errors` when memory is out. */
 FBD_API char *fbd_model_controls(const fbd_model *model, fbd_errors *errors);
@@ -1075,7 +1082,7 @@ typedef struct fbd_live_options {
 } fbd_live_options;
 
 /* As fbd_result_html, with the library itself and the text of the model in it: the page has sliders, an editor and
- * checkboxes, and runs anew whenever something moves. At most 1.5 MB. NULL with a note in `errors`: `no-live` where the
+ * checkboxes, and runs anew whenever something moves. At most 2 MB. NULL with a note in `errors`: `no-live` where the
  * library was built without it, `cannot-read` for the data file of a table, and those of fbd_result_html. */
 FBD_API char *fbd_result_live_html(fbd_result *result, const fbd_live_options *options, fbd_errors *errors);
 

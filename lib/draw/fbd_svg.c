@@ -54,21 +54,27 @@ struct sheet {
 
 /* ---- panels */
 
-static bool start_panel(struct sheet *sheet, struct panel *panel, size_t body)
+bool panel_start(struct panel *panel, const struct fbd_state *state, size_t body, const fbd_drawing *drawing,
+                 struct arena *arena)
 {
-    struct fbd_state *state = sheet->state;
     const struct fbd_model *model = state->model;
-    *panel = (struct panel){.arena = &sheet->arena,
+    *panel = (struct panel){.arena = arena,
                             .model = model,
                             .body = &model->bodies[body],
                             .at = state_instant(state),
-                            .drawing = sheet->drawing,
-                            .labels = {.arena = &sheet->arena},
+                            .drawing = drawing,
+                            .labels = {.arena = arena},
                             .extent = box_nothing};
     panel->pose = body_pose(panel->body, &panel->at);
-    panel->arrows = ARENA_ARRAY(&sheet->arena, diagram_arrows(model, (int)body), struct arrow);
+    panel->arrows = ARENA_ARRAY(arena, diagram_arrows(model, (int)body), struct arrow);
     if (!panel->arrows) return false;
     panel->arrow_count = diagram_fill(model, (int)body, &panel->at, state->a, state->slots, panel->arrows);
+    return true;
+}
+
+static bool start_panel(struct sheet *sheet, struct panel *panel, size_t body)
+{
+    if (!panel_start(panel, sheet->state, body, sheet->drawing, &sheet->arena)) return false;
     if (!sheet->symbols) return true;
     const char **printed = ARENA_ARRAY(&sheet->arena, panel->arrow_count + 1, const char *);
     const char **moments = ARENA_ARRAY(&sheet->arena, panel->arrow_count + 1, const char *);
@@ -195,7 +201,7 @@ static void write_heading(const struct panel *panel, struct text *text, struct v
 }
 
 /* Labels of the fixtures are those that no arrow owns. */
-static void write_notes(const struct panel *panel, struct text *text)
+void panel_write_notes(const struct panel *panel, struct text *text)
 {
     for (size_t i = 0; i < panel->labels.label_count; i++) {
         bool owned = false;
@@ -207,7 +213,7 @@ static void write_notes(const struct panel *panel, struct text *text)
     }
 }
 
-static void draw_panel(struct panel *panel)
+void panel_draw(struct panel *panel)
 {
     panel_set_scale(panel);
     bool in_front = panel_fixtures_in_front(panel);
@@ -286,7 +292,7 @@ static void write_panel(const struct panel *panel, struct text *notes, struct ve
     text_add(text, ")\">\n");
     if (panel->under.data) text_add(text, panel->under.data);
     panel_write_arrows(panel, text);
-    write_notes(panel, text);
+    panel_write_notes(panel, text);
     text_add(text, "</g>\n");
     double y = corner.y + heading_height + panel->extent.high.y - panel->extent.low.y + 5;
     write_lines(notes, (struct vec){corner.x, y}, text);
@@ -386,7 +392,7 @@ static bool make_panels(struct sheet *sheet)
         if (!drawing->body || strcmp(model->bodies[b].name, drawing->body) == 0)
             sheet->panels[sheet->count++] = sheet->panels[b];
     for (size_t i = 0; i < sheet->count; i++) {
-        draw_panel(&sheet->panels[i]);
+        panel_draw(&sheet->panels[i]);
         write_notes_of(&sheet->panels[i], &sheet->notes[i]);
     }
     return !sheet->arena.failed;

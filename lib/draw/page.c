@@ -58,7 +58,7 @@ static bool fill_line(struct text *text, const char *line, size_t length, const 
     return true;
 }
 
-static void fill_template(struct text *text, const struct page_asset *template, const struct page_part *parts)
+void page_fill(struct text *text, const struct page_asset *template, const struct page_part *parts)
 {
     const char *line = (const char *)template->data, *end = line + template->size;
     while (line < end) {
@@ -99,7 +99,7 @@ static void fill_page(struct text *page, const struct page_asset *template, cons
     enum { most_slots = 16 };
     struct page_part all[most_slots] = {{"TITLE", write_title, title}, {"DATA", write_data, json}};
     for (size_t i = 2; parts->mark && i + 1 < most_slots; i++) all[i] = *parts++;
-    fill_template(page, template, all);
+    page_fill(page, template, all);
 }
 
 char *page_make(fbd_result *result, size_t most_bytes, const struct page_part *parts, fbd_errors *errors)
@@ -126,7 +126,7 @@ char *page_make(fbd_result *result, size_t most_bytes, const struct page_part *p
 }
 
 /* Nothing but what the page itself has. */
-static void write_policy(struct text *text, const void *context)
+void page_write_policy(struct text *text, const void *context)
 {
     (void)context;
     text_add(text, "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src "
@@ -138,7 +138,7 @@ char *fbd_result_html(fbd_result *result, fbd_errors *list)
 {
     struct diag_call call;
     fbd_errors *errors = diag_begin(&call, list);
-    const struct page_part parts[] = {{"POLICY", write_policy, NULL}, {0}};
+    const struct page_part parts[] = {{"POLICY", page_write_policy, NULL}, {0}};
     char *page = result ? page_make(result, 0, parts, errors) : call_refuse(errors, "there is no result");
     diag_end(&call);
     return page;

@@ -72,6 +72,13 @@ static inline struct vec panel_direction(struct vec world)
     return (struct vec){world.x, -world.y};
 }
 
+/* Begin the panel of a body: its pose and its forces in an evaluated state. False when memory is out. */
+bool panel_start(struct panel *panel, const struct fbd_state *state, size_t body, const fbd_drawing *drawing,
+                 struct arena *arena);
+
+/* Draw it all: on a worksheet without arrows, with room for them. */
+void panel_draw(struct panel *panel);
+
 /* The body itself, its centre of mass; sets middle and scale first. */
 void panel_set_scale(struct panel *panel);
 void panel_body(struct panel *panel);
@@ -90,8 +97,9 @@ void panel_write_arrows(const struct panel *panel, struct text *text);
 /* A line that is drawn under the arrows and grows the panel. */
 void panel_line(struct panel *panel, const char *css, struct vec from, struct vec to, double cost);
 
-/* A label of the fixtures ("theta = 60 deg"), written at once where it is put by panel_write_notes. */
+/* A label of the fixtures ("theta = 60 deg"); panel_write_notes writes them where they have come to lie. */
 void panel_note(struct panel *panel, const char *string, struct vec anchor, struct vec toward);
+void panel_write_notes(const struct panel *panel, struct text *text);
 
 /* How far along its surface, from the point that the force is told at, the line of action of what a slide's surface
  * gives goes: the force there does what force and couple do. */

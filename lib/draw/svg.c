@@ -138,7 +138,7 @@ double svg_text_width(const char *string, double size)
 
 /* Each rule is for drawings of ours alone: inlined in a page, the style says nothing about the rest of it. Dark only on a
  * screen: paper is white. */
-static const char style[] =
+const char svg_style[] =
     ".fbd text{font-family:Arial,Helvetica,'Liberation Sans','Nimbus "
     "Sans',sans-serif;font-size:3.4px;fill:#111}\n"
     ".fbd .middle{text-anchor:middle}\n"
@@ -207,7 +207,7 @@ void svg_begin(struct text *text, struct vec size, double scale, const char *tit
     text_add(text, "</title>\n<desc>");
     svg_escape(text, description);
     text_add(text, "</desc>\n<style type=\"text/css\">\n");
-    text_add(text, style);
+    text_add(text, svg_style);
     text_add(text, "</style>\n<rect class=\"paper\" x=\"0\" y=\"0\"");
     attribute(text, "width", size.x);
     attribute(text, "height", size.y);

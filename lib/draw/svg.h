@@ -43,6 +43,9 @@ void svg_text_at(struct text *text, const char *css, struct vec start, const cha
  * wider substitute. */
 double svg_text_width(const char *string, double size);
 
+/* The style sheet of the classes, for elements within another document: below an element of class `fbd`. */
+extern const char svg_style[];
+
 /* Open the document: its size in millimetres, which are printed `scale` times as large; style sheet, background,
  * <title>. Close with "</svg>\n". */
 void svg_begin(struct text *text, struct vec size, double scale, const char *title, const char *description);

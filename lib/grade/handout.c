@@ -12,7 +12,6 @@
 /* Of the file, and of a body: what the student is to find out, and what the teacher says for himself. */
 static const char *const kept_back[] = {"grading", "description", "$schema", "output", NULL};
 static const char *const asked[] = {"forces", "moments", "hand", "exact", "description", NULL};
-static const char *const inertia_keys[] = {"inertia", NULL};
 
 static bool is_one_of(const char *key, const char *const *names)
 {
@@ -125,15 +124,22 @@ static void write_lists(const struct handout *handout, const struct pair *body, 
 static void write_body(const struct handout *handout, const struct pair *body)
 {
     struct text *text = handout->text;
-    bool asks_inertia = handout->key->model->scene->grading.points.inertia > 0, hand = false;
+    bool asks_inertia = !handout->scene && handout->key->model->scene->grading.points.inertia > 0,
+         hand = false;
     text_printf(text, "  %s:\n", body->key);
     for (size_t i = 0; i < body->value->count && body->value->kind == node_map; i++) {
         const struct pair *pair = &body->value->pairs[i];
         hand = hand || strcmp(pair->key, "hand") == 0;
-        if (is_one_of(pair->key, asked) || (asks_inertia && is_one_of(pair->key, inertia_keys))) continue;
-        write_pair(text, 2, pair->key, pair->value);
+        if (is_one_of(pair->key, asked)) continue;
+        if (!asks_inertia || strcmp(pair->key, "inertia") != 0)
+            write_pair(text, 2, pair->key, pair->value);
+        else if (handout->open)
+            text_printf(text, "%c%c%s\n", sheet_lists, sheet_hand, body->key);
     }
-    write_lists(handout, body, hand);
+    if (handout->open)
+        text_printf(text, "%c%s\n", hand ? sheet_hand : sheet_lists, body->key);
+    else
+        write_lists(handout, body, hand);
 }
 
 static void write_bodies(const struct handout *handout, const struct node *bodies)
@@ -164,43 +170,51 @@ static void write_entry(const struct handout *handout, const struct pair *pair)
         write_bodies(handout, pair->value);
 }
 
+void handout_reactions(struct text *text, const struct grading *grading)
+{
+    if (grading->reactions == reactions_all)
+        text_add(text, "Draw reactions too: the forces of joints, guides, couplings and contacts.");
+    else if (grading->reactions == reactions_none)
+        text_add(text, "Reactions, the forces of joints, guides, couplings and contacts, need not be drawn.");
+    else
+        text_add(text, "Of the reactions draw those of: ");
+    for (size_t i = 0; i < grading->reaction_count; i++)
+        text_printf(text, "%s%s", i ? ", " : "", grading->reaction_names[i]);
+}
+
 /* What has to be drawn, and how. */
 static void write_head(const struct handout *handout)
 {
     struct text *text = handout->text;
-    const struct grading *grading = &handout->key->model->scene->grading;
     text_add(text, handout->model ? "# Solution of the sheet of " : "# Sheet of ");
     text_shown(text, handout->student);
     text_add(text, ".\n");
-    if (handout->model) return;
+    if (handout->model || handout->open) return;
     text_add(text, "# Draw what acts on each body: below `forces` and `moments`, one entry a line, as\n"
                    "#       - gravity\n"
                    "#       - applied: {name: F, value: 10 N, angle: 30 deg, at: [0.5 m, 0]}\n"
-                   "#       - applied: {name: R, value: unknown, angle: unknown, at: [0, 0]}\n");
-    if (grading->reactions == reactions_all)
-        text_add(text, "# Draw reactions too: the forces of joints, guides, couplings and contacts.\n");
-    else if (grading->reactions == reactions_none)
-        text_add(text,
-                 "# Reactions, the forces of joints, guides, couplings and contacts, need not be drawn.\n");
-    else
-        text_add(text, "# Of the reactions draw those of: ");
-    for (size_t i = 0; i < grading->reaction_count; i++)
-        text_printf(text, "%s%s%s", i ? ", " : "", grading->reaction_names[i],
-                    i + 1 == grading->reaction_count ? "\n" : "");
+                   "#       - applied: {name: R, value: unknown, angle: unknown, at: [0, 0]}\n"
+                   "# ");
+    handout_reactions(text, &handout->key->model->scene->grading);
+    text_add(text, "\n");
     if (handout->key->lines > 0)
         text_add(text, "# Write equations below `hand`, one a line, as\n#       - \"m*a = F - m*g\"\n");
 }
 
-static char *write_handout(struct handout *handout, fbd_errors *errors)
+bool handout_write(struct handout *handout)
 {
-    struct text *text = handout->text;
     write_head(handout);
     for (size_t i = 0; i < handout->key->document.root->count; i++)
         write_entry(handout, &handout->key->document.root->pairs[i]);
     if (handout->model) solution_equations(handout);
-    if (!text->failed && !handout->arena->failed) return text->data;
+    return !handout->text->failed && !handout->arena->failed;
+}
+
+static char *write_handout(struct handout *handout, fbd_errors *errors)
+{
+    if (handout_write(handout)) return handout->text->data;
     diag_out_of_memory(errors);
-    text_free(text);
+    text_free(handout->text);
     return NULL;
 }
 
@@ -213,7 +227,7 @@ static char *make_handout(const fbd_key *key, const char *student, bool solved, 
     char *made = NULL;
     if (!key || !student) call_refuse(errors, "there is no key, or no name of a student");
     if (key && student) {
-        struct handout handout = {&text, &arena, key, student, NULL};
+        struct handout handout = {.text = &text, .arena = &arena, .key = key, .student = student};
         if (solved) handout.model = solution_model(&handout, errors);
         if (!solved || handout.model) made = write_handout(&handout, errors);
         fbd_model_free(handout.model);

@@ -105,3 +105,14 @@ bool reactions_closest(struct sides *sides, int below, struct misdrawn *found)
     }
     return found->rank < below;
 }
+
+bool reaction_is_reversed(struct sides *sides, const struct item *item)
+{
+    for (size_t k = 0; k < sides->reaction_count; k++) {
+        const struct item *key = reaction_candidate(sides, k);
+        if (!key || !key->asked) continue;
+        size_t s = reaction_when(sides, key);
+        if (relation_of(sides, &key->at[s], item, s) == is_opposite) return true;
+    }
+    return false;
+}

@@ -61,6 +61,9 @@ struct misdrawn {
 /* The likeliest of those with a rank below `below`; false when there is none. */
 bool reactions_closest(struct sides *sides, int below, struct misdrawn *found);
 
+/* Is it an asked reaction that nothing else is drawn for, with the wrong sense? */
+bool reaction_is_reversed(struct sides *sides, const struct item *item);
+
 /* Is this drawn for a reaction that is zero, or the component that is zero of one which is right? */
 bool is_of_nothing(struct sides *sides, const struct item *item);
 

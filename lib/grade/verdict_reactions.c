@@ -83,6 +83,7 @@ void verdict_zeros(struct fbd_grade *grade, const char *body, struct sides *side
     for (size_t j = 0; j < sides->count; j++) {
         struct item *item = &sides->items[j];
         if (item->used || !item->source || !is_of_nothing(sides, item)) continue;
+        if (reaction_is_reversed(sides, item)) continue;
         item->used = true;
         fbd_finding *finding =
             finding_add(grade, FBD_FINDING_RIGHT, body, name_as_drawn(grade, item->source), item->source->at);

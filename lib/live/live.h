@@ -27,4 +27,14 @@ size_t live_effects(const struct fbd_model *model, const struct spans *spans, st
 /* Is it called `name`: "block.friction", or "cable" for a coupling? */
 bool live_effect_is(const struct live_effect *effect, const char *name);
 
+/* ---- the library in a page (live_page.c) */
+
+/* Of the JSON object of such a page its last members and its end: the data files of the scene's tables, and the scripts
+ * of the worker. False with notes where a file cannot be read. */
+bool live_add_engine(struct text *text, const struct scene *scene, fbd_errors *errors);
+
+/* Parts of a page, POLICY and LIVE-PARTS: the context of the latter is that object as a struct text. */
+void live_write_policy(struct text *text, const void *context);
+void live_write_parts(struct text *text, const void *context);
+
 #endif

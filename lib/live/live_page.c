@@ -15,22 +15,24 @@
 #include "record/result.h"
 
 /* What the page may have in all; what is not its numbers takes some 900 KB, and base 64 four bytes for three. */
-enum { most_page_bytes = 1500000, most_script_bytes = 260000 };
+enum { most_page_bytes = 2000000, most_script_bytes = 260000 };
 
 struct live_page {
     struct text parts; /* the model, and the texts of the worker */
     const struct page_asset *wasm;
 };
 
+static const char wasm_name[] = "fbd-live.wasm.base64";
+
 bool fbd_has_live(void)
 {
-    return page_asset_find("fbd-live.wasm.base64") != NULL;
+    return page_asset_find(wasm_name) != NULL;
 }
 
 /* ---- the parts */
 
 /* WebAssembly is compiled, and a worker is made of the page's own text; still nothing is asked for. */
-static void write_policy(struct text *text, const void *context)
+void live_write_policy(struct text *text, const void *context)
 {
     (void)context;
     text_add(text, "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src "
@@ -51,19 +53,20 @@ static void write_scripts(struct text *text, const void *context)
     for (size_t i = 0; i < sizeof names / sizeof *names; i++) write_asset(text, names[i]);
 }
 
-static void write_parts(struct text *text, const void *context)
+void live_write_parts(struct text *text, const void *context)
 {
-    const struct live_page *page = context;
+    const struct page_asset *wasm = page_asset_find(wasm_name);
     text_add(text, "<script type=\"application/json\" id=\"live-parts\">\n");
-    page_add_json(text, &page->parts);
+    page_add_json(text, context);
     text_add(text, "\n</script>\n<script type=\"text/plain\" id=\"live-wasm\">\n");
-    text_add_bytes(text, (const char *)page->wasm->data, page->wasm->size);
-    text_add(text, "\n</script>");
+    if (wasm) text_add_bytes(text, (const char *)wasm->data, wasm->size);
+    text_add(text, "\n</script>\n");
+    write_asset(text, "wasm.license");
 }
 
 /* ---- the model */
 
-static void add_asset_text(struct text *text, const char *name)
+static void add_script(struct text *text, const char *name)
 {
     struct text copy = {0};
     json_key(text, name);
@@ -92,7 +95,7 @@ static bool add_file(struct text *text, const struct scene *scene, const char *p
     return data != NULL;
 }
 
-static bool add_files(struct text *text, const struct scene *scene, fbd_errors *errors)
+bool live_add_engine(struct text *text, const struct scene *scene, fbd_errors *errors)
 {
     bool done = true;
     size_t count = 0;
@@ -101,6 +104,10 @@ static bool add_files(struct text *text, const struct scene *scene, fbd_errors *
         if (scene->tables[i].path)
             done = add_file(text, scene, scene->tables[i].path, count++, errors) && done;
     text_add(text, "],\n");
+    add_script(text, "fbd-live.js");
+    text_add(text, ",\n");
+    add_script(text, "worker.js");
+    text_add(text, "}");
     return done;
 }
 
@@ -134,11 +141,7 @@ static bool make_parts(struct live_page *page, const struct fbd_model *model, co
     json_text_member(text, "name", *name && *name != '<' ? name : "model.yaml");
     json_text_member(text, "text", source.data ? source.data : "");
     add_moved(text, options);
-    bool done = add_files(text, model->scene, errors);
-    add_asset_text(text, "fbd-live.js");
-    text_add(text, ",\n");
-    add_asset_text(text, "worker.js");
-    text_add(text, "}");
+    bool done = live_add_engine(text, model->scene, errors);
     if (text->failed || source.failed) diag_out_of_memory(errors);
     done = done && !text->failed && !source.failed;
     text_free(&source);
@@ -156,7 +159,7 @@ static size_t room_for_numbers(const struct live_page *page)
 static char *make_page(fbd_result *result, const fbd_live_options *options, fbd_errors *errors)
 {
     const struct fbd_model *model = result->simulation->ensemble->model;
-    struct live_page page = {.wasm = page_asset_find("fbd-live.wasm.base64")};
+    struct live_page page = {.wasm = page_asset_find(wasm_name)};
     diag_in_file(errors, model->scene->file);
     if (!page.wasm) {
         diag_add(errors, FBD_ERROR, "no-live", (struct pos){0, 0},
@@ -164,12 +167,12 @@ static char *make_page(fbd_result *result, const fbd_live_options *options, fbd_
                  "this fbd was built without live pages");
         return NULL;
     }
-    const struct page_part parts[] = {{"POLICY", write_policy, NULL},
+    const struct page_part parts[] = {{"POLICY", live_write_policy, NULL},
                                       {"LIVE-STYLE", write_asset, "live.css"},
                                       {"LIVE-PANEL", write_asset, "live.html"},
                                       {"LIVE-EDITOR", write_asset, "live-editor.html"},
                                       {"LIVE-SCRIPT", write_scripts, NULL},
-                                      {"LIVE-PARTS", write_parts, &page},
+                                      {"LIVE-PARTS", live_write_parts, &page.parts},
                                       {0}};
     char *text = NULL;
     if (make_parts(&page, model, options, errors))

@@ -84,7 +84,7 @@ bodies:
   beam:
     shape: rod
     mass: {rng.uniform(5, 40):.3g} kg
-    length: {length:.12g} m
+    length: {length!r} m
     points: {{load: [{rng.uniform(-0.4, 0.4) * length:.4g}, 0]}}
     motion: planar
     initial: {{x: {c / 2:.12g}, y: {s / 2:.12g}, theta: {tilt:.12g} rad}}
@@ -140,7 +140,7 @@ bodies:
   ladder:
     shape: rod
     mass: {rng.uniform(5, 20):.3g} kg
-    length: {length:.12g} m
+    length: {length!r} m
     motion: planar
     initial: {{x: {length / 2 * math.cos(lean):.15g}, y: {length / 2 * math.sin(lean):.15g}, theta: {math.pi - lean:.15g}}}
     LOADS_ladder

@@ -102,6 +102,21 @@ check '--details alone: usage' says 'go with --grade' "$FBD_RUN" --details key.y
 check 'what students see does not name the key' sh -c \
     '! "$FBD_RUN" --grade key.yaml --json - nowhere.yaml answer.yaml | grep -E "gravity.*missing|beta|\"output\""'
 
+check 'a sheet is a page to draw on, which for an exam has nothing of the key' sh -c \
+    '"$FBD_RUN" --handout --student anna --page sheet.html --exam key.yaml && grep -q "Sheet of anna" sheet.html && ! grep -E "P\*L|pull" sheet.html'
+check 'a page without --handout: usage' says 'go with --handout' "$FBD_RUN" --page sheet.html key.yaml
+check 'of grading: usage' says 'go with --handout' "$FBD_RUN" --grade key.yaml --page sheet.html answer.yaml
+check '--exam without a page: usage' says 'goes with --handout and --page' "$FBD_RUN" --handout --student anna --exam key.yaml
+check 'a solution to draw on: usage' says 'to be drawn on' "$FBD_RUN" --handout --student anna --solution --page sheet.html key.yaml
+check 'a page is not written over the key' says 'over' "$FBD_RUN" --handout --student anna --page ./key.yaml key.yaml
+check 'a page that cannot be written is 1' exits 1 "$FBD_RUN" --handout --student anna --page nowhere/sheet.html --exam key.yaml
+check 'and says so' says 'cannot write `nowhere/sheet.html`' "$FBD_RUN" --handout --student anna --page nowhere/sheet.html --exam key.yaml
+check 'a page may go to standard output' sh -c \
+    '"$FBD_RUN" --handout --student anna --page - --exam key.yaml | cmp - sheet.html'
+check 'a page needs a name' says 'student' "$FBD_RUN" --handout --page sheet.html key.yaml
+check 'a page of a key without bodies is 3' exits 3 "$FBD_RUN" --handout --student anna --page none.html list.yaml
+check 'and nothing is written of it' test ! -e none.html
+
 cat >tables.yaml <<'END'
 fbd: 1
 tables: {push: /etc/passwd}

@@ -20,7 +20,7 @@ from fbd import MODELS, result, run  # noqa: E402
 INCLINE = MODELS / "kinetics/incline.yaml"
 PENDULUM = MODELS / "rotation/compound_pendulum.yaml"
 SAME = 1e-9  # of the largest size of a column: sin, cos and exp of the two C libraries differ in the last digit
-LARGEST = 1500000  # bytes of a page
+LARGEST = 2000000  # bytes of a page
 QUICK = 50  # ms from the slider to the scene and the numbers beside it; the plots follow
 # What grows such differences: their coordinates and rates are held to SIMILAR of the largest. Forces are not where a
 # mechanism passes through a position that says nothing of them (n_four_bar).

@@ -13,9 +13,16 @@ from fbd import SOURCE
 
 PAGE = SOURCE / "lib/draw/page"
 LIVE = [SOURCE / "lib/live/page" / part for part in ("engine.js", "knobs.js", "editor.js", "share.js", "bench.js")]
-# Ours, as the page puts them together.
-PARTS = [line.strip("@\n") for line in (PAGE / "page.html").open(encoding="utf-8") if line.endswith(".js@\n")
-         and (PAGE / line.strip("@\n")).exists()]
+DRAWING = SOURCE / "lib/live/drawing"
+
+
+def parts_of(template):
+    """The scripts of a page as it puts them together, of those that are ours."""
+    names = [line.strip("@\n") for line in template.open(encoding="utf-8") if line.endswith(".js@\n")]
+    return [next(folder / name for folder in (template.parent, PAGE) if (folder / name).exists())
+            for name in names if (template.parent / name).exists() or (PAGE / name).exists()]
+
+
 RULES = {
     "root": True,
     "env": {"browser": True, "es6": True},
@@ -37,28 +44,35 @@ def checked(command, folder):
     assert done.returncode == 0, (done.stdout + done.stderr).decode()
 
 
+def joined(paths):
+    return "\n".join(path.read_text(encoding="utf-8").replace('"use strict";\n', "") for path in paths)
+
+
 def main():
-    live = "\n".join(path.read_text(encoding="utf-8").replace('"use strict";\n', "") for path in LIVE)
-    source = "\n".join((PAGE / part).read_text(encoding="utf-8").replace('"use strict";\n', "") for part in PARTS)
+    parts, drawing_parts = parts_of(PAGE / "page.html"), parts_of(DRAWING / "drawing.html")
+    live, source, drawing = joined(LIVE), joined(parts), joined([*drawing_parts, LIVE[0]])
     with claim("text of the model never becomes markup"):
         for word in ("innerHTML", "outerHTML", "insertAdjacentHTML", "document.write", "eval("):
-            assert word not in source + live, word
+            assert word not in source + live + drawing, word
     with claim("the page asks for nothing: no address of the network in it"):
-        for part in [*PARTS, "page.html", "page.css"]:
-            text = (PAGE / part).read_text(encoding="utf-8")
+        for part in [*parts, PAGE / "page.html", PAGE / "page.css", *DRAWING.iterdir()]:
+            text = part.read_text(encoding="utf-8")
             assert "http://" not in text and "https://" not in text and "fetch(" not in text, part
     with claim("the script is small"):
         assert len(source.encode()) < 110000, len(source)
     with tempfile.TemporaryDirectory() as name:
-        script, rules = Path(name) / "page.js", Path(name) / "rules.json"
-        script.write_text('"use strict";\n' + source + live, encoding="utf-8")
+        unused = "/* exported quantity, mathOf */\n"  # of notation.js
+        scripts, rules = {"page.js": source + live, "drawing.js": unused + drawing}, Path(name) / "rules.json"
+        for script, text in scripts.items():
+            (Path(name) / script).write_text('"use strict";\n' + text, encoding="utf-8")
         rules.write_text(json.dumps(RULES), encoding="utf-8")
         if shutil.which("node"):
             with claim("node has nothing to say about it"):
-                checked(["node", "--check", script.name], name)
+                for script in scripts:
+                    checked(["node", "--check", script], name)
         if shutil.which("eslint"):
             with claim("nor has eslint"):
-                checked(["eslint", "--no-eslintrc", "--format", "unix", "--config", rules.name, script.name], name)
+                checked(["eslint", "--no-eslintrc", "--format", "unix", "--config", rules.name, *scripts], name)
     finish()
 
 

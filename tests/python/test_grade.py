@@ -40,6 +40,17 @@ def test_sheets_and_findings(tmp_path):
     assert absent.findings[0].kind == "no_submission" and absent._repr_html_().startswith("<pre>")
 
 
+def test_sheets_to_draw_on():
+    key = fbd.Key(KEY)
+    exam = key.page("anna", exam=True)
+    assert exam == fbd_run("--handout", "--student", "anna", "--page", "-", "--exam", KEY)
+    assert "Sheet of anna" in exam and "pull" not in exam
+    try:
+        assert "pull" in key.page("anna")  # the key, by which it checks
+    except fbd.Error as error:
+        assert error.id == "no-live"
+
+
 def test_keys_and_answers_as_texts(tmp_path):
     key = fbd.Key.parse(KEY.read_text(), L="1.2 m", m=2)
     sheet = key.handout("anna")
@@ -70,5 +81,7 @@ def test_what_is_no_key_is_said(tmp_path):
             fbd.Key(wrong)
         with pytest.raises((TypeError, ValueError)):
             fbd.Key(KEY).handout(wrong)
+        with pytest.raises((TypeError, ValueError)):
+            fbd.Key(KEY).page(wrong, exam=True)
         with pytest.raises((TypeError, ValueError)):
             fbd.Key(KEY).grade(wrong)

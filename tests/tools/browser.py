@@ -114,6 +114,24 @@ class Browser:
         self._call("POST", "/actions", {"actions": [{"type": "key", "id": "keys", "actions": [
             {"type": "keyDown", "value": key}, {"type": "keyUp", "value": key}]}]})
 
+    def type(self, text):
+        """Keys one after another."""
+        self._call("POST", "/actions", {"actions": [{"type": "key", "id": "keys", "actions": [
+            {"type": kind, "value": key} for key in text for kind in ("keyDown", "keyUp")]}]})
+
+    def chord(self, held, key):
+        """A key while another one is held."""
+        keys = [("keyDown", held), ("keyDown", key), ("keyUp", key), ("keyUp", held)]
+        self._call("POST", "/actions", {"actions": [{"type": "key", "id": "keys", "actions": [
+            {"type": kind, "value": value} for kind, value in keys]}]})
+
+    def drag(self, places, pointer="mouse"):
+        """From the first place [x, y] of the window over the others to the last one, by mouse or by touch."""
+        moves = [{"type": "pointerMove", "x": round(x), "y": round(y)} for x, y in places]
+        actions = [moves[0], {"type": "pointerDown", "button": 0}, *moves[1:], {"type": "pointerUp", "button": 0}]
+        self._call("POST", "/actions", {"actions": [
+            {"type": "pointer", "id": pointer, "parameters": {"pointerType": pointer}, "actions": actions}]})
+
     def click(self, x, y):
         move = {"type": "pointerMove", "x": round(x), "y": round(y)}
         self._call("POST", "/actions", {"actions": [{"type": "pointer", "id": "mouse", "actions": [

@@ -134,6 +134,7 @@ void grades(void **state)
     ENDURES(fbd_key_free, fbd_key_free(NULL));
     REFUSES(fbd_model_check_key, !fbd_model_check_key(NULL, errors));
     REFUSES(fbd_key_handout, !fbd_key_handout(NULL, "anna", errors));
+    REFUSES(fbd_key_page, !fbd_key_page(NULL, "anna", true, errors));
     REFUSES(fbd_key_solution, !fbd_key_solution(NULL, "anna", errors));
     ANSWERS(fbd_finding_kind_name, strcmp(fbd_finding_kind_name((fbd_finding_kind)99), "") == 0);
     ANSWERS(fbd_finding_kind_name, strcmp(fbd_finding_kind_name((fbd_finding_kind)-1), "") == 0);
@@ -158,6 +159,7 @@ void a_key_without_an_answer(void **state)
     fbd_key *key = fbd_key_read(path, errors);
     assert_non_null(key);
     REFUSES(fbd_key_handout, !fbd_key_handout(key, NULL, errors));
+    REFUSES(fbd_key_page, !fbd_key_page(key, NULL, false, errors));
     REFUSES(fbd_grade_new, !fbd_grade_new(key, NULL, NULL, errors));
     ANSWERS(fbd_grade_new, !fbd_grade_new(key, NULL, NULL, NULL));
     REFUSES(fbd_grade_parse, !fbd_grade_parse(key, NULL, 0, "anna", errors));

@@ -58,20 +58,20 @@ static void derivations_are_checked(void **unused)
 static void answers_are_graded(void **unused)
 {
     (void)unused;
-    says(live_grade(right, right, "anna", 0), "\"passed\": true");
+    says(live_grade(right, "", right, "anna", 0), "\"passed\": true");
     char *wrong = with(right, "value: F", "value: -F");
-    says(live_grade(right, wrong, "anna", 0), "\"kind\": \"sense\"");
+    says(live_grade(right, "", wrong, "anna", 0), "\"kind\": \"sense\"");
     free(wrong);
-    says(live_grade(right, "", "anna", 0), "\"gradable\": false");
-    says(live_grade("fbd: 1\nbodies: 3\n", right, "anna", 0), "\"grade\":null}");
+    says(live_grade(right, "", "", "anna", 0), "\"gradable\": false");
+    says(live_grade("fbd: 1\nbodies: 3\n", "", right, "anna", 0), "\"grade\":null}");
 }
 
 static void details_are_for_the_teacher(void **unused)
 {
     (void)unused;
     char *other = with(right, "name: push, value: F", "name: shove, value: F/2");
-    says(live_grade(right, other, "anna", 1), "push");
-    char *json = live_grade(right, other, "anna", 0);
+    says(live_grade(right, "", other, "anna", 1), "push");
+    char *json = live_grade(right, "", other, "anna", 0);
     assert_non_null(json);
     assert_null(strstr(json, "push"));
     free(json);

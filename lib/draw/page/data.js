@@ -4,13 +4,6 @@
 
 let run, doubles, floats, envelope, times, inDegrees = false;
 
-function decode(base64) {
-  const text = atob(base64);
-  const bytes = new Uint8Array(text.length);
-  for (let i = 0; i < text.length; i++) bytes[i] = text.charCodeAt(i);
-  return bytes.buffer;
-}
-
 // `data` (page_data.c) is what the page shows from now on.
 function takeRun(data) {
   run = data;

@@ -2,7 +2,6 @@
 
 // The page: time, controls, tables. `fbd` is for whoever drives the page by a script.
 
-const element = (id) => document.getElementById(id);
 const player = { t: 0, playing: false, speed: 1, last: 0, next: 0, written: 0, frames: 0, drawing: 0 };
 let eventTimes = [];
 const speeds = [1e-6, 1e-5, 1e-4, 0.001, 0.002, 0.005, 0.01, 0.02, 0.05, 0.1, 0.25, 0.5, 1, 2, 5, 10, 20, 50, 100, 1000, 1e4, 1e5, 1e6];

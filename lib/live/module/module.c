@@ -14,7 +14,7 @@
 #include "fbd.h"
 #include "module.h"
 
-enum { most_off = 256 };
+enum { most_off = 256, most_settings = 256 };
 
 /* ---- texts */
 
@@ -216,14 +216,34 @@ char *live_check_hand(const char *text, const char *name)
     return answer(errors, "hand", hand);
 }
 
-char *live_grade(const char *key_text, const char *text, const char *student, double details)
+/* Take lines NAME=VALUE apart, in place. */
+static size_t read_settings(char *lines, fbd_setting settings[most_settings])
+{
+    size_t count = 0;
+    for (char *line = lines; line && *line && count < most_settings;) {
+        char *end = strchr(line, '\n'), *value = strchr(line, '=');
+        if (!end || !value || value > end) break;
+        *end = *value = '\0';
+        settings[count++] = (fbd_setting){line, value + 1};
+        line = end + 1;
+    }
+    return count;
+}
+
+char *live_grade(const char *key_text, const char *settings, const char *text, const char *student,
+                 double details)
 {
     fbd_errors *errors = fbd_errors_new();
-    fbd_key *key = fbd_key_parse(key_text, strlen(key_text), "key", NULL, 0, errors);
+    fbd_setting values[most_settings];
+    const char *const parts[] = {settings, NULL};
+    char *lines = joined(parts);
+    size_t count = read_settings(lines, values);
+    fbd_key *key = lines ? fbd_key_parse(key_text, strlen(key_text), "key", values, count, errors) : NULL;
     fbd_grade *grade = key ? fbd_grade_parse(key, text, strlen(text), student, errors) : NULL;
     char *json = grade ? fbd_grade_json(grade, details != 0) : NULL;
     fbd_grade_free(grade);
     fbd_key_free(key);
+    free(lines);
     return answer(errors, "grade", json);
 }
 

@@ -26,7 +26,8 @@ char *live_cost(const char *text, const char *name, const char *off, double budg
 char *live_check_hand(const char *text, const char *name);
 
 /* {errors, grade}: an answer against a key, both texts, as fbd_grade_json says it, or null where there is no key. The
- * values that the key draws are those of this student. */
-char *live_grade(const char *key_text, const char *text, const char *student, double details);
+ * values that the key draws are those of this student; `settings` has values from outside, NAME=VALUE, one a line. */
+char *live_grade(const char *key_text, const char *settings, const char *text, const char *student,
+                 double details);
 
 #endif

@@ -1,0 +1,15 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * The drawing page of a sheet: its bodies cut free, on which a student draws.
+ */
+#ifndef FBD_LIVE_DRAWING_H
+#define FBD_LIVE_DRAWING_H
+
+#include "base/text.h"
+#include "dynamics/state.h"
+
+/* The bodies of a sheet in an evaluated state as a JSON array (drawing_body.c says what is in it), and their pictures as
+ * elements of SVG in HTML. A sheet has nothing of its key, and so have these. False when memory is out. */
+bool drawing_add_bodies(struct text *text, struct text *pictures, const struct fbd_state *state);
+
+#endif

@@ -1,0 +1,123 @@
+"use strict";
+
+// The sheet as a whole: what can be undone, the draft that the browser keeps, the file to hand in. `fbd` is for whoever
+// drives the page by a script.
+
+const kept = { past: [], future: [], field: "" };
+
+const snapshot = () => JSON.stringify([drawing.entries, drawing.lines, drawing.next, drawing.inertia]);
+
+// Before a change; a field's changes in a row are one.
+function keepHistory(field = "") {
+  if (field && field === kept.field) return;
+  kept.field = field;
+  kept.past.push(snapshot());
+  kept.future = [];
+}
+
+function restore(text) {
+  const [entries, lines, next, inertia] = JSON.parse(text);
+  Object.assign(drawing, { entries, lines, next, inertia });
+  if (!entryOf(drawing.selected)) drawing.selected = 0;
+  kept.field = "";
+  changed();
+  showAll();
+}
+
+function undo() {
+  if (!kept.past.length) return;
+  kept.future.push(snapshot());
+  restore(kept.past.pop());
+}
+
+function redo() {
+  if (!kept.future.length) return;
+  kept.past.push(snapshot());
+  restore(kept.future.pop());
+}
+
+function clearSheet() {
+  keepHistory();
+  const none = sheet.bodies.map(() => "");
+  restore(JSON.stringify([[], none, drawing.next, none]));
+}
+
+// ---- the draft
+
+// Another key, or another version of the page with other points, begins anew.
+const draftKey = () => {
+  let hash = 0;
+  for (const letter of element("data").textContent) hash = (Math.imul(hash, 31) + letter.codePointAt(0)) | 0;
+  return `fbd ${sheet.exam ? "exam" : "sheet"} ${sheet.student} ${hash}`;
+};
+
+function keepDraft() {
+  try { localStorage.setItem(draftKey(), snapshot()); } catch { drawing.lost = kept.past.length > 0; } // some keep nothing of files
+}
+
+// What was drawn when the page was last open, or an empty sheet.
+function takeDraft() {
+  let draft = null;
+  try { draft = localStorage.getItem(draftKey()); } catch { /* as before */ }
+  restore(draft || snapshot());
+}
+
+// ---- the file
+
+const answerName = () => `${sheet.student.replace(/[^\w.@ -]/g, "_")}.yaml`;
+
+function saveAnswer() {
+  const link = make("a", { href: URL.createObjectURL(new Blob([answerOf().text], { type: "text/yaml" })), download: answerName() });
+  link.click();
+  setTimeout(() => URL.revokeObjectURL(link.href), 1000);
+  drawing.lost = false;
+  element("says").textContent = `saved as ${link.download}`;
+}
+
+// What was checked belongs to what was drawn then.
+function changed() {
+  drawing.marks.clear();
+  element("verdict").hidden = true;
+  element("says").textContent = "";
+  element("answer").textContent = answerOf().text;
+  element("undo").disabled = !kept.past.length;
+  element("redo").disabled = !kept.future.length;
+  keepDraft();
+}
+
+// ---- the start
+
+function showHead() {
+  element("title").textContent = sheet.title || "Free-body diagram";
+  const equations = sheet.bodies.some(asksHand) ? ", and write its equations" : "";
+  const bodies = sheet.bodies.length > 1 ? "each body" : "the body";
+  element("asked").textContent = `Sheet of ${sheet.student}. Draw every force and moment on ${bodies}${equations}. ${sheet.reactions}`;
+  element("given").replaceChildren(...givenValues().map(([name, text]) =>
+    make("div", {}, make("dt", {}, inMath(name)), make("dd", {}, `= ${unit(text).replace(" deg", "°")}`))));
+  element("how").textContent = sheet.exam ? "Save the answer and hand the file in." : "";
+}
+
+function undoKeys(event) {
+  if (!(event.ctrlKey || event.metaKey) || event.target.matches("input[type=text], textarea")) return;
+  const key = event.key.toLowerCase();
+  if (key !== "z" && key !== "y") return;
+  event.preventDefault();
+  if (key === "y" || event.shiftKey) redo(); else undo();
+}
+
+function begin() {
+  showHead();
+  sheet.bodies.forEach(makeDesk);
+  setMode("force");
+  connectVerdict();
+  element("save").addEventListener("click", saveAnswer);
+  element("undo").addEventListener("click", undo);
+  element("redo").addEventListener("click", redo);
+  document.addEventListener("keydown", undoKeys);
+  element("clear").addEventListener("click", clearSheet);
+  addEventListener("beforeunload", (event) => { if (drawing.lost) event.preventDefault(); });
+  takeDraft();
+}
+
+begin();
+window.fbd = { drawing, answer: () => answerOf().text };
