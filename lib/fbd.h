@@ -730,7 +730,7 @@ FBD_API char *fbd_statics_text(const fbd_statics *statics);
 FBD_API char *fbd_statics_json(const fbd_statics *statics);
 
 /* Hold every `hand:` derivation of the model against the assembly at many random admissible states (and
- * parameters; the seed is printed). A text that says yes, or by how much and in which term each differs; *differing
+ * parameters; the seed is printed), lines of energy and momentum against one run of the model. A text that says yes, or by how much and in which term each differs; *differing
  * (may be NULL) is the number of equations that do. NULL when memory is out. */
 FBD_API char *fbd_check_hand(const fbd_model *model, unsigned seed, size_t *differing);
 

@@ -87,6 +87,9 @@ struct scope {
     struct table_symbol (*table)(void *context, const char *name, struct pos at);
     /* Their names, as `names`; may be NULL. */
     size_t (*tables)(void *context, const char *const **names);
+    /* Is `word` one with an expression in brackets behind it whose names are looked up in another sense, as `before(v)`?
+     * Then they are from now on; NULL ends that. May be NULL. */
+    bool (*sense)(void *context, const char *word);
     void *context;
     enum unit_system units;
 };

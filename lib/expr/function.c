@@ -390,6 +390,22 @@ static struct operand read_if(struct parser *p, const struct function *function,
     return build_choice_second(p->builder, &choice, &second, kind, name.at);
 }
 
+/* `before(v)`: its value is that of the expression, whose names have another meaning. */
+static struct operand read_in_sense(struct parser *p, struct token name)
+{
+    struct operand inside = parse_expression(p);
+    p->scope->sense(p->scope->context, NULL);
+    if (!p->stopped && another_argument(p))
+        parse_stop(p, "argument-count", name.at, NULL, "one expression stands in these brackets");
+    return p->stopped ? parse_failed(p, name.at) : inside;
+}
+
+static bool has_sense(struct parser *p, struct token name)
+{
+    const char *word = arena_text(&p->builder->scratch, p->lexer.text + name.start, name.length);
+    return word && p->scope->sense && p->scope->sense(p->scope->context, word);
+}
+
 struct operand function_call(struct parser *p, struct token name)
 {
     int base = p->builder->depth;
@@ -397,7 +413,9 @@ struct operand function_call(struct parser *p, struct token name)
     if (!parse_enter(p)) return parse_failed(p, name.at);
     parse_advance(p);
     struct operand result;
-    if (function && function->rule == rule_if) {
+    if (!function && has_sense(p, name)) {
+        result = read_in_sense(p, name);
+    } else if (function && function->rule == rule_if) {
         result = read_if(p, function, base, name);
     } else {
         struct operand args[most_arguments] = {{.index = 0}};

@@ -375,6 +375,12 @@ static bool take_one(struct writing *w, bool begins)
     return command > 0 ? take_command(w, command) : take_sign(w);
 }
 
+static void end_sense(struct writing *w)
+{
+    if (w->sense_end > 0) w->scope->sense(w->scope->context, NULL);
+    w->sense_end = 0;
+}
+
 bool writing_read_items(struct writing *w)
 {
     bool begins = w->equation;
@@ -387,9 +393,11 @@ bool writing_read_items(struct writing *w)
         }
         w->offset = blanks;
         if (w->offset >= w->length) break;
+        if (w->sense_end > 0 && w->offset >= w->sense_end) end_sense(w);
         if (!take_one(w, begins)) break;
         begins = w->equation && w->count > 0 && w->items[w->count - 1].kind == item_break;
     }
+    end_sense(w);
     bool done = !w->failed && !w->arena->failed;
     return done && writing_add(w, item_end, w->length, w->length, NULL) != NULL;
 }

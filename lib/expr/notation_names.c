@@ -239,6 +239,18 @@ static bool is_table(const struct writing *w, const char *name)
     return table.table || table.failed;
 }
 
+/* Does a sense of names begin with the brackets behind `end`? Then up to where they close. */
+static bool begins_sense(struct writing *w, const char *name, size_t end)
+{
+    int depth = 0;
+    if (!w->scope->sense || !w->scope->sense(w->scope->context, name)) return false;
+    for (w->sense_end = end; w->sense_end < w->length; w->sense_end++) {
+        depth += w->text[w->sense_end] == '(';
+        if (w->text[w->sense_end] == ')' && --depth == 0) break;
+    }
+    return true;
+}
+
 /* The source of these atoms if it is spelled so already, else what the language writes. */
 static bool add_item(struct writing *w, enum item_kind kind, const struct run *run, size_t first, size_t end,
                      const char *text)
@@ -322,6 +334,8 @@ bool run_add(struct writing *w, const struct run *run, size_t end)
         return writing_add(w, item_break, run->atoms[0].start, end, NULL) != NULL;
     if (called && function)
         return add_item(w, takes_bare(function) ? item_function : item_call, run, 0, run->count, function);
+    if (called && spelled && marks == 0 && begins_sense(w, name.text, end))
+        return add_item(w, item_call, run, 0, run->count, name.text);
     if (called && spelled && marks == 0 && is_table(w, name.text))
         return add_item(w, item_call, run, 0, run->count, name.text);
     int count = match(w, run, 0, run->count, names);

@@ -124,7 +124,10 @@ static void rewrite(const struct rewriting *rewriting, const char *from, struct 
         } else if (is_part(*from)) {
             while (is_part(from[length]) || from[length] == '.') length++;
             bool number = is_digit(*from);
-            if (number || from[length + strspn(from + length, " ")] == '(')
+            const bool force = is_word(from, length, "work") || is_word(from, length, "impulse");
+            if (force && from[length] == '(')
+                length += strcspn(from + length, ")"); /* a name of the diagram */
+            if (force || number || from[length + strspn(from + length, " ")] == '(')
                 text_add_bytes(text, from, length);
             else
                 add_word(rewriting, text, from, length);

@@ -36,71 +36,11 @@ static void count_slips(struct line *line, unsigned of_motion)
     line->counts = (seen & of_motion) != 0 ? seen & of_motion : seen;
 }
 
-static bool is_of_name(char c)
-{
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
-}
-
-/* A number that was rounded, perhaps: one of two digits or more, that is no part of a name. */
-static bool has_numbers(const char *text)
-{
-    size_t digits = 0;
-    bool name = false;
-    for (; *text; text++) {
-        bool digit = *text >= '0' && *text <= '9';
-        name = is_of_name(*text) && (name || !digit);
-        digits = digit && !name ? digits + 1 : *text == '.' ? digits : 0;
-        if (digits >= 2) return true;
-    }
-    return false;
-}
-
-static bool names_it(const char *text, const char *name)
-{
-    size_t length = strlen(name);
-    for (const char *at = strstr(text, name); at; at = strstr(at + 1, name))
-        if ((at == text || !is_of_name(at[-1])) && !is_of_name(at[length])) return true;
-    return false;
-}
-
-/* Has the sheet a parameter of that value? Then one of another name is that, and not a number that was rounded. */
-static bool is_of_the_sheet(const struct lines *lines, double value)
-{
-    const struct scene *scene = lines->grade->sheet->scene;
-    for (size_t i = 0; i < scene->parameter_count; i++)
-        if (fabs(scene->parameters[i].value - value) <= 1e-12 * fabs(value)) return true;
-    return false;
-}
-
-/* Does it name parameters that the sheet does not have? Those follow from others, and are not varied with them.
- * *rounded: one of them may be a number that was rounded. */
-static bool has_own_names(const struct lines *lines, const char *text, bool *rounded)
-{
-    const struct scene *scene = lines->model->scene;
-    const struct node *known = lines_value(lines->grade->key->document.root, "parameters");
-    const struct node *own = lines_value(lines->root, "parameters");
-    bool found = false;
-    for (size_t i = 0; i < scene->parameter_count; i++) {
-        const char *name = scene->parameters[i].name;
-        if (node_find(known, name) || !names_it(text, name)) continue;
-        const struct node *value = lines_value(own, name);
-        found = true;
-        *rounded = *rounded || (value && value->kind == node_scalar && has_numbers(value->text) &&
-                                !is_of_the_sheet(lines, scene->parameters[i].value));
-    }
-    return found;
-}
-
 static bool sample_line(struct lines *lines, const struct node *root, double spread, double tolerance,
                         struct line *line)
 {
     struct document document = {.file = lines->grade->key->file, .split_hands = true};
-    fbd_errors *errors = fbd_errors_new();
-    document.root = lines_alone(lines, root, lines->check.body, lines->index);
-    fbd_model_free(lines->alone);
-    lines->alone = NULL;
-    if (document.root && errors) lines->alone = lines_try(lines, document.root, true, false, errors);
-    fbd_errors_free(errors);
+    document.root = line_compile(lines, root, lines->check.body);
     lines->check.model = lines->alone;
     lines->check.index = 0;
     if (!lines->alone || !hand_take_samples(&lines->check, &document, lines->rng, spread)) return false;
@@ -137,7 +77,7 @@ static bool look_at_pushed(struct lines *lines, double tolerance, struct line *l
 static bool look_at_values(struct lines *lines, const char *text, double *tolerance, struct line *line)
 {
     const struct line general = *line;
-    bool rounded = has_numbers(text), own = has_own_names(lines, text, &rounded);
+    bool rounded = line_has_numbers(text), own = line_has_own_names(lines, text, &rounded);
     if (!rounded && !own) return true;
     if (!sample_line(lines, lines->root, 0, *tolerance, line)) return false;
     if (!line_agrees(line) && rounded) {
@@ -160,6 +100,19 @@ static bool take_form(struct lines *lines, int body, struct line *line)
     return state != NULL;
 }
 
+/* A line of energy or momentum: it is met by one that says the same of the velocities. */
+static bool look_at_run(struct lines *lines, int body, struct line *line)
+{
+    line->checked = true;
+    line->dynamic = true;
+    line->seen[1] = 1;
+    line->counts = 1U << 1;
+    if (!line_judge_by_run(lines, body, &line->run)) return false;
+    line->agreed[1] = line->run.holds;
+    line->says = line->run.empty ? 0 : (unsigned)line_says_run;
+    return true;
+}
+
 /* For all values of the parameters, or for those of the sheet. */
 static bool look_at_line(struct lines *lines, int body, int index, struct line *line)
 {
@@ -168,6 +121,7 @@ static bool look_at_line(struct lines *lines, int body, int index, struct line *
     *line = (struct line){.says = 0};
     lines->check.body = body;
     lines->index = index;
+    if (model->scene->bodies[body].hands[index].kind != hand_of_states) return look_at_run(lines, body, line);
     if (diagram_arrows(model, body) >= most_terms) return true;
     line->checked = true;
     if (!sample_line(lines, lines->root, 0.3, tolerance, line) || !take_form(lines, body, line)) return false;
@@ -211,7 +165,10 @@ static void note_student_line(struct lines *lines, int body, int index, const st
                                            : "it does not agree with the mechanics of the sheet");
     if (good || seen == 0) return;
     struct text text = {0};
-    hand_diagnose(&lines->check, line->seen[1] > 0 ? 0 : line->seen[2] > 0 ? 1 : -1, &text);
+    if (line->run.verdict)
+        text_add(&text, line->run.verdict);
+    else
+        hand_diagnose(&lines->check, line->seen[1] > 0 ? 0 : line->seen[2] > 0 ? 1 : -1, &text);
     if (text.failed) grade->arena.failed = true;
     finding_tell(grade, finding, text.data ? text.data : "");
     text_free(&text);

@@ -36,6 +36,17 @@ struct lines {
 
 enum { slips = 3 }; /* of a body's friction: back, none, forth */
 
+/* A line of energy or momentum, which is compared with a run. */
+struct line_of_run {
+    bool holds, empty;   /* it is true whatever the velocities are */
+    const char *verdict; /* NULL: it is no such line, */
+    size_t count;
+    const double *slopes; /* how left less right changes with velocities, at some times */
+};
+
+/* Beside the bits of hand_check.says. */
+enum { line_says_run = 4 << hand_slots };
+
 /* What one equation says, and where it is true. */
 struct line {
     unsigned says;
@@ -51,6 +62,7 @@ struct line {
     const double *rest;          /* an equation of rest (statics.c): how it changes with the parameters */
     double share;                /* of a line of the key: in how many of its cases it is met */
     fbd_finding *finding;        /* what is said of a line of the key */
+    struct line_of_run run;      /* of one that is compared with a run */
 };
 
 /* The lines of a body, in the order of the file: its own, and those of the key. */
@@ -104,6 +116,26 @@ unsigned *lines_slips(struct fbd_grade *grade);
 
 /* Has the scene one degree of freedom? Its pushes are made (freedom.c). */
 bool lines_one_freedom(struct lines *lines);
+
+/* The tree of that scene; it is compiled as lines->alone, which is NULL where memory is out (lines_run.c). */
+const struct node *line_compile(struct lines *lines, const struct node *root, int body);
+
+/* ---- values of the answer's own (lines_values.c) */
+
+/* Has it a number that was rounded, perhaps: one of two digits or more, that is no part of a name? */
+bool line_has_numbers(const char *text);
+
+/* Does it name parameters that the sheet does not have? Those follow from others, and are not varied with them.
+ * *rounded: one of them may be a number that was rounded. */
+bool line_has_own_names(const struct lines *lines, const char *text, bool *rounded);
+
+/* ---- lines of energy and momentum (lines_run.c) */
+
+/* Judge the equation lines->index of a body. False when memory is out. */
+bool line_judge_by_run(struct lines *lines, int body, struct line_of_run *line);
+
+/* Do they say the same of the velocities, or are both no such lines? */
+bool lines_of_run_agree(const struct line_of_run *a, const struct line_of_run *b);
 
 /* ---- equations of rest (statics.c) */
 

@@ -57,7 +57,8 @@ static bool meets(const struct line *own, const struct line *key, int slip)
     const unsigned long long asked = line_unknowns(key);
     const bool single = names_forces(own) || names_forces(key);
     if (own->met != 0 && (single ? own->met_by != key : own->met != asked)) return false;
-    return line_agrees_at(own, slip) && (line_unknowns(own) & asked) && (own->dynamic || !key->dynamic);
+    return line_agrees_at(own, slip) && (line_unknowns(own) & asked) && (own->dynamic || !key->dynamic) &&
+           lines_of_run_agree(&own->run, &key->run);
 }
 
 /* Does a line say something new? */

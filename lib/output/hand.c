@@ -380,6 +380,25 @@ bool hand_take_samples(struct hand_check *check, const struct document *document
     return !any || hand_find_point(check);
 }
 
+/* A line of a run: of the one that is made for the first of them. */
+static int judge_by_run(struct hand_check *check, const struct hand *hand, struct text *text)
+{
+    if (!check->run.model) {
+        fbd_errors *errors = fbd_errors_new();
+        bool made = errors && hand_run_make(&check->run, check->model, errors);
+        const fbd_error *error = errors ? diag_get(errors, 0) : NULL;
+        if (error) text_printf(text, "  not checked: %s\n", error->message);
+        bool out = !errors || errors->out_of_memory;
+        fbd_errors_free(errors);
+        if (!made) {
+            hand_run_free(&check->run);
+            return out ? -1 : 1;
+        }
+    }
+    bool holds = hand_run_judge(&check->run, check->body, hand, text);
+    return check->run.no_memory ? -1 : !holds;
+}
+
 /* Check one equation; 1 differs, 0 agrees, -1 out of memory. */
 static int check_one(struct hand_check *check, const struct document *document, gsl_rng *rng,
                      struct text *text)
@@ -387,10 +406,11 @@ static int check_one(struct hand_check *check, const struct document *document, 
     const struct fbd_model *model = check->model;
     const struct body *body = &model->scene->bodies[check->body];
     const struct hand *hand = &body->hands[check->index];
-    text_printf(text, "%s: ", body->name);
+    text_printf(text, "%s: %s", body->name, hand->kind == hand_conserved ? "conserved: " : "");
     text_shown(text, hand->written);
     text_add(text, "\n");
     if (strcmp(hand->text, hand->written) != 0) text_printf(text, "  read as: %s\n", hand->text);
+    if (hand->kind != hand_of_states) return judge_by_run(check, hand, text);
     if (diagram_arrows(model, check->body) > most_terms) {
         text_printf(text, "  not checked: more than %d forces\n", most_terms);
         return 1;
@@ -432,6 +452,7 @@ bool hand_check_document(const struct fbd_model *model, struct document *documen
         }
         text_printf(text, "seed %u\n", seed);
     }
+    hand_run_free(&check.run);
     model_free(split);
     free(check.samples);
     if (rng) gsl_rng_free(rng);

@@ -19,6 +19,7 @@
 #include "base/text.h"
 #include "dynamics/diagram.h"
 #include "dynamics/modes.h"
+#include "output/hand_run.h"
 
 enum {
     most_samples = 512,
@@ -80,6 +81,7 @@ struct hand_check {
     size_t count;
     struct hand_sample *samples;     /* most_samples */
     bool accelerates[most_summands]; /* this summand is (part of) the left side I a */
+    struct hand_run run;             /* of the model, where a line asks for it */
 };
 
 struct hand_named;

@@ -237,18 +237,23 @@ static bool find_sum(const struct hand_forces *forces, const struct absolute *ab
     return sum->forces && sum->signs;
 }
 
+static bool is_of_forces(enum absolute_kind kind)
+{
+    return kind == absolute_force || kind == absolute_work || kind == absolute_impulse;
+}
+
 bool hand_named_find(const struct fbd_model *model, struct arena *arena, struct hand_named *named)
 {
     struct hand_forces forces = {0};
     bool any = false;
     for (size_t k = 0; k < model->absolute_count; k++)
-        any = any || model->scene->absolutes[k].kind == absolute_force;
+        any = any || is_of_forces(model->scene->absolutes[k].kind);
     named->of = ARENA_ARRAY(arena, model->absolute_count + 1, struct hand_sum);
     named->arrows = ARENA_ARRAY(arena, diagram_most_arrows(model), struct arrow);
     named->sizes = ARENA_ARRAY(arena, model->absolute_count + 1, double);
     if (any && !hand_forces_make(model, arena, &forces)) return false;
     for (size_t k = 0; any && named->of && k < model->absolute_count; k++)
-        if (model->scene->absolutes[k].kind == absolute_force &&
+        if (is_of_forces(model->scene->absolutes[k].kind) &&
             !find_sum(&forces, &model->scene->absolutes[k], arena, &named->of[k]))
             return false;
     return !arena->failed;
@@ -272,7 +277,7 @@ static double place_value(const struct fbd_state *state, const struct model_abso
 
 bool hand_writes(enum absolute_kind kind)
 {
-    return kind == absolute_acceleration || kind >= absolute_force;
+    return kind == absolute_acceleration || (kind >= absolute_force && kind <= absolute_inertia);
 }
 
 /* The largest force on a body, and the largest moment about G. */
@@ -334,6 +339,22 @@ void hand_named_write(const struct fbd_state *state, const struct hand_named *na
         named->sizes[k] = size_of_name(state, absolute, size_of_forces(state, absolute->body, named));
         places[k] = place_value(state, absolute);
     }
+}
+
+double hand_named_rate(const struct fbd_state *state, const struct hand_named *named, size_t k)
+{
+    const struct fbd_model *model = state->model;
+    const struct hand_sum *sum = &named->of[k];
+    struct instant at = state_instant(state);
+    double rate = 0;
+    for (size_t i = 0; i < sum->count; i++) {
+        const struct hand_force *force = sum->forces[i];
+        diagram_fill(model, force->name.body, &at, state->a, state->slots, named->arrows);
+        rate += model->absolutes[k].kind == absolute_work
+                    ? named->arrows[force->arrow].power
+                    : sum->signs[i] * hand_force_value(model, force, &at, named->arrows);
+    }
+    return rate;
 }
 
 /* ---- reading */

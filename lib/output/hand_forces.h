@@ -72,6 +72,9 @@ bool hand_writes(enum absolute_kind kind);
 /* Write the value of each to its place, that of its absolute. */
 void hand_named_write(const struct fbd_state *state, const struct hand_named *named, double *places);
 
+/* The rate of one that is a work or an impulse. */
+double hand_named_rate(const struct fbd_state *state, const struct hand_named *named, size_t k);
+
 /* Give a document the names of a model's forces, in the arena: derivations are read with them at once. False when memory is
  * out. */
 bool hand_forces_list(const struct fbd_model *model, struct arena *arena, struct document *document);

@@ -182,12 +182,16 @@ static const struct field event_fields[] = {
 const struct group event_group = {"an event", "when", FIELDS(event_fields), NULL, 0, "an instant to find"};
 
 static const struct field hand_fields[] = {
-    FIELD_NODE(offsetof(struct hand_keys, equation), "equation", field_scalar, required, NULL,
-               "left = right"),
+    FIELD_NODE(offsetof(struct hand_keys, equation), "equation", field_scalar, 0, NULL, "left = right"),
+    FIELD_NODE(offsetof(struct hand_keys, conserved), "conserved", field_scalar, 0, NULL,
+               "in place of an equation: an expression that keeps its value during a run"),
     FIELD_NODE(offsetof(struct hand_keys, when), "when", field_scalar, 0, NULL,
                "a condition: where the equation claims to hold"),
     FIELD_NODE(offsetof(struct hand_keys, about), "about", field_scalar, 0, NULL,
                "the point about which it has moments: of the body, `G`, of the ground, or a joint"),
+    FIELD_NODE(
+        offsetof(struct hand_keys, impact), "impact", field_scalar, 0, NULL,
+        "the contact or rope at whose impacts an equation with `before` and `after` holds; default all"),
 };
 
 const struct group hand_group = {

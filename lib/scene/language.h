@@ -249,7 +249,7 @@ enum contact_side { contact_side_start, contact_side_up, contact_side_left, cont
 enum { coupling_constraint = 100 };
 
 struct hand_keys {
-    const struct node *equation, *when, *about;
+    const struct node *equation, *conserved, *when, *about, *impact;
 };
 
 /* A value is the place in the table; 0 is `auto`. */

@@ -104,7 +104,6 @@ static struct symbol coordinate_symbol(const struct names *names, int body, cons
 /* The slot of a place in the world, the same one for every mention. */
 struct symbol names_absolute(struct reader *reader, enum place place, const struct absolute *wanted)
 {
-    enum { most_absolutes = 1000 };
     struct scene *scene = reader->scene;
     size_t k = 0;
     reader->varies = true; /* the slot is numbered in this reading */
@@ -365,12 +364,29 @@ static struct symbol other_symbol(const struct names *names, const char *name)
     return unknown;
 }
 
+/* `v0`, `cart.x0`: a coordinate or rate at the start of the run, where nothing else is called so. */
+static struct symbol initial_symbol(const struct names *names, const char *name)
+{
+    const struct reader *reader = names->reader;
+    const size_t length = strlen(name), end = length > 2 && name[length - 2] == '_' ? 2 : 1;
+    if (names->sense != sense_now || length < 2 || name[length - 1] != '0') return unknown;
+    const char *stem = arena_text(reader->arena, name, length - end), *dot = stem ? strchr(stem, '.') : NULL;
+    if (!stem) return failed_before;
+    struct symbol symbol = dot ? dotted_symbol(names, stem, dot) : own_symbol(names, stem);
+    const size_t slots = 2 * reader->scene->coordinate_count;
+    if (symbol.kind != symbol_variable || symbol.slot < 1 || (size_t)symbol.slot > slots) return unknown;
+    symbol.slot += (int)hand_sense_size(reader->scene);
+    return symbol;
+}
+
 /* In a derivation what nothing else is called may be a force of the diagram; and the body at hand needs no name before what
  * goes with its points and its angle. */
 static struct symbol or_force(const struct names *names, const char *name, struct symbol symbol)
 {
     if (names->place != place_hand || symbol.kind != symbol_unknown) return symbol;
     if (!names->reader->drafts[names->body].motion_known) return failed_before;
+    symbol = initial_symbol(names, name);
+    if (symbol.kind != symbol_unknown) return symbol;
     symbol = force_symbol(names, name);
     if (symbol.kind == symbol_unknown) symbol = hand_place_symbol(names, names->body, name);
     if (symbol.kind == symbol_unknown) symbol = hand_numbered_symbol(names, name);
@@ -404,9 +420,8 @@ static struct symbol constant_symbol(struct names *names, size_t index, struct p
     return symbol;
 }
 
-static struct symbol look_up(void *context, const char *name, struct pos at)
+static struct symbol name_now(struct names *names, const char *name, struct pos at)
 {
-    struct names *names = context;
     struct reader *reader = names->reader;
     const char *dot = strchr(name, '.');
     if (names->along && strcmp(name, "s") == 0) return variable(DIM_LENGTH, 1);
@@ -430,6 +445,18 @@ static struct symbol look_up(void *context, const char *name, struct pos at)
     return other;
 }
 
+/* In `before(...)` and the like the same name is that of another time. */
+static struct symbol look_up(void *context, const char *name, struct pos at)
+{
+    struct names *names = context;
+    struct symbol symbol = names_take_force(names) ? force_symbol(names, name) : name_now(names, name, at);
+    if (names->sense == sense_now || symbol.kind != symbol_variable) return symbol;
+    if (symbol.slot > 0) symbol.slot += (int)(names->sense * hand_sense_size(names->reader->scene));
+    if (symbol.slot == 0 && names->sense == sense_initial)
+        return (struct symbol){.kind = symbol_constant, .dim = DIM_TIME};
+    return symbol;
+}
+
 static struct table_symbol look_up_table(void *context, const char *name, struct pos at)
 {
     const struct names *names = context;
@@ -441,6 +468,7 @@ struct scope names_scope(struct names *names)
     return (struct scope){.lookup = look_up,
                           .table = look_up_table,
                           .tables = names_list_tables,
+                          .sense = names_sense,
                           .names = names_list,
                           .context = names,
                           .units = names->reader->scene->units};

@@ -51,10 +51,13 @@ struct names {
     enum place place;
     int body; /* whose coordinates need no prefix, or ground_body */
     enum slip_name slip;
-    bool slip_angular; /* it is an angular speed */
-    bool slip_named;   /* it was looked up */
-    bool tried;        /* a constant, unless it names what varies; `s` of a track may be that */
-    bool along;        /* `s` is the place along a distributed load, in slot 1 */
+    bool slip_angular;     /* it is an angular speed */
+    bool slip_named;       /* it was looked up */
+    bool tried;            /* a constant, unless it names what varies; `s` of a track may be that */
+    bool along;            /* `s` is the place along a distributed load, in slot 1 */
+    enum hand_sense sense; /* in a derivation: when, */
+    enum absolute_kind
+        of_force;      /* and what the name of a force stands for: absolute_force, or its work or impulse */
     const char *curve; /* the parameter of a curve, for hints; NULL elsewhere */
     bool distance_known, distance_named; /* of the size of a force toward a point; it was looked up */
     const char **known;
@@ -83,6 +86,12 @@ struct symbol mass_symbol(const struct names *names, int body, const char *name)
 
 /* A force of the diagrams in a derivation: of the body at hand, or `body.name` (names_force.c). */
 struct symbol force_symbol(const struct names *names, const char *name);
+
+/* The senses of names in a derivation, for struct scope (names_force.c). */
+bool names_sense(void *names, const char *word);
+
+/* Does it stand in `work(...)` or `impulse(...)`, for that? */
+bool names_take_force(const struct names *names);
 
 /* Is it one of the `symbols` of the file, in a derivation? */
 bool is_declared(const struct names *names, const char *name);

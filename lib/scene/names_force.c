@@ -30,7 +30,7 @@ static bool is_component(const char *component, const char *name)
            memcmp(component, name, length - 2) == 0 && component[length - 1] == name[length - 1];
 }
 
-static const struct force_name *find(const struct reader *reader, int body, const char *name)
+static const struct force_name *find_in(const struct reader *reader, int body, const char *name)
 {
     for (size_t i = 0; i < reader->force_name_count; i++) {
         const struct force_name *one = &reader->force_names[i];
@@ -47,16 +47,76 @@ static const struct force_name *find(const struct reader *reader, int body, cons
     return NULL;
 }
 
-/* `body.name`, of another body. */
-static const struct force_name *find_dotted(const struct reader *reader, const char *name)
+bool names_take_force(const struct names *names)
 {
-    const char *dot = strchr(name, '.');
-    for (size_t b = 0; dot && b < reader->scene->body_count; b++) {
-        const char *body = reader->scene->bodies[b].name;
-        if (body && strlen(body) == (size_t)(dot - name) && memcmp(body, name, (size_t)(dot - name)) == 0)
-            return find(reader, (int)b, dot + 1);
+    return names->of_force == absolute_work || names->of_force == absolute_impulse;
+}
+
+bool names_sense(void *context, const char *word)
+{
+    static const struct {
+        const char *word;
+        enum hand_sense sense;
+        enum absolute_kind of_force;
+    } known[] = {{"initial", sense_initial, absolute_force},
+                 {"before", sense_before, absolute_force},
+                 {"after", sense_after, absolute_force},
+                 {"work", sense_now, absolute_work},
+                 {"impulse", sense_now, absolute_impulse}};
+    struct names *names = context;
+    const bool inside = names->place != place_hand || names->sense != sense_now || names_take_force(names);
+    if (!word) {
+        names->sense = sense_now;
+        names->of_force = absolute_force;
     }
-    return NULL;
+    for (size_t i = 0; word && !inside && i < sizeof known / sizeof *known; i++) {
+        if (strcmp(known[i].word, word) != 0) continue;
+        names->sense = known[i].sense;
+        names->of_force = known[i].of_force;
+        return true;
+    }
+    return false;
+}
+
+/* Is it the name of a component, or of the place where a force acts? Work is that of a whole force. */
+static bool is_part(const struct force_name *force)
+{
+    const char *dot = strrchr(force->name, '.'), last = force->name[strlen(force->name) - 1];
+    return force->dim.mass == 0 || (force->letter && (last == 'x' || last == 'y')) ||
+           (dot && (strcmp(dot, ".x") == 0 || strcmp(dot, ".y") == 0));
+}
+
+/* Work is done by forces, too, whose size has no sign: the name of their component stands for them. */
+static const struct force_name *find(const struct names *names, int body, const char *name)
+{
+    const struct force_name *one = find_in(names->reader, body, name);
+    if (names->of_force != absolute_work) return one;
+    if (one) return is_part(one) ? NULL : one;
+    const char *component = arena_printf(names->reader->arena, "%s.x", name);
+    return component ? find_in(names->reader, body, component) : NULL;
+}
+
+/* The body of `body.name`, and the name; the body at hand for any other. */
+static int split_name(const struct names *names, const char **name)
+{
+    const struct scene *scene = names->reader->scene;
+    const char *dot = strchr(*name, '.');
+    for (size_t b = 0; dot && b < scene->body_count; b++) {
+        const char *body = scene->bodies[b].name;
+        if (!body || strlen(body) != (size_t)(dot - *name) || strncmp(body, *name, strlen(body)) != 0)
+            continue;
+        *name = dot + 1;
+        return (int)b;
+    }
+    return names->body;
+}
+
+/* `body.name`, of another body. */
+static const struct force_name *find_dotted(const struct names *names, const char *name)
+{
+    const char *own = name;
+    const int body = split_name(names, &own);
+    return own != name ? find(names, body, own) : NULL;
 }
 
 /* `a_Gx` is `G.a_x`. */
@@ -92,20 +152,25 @@ struct symbol hand_place_symbol(const struct names *names, int body, const char 
 
 static struct symbol slot_of(const struct names *names, const struct absolute *force, struct dim dim)
 {
-    struct symbol symbol = names_absolute(names->reader, place_hand, force);
+    struct absolute wanted = *force;
+    if (names_take_force(names)) wanted.kind = names->of_force;
+    struct symbol symbol = names_absolute(names->reader, place_hand, &wanted);
     symbol.dim = dim;
+    if (wanted.kind == absolute_work) symbol.dim = DIM_MOMENT;
+    if (wanted.kind == absolute_impulse) symbol.dim = dim_times(dim, DIM_TIME);
     return symbol;
 }
 
 /* ---- symbols of the file's own */
 
 /* The only size of that name: where it is the same number on all bodies that have it. */
-static const struct force_name *find_anywhere(const struct reader *reader, const char *name)
+static const struct force_name *find_anywhere(const struct names *names, const char *name)
 {
+    const struct reader *reader = names->reader;
     const size_t length = strlen(name);
     if (length > 2 && name[length - 2] == '.') return NULL; /* a component is of one body */
     for (size_t b = 0; b < reader->scene->body_count; b++) {
-        const struct force_name *one = find(reader, (int)b, name);
+        const struct force_name *one = find(names, (int)b, name);
         if (one) return one;
     }
     return NULL;
@@ -137,9 +202,9 @@ static bool add_force(const struct names *names, const struct node *item, struct
     const char *name = item->text;
     const bool minus = *name == '-';
     while (*name == '-' || *name == '+' || *name == ' ') name++;
-    const struct force_name *one = find(reader, names->body, name);
-    if (!one) one = find_dotted(reader, name);
-    if (!one) one = find_anywhere(reader, name);
+    const struct force_name *one = find(names, names->body, name);
+    if (!one) one = find_dotted(names, name);
+    if (!one) one = find_anywhere(names, name);
     if (!one) {
         const char *const *known;
         size_t count = names_list((void *)names, &known);
@@ -159,6 +224,18 @@ static bool add_force(const struct names *names, const struct node *item, struct
     return own != NULL;
 }
 
+static struct symbol sum_symbol(const struct names *names, const char *name, const struct force_sum *sum,
+                                struct dim dim)
+{
+    const char *key = arena_printf(names->reader->arena, "=%s", name); /* no name of a diagram */
+    const struct absolute force = {.body = names->body,
+                                   .point = {.kind = point_fixed},
+                                   .kind = absolute_force,
+                                   .force = key,
+                                   .sum = sum};
+    return key ? slot_of(names, &force, dim) : (struct symbol){.kind = symbol_failed};
+}
+
 static struct symbol declared_symbol(const struct names *names, const char *name, const struct node *value)
 {
     static const struct symbol noted = {.kind = symbol_failed};
@@ -169,13 +246,7 @@ static struct symbol declared_symbol(const struct names *names, const char *name
     if (!sum || !sum->forces) return noted;
     for (size_t i = 0; i < count_of(value); i++)
         if (!add_force(names, value->kind == node_list ? value->items[i] : value, sum, &dim)) return noted;
-    const char *key = arena_printf(reader->arena, "=%s", name); /* no name of a diagram */
-    const struct absolute force = {.body = names->body,
-                                   .point = {.kind = point_fixed},
-                                   .kind = absolute_force,
-                                   .force = key,
-                                   .sum = sum};
-    return key ? slot_of(names, &force, dim) : noted;
+    return sum_symbol(names, name, sum, dim);
 }
 
 bool symbols_check(struct reader *reader, const struct node *symbols)
@@ -227,6 +298,35 @@ struct symbol hand_numbered_symbol(const struct names *names, const char *name)
 
 /* ---- both */
 
+/* Is it a normal force or friction of the contact or roll `name`: `floor.normal`, `floor.friction_2`? */
+static bool is_of_contact(const struct force_name *force, const char *name)
+{
+    const size_t length = strlen(name);
+    const char *part = force->name + length + 1;
+    if (strncmp(force->name, name, length) != 0 || force->name[length] != '.' || is_part(force)) return false;
+    const size_t word = strncmp(part, "normal", 6) == 0 ? 6 : strncmp(part, "friction", 8) == 0 ? 8 : 0;
+    return word > 0 && (part[word] == '\0' || (part[word] == '_' && !strchr(part, '.')));
+}
+
+/* The work of a contact or a roll is that of all its normal forces and friction on the body. */
+static struct symbol contact_symbol(const struct names *names, const char *name)
+{
+    const struct reader *reader = names->reader;
+    const char *contact = name;
+    const int body = split_name(names, &contact);
+    struct force_sum *sum = ARENA_NEW(reader->arena, struct force_sum);
+    if (names->of_force != absolute_work || !sum) return unknown;
+    sum->forces = ARENA_ARRAY(reader->arena, reader->force_name_count, struct signed_force);
+    for (size_t i = 0; sum->forces && i < reader->force_name_count; i++) {
+        const struct force_name *one = &reader->force_names[i];
+        if (one->body != body || !is_of_contact(one, contact)) continue;
+        const char *own = arena_text(reader->arena, one->name, strlen(one->name));
+        if (!own) return (struct symbol){.kind = symbol_failed};
+        sum->forces[sum->count++] = (struct signed_force){body, own, 1};
+    }
+    return sum->count > 0 ? sum_symbol(names, name, sum, DIM_FORCE) : unknown;
+}
+
 struct symbol force_symbol(const struct names *names, const char *name)
 {
     struct reader *reader = names->reader;
@@ -236,9 +336,9 @@ struct symbol force_symbol(const struct names *names, const char *name)
         return (struct symbol){.kind = symbol_failed};
     }
     if (value) return declared_symbol(names, name, value);
-    const struct force_name *one = find(reader, names->body, name);
-    if (!one) one = find_dotted(reader, name);
-    if (!one) return unknown;
+    const struct force_name *one = find(names, names->body, name);
+    if (!one) one = find_dotted(names, name);
+    if (!one) return contact_symbol(names, name);
     const char *own = arena_text(reader->arena, one->name, strlen(one->name));
     if (!own) return (struct symbol){.kind = symbol_failed};
     const struct absolute force = {.body = one->body,

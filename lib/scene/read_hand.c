@@ -23,11 +23,75 @@ static bool read_equation(struct reader *reader, const struct node *node, const 
     bool fine = value_relation(reader, read, &want, scope, &hand->left, &relation, &hand->right);
     if (notation.changed) written_places(reader, node, &notation, last);
     if (!fine || !hand->text) return false;
-    if (relation == '=') return true;
+    const bool conserved = hand->kind == hand_conserved;
+    if (relation == (conserved ? 0 : '=')) return true;
     diag_add(reader->errors, FBD_ERROR, "no-equation", node->at,
-             "write both sides, as `m*v_dot = f1 - m*g*sin(phi)`",
-             "a derivation by hand must be an equation");
+             conserved ? "write `equation: left = right` for an equation"
+                       : "write both sides, as `m*v_dot = f1 - m*g*sin(phi)`",
+             conserved ? "what is `conserved` is one expression, without a relation"
+                       : "a derivation by hand must be an equation");
     return false;
+}
+
+/* ---- when it holds */
+
+/* Has the name of a slot, without `before` or `after`, a value at an impact? What jumps has two, forces none. */
+static bool stands_at_impacts(const struct scene *scene, size_t slot)
+{
+    const size_t n = scene->coordinate_count, size = scene_size(scene);
+    if (slot <= n || (slot > 2 * n && slot <= size)) return true;
+    if (slot <= 2 * n) return false;
+    const size_t k = slot - 1 - size;
+    if (k < hand_slots) return k >= hand_mass && k != hand_N;
+    const enum absolute_kind kind = scene->absolutes[k - hand_slots].kind;
+    return kind == absolute_x || kind == absolute_y || kind == absolute_angle || kind == absolute_mass ||
+           kind == absolute_inertia || kind == absolute_work || kind == absolute_impulse;
+}
+
+/* What the names in a line ask for. */
+struct senses {
+    bool of[hand_senses];
+    bool work;  /* or an impulse */
+    bool jumps; /* a name that is no number at an impact */
+};
+
+static void note_senses(const struct scene *scene, const struct expr *expr, struct senses *senses)
+{
+    const int *slots;
+    const size_t size = hand_sense_size(scene), first = scene_size(scene) + hand_slots,
+                 count = expr ? expr_variables(expr, &slots) : 0;
+    for (size_t i = 0; i < count; i++) {
+        const size_t slot = (size_t)slots[i], sense = (slot - 1) / size, k = (slot - 1) % size;
+        senses->of[sense] = true;
+        if (sense == sense_now && !stands_at_impacts(scene, slot)) senses->jumps = true;
+        if (k >= first && scene->absolutes[k - first].kind >= absolute_work) senses->work = true;
+    }
+}
+
+/* Of which kind it is follows from its names. */
+static bool set_kind(struct reader *reader, const struct node *impact, struct hand *hand)
+{
+    struct senses senses = {{false}, false, false};
+    note_senses(reader->scene, hand->left, &senses);
+    note_senses(reader->scene, hand->right, &senses);
+    const bool impacts = senses.of[sense_before] || senses.of[sense_after];
+    const char *message = NULL, *hint = NULL;
+    if (impacts && hand->kind != hand_conserved)
+        hand->kind = hand_of_impacts;
+    else if (hand->kind == hand_of_states && (senses.of[sense_initial] || senses.work))
+        hand->kind = hand_of_run;
+    if (impacts && (hand->kind == hand_conserved || senses.of[sense_initial])) {
+        message = "`before` and `after` are of an impact, and stand in an equation of that alone";
+        hint = "as `m*after(v) = -e*m*before(v)`";
+    } else if (impacts && senses.jumps) {
+        message = "a velocity without `before` or `after`, or a force, has no value at an impact";
+        hint = "write `before(v)` or `after(v)`; `work(...)` and `impulse(...)` are those of the impact";
+    } else if (impact && !impacts) {
+        message = "`impact` goes with an equation that has `before` and `after`";
+    }
+    if (message)
+        diag_add(reader->errors, FBD_ERROR, "not-here", impact ? impact->at : hand->at, hint, "%s", message);
+    return !message;
 }
 
 /* Where the sign of an equation stands: outside all brackets. */
@@ -70,6 +134,11 @@ static bool add_summands(struct reader *reader, const char *text, size_t length,
 static bool split_equation(struct reader *reader, const struct scope *scope, struct hand *hand)
 {
     size_t left = equals_sign(hand->text), length = strlen(hand->text);
+    if (hand->kind == hand_conserved) {
+        hand->summands = ARENA_ARRAY(reader->arena, most_summands, struct hand_summand);
+        bool whole = expr_summands(hand->text, length, NULL, 0) > most_summands;
+        return hand->summands && (whole || add_summands(reader, hand->text, length, 1, scope, hand));
+    }
     const char *right = hand->text + left + 1;
     size_t right_length = length - left - 1;
     size_t count = expr_summands(hand->text, left, NULL, 0) + expr_summands(right, right_length, NULL, 0);
@@ -155,10 +224,20 @@ static bool read_hand(struct reader *reader, int index, const struct node *node,
     struct hand_keys keys = {0};
     bool fine = fields_read(reader, &hand_group, node, node->at, &scope, &keys);
     hand->at = node->at;
-    if (keys.equation) {
-        hand->at = keys.equation->at;
-        hand->written = arena_text(reader->arena, keys.equation->text, keys.equation->length);
-        if (!hand->written || !read_equation(reader, keys.equation, &scope, hand) ||
+    const struct node *line = keys.conserved ? keys.conserved : keys.equation;
+    if (keys.conserved) hand->kind = hand_conserved;
+    if (keys.impact) hand->impact = arena_text(reader->arena, keys.impact->text, keys.impact->length);
+    if (fine && (keys.conserved != NULL) == (keys.equation != NULL)) {
+        diag_add(reader->errors, FBD_ERROR, line ? "conflicting-keys" : "missing-key", node->at,
+                 "a derivation is an `equation`, or what is `conserved`", "%s",
+                 line ? "`equation` and `conserved` exclude each other" : "`equation` is missing");
+        return false;
+    }
+    if (line) {
+        hand->at = line->at;
+        hand->written = arena_text(reader->arena, line->text, line->length);
+        if (!hand->written || !read_equation(reader, line, &scope, hand) ||
+            !set_kind(reader, keys.impact, hand) ||
             (reader->split_hands && !split_equation(reader, &scope, hand)))
             fine = false;
     }

@@ -40,6 +40,13 @@ struct hand {
     const char
         *text; /* and as the expressions that it was read as: the same bytes where it is some already */
     struct pos at;
+    enum hand_kind {
+        hand_of_states,  /* at every state */
+        hand_conserved,  /* `left` has at any time of a run the value of its start; `right` is NULL */
+        hand_of_run,     /* at any time of a run: it names its start, works or impulses */
+        hand_of_impacts, /* at impacts of a run */
+    } kind;
+    const char *impact;              /* the only one that counts; NULL: all */
     const struct expr *left, *right; /* over the extended slots below */
     const struct expr *when;         /* truth value: where it claims to hold; NULL everywhere */
     const char *about_name;          /* the point about which it has moments; NULL where it does not say, */
@@ -78,6 +85,12 @@ enum hand_slot {
     hand_mu_k, /* also `mu` */
     hand_slots,
 };
+
+/* What a name means in an equation of a run: at the time itself, or in `initial(...)`, `before(...)`, `after(...)`, whose
+ * slots are these of the time itself, moved by hand_sense_size each. */
+enum hand_sense { sense_now, sense_initial, sense_before, sense_after, hand_senses };
+
+enum { most_absolutes = 1000 };
 
 struct body {
     const char *name;
@@ -119,7 +132,9 @@ struct absolute {
         absolute_ax,           /* the acceleration of a point in the world, */
         absolute_ay,
         absolute_alpha,   /* of its angle, */
-        absolute_inertia, /* and the moment of inertia about a point of the body */
+        absolute_inertia, /* and the moment of inertia about a point of the body; */
+        absolute_work,    /* of a force during a run, */
+        absolute_impulse, /* and that */
     } kind;
     int part;
     const char *force;
@@ -250,6 +265,12 @@ struct scene {
 static inline size_t scene_size(const struct scene *scene)
 {
     return 2 * scene->coordinate_count + scene->own_count;
+}
+
+/* From the slots of one hand_sense to those of the next. */
+static inline size_t hand_sense_size(const struct scene *scene)
+{
+    return scene_size(scene) + hand_slots + most_absolutes;
 }
 
 /* Parameters set from outside, as text: `--set f1=50 N`; of a table the file: `--set road=b.csv`. */

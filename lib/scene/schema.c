@@ -94,6 +94,7 @@ static const char *name_of(const struct group *group)
     return group == &part_group       ? "part"
            : group == &simulate_group ? "simulate"
            : group == &event_group    ? "event"
+           : group == &hand_group     ? "hand"
                                       : NULL;
 }
 

@@ -12,6 +12,7 @@ static const struct {
     {"body", "mass parts"},
     {"part", "mass"},
     {"table", "file points"},
+    {"hand", "equation conserved"},
     {"force_applied", "value fx fy"},
     {"force_drag", "linear quadratic"},
     {"force_thrust", "exhaust velocity"},
@@ -58,6 +59,7 @@ static const struct {
 } exclusions[] = {
     {"simulate", "accuracy+tolerance accuracy+step"},
     {"event", "then+stop"},
+    {"hand", "equation+conserved conserved+impact"},
     {"table", "file+points"},
     {"part", "shape+inertia"},
     {"body",

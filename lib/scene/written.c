@@ -54,6 +54,12 @@ static struct table_symbol look_up_table(void *context, const char *name, struct
     return more->scope->table(more->scope->context, name, at);
 }
 
+static bool enter_sense(void *context, const char *word)
+{
+    const struct names_and_more *more = context;
+    return more->scope->sense(more->scope->context, word);
+}
+
 static bool read_with_more(struct reader *reader, const struct node *node, const struct scope *scope,
                            bool equation, fbd_errors *errors, struct notation *notation)
 {
@@ -61,6 +67,7 @@ static bool read_with_more(struct reader *reader, const struct node *node, const
     struct names_and_more more = {scope, reader->hand_reader, reader->scene->bodies[names->body].name};
     const struct scope wider = {.lookup = look_up,
                                 .table = look_up_table,
+                                .sense = enter_sense,
                                 .context = &more,
                                 .units = scope->units};
     if (!notation_read(reader->exprs, node->text, node->text_at, &wider, equation, errors, notation))

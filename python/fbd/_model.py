@@ -114,8 +114,8 @@ class Model:
         return (state.settle() if settle else state).statics()
 
     def check_hand(self, seed: int = 1) -> HandCheck:
-        """Hold every ``hand:`` derivation of the file against the assembly at random states. The number of those
-        that differ, with its ``text``."""
+        """Hold every ``hand:`` derivation of the file against the assembly at random states, lines of energy and
+        momentum against a run. The number of those that differ, with its ``text``."""
         differing = ffi.new("size_t *")
         text = lib.fbd_check_hand(self._model, whole(seed, "the seed", 2**32 - 1), differing)
         return HandCheck(differing[0], taken(text))

@@ -58,6 +58,39 @@ static const char joined[] =
     "  - spring: {between: [bob, arm], stiffness: 1}\n"
     "simulate: {until: 0.1 s, events: [{when: 'arm.right.y < -0.01[m]'}]}\n";
 
+/* Lines of energy and momentum: a run is made for them. */
+static const char by_a_run[] = "fbd: 1\n"
+                               "parameters: {e: 0.5}\n"
+                               "ground: {lines: {floor: {along: 0 deg}}}\n"
+                               "bodies:\n"
+                               "  ball:\n"
+                               "    shape: disk\n"
+                               "    radius: 0.1 m\n"
+                               "    mass: 1 kg\n"
+                               "    motion: planar\n"
+                               "    initial: {y: 0.2 m}\n"
+                               "    forces: [gravity]\n"
+                               "    hand:\n"
+                               "      - 'after(vy) = -e*before(vy)'\n"
+                               "      - '½ m vy² + m g (y - y0) = work(floor)'\n"
+                               "      - 'm*vy = m*vy0 + impulse(gravity.y)'\n"
+                               "      - conserved: 'm*vy^2/2 + m*g*y'\n"
+                               "contacts: [{name: floor, between: [ball, ground.floor], restitution: e}]\n"
+                               "simulate: {until: 0.2 s}\n";
+
+static bool judge_by_a_run(void)
+{
+    fbd_errors *errors;
+    size_t differing = 0;
+    fbd_model *model = load(by_a_run, &errors);
+    if (!model) return false;
+    bool done = some(fbd_check_hand(model, 1, &differing));
+    if (done) assert_int_equal(differing, 2);
+    fbd_model_free(model);
+    fbd_errors_free(errors);
+    return done;
+}
+
 static int swallow(void *context, const char *bytes, size_t length)
 {
     (void)context, (void)bytes, (void)length;
@@ -226,6 +259,12 @@ static void a_run_of_joined_bodies_without_memory_fails_and_leaks_nothing(void *
     fail_each(run_and_write_joined, 100);
 }
 
+static void lines_of_a_run_without_memory_fail_and_leak_nothing(void **unused)
+{
+    (void)unused;
+    fail_each(judge_by_a_run, 100);
+}
+
 static void looking_without_memory_fails_and_leaks_nothing(void **unused)
 {
     (void)unused;
@@ -283,6 +322,7 @@ int main(void)
         cmocka_unit_test(a_run_without_memory_fails_and_leaks_nothing),
         cmocka_unit_test(error_bars_without_memory_fail_and_leak_nothing),
         cmocka_unit_test(a_run_of_joined_bodies_without_memory_fails_and_leaks_nothing),
+        cmocka_unit_test(lines_of_a_run_without_memory_fail_and_leak_nothing),
         cmocka_unit_test(looking_without_memory_fails_and_leaks_nothing),
         cmocka_unit_test(linearisation_without_memory_fails_and_leaks_nothing),
         cmocka_unit_test(statics_without_memory_fail_and_leak_nothing),

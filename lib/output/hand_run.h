@@ -1,0 +1,77 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * Derivations by hand of energy and momentum, held against a run.
+ *
+ * Such a line is about the motion between two times: what is conserved, works and impulses since the start, velocities
+ * before and after an impact. So the model is run once, as its file says, and the lines are evaluated at the ends of steps
+ * and at impacts. They may be off by what the tolerance of that run explains of the terms that a line adds up
+ * (energy_explained).
+ *
+ * The work of a force that acts on one body alone is that of the ledger, impacts included. That of a coupling or joint on
+ * one of its bodies, and impulses, are integrated here; what these do in an impact is not known.
+ */
+#ifndef FBD_OUTPUT_HAND_RUN_H
+#define FBD_OUTPUT_HAND_RUN_H
+
+#include "output/hand_forces.h"
+#include "record/ledger.h"
+
+/* How forces of the diagrams may change a line: by their work, by their impulses in x and y and along the coordinates. */
+enum { by_work, by_x, by_y, by_coordinate, agent_parts = by_coordinate + most_coordinates_of_a_body };
+
+/* Impacts that are looked at. */
+enum { most_run_impacts = 100 };
+
+/* A force on a body that lines of a run name. */
+struct agent {
+    int body;
+    size_t arrow;
+    const char *name;
+};
+
+/* The run at one time. */
+struct run_shot {
+    double t;
+    double *y, *before; /* hand_room of each body with lines, one after the other; `before` an impact */
+    double *done;       /* agent_parts of each agent since the start; those of impacts are not in it */
+    bool impact;        /* velocities jump, */
+    size_t event;       /* by this event of the ensemble and the next ones of the same time */
+};
+
+struct hand_run {
+    const struct fbd_model *model;
+    struct arena arena;
+    struct hand_named named;
+    struct ensemble *ensemble;
+    struct ledger ledger;
+    struct fbd_state *state;
+    bool *named_bodies; /* in lines of a run */
+    int *place;         /* of a body's numbers in run_shot.y; -1 for none */
+    size_t bodies, width;
+    size_t agent_count;
+    struct agent *agents;
+    size_t count, every, skipped; /* shots; of steps between those that are kept, and since the last one */
+    size_t steps, impacts;        /* of the run */
+    struct run_shot *shots;
+    double *integrals; /* of each absolute that is no work of the ledger, then agent_parts of each agent */
+    bool *by_ledger;   /* of each absolute: its works are those of the ledger */
+    double *works, *struck; /* of each load: works at a shot; those of impacts up to the begin of its step */
+    bool no_memory;
+};
+
+/* Run a model and keep its shots. False when memory is out, or with a note: there is no end of the run, ... */
+bool hand_run_make(struct hand_run *run, const struct fbd_model *model, fbd_errors *errors);
+void hand_run_free(struct hand_run *run);
+
+/* Mark the bodies that an expression names, in any sense. */
+void hand_run_mark(const struct fbd_model *model, const struct expr *expr, bool *bodies);
+
+/* How left less right of a line changes with velocities, at some times of the run or at impacts: their number. They are in
+ * the arena; 0 when memory is out (hand_run_judge.c). */
+size_t hand_run_slopes(struct hand_run *run, int body, const struct hand *hand, struct arena *arena,
+                       double **slopes);
+
+/* Judge a line; false when it does not hold (hand_run_judge.c). */
+bool hand_run_judge(struct hand_run *run, int body, const struct hand *hand, struct text *text);
+
+#endif

@@ -1,0 +1,66 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * A line that is held against a run, between its judgement and the search for what it lacks.
+ *
+ * All of it stands on one side: lack = left - right, or of what is conserved its value less that at the start.
+ */
+#ifndef FBD_OUTPUT_HAND_RUN_JUDGE_H
+#define FBD_OUTPUT_HAND_RUN_JUDGE_H
+
+#include "output/hand_run.h"
+
+enum { most_agents = 12 };
+
+/* A line at a shot. */
+struct judged {
+    const struct run_shot *shot;
+    double left, right, size;
+    double summands[most_summands]; /* what the lack grows by with the factor of each */
+};
+
+struct judge {
+    struct hand_run *run;
+    int body;
+    const struct hand *hand;
+    double *y; /* hand_senses times hand_sense_size */
+    size_t block;
+    size_t count, failed, first; /* judged, those that fail, the first of these */
+    struct judged *list;
+    double tolerance;
+    bool *bodies; /* that it names */
+    bool moves;   /* something that it names */
+    bool known;   /* all works and impulses are */
+    bool varies[most_summands];
+    size_t agents[most_agents]; /* of those of the run: what may be lacking, */
+    size_t agent_count;
+    int part; /* and of what each does */
+};
+
+static inline double lack_of(const struct judged *judged)
+{
+    return judged->left - judged->right;
+}
+
+/* Is it an integral over the run: a work or an impulse? */
+static inline bool is_integral(const struct fbd_model *model, size_t k)
+{
+    return model->absolutes[k].kind == absolute_work || model->absolutes[k].kind == absolute_impulse;
+}
+
+/* Is it an impact? The end of a series of impacts is none: the laws of a single one do not hold there. */
+static inline bool run_event_is_impact(const struct run_event *event)
+{
+    return event->kind == FBD_EVENT_IMPACT || event->kind == FBD_EVENT_ROPE_TAUT ||
+           event->kind == FBD_EVENT_LANDING || event->kind == FBD_EVENT_JAM;
+}
+
+/* Evaluate a line at a shot, or just before its impact. */
+struct judged judge_evaluate(const struct judge *judge, const struct run_shot *shot, bool before);
+
+/* Say what a line lacks that fails (hand_run_blame.c). */
+void judge_diagnose(struct judge *judge, struct text *text);
+
+/* The names of what strikes at a shot. */
+void judge_say_impact(const struct judge *judge, const struct run_shot *shot, struct text *text);
+
+#endif
