@@ -67,7 +67,7 @@ struct writing {
     bool failed;   /* a note was given */
     struct item *items;
     size_t count, room;
-    size_t sense_end; /* the bracket that ends a sense of names (scope.sense); 0: none */
+    size_t sense_end;  /* the bracket that ends a sense of names (scope.sense); 0: none */
     bool gap, foreign; /* before the next item: a blank; something that is no blank and is left out */
     size_t gap_start;
 };
