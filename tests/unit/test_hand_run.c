@@ -382,7 +382,8 @@ static int judge_block(gsl_rng *rng)
 {
     const char *names[most_forces];
     char scene[1600], line[600], summand[80];
-    double factors[most_forces], wrong[] = {-1, 0, 2, 0.7};
+    const double wrong[] = {-1, 0, 2, 0.7};
+    double factors[most_forces];
     int failed = 0, count = draw_block(rng, scene, sizeof scene, names);
     bool conserved = gsl_rng_uniform(rng) < 0.5;
     size_t differing = 0;
