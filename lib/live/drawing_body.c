@@ -13,6 +13,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/format.h"
 #include "draw/page_json.h"
 #include "draw/panel.h"
 #include "dynamics/constraint.h"
@@ -67,7 +68,7 @@ static void add_named_point(struct cut_free *cut, const char *name, struct vec p
 static void add_point(struct cut_free *cut, const char *name, struct vec point)
 {
     char at[80];
-    snprintf(at, sizeof at, "[%.10g, %.10g]", point.x, point.y);
+    format_into(at, sizeof at, "[%.10g, %.10g]", point.x, point.y);
     if (begin_point(cut, on_paper(cut, point))) end_point(cut, name, at);
 }
 
@@ -77,8 +78,8 @@ static void add_point_beside(struct cut_free *cut, const char *name, struct vec 
     const struct panel *panel = &cut->panel;
     char at[160], from[80];
     bool is_G = vec_norm(vec_sub(center, panel->body->inertia.G)) < 1e-12 * (1 + vec_norm(center));
-    snprintf(from, sizeof from, "[%.10g, %.10g]", center.x, center.y);
-    snprintf(at, sizeof at, "{point: %s, offset: [%.10g, %.10g]}", is_G ? "G" : from, offset.x, offset.y);
+    format_into(from, sizeof from, "[%.10g, %.10g]", center.x, center.y);
+    format_into(at, sizeof at, "{point: %s, offset: [%.10g, %.10g]}", is_G ? "G" : from, offset.x, offset.y);
     struct vec on_body = vec_scale(panel->millimetres, panel_direction(offset));
     if (begin_point(cut, vec_add(on_paper(cut, center), on_body))) end_point(cut, name, at);
 }
@@ -236,7 +237,7 @@ static void add_line(struct cut_free *cut, const char *along, const char *across
         char text[40];
         double turned = angle + quarter * pi / 2;
         double degrees = remainder(body ? quarter * 90.0 : turned * 180 / pi, 360);
-        snprintf(text, sizeof text, "%.10g deg", degrees);
+        format_into(text, sizeof text, "%.10g deg", degrees);
         add_direction(cut, quarter % 2 ? across : along, turned, text, body);
     }
 }
@@ -274,7 +275,7 @@ static void add_strand(struct cut_free *cut, const struct constraint *source, in
         char name[100], text[40];
         double angle = angle_of(way) + back * pi;
         snprintf(name, sizeof name, "%s `%.60s`", back ? "against" : "along", source->name);
-        snprintf(text, sizeof text, "%.10g deg", remainder(angle * 180 / pi, 360));
+        format_into(text, sizeof text, "%.10g deg", remainder(angle * 180 / pi, 360));
         add_direction(cut, name, angle, text, false);
     }
 }
