@@ -19,7 +19,7 @@ static void add(struct listing *listing, enum suspect_kind kind, size_t which, s
     if (listing->count < listing->room)
         listing->list[listing->count] = (struct suspect){
             .kind = kind, .which = which, .other = other, .equation = equation, .upright = upright, .k = NAN};
-    listing->count += listing->list != NULL && listing->count < listing->room;
+    listing->count += listing->count < listing->room;
 }
 
 static void add_letters(const struct suspects_look *look, struct listing *listing)
@@ -83,6 +83,7 @@ struct suspect *suspects_list(const struct suspects_look *look, struct arena *ar
     listing.room += look->arrow_count * (equation_moment + look->place_count) * (3 + look->arrow_count);
     listing.room += look->place_count * look->place_count + 1;
     listing.list = ARENA_ARRAY(arena, listing.room, struct suspect);
+    if (!listing.list) return NULL;
     for (size_t j = 0; j < look->hand->summand_count; j++) add(&listing, suspect_summand, j, 0, 0, false);
     add_letters(look, &listing);
     add_terms(look, &listing);

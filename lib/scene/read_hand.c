@@ -166,7 +166,7 @@ static const struct expr *read_condition(struct reader *reader, const struct nod
 static bool name_place(struct reader *reader, const char *name, const struct scope *scope, struct hand *hand)
 {
     const struct expr_want want = {.dim = DIM_LENGTH, .what = "about"};
-    for (int k = 0; k < 2; k++) {
+    for (int k = 0; name && k < 2; k++) {
         const char *text = arena_printf(reader->arena, "%s.%c", name, k == 0 ? 'x' : 'y');
         hand->about[k] =
             text ? expr_compile(reader->arena, text, hand->at, scope, &want, reader->errors) : NULL;
