@@ -258,7 +258,7 @@ static void write_newton_equations(struct text *text, struct symbolic *symbolic,
                           .column = columns->newton + part,
                           .mass = columns->mass,
                           .start = body->inertia.mass};
-        if (!equation_is_written(model, b, true, part, record->components)) continue;
+        if (!newton_in_symbols(model, symbolic->equations, b, part, record->components)) continue;
         begin_equation(text, symbolic, &row);
         bool first = true;
         for (size_t i = 0; i < columns->arrow_count; i++)

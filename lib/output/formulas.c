@@ -56,6 +56,17 @@ bool equation_in_symbols(const struct fbd_model *model, const struct equation *e
            equation_is_written(model, equation->body, equation->cut_free, equation->part, components);
 }
 
+bool newton_in_symbols(const struct fbd_model *model, const fbd_equations *all, int b, int part,
+                       bool components)
+{
+    for (size_t i = 0; all && i < all->count; i++) {
+        const struct equation *equation = &all->equations[i];
+        if (equation->body == b && equation->cut_free && equation->part == part)
+            return equation_in_symbols(model, equation, components);
+    }
+    return equation_is_written(model, b, true, part, components);
+}
+
 bool formulas_begin(struct formulas *formulas, struct fbd_state *state)
 {
     *formulas = (struct formulas){.state = state, .slipping = true};

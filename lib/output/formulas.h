@@ -40,6 +40,10 @@ bool equation_is_written(const struct fbd_model *model, int b, bool cut_free, in
 /* So, unless all of it is zero. */
 bool equation_in_symbols(const struct fbd_model *model, const struct equation *equation, bool components);
 
+/* The same of that in direction `part` of a body cut free; `all` may be NULL. */
+bool newton_in_symbols(const struct fbd_model *model, const fbd_equations *all, int b, int part,
+                       bool components);
+
 /* False when memory is out; to be ended in any case. */
 bool formulas_begin(struct formulas *formulas, struct fbd_state *state);
 void formulas_end(struct formulas *formulas);

@@ -112,6 +112,14 @@ static double least_force(const struct arrow *arrows, size_t count)
     return 1e-10 * most;
 }
 
+/* From `about` to a point; no arm where they differ by rounding. */
+static struct vec arm_to(struct vec point, struct vec about)
+{
+    const struct vec arm = vec_sub(point, about);
+    const bool rounding = vec_norm(arm) <= 1e-12 * (vec_norm(point) + vec_norm(about));
+    return rounding ? (struct vec){0, 0} : arm;
+}
+
 struct acts acts_of(const struct samples *samples, int b, const char *name, bool about_axis)
 {
     struct acts acts = {0};
@@ -128,7 +136,7 @@ struct acts acts_of(const struct samples *samples, int b, const char *name, bool
             const double force = vec_norm(arrows[i].force);
             if (force <= least_force(arrows, count) && arrows[i].couple == 0) break;
             acts.list[acts.count++] = (struct act){.force = arrows[i].force,
-                                                   .arm = vec_sub(arrows[i].point, about),
+                                                   .arm = arm_to(arrows[i].point, about),
                                                    .turn = pose.rotation,
                                                    .couple = arrows[i].couple,
                                                    .size = size_of(samples, &at, b, i)};

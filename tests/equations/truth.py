@@ -381,6 +381,9 @@ class Judge:
         self.counts["laws" if by_law else "symbols"] += 1
         if arms:
             self.counts["arms and slopes"] += 1
+        arrow = place.arrows.get((equation.body, name))
+        if arrow:  # an arm has nine digits, and a couple may take away its moment
+            scale += math.hypot(*arrow.force) + abs(arrow.couple)
         near(got, value, scale, f"{text} of {name} on {equation.body}")
 
     def finish(self, place):
@@ -569,6 +572,8 @@ def judge_state(scene, model):
                 assert re.search(rf"^    {re.escape(term['name'])} .* {re.escape(term['remark'])}$", report, re.MULTILINE), \
                     f"the report has another remark than {term['remark']}"
         wanted = is_written(scene, place, b, coordinate)
+        if scene.kind(b) == "planar" and (b, "G") not in place.center:  # is its frame at G?
+            wanted = "symbols" in e
         if "symbols" not in e:
             assert not wanted or e["inertia"]["value"] == 0, f"{b}.{coordinate} has no line"
             continue
