@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "base/diag.h"
 
+#include "base/block_alloc.h"
 #include "base/format.h"
 #include "base/utf8.h"
-#include "base/zeroed.h"
 
 #include <stdarg.h>
 #include <stdlib.h>
@@ -13,7 +13,7 @@ enum { most_notes = 200 }; /* a file with more faults than this is not a model f
 
 fbd_errors *fbd_errors_new(void)
 {
-    fbd_errors *errors = zeroed(sizeof *errors);
+    fbd_errors *errors = block_alloc(sizeof *errors);
     if (errors) errors->limit = most_notes;
     return errors;
 }

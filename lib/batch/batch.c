@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/zeroed.h"
+#include "base/block_alloc.h"
 #include "batch/lanes.h"
 #include "dynamics/rates_row.h"
 #include "dynamics/tree_bare.h"
@@ -51,7 +51,7 @@ unsigned batch_lanes(const struct batch *batch)
 
 struct batch *batch_new(unsigned most)
 {
-    struct batch *batch = zeroed(sizeof *batch);
+    struct batch *batch = block_alloc(sizeof *batch);
     if (!batch) return NULL;
     const struct width width = width_of(most);
     batch->count = width.lanes;
@@ -215,7 +215,7 @@ static void settle_run(struct run *run, struct lanes *lanes, unsigned lane, cons
     memcpy(run->state->y, lent->last, 2 * bytes);
     memcpy(run->work.y, lent->last, 2 * bytes);
     memcpy(run->work.f, lent->last + n, 2 * bytes);
-    state_set_moment(run->state, moment_at(lanes->t[lane]));
+    state_set_moment(run->state, time_dd_at(lanes->t[lane]));
     run->step.from = run->state->t;
     run->step.from_rest = 0;
     run->step.h = lanes->h[lane];

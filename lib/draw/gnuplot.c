@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/call.h"
+#include "base/api_check.h"
 #include "base/diag.h"
 #include "base/utf8.h"
 #include "draw/record.h"
@@ -112,7 +112,7 @@ bool fbd_model_has_columns(const fbd_model *model, const char *columns, fbd_erro
     struct diag_call call;
     fbd_errors *errors = diag_begin(&call, list);
     bool found = model && columns ? has_columns(model, columns, errors)
-                                  : call_refuse(errors, "there is no model, or no list of columns") != NULL;
+                                  : api_refuse(errors, "there is no model, or no list of columns") != NULL;
     diag_end(&call);
     return found;
 }
@@ -390,7 +390,7 @@ char *fbd_result_gnuplot(fbd_result *result, const char *file, const char *colum
     struct diag_call call;
     fbd_errors *errors = diag_begin(&call, list);
     char *script =
-        result ? make_script(result, file, columns, errors) : call_refuse(errors, "there is no result");
+        result ? make_script(result, file, columns, errors) : api_refuse(errors, "there is no result");
     diag_end(&call);
     return script;
 }

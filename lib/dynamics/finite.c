@@ -5,7 +5,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "base/zeroed.h"
+#include "base/block_alloc.h"
 #include "dynamics/diagram.h"
 #include "dynamics/energy.h"
 #include "dynamics/friction.h"
@@ -168,7 +168,7 @@ static bool note_limits(const struct fbd_state *state, struct not_finite *found)
 
 enum finite finite_check(const struct fbd_state *state, struct not_finite *found)
 {
-    struct arrow *arrows = zeroed(diagram_most_arrows(state->model) * sizeof *arrows);
+    struct arrow *arrows = block_alloc(diagram_most_arrows(state->model) * sizeof *arrows);
     if (!arrows) return finite_no_memory;
     struct not_finite unused; /* mostly all are finite, and no order is asked for */
     bool fine = !note_arrows(state, arrows, all_arrows, &unused);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "dynamics/state.h"
 
-#include "base/zeroed.h"
+#include "base/block_alloc.h"
 #include "dynamics/absolute.h"
 #include "dynamics/contact.h"
 #include "dynamics/modes.h"
@@ -36,7 +36,7 @@ static struct fbd_state *allocate(const struct fbd_model *model)
     size_t tree = model->tree ? sizeof(struct tree_work) + tree_work_size(model) : 0;
     size_t sliding = plan->slide_count > 0 ? sizeof(struct sliding) + sliding_size(model) : 0;
     struct fbd_state *state =
-        zeroed(sizeof *state + tree + sliding + doubles * sizeof(double) + ints * sizeof(int));
+        block_alloc(sizeof *state + tree + sliding + doubles * sizeof(double) + ints * sizeof(int));
     if (!state) return NULL;
     state->model = model;
     char *behind = (char *)(state + 1);

@@ -26,7 +26,7 @@ struct fbd_state {
     bool settled;               /* the modes agree with t and y */
     bool degrees;               /* texts of it show angles in degrees (output/shown.h) */
     struct holds_trouble holds; /* of the last settling */
-    double t, rest;             /* the time, and what its rounding leaves: see base/moment.h */
+    double t, rest;             /* the time, and what its rounding leaves: see base/time_dd.h */
     double *y;     /* plan_size: coordinates, rates, states of the file's own; then what absolute.h adds, by
                       state_evaluate */
     double *a;     /* plan_rates: accelerations, then the rates of those states, by state_evaluate */
@@ -112,12 +112,12 @@ static inline struct instant state_instant_at(const struct fbd_state *state, dou
                             state->pull, state->tree, state->extended, state_sliding(state)};
 }
 
-static inline struct moment state_moment(const struct fbd_state *state)
+static inline struct time_dd state_moment(const struct fbd_state *state)
 {
-    return (struct moment){state->t, state->rest};
+    return (struct time_dd){state->t, state->rest};
 }
 
-static inline void state_set_moment(struct fbd_state *state, struct moment t)
+static inline void state_set_moment(struct fbd_state *state, struct time_dd t)
 {
     state->t = t.t;
     state->rest = t.rest;

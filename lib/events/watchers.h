@@ -78,7 +78,7 @@ bool watchers_init(struct watchers *watchers, const struct fbd_model *model, dou
  * happen in the present modes. `state` lends its modes and scratch; (t, y) may be any point of a step. Kinks
  * read the moment, all else its double. */
 void watchers_evaluate(const struct watchers *watchers, const struct watcher_set *set,
-                       struct fbd_state *state, struct moment t, const double *y, double *values,
+                       struct fbd_state *state, struct time_dd t, const double *y, double *values,
                        double *rates);
 
 /* The same for all that moves, at a state whose rates of change dy are those of the modes that are followed. False where not all
@@ -87,7 +87,7 @@ bool watchers_evaluate_affine(const struct watchers *watchers, const double *y, 
                               double *values, double *rates);
 
 /* The same for functions of t alone, with how near to zero each counts as zero. */
-void watchers_evaluate_timed(const struct watchers *watchers, struct fbd_state *state, struct moment t,
+void watchers_evaluate_timed(const struct watchers *watchers, struct fbd_state *state, struct time_dd t,
                              double *values, double *rates, double *roundings);
 
 /* Are there enclosures of this function? */

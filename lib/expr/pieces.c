@@ -60,7 +60,7 @@ static void resolve(struct walk *walk, double at)
     walk->on[walk->slot - 1] = 1;
     for (size_t i = 0; i < walk->count; branch += expr_switches(walk->formulas[i++]))
         if (expr_switches(walk->formulas[i]) > 0)
-            expr_resolve(walk->formulas[i], moment_at(0), walk->y, 0, walk->on, NULL, branch);
+            expr_resolve(walk->formulas[i], time_dd_at(0), walk->y, 0, walk->on, NULL, branch);
 }
 
 /* Does no switch turn between two values of the variable, for sure? */

@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/zeroed.h"
+#include "base/block_alloc.h"
 #include "integrate/first_step.h"
 #include "integrate/linear.h"
 #include "integrate/pair8.h"
@@ -36,7 +36,7 @@ static struct stepper *state_alloc(size_t n)
 {
     enum { vectors = 8 };
     if (n == 0 || n > (SIZE_MAX - sizeof(struct stepper)) / (vectors * sizeof(double))) return NULL;
-    struct stepper *s = zeroed(sizeof *s + vectors * n * sizeof(double));
+    struct stepper *s = block_alloc(sizeof *s + vectors * n * sizeof(double));
     if (!s) return NULL;
     s->n = n;
     s->y0 = s->memory;
@@ -108,10 +108,10 @@ void stepper_free(struct stepper *s)
     free(s);
 }
 
-int stepper_reset(struct stepper *s, struct counted_system *system, struct moment t, const double *y,
-                  double *f, struct moment t_limit, double *h)
+int stepper_reset(struct stepper *s, struct counted_system *system, struct time_dd t, const double *y,
+                  double *f, struct time_dd t_limit, double *h)
 {
-    double room = moment_since(t_limit, t);
+    double room = time_dd_since(t_limit, t);
     s->stepped = false;
     s->stable_h = s->rate = 0;
     if (!(room > 0)) return GSL_EINVAL;
@@ -134,36 +134,36 @@ int stepper_reset(struct stepper *s, struct counted_system *system, struct momen
 
 /* A step to be tried. */
 struct plan {
-    double asked;     /* its size before t1 was rounded: what shrinks from retry to retry */
-    double h;         /* its size */
-    struct moment t1; /* and end */
-    bool cut;         /* t_limit had a say in it */
+    double asked;      /* its size before t1 was rounded: what shrinks from retry to retry */
+    double h;          /* its size */
+    struct time_dd t1; /* and end */
+    bool cut;          /* t_limit had a say in it */
 };
 
 /* Is there room for some doubles only? Steps within a pulse between them end where they have to. */
-static bool is_between_doubles(struct moment t, double room)
+static bool is_between_doubles(struct time_dd t, double room)
 {
     const double roundings = 64;
     return room <= roundings * DBL_EPSILON * fabs(t.t);
 }
 
-static struct plan plan_step(const struct stepper *s, struct moment t, double h, struct moment t_limit)
+static struct plan plan_step(const struct stepper *s, struct time_dd t, double h, struct time_dd t_limit)
 {
-    double room = moment_since(t_limit, t);
+    double room = time_dd_since(t_limit, t);
     if (1.01 * h >= room) return (struct plan){room, room, t_limit, true};
-    if (s->h_fixed > 0) return (struct plan){h, h, moment_at(t.t + h), false};
+    if (s->h_fixed > 0) return (struct plan){h, h, time_dd_at(t.t + h), false};
     bool half = 2 * h > room;
     if (half) h = room / 2;
-    if (is_between_doubles(t, room)) return (struct plan){h, h, moment_after(t, h), half};
-    struct moment t1 = moment_at(t.t + h);
+    if (is_between_doubles(t, room)) return (struct plan){h, h, time_dd_after(t, h), half};
+    struct time_dd t1 = time_dd_at(t.t + h);
     /* The size that t1 really has, so that t and the stages agree. A multistep method would rather see a
      * constant step. */
-    return (struct plan){h, s->method->multistep ? h : moment_since(t1, t), t1, half};
+    return (struct plan){h, s->method->multistep ? h : time_dd_since(t1, t), t1, half};
 }
 
 /* Has a step become so short that no time passes? Where there is next to no room, or t = 0, there are always
  * shorter ones. */
-static bool is_nothing(const struct plan *plan, struct moment t, double room)
+static bool is_nothing(const struct plan *plan, struct time_dd t, double room)
 {
     return (!is_between_doubles(t, room) && t.t + plan->h == t.t) || !(plan->h > 1e-30 * room);
 }
@@ -239,7 +239,7 @@ static struct outcome judge(const struct stepper *s, double h, const double *y, 
     return (struct outcome){false, finite ? rejected_iteration : rejected_not_finite, factor};
 }
 
-static void keep(struct stepper *s, struct counted_system *system, struct moment t0, struct moment t1,
+static void keep(struct stepper *s, struct counted_system *system, struct time_dd t0, struct time_dd t1,
                  const double *y, const double *f)
 {
     s->t0 = t0;
@@ -256,11 +256,11 @@ static void keep(struct stepper *s, struct counted_system *system, struct moment
     s->counts.accepted++;
 }
 
-int stepper_shorten(struct stepper *s, struct moment t, double *y, double *f)
+int stepper_shorten(struct stepper *s, struct time_dd t, double *y, double *f)
 {
     const double far_off = 100;
-    double h = moment_since(t, s->t0), *inside = s->work;
-    bool within = s->stepped && h > 0 && moment_since(s->t1, t) > 0;
+    double h = time_dd_since(t, s->t0), *inside = s->work;
+    bool within = s->stepped && h > 0 && time_dd_since(s->t1, t) > 0;
     if (!within || !s->redo || s->history || s->method->exact || s->h_fixed > 0) return 0;
     int code = stepper_partial(s, t, y, f);
     if (code == GSL_SUCCESS) code = stepper_dense(s, t, inside);
@@ -293,12 +293,12 @@ static void count_rejection(struct stepper *s, enum rejection why, bool again)
 
 /* To a limit between doubles, by the terms that count in so short a time. Methods that measure their steps by
  * differences of times see none there. */
-static enum stepper_status step_between(struct stepper *s, struct counted_system *system, struct moment *t,
-                                        double *y, double *f, struct moment t_limit)
+static enum stepper_status step_between(struct stepper *s, struct counted_system *system, struct time_dd *t,
+                                        double *y, double *f, struct time_dd t_limit)
 {
     size_t pairs = s->layout.pairs;
-    struct moment t0 = *t;
-    double h = moment_since(t_limit, t0);
+    struct time_dd t0 = *t;
+    double h = time_dd_since(t_limit, t0);
     for (size_t i = 0; i < s->n; i++) y[i] += h * (f[i] + (i < pairs ? h / 2 * s->f0[pairs + i] : 0));
     if (counted_system_rhs(system, t_limit.t, y, f) != GSL_SUCCESS || !all_finite(s->n, y, f))
         return give_up(s, y, f, stepper_bad_function);
@@ -308,11 +308,11 @@ static enum stepper_status step_between(struct stepper *s, struct counted_system
     return stepper_ok;
 }
 
-enum stepper_status stepper_step(struct stepper *s, struct counted_system *system, struct moment *t,
-                                 double *y, double *f, double *h, struct moment t_limit)
+enum stepper_status stepper_step(struct stepper *s, struct counted_system *system, struct time_dd *t,
+                                 double *y, double *f, double *h, struct time_dd t_limit)
 {
-    struct moment t0 = *t;
-    double room = moment_since(t_limit, t0);
+    struct time_dd t0 = *t;
+    double room = time_dd_since(t_limit, t0);
     if (!(room > 0) || !(*h > 0) || system->gsl.dimension != s->n) return stepper_misuse;
     if (s->method->implicit && !system->gsl.jacobian) return stepper_misuse;
     s->stepped = false;
@@ -354,7 +354,7 @@ void stepper_set_linear(struct stepper *s, const double *A, double rho)
 
 double stepper_h_rate(const struct stepper *s)
 {
-    return s->rate > 0 ? moment_since(s->t1, s->t0) * s->rate : INFINITY;
+    return s->rate > 0 ? time_dd_since(s->t1, s->t0) * s->rate : INFINITY;
 }
 
 const double *stepper_jacobian(const struct stepper *s)

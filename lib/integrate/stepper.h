@@ -13,7 +13,7 @@
 #ifndef FBD_INTEGRATE_STEPPER_H
 #define FBD_INTEGRATE_STEPPER_H
 
-#include "base/moment.h"
+#include "base/time_dd.h"
 #include "integrate/layout.h"
 #include "integrate/lent.h"
 #include "integrate/method.h"
@@ -61,8 +61,8 @@ void stepper_free(struct stepper *stepper);
 /* Forget all steps, evaluate f = f(t, y) and choose the size *h of the first step towards t_limit (one more
  * evaluation). The scales of the error measure are kept and take in y. GSL_SUCCESS, GSL_EINVAL for t_limit
  * <= t, or the code of the right-hand side; then *h is not set. */
-int stepper_reset(struct stepper *stepper, struct counted_system *system, struct moment t, const double *y,
-                  double *f, struct moment t_limit, double *h);
+int stepper_reset(struct stepper *stepper, struct counted_system *system, struct time_dd t, const double *y,
+                  double *f, struct time_dd t_limit, double *h);
 
 /* Make one accepted step from (*t, y) with slopes f = f(*t, y), not beyond t_limit. On stepper_ok *t, y and
  * f are those of its end, and *h is the size proposed for the next one. On any other status *t, y and f are
@@ -71,8 +71,8 @@ int stepper_reset(struct stepper *stepper, struct counted_system *system, struct
  * *h is the size to try first. A step that would end within 1 % of t_limit ends there, *t == t_limit
  * exactly; one that would leave less than its own length is made half the way. Such a cut does not shrink
  * the proposal. Other steps end at doubles, unless they are as short as those are apart. */
-enum stepper_status stepper_step(struct stepper *stepper, struct counted_system *system, struct moment *t,
-                                 double *y, double *f, double *h, struct moment t_limit);
+enum stepper_status stepper_step(struct stepper *stepper, struct counted_system *system, struct time_dd *t,
+                                 double *y, double *f, double *h, struct time_dd t_limit);
 
 /* State at time t within the last accepted step, t0 <= t <= t1, bit for bit that of the step at its ends.
  * Explicit methods and msadams have the interpolants of dense.h, msbdf the polynomial of its last points
@@ -81,7 +81,7 @@ enum stepper_status stepper_step(struct stepper *stepper, struct counted_system 
  * steps longer than an interpolant follows. Where that fails, the ends have to do (dense_eval_plain). The
  * system of that step is used and has to be there still. GSL_SUCCESS, or GSL_EINVAL without a last step or
  * for t outside of it, where a double next to an end counts as that. */
-int stepper_dense(struct stepper *stepper, struct moment t, double *y);
+int stepper_dense(struct stepper *stepper, struct time_dd t, double *y);
 
 /* The degree of the polynomials that stepper_dense gives; where they are none (*negligible above
  * 0), one that follows the state to that share of its size over most steps. */
@@ -89,25 +89,25 @@ int stepper_degree(const struct stepper *stepper, double *negligible);
 
 /* Component i from `from` to `to` within the last step as dense_powers has it; -1 also for methods whose inside is no
  * polynomial. */
-int stepper_powers(struct stepper *stepper, struct moment from, struct moment to, size_t i, double *c);
+int stepper_powers(struct stepper *stepper, struct time_dd from, struct time_dd to, size_t i, double *c);
 
 /* The same as dense_powers_of_ends has it. */
-int stepper_powers_of_ends(struct stepper *stepper, struct moment from, struct moment to, size_t i,
+int stepper_powers_of_ends(struct stepper *stepper, struct time_dd from, struct time_dd to, size_t i,
                            double *c);
 
 /* State y and slopes f at time t within the last accepted step with the full accuracy of the method:
  * one-step methods make a step from its start to t, multistep methods, and others where that fails, use
  * stepper_dense. Codes as there, or that of a right-hand side that fails at t. */
-int stepper_partial(struct stepper *stepper, struct moment t, double *y, double *f);
+int stepper_partial(struct stepper *stepper, struct time_dd t, double *y, double *f);
 
 /* The last step ends at t from here on, by a step of its own, where its inside is far from what such a step has there: what it
  * has passed behind t, as a narrow peak, may have met the stages that are for the inside alone. 1: it does, with y and f
  * at t; 0: it stays what it was; or a code as there. */
-int stepper_shorten(struct stepper *stepper, struct moment t, double *y, double *f);
+int stepper_shorten(struct stepper *stepper, struct time_dd t, double *y, double *f);
 
 /* State and slopes by as many steps as the tolerance asks for (walk.h). GSL_EFAILED when that does not come to t,
  * GSL_ENOMEM, GSL_EINVAL for a multistep method. The last step stays what it was. */
-int stepper_walk(struct stepper *stepper, struct moment t, double *y, double *f);
+int stepper_walk(struct stepper *stepper, struct time_dd t, double *y, double *f);
 
 /* Try a step of size h from where the last step of another stepper began and throw it away: its largest error in
  * units of what is allowed (at most 1 would be accepted), infinite where it cannot be made, or by a multistep method.

@@ -35,7 +35,7 @@ static bool redo_well(struct stepper *s, double h, double *y, double *f)
 static bool redo_share(void *context, double share, double *y)
 {
     struct stepper *s = context;
-    return redo_well(s, share * moment_since(s->t1, s->t0), y, s->work);
+    return redo_well(s, share * time_dd_since(s->t1, s->t0), y, s->work);
 }
 
 static double walk_part(void *context, double from, double h, double *y, double *f)
@@ -51,28 +51,29 @@ static double walk_part(void *context, double from, double h, double *y, double 
     return weights_ratio(s->control, h, y, s->yerr, f);
 }
 
-static int walk_inside(struct stepper *s, struct moment t, double *y, double *f)
+static int walk_inside(struct stepper *s, struct time_dd t, double *y, double *f)
 {
     const struct walk_source source = {s, walk_part};
-    return walk_to(s->walk, &source, moment_since(s->t1, s->t0), s->y0, s->f0, moment_since(t, s->t0), y, f);
+    return walk_to(s->walk, &source, time_dd_since(s->t1, s->t0), s->y0, s->f0, time_dd_since(t, s->t0), y,
+                   f);
 }
 
 static double excess(void *context, const double *error)
 {
     const struct stepper *s = context;
-    return weights_ratio(s->control, moment_since(s->t1, s->t0), s->y1, error, s->f1);
+    return weights_ratio(s->control, time_dd_since(s->t1, s->t0), s->y1, error, s->f1);
 }
 
-static bool is_end(const struct stepper *s, struct moment t)
+static bool is_end(const struct stepper *s, struct time_dd t)
 {
-    return moment_equal(t, s->t0) || moment_equal(t, s->t1);
+    return time_dd_equal(t, s->t0) || time_dd_equal(t, s->t1);
 }
 
 /* What the method itself says of the inside. */
-static int own_dense(struct stepper *s, struct moment t, double *y)
+static int own_dense(struct stepper *s, struct time_dd t, double *y)
 {
     if (!(s->method->implicit || s->inside) || is_end(s, t)) return dense_eval(s->dense, t, y);
-    double share = moment_since(t, s->t0) / moment_since(s->t1, s->t0);
+    double share = time_dd_since(t, s->t0) / time_dd_since(s->t1, s->t0);
     if (s->step->type == step_rodas5p) {
         int code = rodas5p_dense_prepare(s->step);
         if (code == GSL_SUCCESS) rodas5p_dense_eval(s->step, share, y);
@@ -81,24 +82,24 @@ static int own_dense(struct stepper *s, struct moment t, double *y)
     const struct inside_source source = {s, redo_share, excess};
     if (s->inside && inside_eval(s->inside, &source, share, y)) return GSL_SUCCESS;
     if (!s->history)
-        return redo_well(s, moment_since(t, s->t0), y, s->work) ? GSL_SUCCESS
-                                                                : walk_inside(s, t, y, s->work + 2 * s->n);
+        return redo_well(s, time_dd_since(t, s->t0), y, s->work) ? GSL_SUCCESS
+                                                                 : walk_inside(s, t, y, s->work + 2 * s->n);
     history_eval(s->history, (int)gsl_odeiv2_step_order(s->step), t.t, y);
     return GSL_SUCCESS;
 }
 
 /* Is there a last step, and t within? A double next to an end of it may lie a rest outside. */
-static bool find_within(const struct stepper *s, struct moment *t)
+static bool find_within(const struct stepper *s, struct time_dd *t)
 {
     if (!s->stepped || !(t->t >= s->t0.t && t->t <= s->t1.t)) return false;
     if (t->rest == 0 && t->t > s->t0.t && t->t < s->t1.t) return true;
-    *t = moment_since(*t, s->t0) <= 0 ? s->t0 : moment_since(s->t1, *t) <= 0 ? s->t1 : *t;
+    *t = time_dd_since(*t, s->t0) <= 0 ? s->t0 : time_dd_since(s->t1, *t) <= 0 ? s->t1 : *t;
     return true;
 }
 
 /* An implicit method may succeed in a step and fail in a part of it; then the ends alone have to do, as a
  * step that is accepted has an inside. */
-int stepper_dense(struct stepper *s, struct moment t, double *y)
+int stepper_dense(struct stepper *s, struct time_dd t, double *y)
 {
     if (!find_within(s, &t)) return GSL_EINVAL;
     int last_code = s->system->last_code;
@@ -107,13 +108,13 @@ int stepper_dense(struct stepper *s, struct moment t, double *y)
     return GSL_SUCCESS;
 }
 
-int stepper_powers_of_ends(struct stepper *s, struct moment from, struct moment to, size_t i, double *c)
+int stepper_powers_of_ends(struct stepper *s, struct time_dd from, struct time_dd to, size_t i, double *c)
 {
     if (s->method->implicit || s->inside || !find_within(s, &from) || !find_within(s, &to)) return -1;
     return dense_powers_of_ends(s->dense, from, to, i, c);
 }
 
-int stepper_powers(struct stepper *s, struct moment from, struct moment to, size_t i, double *c)
+int stepper_powers(struct stepper *s, struct time_dd from, struct time_dd to, size_t i, double *c)
 {
     if (s->method->implicit || s->inside || !find_within(s, &from) || !find_within(s, &to)) return -1;
     int last_code = s->system->last_code;
@@ -140,21 +141,21 @@ int stepper_degree(const struct stepper *s, double *negligible)
     return 8;
 }
 
-int stepper_partial(struct stepper *s, struct moment t, double *y, double *f)
+int stepper_partial(struct stepper *s, struct time_dd t, double *y, double *f)
 {
     if (!find_within(s, &t)) return GSL_EINVAL;
-    bool start = moment_equal(t, s->t0);
-    if (start || moment_equal(t, s->t1)) {
+    bool start = time_dd_equal(t, s->t0);
+    if (start || time_dd_equal(t, s->t1)) {
         memcpy(y, start ? s->y0 : s->y1, s->n * sizeof *y);
         memcpy(f, start ? s->f0 : s->f1, s->n * sizeof *f);
         return GSL_SUCCESS;
     }
-    if (s->redo && redo_well(s, moment_since(t, s->t0), y, f)) return GSL_SUCCESS;
+    if (s->redo && redo_well(s, time_dd_since(t, s->t0), y, f)) return GSL_SUCCESS;
     int code = stepper_dense(s, t, y);
     return code == GSL_SUCCESS ? counted_system_rhs(s->system, t.t, y, f) : code;
 }
 
-int stepper_walk(struct stepper *s, struct moment t, double *y, double *f)
+int stepper_walk(struct stepper *s, struct time_dd t, double *y, double *f)
 {
     if (!s->walk || !find_within(s, &t) || is_end(s, t)) return GSL_EINVAL;
     return walk_inside(s, t, y, f);

@@ -32,7 +32,7 @@ struct stepper {
     double rate;      /* fastest rate that rk8pd or dop853 has seen lately */
     bool stepped;     /* a last step stands in the following */
     struct counted_system *system;
-    struct moment t0, t1;
+    struct time_dd t0, t1;
     double *y0, *f0, *y1, *f1;
     double *yerr, *work; /* n and 3 n */
     double memory[];

@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/zeroed.h"
+#include "base/block_alloc.h"
 
 enum { most_tries = 500 };
 
@@ -24,7 +24,7 @@ struct walk {
 struct walk *walk_alloc(size_t n)
 {
     if (n == 0 || n > SIZE_MAX / sizeof(double) / 4) return NULL;
-    struct walk *walk = zeroed(sizeof *walk + 2 * n * sizeof(double));
+    struct walk *walk = block_alloc(sizeof *walk + 2 * n * sizeof(double));
     if (walk) walk->n = n;
     return walk;
 }

@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/zeroed.h"
+#include "base/block_alloc.h"
 
 struct weights {
     size_t pairs, size; /* of the layout: number of q, number of all components */
@@ -410,7 +410,7 @@ static struct weights *weights_state(const struct layout *layout)
 {
     size_t pairs = layout->pairs, size = layout_size(layout);
     if (size == 0 || size > (SIZE_MAX - sizeof(struct weights)) / (8 * sizeof(double))) return NULL;
-    struct weights *w = zeroed(sizeof *w + (5 * size + 2 * pairs) * sizeof(double));
+    struct weights *w = block_alloc(sizeof *w + (5 * size + 2 * pairs) * sizeof(double));
     if (!w) return NULL;
     w->pairs = pairs;
     w->size = size;

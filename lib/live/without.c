@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/call.h"
+#include "base/api_check.h"
 #include "base/diag.h"
 #include "live/live.h"
 
@@ -260,11 +260,11 @@ char *fbd_model_without(const fbd_model *model, const char *const *effects, size
     struct diag_call call;
     fbd_errors *errors = diag_begin(&call, list);
     char *text = NULL;
-    if (model && call_has_texts(effects, count)) {
+    if (model && api_has_texts(effects, count)) {
         diag_in_file(errors, model->scene->file);
         text = write_without(model, effects, count, errors);
     } else {
-        call_refuse(errors, "there is no model, or no name of an effect");
+        api_refuse(errors, "there is no model, or no name of an effect");
     }
     diag_end(&call);
     return text;

@@ -54,7 +54,7 @@ void run_close_within(struct run *run, double t, double *y)
      * error estimate covers what it is made of. Steps that end at t have one. */
     size_t size = plan_size(&run->model->plan);
     double *other = run->work.aside, *f = other + size;
-    int code = switcher_walk(run->stepper, moment_at(t), other, f);
+    int code = switcher_walk(run->stepper, time_dd_at(t), other, f);
     if (code == GSL_ENOMEM) run_fail(run, FBD_OUT_OF_MEMORY, "out of memory");
     if (code == GSL_SUCCESS && close_at(run, t, other) < moved) memcpy(y, other, size * sizeof *y);
 }

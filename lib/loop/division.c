@@ -3,7 +3,7 @@
 
 #include <stdlib.h>
 
-#include "base/zeroed.h"
+#include "base/block_alloc.h"
 
 /* ---- connected components by union and find: parent[b] leads to a body of the same group, the first one in
  * the end */
@@ -201,7 +201,7 @@ static bool allocate(struct division *division, const struct scene *scene, int *
            constraints = scene->constraint_count, absolutes = scene->absolute_count;
     size_t slots = 1 + scene_size(scene) + hand_slots + absolutes;
     size_t things = bodies + events + couplings + constraints + absolutes;
-    division->memory = zeroed((3 * bodies + slots + 2 * things) * sizeof *division->memory);
+    division->memory = block_alloc((3 * bodies + slots + 2 * things) * sizeof *division->memory);
     if (!division->memory) return false;
     division->group_of_body = division->memory;
     division->group_of_event = division->group_of_body + bodies;
@@ -226,7 +226,7 @@ bool division_make(struct division *division, const struct fbd_model *model)
         *moved = next + bodies;
     join_all(scene, parent, division);
     division->count = number_groups(scene, parent, division);
-    division->selections = zeroed((division->count + 1) * sizeof *division->selections);
+    division->selections = block_alloc((division->count + 1) * sizeof *division->selections);
     if (!division->selections) return false;
     sort_by_group(division, division->group_of_body, bodies, sorted, next, bodies_of);
     sort_by_group(division, division->group_of_event, events, sorted_events, next, events_of);

@@ -45,7 +45,7 @@ static struct room room_of(const struct end *end)
 static struct room room_at(const struct end *end, double t)
 {
     struct run *run = end->run;
-    if (switcher_partial(run->stepper, moment_at(t), run->work.y, run->work.f) != 0)
+    if (switcher_partial(run->stepper, time_dd_at(t), run->work.y, run->work.f) != 0)
         return (struct room){NAN, NAN, 0};
     look(run, t, run->work.y);
     return room_of(end);
@@ -133,7 +133,7 @@ static bool is_far(const struct end *end, double from, double length, int parts)
     struct room before = {0};
     if (run->options.step > 0) return false; /* of no known accuracy */
     for (int k = 0; k <= parts; k++) {
-        if (switcher_dense(run->stepper, moment_at(from + k * length), run->work.aside) != 0) return false;
+        if (switcher_dense(run->stepper, time_dd_at(from + k * length), run->work.aside) != 0) return false;
         look(run, from + k * length, run->work.aside);
         struct room room = room_of(end);
         if (k > 0 && !has_plenty(end, before, room, length)) return false;
@@ -142,7 +142,7 @@ static bool is_far(const struct end *end, double from, double length, int parts)
     return true;
 }
 
-static void watch_end(const struct end *end, struct moment *t)
+static void watch_end(const struct end *end, struct time_dd *t)
 {
     enum { parts = 8 };
     struct run *run = end->run;
@@ -150,7 +150,7 @@ static void watch_end(const struct end *end, struct moment *t)
     if (!isfinite(room_of(end).size) || is_far(end, from, length, parts)) return;
     for (int k = 0; k < parts && isnan(used); k++)
         used = used_up_within(end, from + k * length, k + 1 == parts ? t->t : from + (k + 1) * length);
-    if (!isnan(used)) *t = moment_at(used > from ? empty_time(end, from, used) : from);
+    if (!isnan(used)) *t = time_dd_at(used > from ? empty_time(end, from, used) : from);
     switcher_partial(run->stepper, *t, run->work.y, run->work.f);
     if (!isnan(used)) fail_at_end(end, t->t, false);
 }
@@ -174,7 +174,7 @@ static double shortest_at(const struct end *piece, double little, double to)
 
 /* What is left of a straight piece and gets less: a millionth of the disc, a thousandth of the rope that is hauled in, about
  * whose end a load turns ever faster, or 1e-9 of the rope between points. */
-static void watch_piece(const struct end *piece, struct moment *t)
+static void watch_piece(const struct end *piece, struct time_dd *t)
 {
     struct run *run = piece->run;
     const struct tie *tie = tie_of(piece);
@@ -186,7 +186,7 @@ static void watch_piece(const struct end *piece, struct moment *t)
         switcher_partial(run->stepper, *t, run->work.y, run->work.f);
         return;
     }
-    *t = moment_at(when);
+    *t = time_dd_at(when);
     run_fail(
         run, FBD_BROKEN,
         "at t = %.9g the rope `%s` is at an end of its way: there is nothing left between `%s` and `%s`. End "
@@ -197,7 +197,7 @@ static void watch_piece(const struct end *piece, struct moment *t)
 /* Pieces between points of a taut rope of constant length: one becomes shorter as another becomes longer. The ends of the
  * step show which of them have to be watched within. A piece that ends on a rim passes through zero length where its
  * other end passes the point of tangency, and the motion goes on. */
-static void watch_shortening(struct run *run, int index, struct moment *t)
+static void watch_shortening(struct run *run, int index, struct time_dd *t)
 {
     const struct tie *tie = &run->model->tree->ties[index];
     const double length = t->t - run->step.from;
@@ -212,7 +212,7 @@ static void watch_shortening(struct run *run, int index, struct moment *t)
 }
 
 /* A rope that rubs has become straight, and comes off its drum. */
-static void watch_wrap(struct run *run, int index, struct moment t)
+static void watch_wrap(struct run *run, int index, struct time_dd t)
 {
     const struct tie *tie = &run->model->tree->ties[index];
     look(run, t.t, run->work.y);
@@ -225,7 +225,7 @@ static void watch_wrap(struct run *run, int index, struct moment t)
              t.t, tie->name);
 }
 
-static void watch_tie(struct run *run, int i, struct moment *t)
+static void watch_tie(struct run *run, int i, struct time_dd *t)
 {
     const struct tie *tie = &run->model->tree->ties[i];
     const struct fbd_state *state = run->during;
@@ -279,7 +279,7 @@ static double passing_time(const struct end *end, int side, double not_yet, doub
 
 /* What it meets is another thing there, so that one step ends just before, and the next one just behind. It does not come
  * back from behind. */
-static void watch_passing(const struct end *end, struct moment *t)
+static void watch_passing(const struct end *end, struct time_dd *t)
 {
     enum { parts = 8 };
     struct run *run = end->run;
@@ -291,7 +291,7 @@ static void watch_passing(const struct end *end, struct moment *t)
     for (int k = 0; k < parts && isnan(passed); k++)
         passed = passed_within(end, side, from + k * length, k + 1 == parts ? t->t : from + (k + 1) * length);
     if (!isnan(passed)) {
-        *t = moment_at(passing_time(end, side, from, passed));
+        *t = time_dd_at(passing_time(end, side, from, passed));
         way_at(end, t->t);
         if (side < 0 && row->g.x < 0)
             run_fail(
@@ -303,7 +303,7 @@ static void watch_passing(const struct end *end, struct moment *t)
     switcher_partial(run->stepper, *t, run->work.y, run->work.f);
 }
 
-void run_watch_slots(struct run *run, struct moment *t)
+void run_watch_slots(struct run *run, struct time_dd *t)
 {
     const struct tree *tree = run->model->tree;
     for (int i = 0; tree && i < tree->tie_count; i++) {
@@ -332,7 +332,7 @@ static bool is_slack(const struct fbd_state *state, const struct tie *tie)
 static bool flight_at(struct run *run, int index, double t, struct flight *flight)
 {
     const struct tie *tie = &run->model->tree->ties[index];
-    if (switcher_dense(run->stepper, moment_at(t), run->work.aside) != 0) return false;
+    if (switcher_dense(run->stepper, time_dd_at(t), run->work.aside) != 0) return false;
     look(run, t, run->work.aside);
     const struct instant at = state_instant(run->during);
     struct one_sided now =
@@ -374,7 +374,7 @@ double run_flights(struct run *run, double from, double to)
 
 /* ---- the whole */
 
-void run_watch_ends(struct run *run, struct moment *t)
+void run_watch_ends(struct run *run, struct time_dd *t)
 {
     const struct tree *tree = run->model->tree;
     for (int i = 0; tree && i < tree->tie_count && run->end.outcome == FBD_GOING; i++) watch_tie(run, i, t);

@@ -493,7 +493,7 @@ void run_apply(struct run *run, const bool *timed, const bool *moving)
     run_check_ends(run);
     run->step.restart = true;
     run->recent.interval[1] = run->recent.interval[0];
-    run->recent.interval[0] = moment_since(run_end(run), run->recent.moment);
+    run->recent.interval[0] = time_dd_since(run_end(run), run->recent.moment);
     run->recent.moment = run_end(run);
     if (run->end.outcome == FBD_GOING) count_crowd(run);
     if (moving) count_around(run);

@@ -72,7 +72,7 @@ static void step(struct ensemble *ensemble, size_t p)
         if (run->log.events[events].t > run->step.from)
             ensemble->next_told = fmin(ensemble->next_told, run->log.events[events].t);
     const struct observer *observer = &ensemble->observer;
-    if (observer->step && moment_since(run_end(run), run_start(run)) > 0 &&
+    if (observer->step && time_dd_since(run_end(run), run_start(run)) > 0 &&
         !observer->step(observer->context, ensemble, p))
         fail_within(ensemble, run);
     ensemble->stepping = false;

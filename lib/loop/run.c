@@ -247,7 +247,7 @@ static bool restart(struct run *run)
     if (!structure_is_exact(run->kind)) run_set_noise(run);
     watchers_follow(&run->watchers, run->during);
     int status = switcher_reset(run->stepper, &run->system, run_end(run), run->work.y, run->work.f,
-                                moment_at(run->options.until), &run->step.h);
+                                time_dd_at(run->options.until), &run->step.h);
     if (status != GSL_SUCCESS) {
         run_fail_step(run, stepper_bad_function);
         return false;
@@ -261,7 +261,7 @@ static bool restart(struct run *run)
 }
 
 /* The next event of time alone within reach of a step, or the end of the run. */
-static struct moment next_time(struct run *run, bool *found)
+static struct time_dd next_time(struct run *run, bool *found)
 {
     const double stretch = 1.02; /* the stepper may lengthen a step by 1 % to end at its limit */
     double rest = fmin(run_next_rest(run), run->passages.end), until = fmin(run->options.until, rest);
@@ -269,10 +269,10 @@ static struct moment next_time(struct run *run, bool *found)
     int status = scan_interval(&run->search.timed, run->state->t, reach);
     *found = status == 1;
     /* Where functions of time change too fast for so long a step, it goes to where they have been seen. */
-    if (status == 2 && run->search.timed.clear > run->state->t) return moment_at(run->search.timed.clear);
-    struct moment end = moment_at(until);
-    if (moment_since(end, run_end(run)) <= 0) end.t = nextafter(end.t, HUGE_VAL); /* rests in no time */
-    return *found ? moment_earlier(run_pin_timed(run), end) : end;
+    if (status == 2 && run->search.timed.clear > run->state->t) return time_dd_at(run->search.timed.clear);
+    struct time_dd end = time_dd_at(until);
+    if (time_dd_since(end, run_end(run)) <= 0) end.t = nextafter(end.t, HUGE_VAL); /* rests in no time */
+    return *found ? time_dd_earlier(run_pin_timed(run), end) : end;
 }
 
 /* A coordinate that has grown beyond all numbers, though its rate has not; the step is not taken. */
@@ -298,7 +298,7 @@ static bool is_beyond_numbers(struct run *run, double t)
     return false;
 }
 
-static void accept(struct run *run, struct moment t)
+static void accept(struct run *run, struct time_dd t)
 {
     size_t size = plan_size(&run->model->plan);
     double *most = run->recent.anchor + size;
@@ -338,10 +338,10 @@ static void set_linear_step(struct run *run)
 /* ---- the stages of a turn: each goes on from the one before, and is the last where it ends the run */
 
 struct turn {
-    struct moment t;     /* the end of the step so far */
-    struct moment limit; /* which it does not pass */
-    bool timed;          /* because events of time alone happen there */
-    bool moving;         /* other events happen at its end */
+    struct time_dd t;     /* the end of the step so far */
+    struct time_dd limit; /* which it does not pass */
+    bool timed;           /* because events of time alone happen there */
+    bool moving;          /* other events happen at its end */
 };
 
 /* From where the step goes, in which modes; after events the stepper starts anew. */
@@ -390,11 +390,11 @@ static bool make_step(struct run *run, struct turn *turn)
         if (status != stepper_ok) run_fail_step(run, status);
         if (status != stepper_ok || time == most_times || !run_step_is_torn(run, turn->t))
             return status == stepper_ok;
-        double h = shorter * moment_since(turn->t, run_start(run));
+        double h = shorter * time_dd_since(turn->t, run_start(run));
         if (!(run->step.from + h > run->step.from)) return true;
         if (!restart(run)) return false;
         turn->t = run_start(run);
-        turn->limit = moment_at(run->step.from + h);
+        turn->limit = time_dd_at(run->step.from + h);
         turn->timed = false;
         run->step.h = fmin(run->step.h, h);
     }
@@ -414,7 +414,7 @@ static bool find_events(struct run *run, struct turn *turn)
     turn->moving = found > 0;
     run_watch_pulleys(run, &turn->t);
     run_watch_ends(run, &turn->t);
-    turn->timed = turn->timed && moment_equal(turn->t, turn->limit);
+    turn->timed = turn->timed && time_dd_equal(turn->t, turn->limit);
     return true;
 }
 

@@ -9,7 +9,7 @@
  * time by Newton; apply all events of that instant; settle the modes; start the stepper anew. Between events
  * everything is smooth, so every method keeps its order.
  *
- * Searches run over doubles. What they find is pinned down to a moment (base/moment.h) where it is applied:
+ * Searches run over doubles. What they find is pinned down to a moment (base/time_dd.h) where it is applied:
  * within a rounding of the time every function is linear, so that its value and rate at a double next to the
  * event tell the rest.
  */
@@ -144,8 +144,8 @@ struct event_log {
 struct recent {
     double time;      /* of the last one */
     int crowd, turns; /* how many at that instant; how often normal forces have changed their sides there */
-    struct moment moment; /* the start, or when events happened last */
-    double interval[2];   /* between the last three of these; infinite before there are three */
+    struct time_dd moment; /* the start, or when events happened last */
+    double interval[2];    /* between the last three of these; infinite before there are three */
     double *
         anchor; /* 2 plan_size: the state around which events have happened lately; the largest |y_i| before the
                        last step */
@@ -206,18 +206,18 @@ fbd_outcome run_advance(struct run *run);
 
 /* The state at t in [from, state->t] of the last step, with the modes of that step; evaluated (accelerations
  * are there). */
-bool run_look(struct run *run, struct moment t, struct fbd_state *state);
+bool run_look(struct run *run, struct time_dd t, struct fbd_state *state);
 
 /* Only coordinates, rates and states there, plan_size, without evaluating anything but the dense output. */
-bool run_coordinates(struct run *run, struct moment t, double *y);
+bool run_coordinates(struct run *run, struct time_dd t, double *y);
 
 /* The ends of the last step. */
-static inline struct moment run_start(const struct run *run)
+static inline struct time_dd run_start(const struct run *run)
 {
-    return (struct moment){run->step.from, run->step.from_rest};
+    return (struct time_dd){run->step.from, run->step.from_rest};
 }
 
-static inline struct moment run_end(const struct run *run)
+static inline struct time_dd run_end(const struct run *run)
 {
     return state_moment(run->state);
 }
@@ -234,25 +234,25 @@ bool run_make_scans(struct run *run);
 
 /* The moment of the timed events that the scan has found, those that happen at it flagged in
  * run->search.timed.crossed. (run_moment.c) */
-struct moment run_pin_timed(struct run *run);
+struct time_dd run_pin_timed(struct run *run);
 
 /* How long it is to the next event of time alone, or to the end of the run. */
 double run_time_to_switch(struct run *run);
 
 /* Bring y with slopes f from the double t to the moment of an event that is `move` away, a few roundings at
  * most; nothing happens where that is not within the step that ends at `end`. */
-struct moment run_pin_moving(struct run *run, double t, double move, struct moment end);
+struct time_dd run_pin_moving(struct run *run, double t, double move, struct time_dd end);
 
 /* What options.apart asks for: see run_moment.c. Before a limit is known, and when it is. */
 void run_part_before(struct run *run);
-void run_part_from(struct run *run, struct moment limit);
+void run_part_from(struct run *run, struct time_dd limit);
 
 /* Has the step that has been made to `end` an inside that does not obey the equations? (torn.c) */
-bool run_step_is_torn(struct run *run, struct moment end);
+bool run_step_is_torn(struct run *run, struct time_dd end);
 
 /* The first event in the step that has been made to *t, which becomes its time, with y and f there; where the step has
  * passed a pole it is cut before that. 1 found, 0 none, -1 failed. (run_find.c) */
-int run_find_event(struct run *run, struct moment *t);
+int run_find_event(struct run *run, struct time_dd *t);
 
 /* Where steps fail: is the state on the brink of switches, by a rounding of the time, as the roots and powers of max(x, 0) or
  * abs(x) do not let a step look beyond? Then it is put behind them, by as little, and they are the moving functions that have
@@ -281,7 +281,7 @@ void run_check_balance(struct run *run);
 
 /* Where a taut rope comes off a pulley within the step that ends at *t, cut the step there and end the run.
  */
-void run_watch_pulleys(struct run *run, struct moment *t);
+void run_watch_pulleys(struct run *run, struct time_dd *t);
 
 /* Where both pieces of a rope at a pulley have got taut and it is off it, end the run. After events: `during`
  * is free. */
@@ -289,7 +289,7 @@ void run_check_pulleys(struct run *run);
 
 /* A point that is off its slot, in the air: where it passes an end of the slot within the last step this is cut there, before
  * events are looked for. Fails the run where it comes back behind the slot. */
-void run_watch_slots(struct run *run, struct moment *t);
+void run_watch_slots(struct run *run, struct time_dd *t);
 
 /* The end of the first stretch of (from, to] of the step in which such points stay far from their slots and slack ropes from
  * being taut, or do not go far. */
@@ -297,7 +297,7 @@ double run_flights(struct run *run, double from, double to);
 
 /* Where a coupling has come to an end within the step that ends at *t (a rope is unwound, a point is at the end of its
  * slot), cut the step there and end the run (ends.c). */
-void run_watch_ends(struct run *run, struct moment *t);
+void run_watch_ends(struct run *run, struct time_dd *t);
 
 /* Where a rope has got taut that is longer than what was wound allows, end the run. After events: `during` is
  * free. */

@@ -12,41 +12,41 @@ static const double near = 64;
 
 /* A moment before the end of the run, that the double next to it may be: what is told of it has to come
  * before. */
-static struct moment before_end(struct moment t, double until)
+static struct time_dd before_end(struct time_dd t, double until)
 {
     if (t.t < until) return t;
     double before = nextafter(until, -HUGE_VAL);
-    return (struct moment){before, moment_since(t, moment_at(before))};
+    return (struct time_dd){before, time_dd_since(t, time_dd_at(before))};
 }
 
 /* The first moment after this one: what happens where a step begins has to wait for time to pass. As long as
  * two doubles can tell, and so that implicit methods can divide by it. */
-static struct moment at_once(struct moment start)
+static struct time_dd at_once(struct time_dd start)
 {
     double least = start.t == 0 ? DBL_MIN / DBL_EPSILON : DBL_EPSILON * DBL_EPSILON * fabs(start.t);
-    return (struct moment){start.t, nextafter(start.rest + least, HUGE_VAL)};
+    return (struct time_dd){start.t, nextafter(start.rest + least, HUGE_VAL)};
 }
 
 /* The moment at which the first of the functions that crossed is zero, by Newton from a double: the values
  * keep their rests, so nothing but the curvature of a function over some roundings of the time is left to a
  * second step. A function without a slope there stays where the search has seen it. */
-struct moment run_pin_timed(struct run *run)
+struct time_dd run_pin_timed(struct run *run)
 {
     enum { steps = 3 };
     const struct scan *scan = &run->search.timed;
     double *values = run->work.values, *rates = values + scan->count, *roundings = rates + scan->count;
-    struct moment start = run_end(run), t = moment_at(scan->t);
+    struct time_dd start = run_end(run), t = time_dd_at(scan->t);
     for (int step = 0; step < steps; step++) {
         double move = HUGE_VAL;
         watchers_evaluate_timed(&run->watchers, run->during, t, values, rates, roundings);
         for (size_t i = 0; i < scan->count; i++)
             if (scan->crossed[i] && rates[i] < 0) move = fmin(move, -values[i] / rates[i]);
         if (!(fabs(move) <= near * DBL_EPSILON * fabs(scan->t))) break;
-        struct moment next = moment_after(t, move);
-        if (moment_since(next, start) <= 0) next = at_once(start);
+        struct time_dd next = time_dd_after(t, move);
+        if (time_dd_since(next, start) <= 0) next = at_once(start);
         t = next;
     }
-    if (moment_since(moment_at(run->options.until), t) <= 0) t = moment_at(run->options.until);
+    if (time_dd_since(time_dd_at(run->options.until), t) <= 0) t = time_dd_at(run->options.until);
     /* Those that are zero at the same moment, to the rounding of their values, happen together. */
     watchers_evaluate_timed(&run->watchers, run->during, t, values, rates, roundings);
     for (size_t i = 0; i < scan->count; i++)
@@ -56,18 +56,18 @@ struct moment run_pin_timed(struct run *run)
 
 double run_time_to_switch(struct run *run)
 {
-    struct moment end = moment_at(run->options.until);
+    struct time_dd end = time_dd_at(run->options.until);
     bool found = scan_interval(&run->search.timed, run->state->t, end.t) == 1;
-    return moment_since(found ? run_pin_timed(run) : end, run_end(run));
+    return time_dd_since(found ? run_pin_timed(run) : end, run_end(run));
 }
 
 /* The motion over a rounding of the time is a line. */
-struct moment run_pin_moving(struct run *run, double t, double move, struct moment end)
+struct time_dd run_pin_moving(struct run *run, double t, double move, struct time_dd end)
 {
-    struct moment there = moment_after(moment_at(t), move);
+    struct time_dd there = time_dd_after(time_dd_at(t), move);
     bool is_near = fabs(move) <= near * DBL_EPSILON * fabs(t);
-    if (!is_near || !(moment_since(there, run_start(run)) > 0 && moment_since(end, there) > 0))
-        return moment_at(t);
+    if (!is_near || !(time_dd_since(there, run_start(run)) > 0 && time_dd_since(end, there) > 0))
+        return time_dd_at(t);
     for (size_t i = 0; i < plan_size(&run->model->plan); i++) run->work.y[i] += move * run->work.f[i];
     return before_end(there, run->options.until);
 }
@@ -86,15 +86,15 @@ static const double share = 0.6; /* of the way; the stepper makes the rest of it
 void run_part_before(struct run *run)
 {
     if (!run->options.apart || run->options.step > 0) return;
-    double since = moment_since(run_start(run), run->recent.moment),
+    double since = time_dd_since(run_start(run), run->recent.moment),
            interval = fmax(run->recent.interval[0], run->recent.interval[1]);
     if (interval > 0) run->step.h = fmin(run->step.h, share * interval + since);
     if (run->step.most > 0) run->step.h = fmin(run->step.h, run->step.most);
 }
 
-void run_part_from(struct run *run, struct moment limit)
+void run_part_from(struct run *run, struct time_dd limit)
 {
-    if (!run->options.apart || run->options.step > 0 || !moment_equal(run_start(run), run->recent.moment))
+    if (!run->options.apart || run->options.step > 0 || !time_dd_equal(run_start(run), run->recent.moment))
         return;
-    run->step.h = fmin(run->step.h, share * moment_since(limit, run_start(run)));
+    run->step.h = fmin(run->step.h, share * time_dd_since(limit, run_start(run)));
 }

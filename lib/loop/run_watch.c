@@ -13,7 +13,7 @@
 static int sample_timed(void *context, double t, double *values, double *rate)
 {
     struct run *run = context;
-    watchers_evaluate(&run->watchers, &run->watchers.timed, run->during, moment_at(t), run->state->y, values,
+    watchers_evaluate(&run->watchers, &run->watchers.timed, run->during, time_dd_at(t), run->state->y, values,
                       rate);
     return 0;
 }
@@ -62,7 +62,7 @@ void run_lead(const struct run *run, double t, double *y)
 /* The state along the last step. */
 static int sample_state(struct run *run, double t, double *y)
 {
-    if (switcher_dense(run->stepper, moment_at(t), y) != GSL_SUCCESS) return -1;
+    if (switcher_dense(run->stepper, time_dd_at(t), y) != GSL_SUCCESS) return -1;
     run_lead(run, t, y);
     return 0;
 }
@@ -71,7 +71,7 @@ static int sample_moving(void *context, double t, double *values, double *rate)
 {
     struct run *run = context;
     if (sample_state(run, t, run->work.sample)) return -1;
-    watchers_evaluate(&run->watchers, &run->watchers.moving, run->during, moment_at(t), run->work.sample,
+    watchers_evaluate(&run->watchers, &run->watchers.moving, run->during, time_dd_at(t), run->work.sample,
                       values, rate);
     return 0;
 }
@@ -178,13 +178,13 @@ static void set_noise(struct run *run)
 static int powers_of(void *context, double from, double to, int component, double *c)
 {
     const struct run *run = context;
-    return switcher_powers(run->stepper, moment_at(from), moment_at(to), (size_t)component, c);
+    return switcher_powers(run->stepper, time_dd_at(from), time_dd_at(to), (size_t)component, c);
 }
 
 static int powers_of_ends(void *context, double from, double to, int component, double *c)
 {
     const struct run *run = context;
-    return switcher_powers_of_ends(run->stepper, moment_at(from), moment_at(to), (size_t)component, c);
+    return switcher_powers_of_ends(run->stepper, time_dd_at(from), time_dd_at(to), (size_t)component, c);
 }
 
 /* By the powers that the method has, of its ends alone for a first look at what costs evaluations. False where it has none,

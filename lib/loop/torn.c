@@ -18,9 +18,9 @@ static bool take_slopes(struct run *run, double share, double h, double *slope, 
     const double apart = 1e-3; /* of the step */
     size_t size = plan_size(&run->model->plan);
     double *above = run->work.kept, *y = above + size, t = run->step.from + share * h;
-    bool taken = switcher_dense(run->stepper, moment_at(t - apart * h), slope) == GSL_SUCCESS &&
-                 switcher_dense(run->stepper, moment_at(t + apart * h), above) == GSL_SUCCESS &&
-                 switcher_dense(run->stepper, moment_at(t), y) == GSL_SUCCESS &&
+    bool taken = switcher_dense(run->stepper, time_dd_at(t - apart * h), slope) == GSL_SUCCESS &&
+                 switcher_dense(run->stepper, time_dd_at(t + apart * h), above) == GSL_SUCCESS &&
+                 switcher_dense(run->stepper, time_dd_at(t), y) == GSL_SUCCESS &&
                  counted_system_rhs(&run->system, t, y, f) == GSL_SUCCESS;
     for (size_t i = 0; taken && i < size; i++) slope[i] = (above[i] - slope[i]) / (2 * apart * h);
     return taken;
@@ -57,9 +57,9 @@ static bool look_at_functions(struct run *run, double share, double h)
     const double t = run->step.from + share * h;
     if (share == 0)
         memcpy(y, run->state->y, plan_size(&run->model->plan) * sizeof *y);
-    else if (switcher_dense(run->stepper, moment_at(t), y) != GSL_SUCCESS)
+    else if (switcher_dense(run->stepper, time_dd_at(t), y) != GSL_SUCCESS)
         return false;
-    watchers_evaluate(&run->watchers, &run->watchers.moving, run->during, moment_at(t), y, run->work.values,
+    watchers_evaluate(&run->watchers, &run->watchers.moving, run->during, time_dd_at(t), y, run->work.values,
                       run->work.values + run->watchers.moving.count);
     return true;
 }
@@ -82,11 +82,11 @@ static bool falls_at_once(struct run *run, double h)
     return false;
 }
 
-bool run_step_is_torn(struct run *run, struct moment end)
+bool run_step_is_torn(struct run *run, struct time_dd end)
 {
     const double shares[] = {0.31, 0.72};
     size_t n = (size_t)run->model->plan.n, size = plan_size(&run->model->plan);
-    double h = moment_since(end, run_start(run)), *slope = run->work.aside, *f = slope + size;
+    double h = time_dd_since(end, run_start(run)), *slope = run->work.aside, *f = slope + size;
     const struct method *method = run->options.method;
     bool meets = run->model->tree && run->model->tree->meeting_count > 0;
     bool by_ends = method->multistep && method->implicit && run->options.step == 0;

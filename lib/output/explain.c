@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/call.h"
+#include "base/api_check.h"
 #include "dynamics/modes.h"
 #include "integrate/method.h"
 #include "output/couplings.h"
@@ -213,7 +213,7 @@ static void write_method(struct text *text, const struct fbd_model *model, const
 char *fbd_explain(const fbd_model *model, const fbd_options *options)
 {
     fbd_options own = FBD_OPTIONS_DEFAULT;
-    if (!model || !call_options(&own, sizeof own, options, NULL)) return NULL;
+    if (!model || !api_take_options(&own, sizeof own, options, NULL)) return NULL;
     struct text text = {0};
     struct fbd_state *state = state_new(model);
     if (!state) return NULL;

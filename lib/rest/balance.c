@@ -12,7 +12,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "base/zeroed.h"
+#include "base/block_alloc.h"
 #include "dynamics/mass.h"
 #include "dynamics/rest_system.h"
 #include "dynamics/tree.h"
@@ -162,7 +162,7 @@ static void say(const struct fbd_state *state, const struct worst *worst, struct
 static struct grains *find_answers(const struct fbd_state *state, struct arrow *arrows)
 {
     const size_t bodies = state->model->body_count;
-    struct grains *answers = zeroed((bodies + 1) * sizeof *answers);
+    struct grains *answers = block_alloc((bodies + 1) * sizeof *answers);
     struct fbd_state *here = state_new(state->model), *there = state_new(state->model);
     const bool made = answers && here && there;
     if (made) {

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/call.h"
+#include "base/api_check.h"
 #include "base/diag.h"
 #include "dynamics/finite.h"
 #include "dynamics/friction.h"
@@ -434,7 +434,7 @@ fbd_linearization *fbd_linearize(fbd_state *state, fbd_errors *list)
 {
     struct diag_call call;
     fbd_errors *errors = diag_begin(&call, list);
-    fbd_linearization *linear = state ? linearize(state, errors) : call_refuse(errors, "there is no state");
+    fbd_linearization *linear = state ? linearize(state, errors) : api_refuse(errors, "there is no state");
     diag_end(&call);
     return linear;
 }

@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/call.h"
+#include "base/api_check.h"
 #include "base/diag.h"
 #include "dynamics/modes.h"
 #include "dynamics/own.h"
@@ -202,7 +202,7 @@ bool fbd_find_equilibrium(fbd_state *state, fbd_errors *list)
     fbd_errors *errors = diag_begin(&call, list);
     bool found = false;
     if (!state) {
-        call_refuse(errors, "there is no state");
+        api_refuse(errors, "there is no state");
     } else if (find_equilibrium(state, errors)) {
         found = warn_of_instability(state, errors);
         if (!found) diag_out_of_memory(errors);

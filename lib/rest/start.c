@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/zeroed.h"
+#include "base/block_alloc.h"
 #include "dynamics/contact.h"
 #include "dynamics/finite.h"
 #include "dynamics/friction.h"
@@ -227,7 +227,7 @@ static bool is_free_to_move(struct fbd_state *state, struct fbd_state *other, st
 /* The forces account for the motion. */
 static bool is_balanced(struct fbd_state *state, struct lack *lack)
 {
-    struct arrow *arrows = zeroed(diagram_most_arrows(state->model) * sizeof *arrows);
+    struct arrow *arrows = block_alloc(diagram_most_arrows(state->model) * sizeof *arrows);
     bool balanced = arrows && !balance_lack(state, arrows, &lack->text);
     if (arrows && !balanced) lack->id = "forces-unbalanced";
     free(arrows);

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/call.h"
+#include "base/api_check.h"
 #include "base/diag.h"
 #include "dynamics/finite.h"
 #include "dynamics/project.h"
@@ -213,7 +213,7 @@ fbd_statics *fbd_statics_new(const fbd_state *state, fbd_errors *list)
 {
     struct diag_call call;
     fbd_errors *errors = diag_begin(&call, list);
-    fbd_statics *statics = state ? statics_new(state, errors) : call_refuse(errors, "there is no state");
+    fbd_statics *statics = state ? statics_new(state, errors) : api_refuse(errors, "there is no state");
     diag_end(&call);
     return statics;
 }

@@ -3,7 +3,7 @@
 
 #include <stdlib.h>
 
-#include "base/zeroed.h"
+#include "base/block_alloc.h"
 #include "batch/batch.h"
 
 /* Rows that are waited for at a time: a full share. */
@@ -43,7 +43,7 @@ bool abreast_suits(const struct fbd_sweep *sweep)
 
 struct abreast *abreast_new(const struct fbd_sweep *sweep, unsigned lanes, fbd_stop *stop, void *stop_context)
 {
-    struct abreast *abreast = zeroed(sizeof *abreast);
+    struct abreast *abreast = block_alloc(sizeof *abreast);
     if (!abreast) return NULL;
     abreast->stop = stop;
     abreast->stop_context = stop_context;

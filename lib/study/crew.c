@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "study/crew.h"
 
-#include "base/call.h"
+#include "base/api_check.h"
 #include "batch/batch.h"
 #include "study/abreast.h"
 
@@ -193,7 +193,7 @@ fbd_sweep_crew *fbd_sweep_start(const fbd_sweep *sweep, const fbd_sweep_work *gi
 {
     fbd_sweep_work own = {0};
     const fbd_sweep_work *work = &own;
-    if (!sweep || !call_options(&own, sizeof own, given, NULL) || !own.write) return NULL;
+    if (!sweep || !api_take_options(&own, sizeof own, given, NULL) || !own.write) return NULL;
     enum { places_of_a_thread = 4, places_of_a_helper = 4, most_jobs = 1024 };
     const size_t usual_rows = 16000; /* bytes of a full share: none of them grows in most sweeps */
     fbd_sweep_crew *crew = calloc(1, sizeof *crew);
@@ -277,7 +277,7 @@ fbd_sweep_end fbd_sweep_run(const fbd_sweep *sweep, const fbd_sweep_work *work, 
 {
     if (counts) *counts = (fbd_sweep_counts){0};
     fbd_sweep_work own = {0};
-    if (!sweep || !call_options(&own, sizeof own, work, NULL) || !own.write) return FBD_SWEEP_REFUSED;
+    if (!sweep || !api_take_options(&own, sizeof own, work, NULL) || !own.write) return FBD_SWEEP_REFUSED;
     fbd_sweep_crew *crew = fbd_sweep_start(sweep, &own, 0);
     if (crew) return fbd_sweep_finish(crew, counts);
     return FBD_SWEEP_OUT_OF_MEMORY;

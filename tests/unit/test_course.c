@@ -135,7 +135,7 @@ static double swing_at(const struct swing *swing, double t, int derivative)
 
 static int powers_of_ends(void *context, double from, double to, int component, double *c)
 {
-    return dense_powers_of_ends(context, moment_at(from), moment_at(to), (size_t)component, c);
+    return dense_powers_of_ends(context, time_dd_at(from), time_dd_at(to), (size_t)component, c);
 }
 
 /* What the ends of a step say rules nothing out that is there: whole oscillations of up to four radians a step, which no
@@ -161,7 +161,7 @@ static void the_first_look_by_the_ends_has_the_motion_in_it(void **unused)
                f0[2] = {y0[1], swing_at(&swing, 0, 2)};
         double y1[2] = {swing_at(&swing, h, 0), swing_at(&swing, h, 1)},
                f1[2] = {y1[1], swing_at(&swing, h, 2)};
-        dense_set(dense, 8, moment_at(0), y0, f0, moment_at(h), y1, f1, NULL, NULL);
+        dense_set(dense, 8, time_dd_at(0), y0, f0, time_dd_at(h), y1, f1, NULL, NULL);
         course_start(&course);
         assert_true(course_set_powers(&course, 0, h, NULL, true, powers_of_ends, dense));
         for (int k = 0; k < 32; k++) {

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Twofold numbers: a number as the unevaluated sum of two doubles, x + rest with |rest| <= ulp(x) / 2, which
+ * Double-double arithmetic: a number as the unevaluated sum of two doubles, x + rest with |rest| <= ulp(x) / 2, which
  * has some 32 digits.
  *
  * The rounding error of a sum and of a product of doubles is itself a double, and can be had:
@@ -16,65 +16,65 @@
  * (1971) 224; D. E. Knuth, The Art of Computer Programming 2, 4.2.2; J.-M. Muller et al., Handbook of
  * Floating-Point Arithmetic, 2nd ed., 2018, chapter 14.
  */
-#ifndef FBD_BASE_TWOFOLD_H
-#define FBD_BASE_TWOFOLD_H
+#ifndef FBD_BASE_DOUBLE_DOUBLE_H
+#define FBD_BASE_DOUBLE_DOUBLE_H
 
 #include <math.h>
 
-struct twofold {
+struct double_double {
     double x, rest;
 };
 
 /* The sum of two doubles, exactly. What is not finite has no rest. */
-static inline struct twofold twofold_sum(double a, double b)
+static inline struct double_double dd_sum(double a, double b)
 {
     double s = a + b, z = s - a, rest = (a - (s - z)) + (b - z);
-    return (struct twofold){s, isfinite(rest) ? rest : 0};
+    return (struct double_double){s, isfinite(rest) ? rest : 0};
 }
 
 /* The product of two doubles, exactly. */
-static inline struct twofold twofold_product(double a, double b)
+static inline struct double_double dd_product(double a, double b)
 {
     double p = a * b, rest = isfinite(p) ? fma(a, b, -p) : 0;
-    return (struct twofold){p, rest};
+    return (struct double_double){p, rest};
 }
 
-static inline double twofold_value(struct twofold a)
+static inline double dd_value(struct double_double a)
 {
     return a.x + a.rest;
 }
 
 /* a.x + b.x with what both leave. */
-static inline struct twofold twofold_add(struct twofold a, struct twofold b)
+static inline struct double_double dd_add(struct double_double a, struct double_double b)
 {
-    struct twofold s = twofold_sum(a.x, b.x);
-    return twofold_sum(s.x, s.rest + (a.rest + b.rest));
+    struct double_double s = dd_sum(a.x, b.x);
+    return dd_sum(s.x, s.rest + (a.rest + b.rest));
 }
 
-static inline struct twofold twofold_negate(struct twofold a)
+static inline struct double_double dd_negate(struct double_double a)
 {
-    return (struct twofold){-a.x, -a.rest};
+    return (struct double_double){-a.x, -a.rest};
 }
 
-static inline struct twofold twofold_subtract(struct twofold a, struct twofold b)
+static inline struct double_double dd_subtract(struct double_double a, struct double_double b)
 {
-    return twofold_add(a, twofold_negate(b));
+    return dd_add(a, dd_negate(b));
 }
 
-static inline struct twofold twofold_multiply(struct twofold a, struct twofold b)
+static inline struct double_double dd_multiply(struct double_double a, struct double_double b)
 {
-    struct twofold p = twofold_product(a.x, b.x);
+    struct double_double p = dd_product(a.x, b.x);
     double rest = p.rest + (a.x * b.rest + a.rest * b.x);
-    return isfinite(rest) ? twofold_sum(p.x, rest) : p;
+    return isfinite(rest) ? dd_sum(p.x, rest) : p;
 }
 
 /* The quotient q of the leading parts, and what a - q b leaves of it. */
-static inline struct twofold twofold_divide(struct twofold a, struct twofold b)
+static inline struct double_double dd_divide(struct double_double a, struct double_double b)
 {
     double q = a.x / b.x;
-    struct twofold p = twofold_product(q, b.x);
+    struct double_double p = dd_product(q, b.x);
     double rest = ((a.x - p.x) - p.rest + a.rest - q * b.rest) / b.x;
-    return isfinite(rest) ? twofold_sum(q, rest) : (struct twofold){q, 0};
+    return isfinite(rest) ? dd_sum(q, rest) : (struct double_double){q, 0};
 }
 
 #endif

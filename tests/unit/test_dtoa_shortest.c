@@ -15,8 +15,8 @@
 
 #include <cmocka.h>
 
+#include "base/dtoa_shortest.h"
 #include "base/format.h"
-#include "base/shortest.h"
 #include "random_numbers.h"
 
 static void by_trying(char *buffer, size_t size, double value)
@@ -31,8 +31,8 @@ static void by_trying(char *buffer, size_t size, double value)
 static void check_rounded(double value)
 {
     for (int digits = 1; digits <= 17; digits++) {
-        char quick[shortest_size], slow[64];
-        int length = rounded_write(quick, value, digits);
+        char quick[dtoa_size], slow[64];
+        int length = dtoa_rounded(quick, value, digits);
         if (length < 0) continue;
         snprintf(slow, sizeof slow, "%.*g", digits, value);
         assert_string_equal(quick, slow);
@@ -50,8 +50,8 @@ static const bool is_wide = false;
 static bool check(double value)
 {
     check_rounded(value);
-    char quick[shortest_size], slow[64], written[64];
-    int length = shortest_write(quick, value);
+    char quick[dtoa_size], slow[64], written[64];
+    int length = dtoa_shortest(quick, value);
     by_trying(slow, sizeof slow, value);
     format_shortest(written, sizeof written, value);
     assert_string_equal(written, slow);
@@ -94,11 +94,11 @@ static void numbers_that_are_special(void **state)
         for (size_t i = 0; i < sizeof special / sizeof *special; i++) check(special[i]);
     }
     assert_true(check(0.0));
-    char buffer[shortest_size];
-    assert_true((rounded_write(buffer, 1.0 / 3, 6) > 0) == is_wide);
-    assert_true((rounded_write(buffer, -2.5, 1) > 0) == is_wide);
-    assert_true(shortest_write(buffer, 12) == 2 && rounded_write(buffer, 0, 6) == 1);
-    assert_true(rounded_write(buffer, 1.0, 0) < 0 && rounded_write(buffer, 1.0, 18) < 0);
+    char buffer[dtoa_size];
+    assert_true((dtoa_rounded(buffer, 1.0 / 3, 6) > 0) == is_wide);
+    assert_true((dtoa_rounded(buffer, -2.5, 1) > 0) == is_wide);
+    assert_true(dtoa_shortest(buffer, 12) == 2 && dtoa_rounded(buffer, 0, 6) == 1);
+    assert_true(dtoa_rounded(buffer, 1.0, 0) < 0 && dtoa_rounded(buffer, 1.0, 18) < 0);
     assert_false(check(-0.0) || check(HUGE_VAL) || check(NAN) || check(5e-324) || check(1.7e308));
 }
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "base/shortest.h"
+#include "base/dtoa_shortest.h"
 
 #include <math.h>
 #include <stdbool.h>
@@ -149,7 +149,7 @@ static int write_whole(char *buffer, uint64_t whole)
     return most_digits - first;
 }
 
-int shortest_write(char buffer[shortest_size], double value)
+int dtoa_shortest(char buffer[dtoa_size], double value)
 {
     const uint64_t least_mantissa = UINT64_C(1) << 52;
     const double largest_whole = 1e15;
@@ -169,7 +169,7 @@ int shortest_write(char buffer[shortest_size], double value)
     return -1;
 }
 
-int rounded_write(char buffer[shortest_size], double value, int digits)
+int dtoa_rounded(char buffer[dtoa_size], double value, int digits)
 {
     struct scaled scaled;
     int exponent;

@@ -1,16 +1,16 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "base/call.h"
+#include "base/api_check.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-void *call_refuse(fbd_errors *errors, const char *what)
+void *api_refuse(fbd_errors *errors, const char *what)
 {
     diag_add(errors, FBD_ERROR, "bad-call", (struct pos){0, 0}, NULL, "%s", what);
     return NULL;
 }
 
-bool call_options(void *whole, size_t room, const void *given, fbd_errors *errors)
+bool api_take_options(void *whole, size_t room, const void *given, fbd_errors *errors)
 {
     enum { most = 4096 }; /* what is larger was never set */
     size_t size = room;
@@ -20,12 +20,11 @@ bool call_options(void *whole, size_t room, const void *given, fbd_errors *error
     bool known = size >= sizeof size && size <= most;
     for (size_t i = room; known && i < size; i++) known = ((const unsigned char *)given)[i] == 0;
     if (known) memcpy(whole, given, size < room ? size : room);
-    if (!known)
-        call_refuse(errors, "options of a size that is none, or with members that are not known here");
+    if (!known) api_refuse(errors, "options of a size that is none, or with members that are not known here");
     return known;
 }
 
-void call_fill(void *options, size_t size, const void *defaults, size_t room)
+void api_fill_options(void *options, size_t size, const void *defaults, size_t room)
 {
     if (size < sizeof size) return;
     memset(options, 0, size);
@@ -38,7 +37,7 @@ void fbd_free(void *memory)
     free(memory);
 }
 
-bool call_has_texts(const char *const *texts, size_t count)
+bool api_has_texts(const char *const *texts, size_t count)
 {
     if (count > 0 && !texts) return false;
     for (size_t i = 0; i < count; i++)
@@ -46,7 +45,7 @@ bool call_has_texts(const char *const *texts, size_t count)
     return true;
 }
 
-bool call_has_settings(const fbd_setting *settings, size_t count)
+bool api_has_settings(const fbd_setting *settings, size_t count)
 {
     if (count > 0 && !settings) return false;
     for (size_t i = 0; i < count; i++)
