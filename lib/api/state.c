@@ -9,7 +9,7 @@
 #include "dynamics/mass.h"
 #include "dynamics/modes.h"
 #include "dynamics/project.h"
-#include "output/shown.h"
+#include "output/display_units.h"
 #include "rest/start.h"
 
 fbd_state *fbd_state_new(const fbd_model *model)
@@ -79,7 +79,7 @@ static bool set_text(fbd_state *state, const char *name, const char *text, bool 
         return false;
     }
     struct expr_want want = {.constant = true, .what = name};
-    const struct shown shown = shown_component(model, (size_t)index, degrees);
+    const struct display shown = display_of_component(model, (size_t)index, degrees);
     if (index < 2 * n) {
         const struct coordinate *c = &model->scene->coordinates[index % n];
         want.dim = index < n ? c->dim : c->rate_dim;

@@ -61,7 +61,7 @@ static const char *shown_text(struct arena *arena, const char *text)
     }
     if (plain) return text;
     char *made = arena_array(arena, length + 1, 1);
-    if (made) fbd_shown(text, made, length + 1);
+    if (made) fbd_escape(text, made, length + 1);
     return made;
 }
 
@@ -330,7 +330,7 @@ fbd_error fbd_errors_get(fbd_errors *errors, size_t index)
     return error ? *error : (fbd_error){0};
 }
 
-size_t fbd_shown(const char *text, char *shown, size_t room)
+size_t fbd_escape(const char *text, char *shown, size_t room)
 {
     size_t length = 0, put = 0;
     bool fits = true;

@@ -2,14 +2,14 @@
 #include "dynamics/state.h"
 
 #include "base/block_alloc.h"
-#include "dynamics/absolute.h"
 #include "dynamics/contact.h"
 #include "dynamics/modes.h"
-#include "dynamics/own.h"
 #include "dynamics/project.h"
 #include "dynamics/rest_memo.h"
 #include "dynamics/rest_system.h"
 #include "dynamics/tree_system.h"
+#include "dynamics/user_states.h"
+#include "dynamics/world_refs.h"
 
 #include <float.h>
 #include <math.h>
@@ -163,8 +163,8 @@ void state_evaluate_unshared(struct fbd_state *state)
     struct instant at = state_instant(state);
     accelerations(state->model, &at, state->slots, state->a);
     if (state->tree) tree_complete(state->model, state->tree);
-    if (state->extended) absolutes_write(state->model, &at, state->y);
-    if (state->model->plan.own > 0) own_rates(state->model, &at, state->a + state->model->plan.n);
+    if (state->extended) world_refs_write(state->model, &at, state->y);
+    if (state->model->plan.own > 0) user_state_rates(state->model, &at, state->a + state->model->plan.n);
 }
 
 void state_evaluate(struct fbd_state *state)

@@ -10,7 +10,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "dynamics/absolute.h"
+#include "dynamics/world_refs.h"
 #include "events/watchers.h"
 
 /* Numbers between -1 and 1 that follow no rule of a scene: multiples of the golden section. */

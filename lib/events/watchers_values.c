@@ -6,14 +6,14 @@
 #include <float.h>
 #include <string.h>
 
-#include "dynamics/absolute.h"
 #include "dynamics/constraint.h"
 #include "dynamics/contact.h"
 #include "dynamics/friction.h"
 #include "dynamics/modes.h"
-#include "dynamics/own.h"
 #include "dynamics/rest_system.h"
 #include "dynamics/tree_driven.h"
+#include "dynamics/user_states.h"
+#include "dynamics/world_refs.h"
 #include "events/watchers.h"
 
 /* ---- their values */
@@ -232,7 +232,7 @@ static void set_flow(struct view *view, bool forces)
     struct scratch scratch = state_scratch(state);
     double *slots = scratch.slots, *slots_along = scratch.slots_along, *dy = scratch.dy;
     state_rates(state->model, &view->at, slots, dy);
-    if (plan->own > 0) own_rates(state->model, &view->at, dy + plan_own_place(plan));
+    if (plan->own > 0) user_state_rates(state->model, &view->at, dy + plan_own_place(plan));
     view->flow = (struct direction){1, dy};
     if (state->model->names_places) {
         view->at = instant_extend(state->model, &view->at);

@@ -386,19 +386,19 @@ bool pair8_differences(const gsl_odeiv2_step *step, const double **dy, const dou
     return true;
 }
 
-void pair8_lend(const gsl_odeiv2_step *step, struct lent *lent)
+void pair8_lend(const gsl_odeiv2_step *step, struct stepper_state_view *view)
 {
     struct pair8 *s = step->state;
     const double *known = vector(s, v_end), *rest = vector(s, v_rest_end);
-    for (size_t i = 0; i < s->n; i++) lent->rest[i] = s->has_rest && lent->last[i] == known[i] ? rest[i] : 0;
+    for (size_t i = 0; i < s->n; i++) view->rest[i] = s->has_rest && view->last[i] == known[i] ? rest[i] : 0;
 }
 
 /* Of no time: the next step is not one that is tried again. */
-void pair8_settle(gsl_odeiv2_step *step, const struct lent *lent)
+void pair8_settle(gsl_odeiv2_step *step, const struct stepper_state_view *view)
 {
     struct pair8 *s = step->state;
-    memcpy(vector(s, v_end), lent->last, s->n * sizeof(double));
-    memcpy(vector(s, v_rest_end), lent->rest, s->n * sizeof(double));
+    memcpy(vector(s, v_end), view->last, s->n * sizeof(double));
+    memcpy(vector(s, v_rest_end), view->rest, s->n * sizeof(double));
     s->stepped = s->prepared = false;
     s->has_rest = true;
     s->t = NAN;

@@ -3,7 +3,7 @@
  * One accepted step at a time, with any method of method.h: the body of an integration loop.
  *
  * It does what gsl_odeiv2_evolve_apply does and what that leaves undone: the error is measured without
- * units (weights.h); a step that is rejected, for whatever reason, leaves nothing behind; NaN is never
+ * units (error_norm.h); a step that is rejected, for whatever reason, leaves nothing behind; NaN is never
  * accepted; the reason of each rejection is counted; the step can be looked into (dense.h) and redone in
  * part; multistep methods get the driver they ask for.
  *
@@ -15,8 +15,8 @@
 
 #include "base/time_dd.h"
 #include "integrate/layout.h"
-#include "integrate/lent.h"
 #include "integrate/method.h"
+#include "integrate/stepper_state_view.h"
 #include "integrate/system.h"
 
 struct stepper;
@@ -24,7 +24,7 @@ struct stepper;
 struct stepper_options {
     const struct method *method;
     struct layout layout;
-    double tolerance; /* relative to the scales of weights.h, for each step; above 0 */
+    double tolerance; /* relative to the scales of error_norm.h, for each step; above 0 */
     double h_max;     /* no step is larger; 0: no bound */
     double h_fixed;   /* above 0: the size of all steps, whatever their error and h_max */
 };
@@ -77,7 +77,7 @@ enum stepper_status stepper_step(struct stepper *stepper, struct counted_system 
 /* State at time t within the last accepted step, t0 <= t <= t1, bit for bit that of the step at its ends.
  * Explicit methods and msadams have the interpolants of dense.h, msbdf the polynomial of its last points
  * (history.h), rodas5p its own. Other implicit one-step methods redo the step, up to Chebyshev points or,
- * where no polynomial follows it, up to t (inside.h): slopes are of no use over a stiff step, and bsimp makes
+ * where no polynomial follows it, up to t (dense_by_resteps.h): slopes are of no use over a stiff step, and bsimp makes
  * steps longer than an interpolant follows. Where that fails, the ends have to do (dense_eval_plain). The
  * system of that step is used and has to be there still. GSL_SUCCESS, or GSL_EINVAL without a last step or
  * for t outside of it, where a double next to an end counts as that. */
@@ -105,7 +105,7 @@ int stepper_partial(struct stepper *stepper, struct time_dd t, double *y, double
  * at t; 0: it stays what it was; or a code as there. */
 int stepper_shorten(struct stepper *stepper, struct time_dd t, double *y, double *f);
 
-/* State and slopes by as many steps as the tolerance asks for (walk.h). GSL_EFAILED when that does not come to t,
+/* State and slopes by as many steps as the tolerance asks for (substeps.h). GSL_EFAILED when that does not come to t,
  * GSL_ENOMEM, GSL_EINVAL for a multistep method. The last step stays what it was. */
 int stepper_walk(struct stepper *stepper, struct time_dd t, double *y, double *f);
 
@@ -118,7 +118,7 @@ double stepper_attempt(struct stepper *stepper, struct counted_system *system, c
 /* linear_set_matrix for a stepper of that method; nothing for others. */
 void stepper_set_linear(struct stepper *stepper, const double *A, double rho);
 
-/* The size of the last step times the fastest rate of the system that the method has seen lately (weights_rate);
+/* The size of the last step times the fastest rate of the system that the method has seen lately (error_norm_rate);
  * INFINITY where it sees none. */
 double stepper_h_rate(const struct stepper *stepper);
 
@@ -133,10 +133,10 @@ const struct stepper_counts *stepper_get_counts(const struct stepper *stepper);
 /* Lend what steps go by to somebody who makes them, and take back what has become of it; the next step starts from there,
  * and until then none can be looked into. False where more than `lent` has is gone by: a step of fixed or bounded size, a
  * limit of stability, a method that remembers steps. */
-bool stepper_lend(const struct stepper *stepper, struct lent *lent);
-void stepper_settle(struct stepper *stepper, const struct lent *lent);
+bool stepper_lend(const struct stepper *stepper, struct stepper_state_view *view);
+void stepper_settle(struct stepper *stepper, const struct stepper_state_view *view);
 
-/* The error control, for weights_set_floor. */
+/* The error control, for error_norm_set_floor. */
 gsl_odeiv2_control *stepper_control(struct stepper *stepper);
 
 #endif

@@ -7,8 +7,8 @@
 #include <stdlib.h>
 
 #include "base/block_alloc.h"
+#include "integrate/error_norm.h"
 #include "integrate/stiffness.h"
-#include "integrate/weights.h"
 
 struct switcher {
     struct stepper *steppers[2]; /* explicit, implicit or NULL */
@@ -183,7 +183,7 @@ int switcher_walk(struct switcher *s, struct time_dd t, double *y, double *f)
 }
 
 /* Do both methods have the same scales and the same last state? */
-static bool agree(const struct lent *a, const struct lent *b)
+static bool agree(const struct stepper_state_view *a, const struct stepper_state_view *b)
 {
     bool same = true;
     for (size_t i = 0; i < 2 * a->pairs; i++) same &= a->scale[i] == b->scale[i];
@@ -192,23 +192,23 @@ static bool agree(const struct lent *a, const struct lent *b)
 }
 
 /* The other method is told of every step, so it has the same scales and states from the second step on. */
-bool switcher_lend(const struct switcher *s, struct lent *lent)
+bool switcher_lend(const struct switcher *s, struct stepper_state_view *view)
 {
-    struct lent other;
-    if (s->now != 0 || s->made != 0 || !stepper_lend(s->steppers[0], lent)) return false;
-    lent->steps = INFINITY;
+    struct stepper_state_view other;
+    if (s->now != 0 || s->made != 0 || !stepper_lend(s->steppers[0], view)) return false;
+    view->steps = INFINITY;
     if (!s->steppers[1]) return true;
-    lent->steps = s->stiffness.wait - 1;
-    return lent->steps > 0 && weights_lend(stepper_control(s->steppers[1]), &other) && agree(lent, &other);
+    view->steps = s->stiffness.wait - 1;
+    return view->steps > 0 && error_norm_view(stepper_control(s->steppers[1]), &other) && agree(view, &other);
 }
 
-void switcher_settle(struct switcher *s, const struct lent *lent)
+void switcher_settle(struct switcher *s, const struct stepper_state_view *view)
 {
-    if (lent->accepted == 0) return;
-    stepper_settle(s->steppers[0], lent);
+    if (view->accepted == 0) return;
+    stepper_settle(s->steppers[0], view);
     if (!s->steppers[1]) return;
-    weights_settle(stepper_control(s->steppers[1]), lent);
-    s->stiffness.wait -= (int)lent->accepted;
+    error_norm_settle(stepper_control(s->steppers[1]), view);
+    s->stiffness.wait -= (int)view->accepted;
 }
 
 unsigned long switcher_rejected(const struct switcher *s, enum rejection why)
@@ -246,17 +246,17 @@ void switcher_set_linear(struct switcher *s, const double *A, double rho)
 void switcher_set_noise(struct switcher *s, size_t rate, double noise, double passing)
 {
     for (int k = 0; k < 2; k++)
-        if (s->steppers[k]) weights_set_noise(stepper_control(s->steppers[k]), rate, noise, passing);
+        if (s->steppers[k]) error_norm_set_roundoff(stepper_control(s->steppers[k]), rate, noise, passing);
 }
 
 bool switcher_noise_counts(const struct switcher *s, double h)
 {
-    return weights_noise_counts(stepper_control(s->steppers[s->made]), h);
+    return error_norm_roundoff_counts(stepper_control(s->steppers[s->made]), h);
 }
 
 void switcher_set_floor(struct switcher *s, size_t component, double floor)
 {
     if (!(floor > 0 && floor < INFINITY)) return;
     for (int k = 0; k < 2; k++)
-        if (s->steppers[k]) weights_set_floor(stepper_control(s->steppers[k]), component, floor);
+        if (s->steppers[k]) error_norm_set_floor(stepper_control(s->steppers[k]), component, floor);
 }

@@ -33,8 +33,8 @@ int switcher_shorten(struct switcher *switcher, struct time_dd t, double *y, dou
 int switcher_walk(struct switcher *switcher, struct time_dd t, double *y, double *f);
 
 /* stepper_lend for the explicit method, while it makes the steps, as many as there are before the other one is asked. */
-bool switcher_lend(const struct switcher *switcher, struct lent *lent);
-void switcher_settle(struct switcher *switcher, const struct lent *lent);
+bool switcher_lend(const struct switcher *switcher, struct stepper_state_view *view);
+void switcher_settle(struct switcher *switcher, const struct stepper_state_view *view);
 
 /* Counts of both methods together, or one of them. */
 struct stepper_counts switcher_counts(const struct switcher *switcher);
@@ -49,12 +49,12 @@ unsigned long switcher_stiff_steps(const struct switcher *switcher);
 /* linear_set_matrix where that is the method. */
 void switcher_set_linear(struct switcher *switcher, const double *A, double rho);
 
-/* See weights_set_floor, where a floor that is not positive and finite changes nothing, and
- * weights_set_noise; for both methods. */
+/* See error_norm_set_floor, where a floor that is not positive and finite changes nothing, and
+ * error_norm_set_roundoff; for both methods. */
 void switcher_set_floor(struct switcher *switcher, size_t component, double floor);
 void switcher_set_noise(struct switcher *switcher, size_t rate, double noise, double passing);
 
-/* weights_noise_counts for the method that makes the steps. */
+/* error_norm_roundoff_counts for the method that makes the steps. */
 bool switcher_noise_counts(const struct switcher *switcher, double h);
 
 #endif

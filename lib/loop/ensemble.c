@@ -76,7 +76,7 @@ static bool allocate_maps(struct ensemble *ensemble)
 static void map_branches(struct ensemble *ensemble)
 {
     const struct plan *plan = &ensemble->model->plan;
-    const struct division *division = &ensemble->division;
+    const struct islands *division = &ensemble->division;
     size_t watch = 0;
     for (size_t i = 0; i < plan->kink_count; i++) {
         const struct kink *kink = &plan->kinks[i];
@@ -120,7 +120,7 @@ static bool make_groups(struct ensemble *ensemble)
 {
     ensemble->count = 1;
     if (ensemble->options.structure) {
-        if (!division_make(&ensemble->division, ensemble->model)) return false;
+        if (!islands_make(&ensemble->division, ensemble->model)) return false;
         if (ensemble->division.count > 1) ensemble->count = ensemble->division.count;
     }
     ensemble->groups = block_alloc(ensemble->count * sizeof *ensemble->groups);
@@ -176,7 +176,7 @@ void ensemble_free(struct ensemble *ensemble)
         model_free(ensemble->groups[p].owned);
     }
     state_free(ensemble->state);
-    division_free(&ensemble->division);
+    islands_free(&ensemble->division);
     free(ensemble->groups);
     free(ensemble->maps);
     free(ensemble->arrows);

@@ -26,7 +26,7 @@
 #ifndef FBD_LOOP_ENSEMBLE_H
 #define FBD_LOOP_ENSEMBLE_H
 
-#include "loop/division.h"
+#include "loop/islands.h"
 #include "loop/run.h"
 
 struct group {
@@ -54,7 +54,7 @@ struct observer {
 struct ensemble {
     const struct fbd_model *model;
     struct run_options options;
-    struct division division;
+    struct islands division;
     size_t count;
     struct group *groups;
     int *maps;     /* memory of the groups' maps */

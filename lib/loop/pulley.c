@@ -85,7 +85,7 @@ void run_check_pulleys(struct run *run)
     }
 }
 
-bool run_take_in_ropes(struct run *run)
+bool close_taut_ropes(struct run *run)
 {
     bool any = false;
     const struct tree *tree = run->model->tree;

@@ -29,8 +29,8 @@ static double instant_at(double t)
 static bool end_at(struct run *run, double t)
 {
     if (switcher_partial(run->stepper, time_dd_at(t), run->work.y, run->work.f) != GSL_SUCCESS) return false;
-    run_lead(run, t, run->work.y);
-    run_close_within(run, t, run->work.y);
+    impose_drives(run, t, run->work.y);
+    project_within(run, t, run->work.y);
     return true;
 }
 
@@ -164,7 +164,7 @@ static int shorten_step(struct run *run, double t)
     memcpy(run->work.y, y, bytes);
     memcpy(run->work.f, f, bytes);
     run->step.restart = true;
-    course_start(&run->course);
+    trajectory_start(&run->trajectory);
     return 1;
 }
 
@@ -236,7 +236,7 @@ static int find_told(struct run *run, struct time_dd *t)
         double when = run->search.moving.t, move = 0;
         if (when < end && !polish(run, end, &when, &move)) return -1;
         bool passed = when >= end || goes_down(run, when, end) || is_down_at_end(run, when, end);
-        if (passed && !run_tell(run, when)) {
+        if (passed && !log_user_events(run, when)) {
             if (when < end) *t = run_pin_moving(run, when, move, *t);
             return 1;
         }
@@ -256,7 +256,7 @@ int run_find_event(struct run *run, struct time_dd *t)
 {
     if (stay_before_poles(run, t) < 0) return -1;
     size_t size = plan_size(&run->model->plan), bytes = size * sizeof *run->work.y;
-    course_start(&run->course);
+    trajectory_start(&run->trajectory);
     run_wake_contacts(run, t->t);
     int change = find_change(run, t);
     if (change < 0 || run->model->plan.watch_count == 0) return change;
@@ -306,7 +306,7 @@ bool run_pass_brink(struct run *run)
     return true;
 }
 
-void run_stand_beyond(struct run *run)
+void step_past_switch(struct run *run)
 {
     double probe = 0;
     for (size_t i = 0; i < plan_rates(&run->model->plan); i++) probe += 0 * run->state->a[i];

@@ -22,7 +22,7 @@ bool run_coordinates(struct run *run, struct time_dd t, double *y)
         return true;
     }
     if (switcher_dense(run->stepper, t, y) != GSL_SUCCESS) return false;
-    run_close_within(run, t.t, y);
+    project_within(run, t.t, y);
     return true;
 }
 

@@ -6,9 +6,9 @@
 
 #include "base/block_alloc.h"
 #include "dynamics/contact.h"
-#include "dynamics/finite.h"
 #include "dynamics/friction.h"
 #include "dynamics/modes.h"
+#include "dynamics/nonfinite.h"
 #include "dynamics/project.h"
 #include "events/watchers.h"
 #include "expr/unit.h"
@@ -18,15 +18,15 @@
 
 bool start_finite(const struct fbd_state *state, struct lack *lack)
 {
-    struct not_finite found;
-    enum finite finite = finite_check(state, &found);
+    struct nonfinite found;
+    enum finite finite = nonfinite_check(state, &found);
     if (finite == finite_all) return true;
     if (finite == finite_no_memory) return false;
     lack->id = "not-finite";
     lack->at = found.at;
     text_printf(&lack->text, "%s is not finite at t = ", found.what);
     text_number(&lack->text, state->t, 9);
-    text_printf(&lack->text, ": %s", not_finite_reason(found.value));
+    text_printf(&lack->text, ": %s", nonfinite_reason(found.value));
     return false;
 }
 
