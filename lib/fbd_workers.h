@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * fbd_crew: sweeps with the help of other processes, of which fbd.h needs to know nothing. Its rules hold here.
+ * fbd_workers: sweeps with the help of other processes, of which fbd.h needs to know nothing. Its rules hold here.
  *
  * A leader has the sweep and writes the table; helpers have the same sweep (fbd_sweep_source, fbd_sweep_key) and make
  * shares of its rows by fbd_sweep_run. How shares and rows travel between them is the caller's: fbd-sweep takes MPI.

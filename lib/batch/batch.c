@@ -84,7 +84,7 @@ static bool is_quiet(const struct run *run)
     return run->end.outcome == FBD_GOING && run->plain && !run->step.restart && run->step.crawl == 0 &&
            run->options.step == 0 && !run->options.apart && !structure_is_exact(run->kind) &&
            run->poles.count == 0 && !run->search.wakes && !run->contacts.due && !run->projected &&
-           run->passages.end == HUGE_VAL && run->state->rest == 0;
+           run->zeno_switches.end == HUGE_VAL && run->state->rest == 0;
 }
 
 /* What moves there; `motions` where that is none of them. */
@@ -168,11 +168,11 @@ static void fill_lane(struct lanes *lanes, unsigned lane, const struct run *run,
     spread(lanes->most, lane, run->recent.anchor + 2 * n, 2 * n);
     lanes->until[lane] = run->options.until;
     lanes->tolerance[lane] = view->tolerance;
-    lanes->pause[lane] = (double)run->grain.pause;
+    lanes->pause[lane] = (double)run->roundoff.pause;
     lanes->t[lane] = run->state->t;
     lanes->h[lane] = lanes->tried[lane] = run->step.h;
     lanes->rate[lane] = lanes->tried_rate[lane] = view->rate;
-    lanes->since[lane] = (double)run->grain.since;
+    lanes->since[lane] = (double)run->roundoff.since;
     lanes->steps_left[lane] = fmin(fmin(view->steps, most_steps), (double)roundoff_steps(run));
     lanes->growth[lane] = view->growth;
     lanes->accepted[lane] = lanes->rejected[lane] = lanes->attempts[lane] = 0;
@@ -222,7 +222,7 @@ static void settle_run(struct run *run, struct lanes *lanes, unsigned lane,
     run->step.from_rest = 0;
     run->step.h = lanes->h[lane];
     gather(run->recent.anchor + 2 * n, lanes->most, lane, 2 * n);
-    run->grain.since = (unsigned long)lanes->since[lane];
+    run->roundoff.since = (unsigned long)lanes->since[lane];
     run->stale = true;
 }
 

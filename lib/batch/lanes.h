@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Lanes: pendulums that step abreast, each with a time, a step size and a judgement of its own, by the vectors of the
+ * Lanes: pendulums that advance together, each with a time, a step size and a judgement of its own, by the vectors of the
  * processor.
  *
  * What a run does in a step in which nothing happens is done here by the same operations in the same order: one attempt of

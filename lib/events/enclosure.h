@@ -42,7 +42,7 @@ struct enclosure enclose_branch(const struct enclosure_input *input, const struc
                                 const struct slide *slide, int side);
 
 /* Do the shares of all that is slid on have enclosures: affine surfaces of bodies that move by themselves, under
- * forces that are known? And these, in outlook->shares. */
+ * forces that are known? And these, in input->shares. */
 bool enclosure_has_weights(const struct fbd_state *state);
 void enclosure_find_weights(struct enclosure_input *input);
 

@@ -56,7 +56,7 @@ static void leave_surface(struct run *run, const struct watcher *watcher)
         run->state->branch[slide.branch] = side * slide.sign;
         run->decided.branches[slide.branch] = true;
         s->left[slide.branch] = true;
-        run->passages.list[slide.branch].left = (struct leave){run->state->t, slide.slack};
+        run->zeno_switches.list[slide.branch].left = (struct leave){run->state->t, slide.slack};
         s->slide_at[slide.branch] = 0;
     }
     sliding_drop(s);

@@ -25,7 +25,7 @@ static size_t most_strikers(const struct tree *tree)
     size_t count = 0;
     for (int i = 0; i < tree->tie_count; i++)
         count += tree->ties[i].kind == constraint_contact || tree->ties[i].kind == constraint_rope ||
-                 tie_takes_blows(&tree->ties[i]);
+                 tie_takes_impulses(&tree->ties[i]);
     return count;
 }
 
@@ -306,7 +306,7 @@ static void leave_switches(struct run *run)
     if (s) sliding_drop(s);
 }
 
-/* What stuck and has got a speed slips. In a crowd of blows that nobody sees, `interval` apart, it sticks where it would not
+/* What stuck and has got a speed slips. In a series of impacts too small to see, `interval` apart, it sticks where it would not
  * come far until the next: it is its friction, at its limit for as long as that, that might make the next one. */
 static void unstick(struct run *run, double interval)
 {

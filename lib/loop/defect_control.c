@@ -44,7 +44,7 @@ static bool obeys(const struct run *run, double h, const double *slope, const do
     for (size_t i = from; i < to; i++) {
         double size = fmax(fmax(most[i], fabs(run->work.y[i])), least), off = fabs(f[i] - slope[i]);
         /* What a coupling holds has accelerations that are rounding. */
-        if (i < 2 * n && off <= roundings * run->grain.accelerations[i - n]) continue;
+        if (i < 2 * n && off <= roundings * run->roundoff.accelerations[i - n]) continue;
         if (h * off > far_off * size + far_off * h * fabs(run->work.f[i])) return false;
     }
     return true;

@@ -18,8 +18,8 @@
  * larger: drives start without an acceleration. A change within the round-off level of the acceleration is none. */
 static double starting(const struct run *run, size_t i, double tau)
 {
-    double a = run->state->a[i], later = tau * run->grain.along[i];
-    bool changes = isfinite(later) && fabs(later) > fmax(fabs(a), run->grain.accelerations[i]);
+    double a = run->state->a[i], later = tau * run->roundoff.along[i];
+    bool changes = isfinite(later) && fabs(later) > fmax(fabs(a), run->roundoff.accelerations[i]);
     return changes ? later : a;
 }
 
@@ -153,7 +153,7 @@ static struct motion_size largest_motion(const struct run *run, const double *ti
             double v = fabs(run->state->y[n + body->first + k]);
             if (!isfinite(one.arm)) continue;
             if (moves) one.place = v * tau, one.rate = v;
-            if (!moves && !(one.rate > tau * run->grain.accelerations[body->first + k]))
+            if (!moves && !(one.rate > tau * run->roundoff.accelerations[body->first + k]))
                 continue; /* it rests */
             all.place = fmax(all.place, one.place * one.arm);
             all.rate = fmax(all.rate, one.rate * one.arm);
@@ -191,8 +191,8 @@ static void set_floors(struct run *run, double tau, const double *times)
             bool sized = own.arm > 0 && isfinite(own.arm); /* what is driven need have no mass */
             double place = sized ? negligible * all.place / own.arm : 0;
             double speed = sized ? negligible * all.rate / own.arm : 0;
-            run->grain.nothing[position] = fmax(run->grain.nothing[position], place);
-            run->grain.nothing[rate] = fmax(run->grain.nothing[rate], speed);
+            run->roundoff.nothing[position] = fmax(run->roundoff.nothing[position], place);
+            run->roundoff.nothing[rate] = fmax(run->roundoff.nothing[rate], speed);
             if (run->state->y[position] == 0) place = fmax(place, own.place);
             if (run->state->y[rate] == 0) speed = fmax(speed, own.rate);
             if (tree && tree->row_count > 0 && tree->meeting_count == 0 && place == 0 && speed == 0 &&
@@ -223,7 +223,7 @@ static void set_own_floor(struct run *run, int i, const double *times)
 {
     const struct plan *plan = &run->model->plan;
     size_t state = 2 * (size_t)plan->n + (size_t)i, rate = (size_t)plan->n + (size_t)i;
-    double tau = times[rate], change = fabs(run->grain.along[rate]);
+    double tau = times[rate], change = fabs(run->roundoff.along[rate]);
     if (run->state->y[state] != 0) return;
     switcher_set_floor(run->stepper, state,
                        tau * fabs(run->state->a[rate]) + (isfinite(change) ? tau * tau * change : 0));
@@ -240,7 +240,7 @@ void error_scale_init(struct run *run)
     for (size_t i = 0; i < plan_rates(plan); i++) times[i] = tau;
     end_with_forces(run, tau, times); /* `along` is that by the time alone */
     struct instant at = state_instant(run->state);
-    roundoff_changes(run, &at, false, run->grain.along);
+    roundoff_changes(run, &at, false, run->roundoff.along);
     end_with_springs(run, &at, times);
     end_with_bends(run, times);
     if (coordinates) set_floors(run, tau, times);

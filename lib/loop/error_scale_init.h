@@ -16,7 +16,7 @@ static inline bool coordinate_turns(const struct model_body *body, int k)
  * `along` has plan_rates entries: the rates of states change likewise. */
 void roundoff_changes(struct run *run, const struct instant *at, bool by_time, double *along);
 
-/* Floors for the errors of what is zero at a start; run->grain.along is that by the time alone. */
+/* Floors for the errors of what is zero at a start; run->roundoff.along is that by the time alone. */
 void error_scale_init(struct run *run);
 
 #endif

@@ -45,10 +45,11 @@ static void note_one_sided(struct run *run, const struct change *change)
     bool snapped = run->snap.pair == change->pair;
     if (snapped) run->snap.pair = -1;
     if (!snapped && (change->before == stick || change->after != stick)) return;
-    if (!snapped && run->end.outcome == FBD_BROKEN) return; /* a blow that is not followed has not happened */
+    if (!snapped && run->end.outcome == FBD_BROKEN)
+        return; /* an impact that the run does not pass is not listed */
     if (snapped && !isfinite(run->snap.work)) {
         run_fail(run, FBD_FAILED,
-                 "at t = %.9g the blow at which `%s` gets taut takes more work than numbers can tell",
+                 "at t = %.9g the impact at which `%s` becomes taut takes more work than numbers can tell",
                  run_time(run), run->model->tree->ties[mode->tie].name);
         return;
     }
@@ -89,8 +90,8 @@ static void note_rubbing(struct run *run, const struct change *change)
     }
     if (before != stick && after == stick) {
         if (mode->tie >= 0) tie_rezero(run->model, run->state->tree, mode->tie);
-        if (run->passages.now)
-            run->passages.sticks[pair] = true; /* at the end of the series */
+        if (run->zeno_switches.now)
+            run->zeno_switches.sticks[pair] = true; /* at the end of the series */
         else
             log_friction(run, FBD_EVENT_STICK, pair);
     }
@@ -165,8 +166,8 @@ static void note_slides(struct run *run, size_t first)
                  after = run->state->sliding->slide_at[branch] > 0;
             if (before == after) continue;
             if (after) zeno_switch_blunt(run, (int)branch);
-            bool *waits = &run->passages.list[branch].slides; /* for the end of the series */
-            if ((run->passages.now && after) || *waits) {
+            bool *waits = &run->zeno_switches.list[branch].slides; /* for the end of the series */
+            if ((run->zeno_switches.now && after) || *waits) {
                 *waits = after;
                 continue;
             }

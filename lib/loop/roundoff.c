@@ -36,7 +36,7 @@ static double turned_by_places(const struct row *row, const struct tree_state *l
 static void measure_turns(struct run *run, const struct instant *at)
 {
     const struct tree *tree = run->model->tree;
-    double *own = run->grain.turned, *sides = own + tree->count;
+    double *own = run->roundoff.turned, *sides = own + tree->count;
     /* Where couplings bring states back, directions have the rounding of a radian, turned or not: places are
      * known to that share of the arms that lead to them. */
     own[0] = tree->row_count > 0 ? 1 : 0;
@@ -74,7 +74,7 @@ static void measure_turns(struct run *run, const struct instant *at)
 
 static void add_cancelled(struct run *run, int body, double force, double arm)
 {
-    double *cancelled = run->grain.cancelled + 2 * (size_t)body;
+    double *cancelled = run->roundoff.cancelled + 2 * (size_t)body;
     cancelled[0] += force;
     cancelled[1] += force * arm;
 }
@@ -102,7 +102,7 @@ static void cancel_in_tree(struct run *run, const struct instant *at)
 static void measure_cancelled(struct run *run, const struct instant *at)
 {
     const struct plan *plan = &run->model->plan;
-    memset(run->grain.cancelled, 0, 2 * run->model->body_count * sizeof *run->grain.cancelled);
+    memset(run->roundoff.cancelled, 0, 2 * run->model->body_count * sizeof *run->roundoff.cancelled);
     for (size_t i = 0; i < plan->link_count; i++) {
         const struct link_term *link = &plan->links[i];
         double far = vec_norm(link->anchor) + fabs(link->free_length);
@@ -134,7 +134,7 @@ static void add_gross_forces(struct run *run, int b, const struct instant *at, d
     size_t count = (link > 0 ? diagram_list : diagram_fill)(run->model, b, at, run->state->a,
                                                             run->state->slots, run->work.arrows);
     const struct tree *tree = run->model->tree;
-    double angle = tree && link > 0 ? run->grain.turned[tree->count + link] : 0;
+    double angle = tree && link > 0 ? run->roundoff.turned[tree->count + link] : 0;
     for (size_t i = 0; i < count; i++) {
         if (link > 0)
             add_jointed(body, &at->tree->links[link], angle, &run->work.arrows[i], gross);
@@ -143,7 +143,7 @@ static void add_gross_forces(struct run *run, int b, const struct instant *at, d
     }
     const double share = 1.0 / 64;
     for (int k = 0; k < body->count; k++)
-        gross[k] += share * run->grain.cancelled[2 * b + coordinate_turns(body, k)];
+        gross[k] += share * run->roundoff.cancelled[2 * b + coordinate_turns(body, k)];
 }
 
 /* ---- formulas of applied forces (load_rounding.h) */
@@ -201,7 +201,7 @@ static void measure_formulas(struct run *run, const struct instant *at)
     enum { most_lots = 8 };
     const struct fbd_model *model = run->model;
     const size_t n = (size_t)model->plan.n;
-    double *noise = run->grain.formulas, *Q = run->work.aside + plan_size(&model->plan);
+    double *noise = run->roundoff.formulas, *Q = run->work.aside + plan_size(&model->plan);
     memset(noise, 0, n * sizeof *noise);
     for (size_t lot = 0; lot < most_lots; lot++) {
         bool any = false;
@@ -262,8 +262,8 @@ static double roundings_of(const struct fbd_model *model, bool in_tree)
 static void take_noise(struct run *run, size_t rate, double noise, double passing)
 {
     double all = isfinite(noise + passing) ? noise + passing : 0;
-    run->grain.accelerations[rate] = all;
-    run->grain.largest[rate] = fmax(run->grain.largest[rate], fabs(run->state->a[rate]));
+    run->roundoff.accelerations[rate] = all;
+    run->roundoff.largest[rate] = fmax(run->roundoff.largest[rate], fabs(run->state->a[rate]));
     switcher_set_noise(run->stepper, rate, all, all > 0 ? passing : 0);
 }
 
@@ -273,7 +273,7 @@ static void set_noise(struct run *run)
     struct instant here = state_instant(run->state);
     const struct instant *at = &here;
     measure_formulas(run, at);
-    roundoff_changes(run, at, true, run->grain.along);
+    roundoff_changes(run, at, true, run->roundoff.along);
     if (run->model->tree) measure_turns(run, at);
     measure_cancelled(run, at);
     const double roundings[] = {roundings_of(run->model, false), roundings_of(run->model, true)};
@@ -283,15 +283,15 @@ static void set_noise(struct run *run)
         add_gross_forces(run, (int)b, at, gross);
         for (int k = 0; k < body->count; k++) {
             int i = body->first + k;
-            double of_time = DBL_EPSILON * fabs(at->t * run->grain.along[i]),
+            double of_time = DBL_EPSILON * fabs(at->t * run->roundoff.along[i]),
                    of_sum =
                        DBL_EPSILON * roundings[body->place.link > 0] * gross[k] * plan->inverse_inertia[i];
-            take_noise(run, (size_t)i, of_sum, of_time + run->grain.formulas[i]);
+            take_noise(run, (size_t)i, of_sum, of_time + run->roundoff.formulas[i]);
         }
     }
     for (int i = 0; i < plan->own; i++) {
         size_t rate = (size_t)plan->n + (size_t)i;
-        double of_time = DBL_EPSILON * fabs(at->t * run->grain.along[rate]);
+        double of_time = DBL_EPSILON * fabs(at->t * run->roundoff.along[rate]);
         take_noise(run, rate, 0, of_time + formula_rounding(&plan->rates[i], at));
     }
 }
@@ -299,8 +299,8 @@ static void set_noise(struct run *run)
 void roundoff_estimate(struct run *run)
 {
     set_noise(run);
-    run->grain.since = 0;
-    run->grain.pause = 1;
+    run->roundoff.since = 0;
+    run->roundoff.pause = 1;
     error_scale_init(run);
 }
 
@@ -309,7 +309,7 @@ static bool is_steady(const struct run *run, const double *before)
 {
     const double most = 2;
     for (size_t i = 0; i < plan_rates(&run->model->plan); i++) {
-        double now = run->grain.accelerations[i];
+        double now = run->roundoff.accelerations[i];
         if (now > most * before[i] || before[i] > most * now) return false;
     }
     return true;
@@ -320,9 +320,9 @@ static bool has_grown(const struct run *run)
 {
     const double most = 4;
     const double *a = run->work.f + run->model->plan.n;
-    if (!run->grain.heeds_time) return false;
+    if (!run->roundoff.heeds_time) return false;
     for (size_t i = 0; i < plan_rates(&run->model->plan); i++)
-        if (fabs(a[i]) > most * run->grain.largest[i]) return true;
+        if (fabs(a[i]) > most * run->roundoff.largest[i]) return true;
     return false;
 }
 
@@ -331,7 +331,7 @@ static const unsigned long steps_between = 64;
 
 unsigned long roundoff_steps(const struct run *run)
 {
-    const unsigned long next = run->grain.since + 1;
+    const unsigned long next = run->roundoff.since + 1;
     if (!run->model->tree) return ULONG_MAX;
     return next < steps_between ? steps_between - next : 0;
 }
@@ -342,18 +342,19 @@ void roundoff_renew(struct run *run)
 {
     const unsigned long most_between = 8;
     if (run->options.step > 0) return; /* nothing chooses by it */
-    run->grain.since++;
-    bool due = (run->model->tree && run->grain.since >= steps_between) || has_grown(run);
-    bool counts = run->grain.since >= run->grain.pause && switcher_noise_counts(run->stepper, run->step.h);
+    run->roundoff.since++;
+    bool due = (run->model->tree && run->roundoff.since >= steps_between) || has_grown(run);
+    bool counts =
+        run->roundoff.since >= run->roundoff.pause && switcher_noise_counts(run->stepper, run->step.h);
     if (!due && !counts) return;
     double *before = run->work.aside;
-    memcpy(before, run->grain.accelerations, plan_rates(&run->model->plan) * sizeof *before);
+    memcpy(before, run->roundoff.accelerations, plan_rates(&run->model->plan) * sizeof *before);
     run_evaluate(run);
     set_noise(run);
-    run->grain.since = 0;
-    run->grain.pause = !is_steady(run, before)               ? 1
-                       : 2 * run->grain.pause < most_between ? 2 * run->grain.pause
-                                                             : most_between;
+    run->roundoff.since = 0;
+    run->roundoff.pause = !is_steady(run, before)                  ? 1
+                          : 2 * run->roundoff.pause < most_between ? 2 * run->roundoff.pause
+                                                                   : most_between;
 }
 
 /* ---- where it stands */
@@ -389,13 +390,13 @@ static bool heeds_time(const struct fbd_model *model)
 void roundoff_init(struct run *run, double *memory)
 {
     const size_t rates = plan_rates(&run->model->plan);
-    struct grain *grain = &run->grain;
-    grain->along = memory;
-    grain->accelerations = grain->along + rates;
-    grain->largest = grain->accelerations + rates;
-    grain->formulas = grain->largest + rates;
-    grain->turned = grain->formulas + rates;
-    grain->cancelled = grain->turned + 2 * links_of(run->model);
-    grain->nothing = grain->cancelled + 2 * run->model->body_count;
-    grain->heeds_time = heeds_time(run->model);
+    struct roundoff *roundoff = &run->roundoff;
+    roundoff->along = memory;
+    roundoff->accelerations = roundoff->along + rates;
+    roundoff->largest = roundoff->accelerations + rates;
+    roundoff->formulas = roundoff->largest + rates;
+    roundoff->turned = roundoff->formulas + rates;
+    roundoff->cancelled = roundoff->turned + 2 * links_of(run->model);
+    roundoff->nothing = roundoff->cancelled + 2 * run->model->body_count;
+    roundoff->heeds_time = heeds_time(run->model);
 }

@@ -264,7 +264,7 @@ static bool restart(struct run *run)
 static struct time_dd next_time(struct run *run, bool *found)
 {
     const double stretch = 1.02; /* the stepper may lengthen a step by 1 % to end at its limit */
-    double rest = fmin(zeno_next_rest(run), run->passages.end), until = fmin(run->options.until, rest);
+    double rest = fmin(zeno_next_rest(run), run->zeno_switches.end), until = fmin(run->options.until, rest);
     double reach = fmin(until, run->state->t + stretch * run->step.h);
     int status = scan_interval(&run->search.timed, run->state->t, reach);
     *found = status == 1;

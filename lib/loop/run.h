@@ -111,7 +111,7 @@ struct event_search {
 };
 
 /* What is known of the rounding of accelerations: see roundoff.c. */
-struct grain {
+struct roundoff {
     double *accelerations; /* plan_rates: what they, and rates of states, are known to */
     double *largest;       /* plan_rates: the largest for which that has been found */
     bool heeds_time;       /* a force, or the rate of a state, names the time */
@@ -171,7 +171,7 @@ struct run {
     struct rates *rates; /* in the modes of `during` */
     struct switcher *stepper;
     struct linear_pace pace; /* of a linear system */
-    struct grain grain;
+    struct roundoff roundoff;
     struct drift drift; /* from the constraints */
     bool projected;
 
@@ -180,7 +180,7 @@ struct run {
     struct trajectory trajectory; /* of what moving functions with enclosures read */
     struct poles poles;
     struct coupled_scales mechanisms;
-    struct passages passages;
+    struct zeno_switches zeno_switches;
 
     struct decided decided;
     struct contacts_work contacts;
@@ -357,7 +357,7 @@ void roundoff_estimate(struct run *run);
  * joints change with the motion. */
 void roundoff_renew(struct run *run);
 
-/* What run->grain asks for, and how it is put there: numbers. */
+/* What run->roundoff asks for, and how it is put there: numbers. */
 size_t roundoff_size(const struct fbd_model *model);
 void roundoff_init(struct run *run, double *memory);
 

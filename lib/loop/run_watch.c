@@ -163,7 +163,7 @@ static void set_noise(struct run *run)
     size_t n = (size_t)run->model->plan.n, own = plan_size(&run->model->plan);
     for (size_t k = 0; k < run->trajectory.count; k++) {
         size_t i = (size_t)run->trajectory.component[k];
-        if (i < own) run->trajectory.noise[k] = fmax(error, DBL_EPSILON) * run->grain.nothing[i];
+        if (i < own) run->trajectory.noise[k] = fmax(error, DBL_EPSILON) * run->roundoff.nothing[i];
     }
     if (!run->model->tree || run->model->tree->tie_count == 0) return;
     double speed, reach = measure(run, &speed);

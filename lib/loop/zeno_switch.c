@@ -12,25 +12,25 @@ enum { remembered = 5 };
 bool zeno_switch_init(struct run *run)
 {
     const struct plan *plan = &run->model->plan;
-    struct passages *passages = &run->passages;
-    passages->end = HUGE_VAL;
+    struct zeno_switches *zeno_switches = &run->zeno_switches;
+    zeno_switches->end = HUGE_VAL;
     if (plan->slide_count == 0) return true;
-    passages->list = ARENA_ARRAY(&run->memory, (size_t)plan->branches, struct passage);
-    for (int i = 0; passages->list && i < plan->branches; i++) passages->list[i].left.t = -HUGE_VAL;
-    passages->sticks = ARENA_ARRAY(&run->memory, plan->mode_count, bool);
+    zeno_switches->list = ARENA_ARRAY(&run->memory, (size_t)plan->branches, struct passage);
+    for (int i = 0; zeno_switches->list && i < plan->branches; i++) zeno_switches->list[i].left.t = -HUGE_VAL;
+    zeno_switches->sticks = ARENA_ARRAY(&run->memory, plan->mode_count, bool);
     return !run->memory.failed;
 }
 
 static bool may_end(const struct run *run, const struct kink *kink, int part)
 {
-    return run->passages.list && kink->slides && kink_watches_places(kink, part);
+    return run->zeno_switches.list && kink->slides && kink_watches_places(kink, part);
 }
 
 void zeno_switch_remember(struct run *run, const struct watcher *watcher)
 {
     const struct kink *kink = &run->model->plan.kinks[watcher->index];
     if (!may_end(run, kink, watcher->part)) return;
-    struct passage *passage = &run->passages.list[kink->formula.branch + watcher->part];
+    struct passage *passage = &run->zeno_switches.list[kink->formula.branch + watcher->part];
     memmove(passage->t + 1, passage->t, (remembered - 1) * sizeof *passage->t);
     passage->t[0] = run->state->t;
     passage->count++;
@@ -58,7 +58,7 @@ static double size_of(struct run *run, const struct kink *kink, int part)
 static double time_left(struct run *run, const struct kink *kink, int part)
 {
     const double unseen = 1e-9;
-    const double *t = run->passages.list[kink->formula.branch + part].t;
+    const double *t = run->zeno_switches.list[kink->formula.branch + part].t;
     const struct instant at = state_instant(run->state);
     double last = t[0] - t[2], before = t[2] - t[4], ratio = last / before;
     if (!(ratio > 0 && ratio < 1)) return HUGE_VAL;
@@ -71,10 +71,10 @@ void zeno_switch_end(struct run *run)
 {
     const struct plan *plan = &run->model->plan;
     double end = -HUGE_VAL;
-    for (size_t k = 0; run->passages.list && k < plan->kink_count; k++) {
+    for (size_t k = 0; run->zeno_switches.list && k < plan->kink_count; k++) {
         const struct kink *kink = &plan->kinks[k];
         for (int part = 0; part < (int)kink->count; part++) {
-            struct passage *passage = &run->passages.list[kink->formula.branch + part];
+            struct passage *passage = &run->zeno_switches.list[kink->formula.branch + part];
             if (!may_end(run, kink, part) || passage->count < remembered || passage->t[0] != run->state->t)
                 continue;
             double left = time_left(run, kink, part);
@@ -84,17 +84,17 @@ void zeno_switch_end(struct run *run)
             end = fmax(end, run->state->t + left);
         }
     }
-    struct passages *passages = &run->passages;
-    passages->now = end > -HUGE_VAL;
-    if (!passages->now) return;
-    passages->end = passages->end < HUGE_VAL ? fmax(passages->end, end) : end;
+    struct zeno_switches *zeno_switches = &run->zeno_switches;
+    zeno_switches->now = end > -HUGE_VAL;
+    if (!zeno_switches->now) return;
+    zeno_switches->end = zeno_switches->end < HUGE_VAL ? fmax(zeno_switches->end, end) : end;
 }
 
 void zeno_switch_blunt(struct run *run, int branch)
 {
     const double first = 1e-9, more = 100, most = 1e-5;
     struct sliding *s = run->state->sliding;
-    const struct leave *left = &run->passages.list[branch].left;
+    const struct leave *left = &run->zeno_switches.list[branch].left;
     if (!(run->state->t - left->t <= run_instant(run))) return;
     double slack = fmin(fmax(more * left->slack, first), most);
     int unit = s->slides[s->slide_at[branch] - 1].unit;
@@ -104,7 +104,7 @@ void zeno_switch_blunt(struct run *run, int branch)
 
 void zeno_switch_log_stick(struct run *run, int pair)
 {
-    bool *waits = run->passages.sticks ? &run->passages.sticks[pair] : NULL;
+    bool *waits = run->zeno_switches.sticks ? &run->zeno_switches.sticks[pair] : NULL;
     if (!waits || !*waits) return;
     *waits = false;
     log_friction(run, FBD_EVENT_STICK, pair);
@@ -113,15 +113,15 @@ void zeno_switch_log_stick(struct run *run, int pair)
 void zeno_switch_log(struct run *run)
 {
     const struct plan *plan = &run->model->plan;
-    struct passages *passages = &run->passages;
-    if (passages->end > run->state->t) return;
-    passages->end = HUGE_VAL;
+    struct zeno_switches *zeno_switches = &run->zeno_switches;
+    if (zeno_switches->end > run->state->t) return;
+    zeno_switches->end = HUGE_VAL;
     for (int pair = 0; pair < (int)plan->mode_count; pair++) zeno_switch_log_stick(run, pair);
     for (size_t k = 0; k < plan->kink_count; k++) {
         const struct kink *kink = &plan->kinks[k];
         bool slides = false;
         for (size_t part = 0; part < kink->count; part++) {
-            struct passage *passage = &passages->list[(size_t)kink->formula.branch + part];
+            struct passage *passage = &zeno_switches->list[(size_t)kink->formula.branch + part];
             slides |= passage->slides;
             passage->slides = false;
         }

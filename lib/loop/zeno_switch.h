@@ -28,7 +28,7 @@ struct passage {
     struct leave left;
 };
 
-struct passages {
+struct zeno_switches {
     struct passage *list; /* of each branch; NULL where no switch can be slid on */
     bool *sticks;         /* of each friction pair: from that end, too */
     double end;           /* of a series that is summed up; HUGE_VAL without one */

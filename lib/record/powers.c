@@ -184,14 +184,15 @@ static struct look look_at(const struct ledger *ledger, const struct group *grou
 }
 
 /* What rounding within formulas does to the powers of a group, at an instant. */
-static bool take_grain(struct ensemble *ensemble, const struct panel *panel, struct time_dd t, double *grain)
+static bool take_roundoff(struct ensemble *ensemble, const struct panel *panel, struct time_dd t,
+                          double *roundoff)
 {
     struct fbd_state *state = ensemble_look_group(ensemble, panel->group, t, true);
     if (!state) return false;
     struct instant at = state_instant(state);
     double sum = 0;
     for (size_t i = 0; i < state->model->load_count; i++) sum += load_power_rounding(state->model, i, &at);
-    *grain = fmax(*grain, sum);
+    *roundoff = fmax(*roundoff, sum);
     return true;
 }
 
@@ -199,16 +200,16 @@ static bool take_grain(struct ensemble *ensemble, const struct panel *panel, str
 static bool set_floor(struct ledger *ledger, struct ensemble *ensemble, struct panel *panel)
 {
     const double rounding = 1e-14;
-    double grain = 0;
+    double roundoff = 0;
     for (int k = 0; k < gauss_points; k++) {
         struct time_dd t = time_dd_after(panel->from, panel->length / 2 * (1 + point[k]));
-        if (!take_grain(ensemble, panel, t, &grain)) return false;
+        if (!take_roundoff(ensemble, panel, t, &roundoff)) return false;
     }
     struct fbd_state *state = ensemble_look_group(ensemble, panel->group, panel->from, true);
     if (!state) return false;
     struct rounded rounded = rounded_at(state, ledger->arrows); /* of what rests, too */
     panel->floor = rounding * rounded.places + DBL_EPSILON * rounded.ways * panel->length * panel->length +
-                   panel->length * grain;
+                   panel->length * roundoff;
     return true;
 }
 

@@ -57,7 +57,7 @@ struct sweep_simd *sweep_simd_new(const struct fbd_sweep *sweep, unsigned lanes,
     return NULL;
 }
 
-unsigned abreast_lanes(const struct sweep_simd *simd)
+unsigned sweep_simd_lanes(const struct sweep_simd *simd)
 {
     return batch_lanes(simd->batch);
 }

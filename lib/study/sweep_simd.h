@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Rows abreast: the runs of some rows at a time, in the lanes of a batch (batch.h). A row whose run is at its end is kept until
+ * Rows in SIMD lanes: the runs of some rows at a time, in the lanes of a batch (batch.h). A row whose run is at its end is kept until
  * those before it are there, and the lane gets the next one. The rows are those of row_make, to the last byte.
  */
 #ifndef FBD_STUDY_SWEEP_SIMD_H
@@ -17,7 +17,7 @@ struct sweep_simd;
  * out. */
 struct sweep_simd *sweep_simd_new(const struct fbd_sweep *sweep, unsigned lanes, fbd_stop *stop,
                                   void *stop_context);
-unsigned abreast_lanes(const struct sweep_simd *simd);
+unsigned sweep_simd_lanes(const struct sweep_simd *simd);
 void sweep_simd_free(struct sweep_simd *simd);
 
 /* Rows of one share. */

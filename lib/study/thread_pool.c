@@ -62,7 +62,7 @@ static void put_in_order(fbd_sweep_workers *crew, struct place *place)
 }
 
 /* How many runs the next share has: what takes some milliseconds for each thread of who takes it, and toward
- * the end a part of what is left; where runs go abreast, enough of them. */
+ * the end a part of what is left; where runs go into lanes, enough of them. */
 static uint64_t share_size(const fbd_sweep_workers *crew, size_t jobs)
 {
     double workers = (double)(crew->jobs + crew->helpers);
@@ -121,7 +121,7 @@ static void make_rows(struct row_maker *maker, struct place *place)
 }
 
 /* The same in the lanes of a batch. */
-static void make_rows_abreast(struct sweep_simd *simd, struct place *place)
+static void make_rows_simd(struct sweep_simd *simd, struct place *place)
 {
     const struct rows_made rows = sweep_simd_make(simd, place->first, place->end, &place->rows);
     place->made = rows.made;
@@ -149,7 +149,7 @@ static void *work(void *context)
         pthread_mutex_unlock(&crew->lock);
         double start = now();
         if (simd)
-            make_rows_abreast(simd, place);
+            make_rows_simd(simd, place);
         else
             make_rows(&maker, place);
         double seconds = (now() - start) / (double)(place->end - place->first);

@@ -74,7 +74,7 @@ static void measure(const char *name, const char *path, double until, const char
                           memcmp(way[i].rows.data, way[0].rows.data, way[0].rows.length) == 0;
         const double most = median(gain[i], rounds); /* which sorts them */
         printf(", %u abreast %.1f us: %.2f times as many (quartiles %.2f to %.2f)",
-               abreast_lanes(way[i].abreast), 1e6 * median(seconds[i], rounds), most, gain[i][rounds / 4],
+               sweep_simd_lanes(way[i].abreast), 1e6 * median(seconds[i], rounds), most, gain[i][rounds / 4],
                gain[i][3 * rounds / 4]);
         if (!same) fputs("\nthe rows abreast differ from the others\n", stderr), exit(1);
     }
@@ -82,7 +82,7 @@ static void measure(const char *name, const char *path, double until, const char
     char what[160];
     snprintf(what, sizeof what, "sweep: runs of %s (%g s) in four lanes over the same one by one", name,
              until);
-    const bool four = abreast_lanes(way[1].abreast) == 4;
+    const bool four = sweep_simd_lanes(way[1].abreast) == 4;
     if (bound > 0) claim_at_least(what, four ? median(gain[1], rounds) : (double)NAN, bound);
     for (int i = 0; i < ways; i++) close_way(&way[i]);
     fbd_sweep_free(sweep);
