@@ -82,8 +82,8 @@ static void compare(const struct twins *twins)
     CHECK(step.h);
     CHECK(step.crawl);
     CHECK(step.restart);
-    CHECK(grain.since);
-    CHECK(grain.pause);
+    CHECK(roundoff.since);
+    CHECK(roundoff.pause);
     CHECK(system.rhs);
     CHECK(stale);
     CHECK(end.outcome);
