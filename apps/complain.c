@@ -14,6 +14,6 @@ void complain(const char *format, ...)
     va_start(args, format);
     vsnprintf(message, sizeof message, format, args);
     va_end(args);
-    fbd_shown(message, shown, sizeof shown);
+    fbd_escape(message, shown, sizeof shown);
     fprintf(stderr, "%s\n", shown);
 }

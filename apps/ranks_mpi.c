@@ -20,7 +20,7 @@
 #include <time.h>
 
 #include "complain.h"
-#include "fbd_crew.h"
+#include "fbd_workers.h"
 
 enum tag { tag_ask = 1, tag_rows, tag_share };
 
@@ -127,7 +127,7 @@ struct follower {
 };
 
 struct leader {
-    fbd_sweep_crew *crew;
+    fbd_sweep_workers *crew;
     struct follower *followers;
     int count; /* of ranks */
     char *buffer;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * fbd: free-body diagrams that run. The public header; fbd_crew.h beside it is for sweeps over several processes.
+ * fbd: free-body diagrams that run. The public header; fbd_workers.h beside it is for sweeps over several processes.
  *
  * Units are those of the model's system (`units: SI` or `US`), angles radians, times seconds; where a name and its unit
  * are handed out together, the unit is that text.
@@ -85,7 +85,7 @@ typedef struct fbd_error {
     const char *id;                   /* stable, for programs: "unknown-key", "wrong-dimension", ... */
     const char *message;              /* what is wrong, one line, safe to print */
     const char *hint;                 /* what to write instead, or NULL */
-    const char *file;                 /* as it was given: see fbd_shown before printing it */
+    const char *file;                 /* as it was given: see fbd_escape before printing it */
     int line, column;                 /* where it is wrong */
     int context_line, context_column; /* what was being read there, 0 when that adds nothing */
 } fbd_error;
@@ -118,7 +118,7 @@ FBD_API void fbd_errors_print(fbd_errors *errors, FILE *stream);
  * whatever a user wrote should be printed so; messages and texts of the library are made so already. Fills
  * `shown` with whole characters and a final zero, as far as there is room; returns how many bytes all of it
  * has, without that zero. */
-FBD_API size_t fbd_shown(const char *text, char *shown, size_t room);
+FBD_API size_t fbd_escape(const char *text, char *shown, size_t room);
 
 /* ---------------------------------------------------------------- models */
 

@@ -4,7 +4,7 @@
  */
 #include <stdlib.h>
 
-#include "base/call.h"
+#include "base/api_check.h"
 #include "base/file.h"
 #include "dynamics/contact.h"
 #include "dynamics/state.h"
@@ -74,8 +74,8 @@ static fbd_model *compile(char *text, size_t length, const char *name, const fbd
 /* Is there what is to be read? */
 static bool is_asked(const char *text, const fbd_setting *settings, size_t count, fbd_errors *errors)
 {
-    if (text && call_has_settings(settings, count)) return true;
-    call_refuse(errors, text ? "a setting has no name or no value" : "there is no text or path");
+    if (text && api_has_settings(settings, count)) return true;
+    api_refuse(errors, text ? "a setting has no name or no value" : "there is no text or path");
     return false;
 }
 

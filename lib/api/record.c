@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <time.h>
 
-#include "base/call.h"
+#include "base/api_check.h"
 #include "draw/record.h"
 #include "record/finite_result.h"
 
@@ -253,7 +253,7 @@ fbd_result *record(fbd_simulation *simulation, const fbd_recording *recording)
 fbd_result *fbd_simulation_run(fbd_simulation *simulation, const fbd_recording *recording)
 {
     fbd_recording own = {0};
-    if (!simulation || !call_options(&own, sizeof own, recording, NULL)) return NULL;
+    if (!simulation || !api_take_options(&own, sizeof own, recording, NULL)) return NULL;
     if (recording) recording = &own;
     if (simulation->ensemble->started) return NULL; /* the ledger has to see every step */
     return simulation->accuracy > 0 ? record_accurately(simulation, recording)

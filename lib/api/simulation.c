@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "api/record.h"
-#include "base/call.h"
+#include "base/api_check.h"
 #include "loop/options.h"
 #include "output/words.h"
 
@@ -72,7 +72,7 @@ static const fbd_options no_options = FBD_OPTIONS_DEFAULT;
 
 void fbd_options_init(fbd_options *options, size_t size)
 {
-    if (options) call_fill(options, size, &no_options, sizeof no_options);
+    if (options) api_fill_options(options, size, &no_options, sizeof no_options);
 }
 
 fbd_simulation *fbd_simulation_new(const fbd_model *model, const fbd_options *options, fbd_errors *list)
@@ -82,8 +82,8 @@ fbd_simulation *fbd_simulation_new(const fbd_model *model, const fbd_options *op
     fbd_errors *errors = diag_begin(&call, list);
     fbd_simulation *simulation = NULL;
     if (!model)
-        call_refuse(errors, "there is no model");
-    else if (call_options(&own, sizeof own, options, errors))
+        api_refuse(errors, "there is no model");
+    else if (api_take_options(&own, sizeof own, options, errors))
         simulation = simulation_new(model, &own, errors);
     diag_end(&call);
     return simulation;
@@ -107,7 +107,7 @@ fbd_simulation *fbd_simulation_again(const fbd_simulation *simulation, bool erro
         if (!error_bars || !ensemble->options.start || no_bars(errors))
             again = begin(calloc(1, sizeof *again), ensemble->model, &ensemble->options, error_bars, errors);
     } else {
-        call_refuse(errors, "there is no simulation");
+        api_refuse(errors, "there is no simulation");
     }
     diag_end(&call);
     return again;
@@ -164,8 +164,8 @@ fbd_simulation *fbd_simulation_from(const fbd_state *state, const fbd_options *o
     fbd_errors *errors = diag_begin(&call, list);
     fbd_simulation *simulation = NULL;
     if (!state)
-        call_refuse(errors, "there is no state");
-    else if (call_options(&own, sizeof own, options, errors))
+        api_refuse(errors, "there is no state");
+    else if (api_take_options(&own, sizeof own, options, errors))
         simulation = simulation_from(state, &own, errors);
     diag_end(&call);
     return simulation;

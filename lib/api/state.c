@@ -5,11 +5,11 @@
 #include <math.h>
 #include <string.h>
 
-#include "base/call.h"
+#include "base/api_check.h"
 #include "dynamics/mass.h"
 #include "dynamics/modes.h"
 #include "dynamics/project.h"
-#include "output/shown.h"
+#include "output/display_units.h"
 #include "rest/start.h"
 
 fbd_state *fbd_state_new(const fbd_model *model)
@@ -79,7 +79,7 @@ static bool set_text(fbd_state *state, const char *name, const char *text, bool 
         return false;
     }
     struct expr_want want = {.constant = true, .what = name};
-    const struct shown shown = shown_component(model, (size_t)index, degrees);
+    const struct display shown = display_of_component(model, (size_t)index, degrees);
     if (index < 2 * n) {
         const struct coordinate *c = &model->scene->coordinates[index % n];
         want.dim = index < n ? c->dim : c->rate_dim;
@@ -102,7 +102,7 @@ static bool set_named(fbd_state *state, const char *name, const char *text, bool
     struct diag_call call;
     fbd_errors *errors = diag_begin(&call, list);
     bool set = state && name && text ? set_text(state, name, text, degrees, errors)
-                                     : call_refuse(errors, "there is no state, name or text") != NULL;
+                                     : api_refuse(errors, "there is no state, name or text") != NULL;
     diag_end(&call);
     return set;
 }
@@ -126,7 +126,7 @@ bool fbd_model_quantity(const fbd_model *model, const char *name, const char *te
     fbd_errors *errors = diag_begin(&call, list);
     const struct expr *expr = NULL;
     if (!model || !name || !text || !unit || !value)
-        call_refuse(errors, "there is no model, name, text, unit or place for the value");
+        api_refuse(errors, "there is no model, name, text, unit or place for the value");
     else if (unit_parse(unit, strlen(unit), model->scene->units, errors, (struct pos){0, 0}, &of)) {
         const struct expr_want want = {.dim = of.dim, .constant = true, .what = name};
         expr = compile(&arena, model, text, &want, errors);
@@ -154,7 +154,7 @@ bool fbd_state_close(fbd_state *state, fbd_errors *list)
 {
     struct diag_call call;
     fbd_errors *errors = diag_begin(&call, list);
-    bool fits = state ? close_state(state, errors) : call_refuse(errors, "there is no state") != NULL;
+    bool fits = state ? close_state(state, errors) : api_refuse(errors, "there is no state") != NULL;
     diag_end(&call);
     return fits;
 }

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "base/diag.h"
 
+#include "base/block_alloc.h"
 #include "base/format.h"
 #include "base/utf8.h"
-#include "base/zeroed.h"
 
 #include <stdarg.h>
 #include <stdlib.h>
@@ -13,7 +13,7 @@ enum { most_notes = 200 }; /* a file with more faults than this is not a model f
 
 fbd_errors *fbd_errors_new(void)
 {
-    fbd_errors *errors = zeroed(sizeof *errors);
+    fbd_errors *errors = block_alloc(sizeof *errors);
     if (errors) errors->limit = most_notes;
     return errors;
 }
@@ -61,7 +61,7 @@ static const char *shown_text(struct arena *arena, const char *text)
     }
     if (plain) return text;
     char *made = arena_array(arena, length + 1, 1);
-    if (made) fbd_shown(text, made, length + 1);
+    if (made) fbd_escape(text, made, length + 1);
     return made;
 }
 
@@ -330,7 +330,7 @@ fbd_error fbd_errors_get(fbd_errors *errors, size_t index)
     return error ? *error : (fbd_error){0};
 }
 
-size_t fbd_shown(const char *text, char *shown, size_t room)
+size_t fbd_escape(const char *text, char *shown, size_t room)
 {
     size_t length = 0, put = 0;
     bool fits = true;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "base/format.h"
 
-#include "base/shortest.h"
+#include "base/dtoa_shortest.h"
 
 #include <locale.h>
 #include <stdio.h>
@@ -22,7 +22,7 @@ int format_list(char *buffer, size_t size, const char *format, va_list args)
 int format_shortest(char *buffer, size_t size, double value)
 {
     enum { fewest = 15, most = 17 };
-    int written = size >= shortest_size ? shortest_write(buffer, value) : -1;
+    int written = size >= dtoa_size ? dtoa_shortest(buffer, value) : -1;
     if (written >= 0) return written;
     locale_t plain = newlocale(LC_ALL_MASK, "C", (locale_t)0);
     locale_t before = plain ? uselocale(plain) : (locale_t)0;

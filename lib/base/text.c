@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "base/text.h"
 
+#include "base/dtoa_shortest.h"
 #include "base/format.h"
-#include "base/shortest.h"
 #include "base/utf8.h"
 
 #include <math.h>
@@ -80,7 +80,7 @@ void text_number(struct text *text, double value, int digits)
 {
     char buffer[64];
     double shown = value == 0 ? 0.0 : value; /* -0 and 0 read the same */
-    if (rounded_write(buffer, shown, digits) < 0 &&
+    if (dtoa_rounded(buffer, shown, digits) < 0 &&
         format_into(buffer, sizeof buffer, "%.*g", digits, shown) < 0)
         return;
     text->odd |= !isfinite(value);

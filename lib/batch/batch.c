@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/zeroed.h"
+#include "base/block_alloc.h"
 #include "batch/lanes.h"
 #include "dynamics/rates_row.h"
 #include "dynamics/tree_bare.h"
@@ -22,7 +22,7 @@ struct batch {
     lanes_function *const *go; /* by enum lane_motion */
     enum lane_motion motion;   /* of all that is in the lanes */
     struct run *runs[most_lanes];
-    struct lent lent[most_lanes];
+    struct stepper_state_view view[most_lanes];
     struct lanes lanes;
 };
 
@@ -51,7 +51,7 @@ unsigned batch_lanes(const struct batch *batch)
 
 struct batch *batch_new(unsigned most)
 {
-    struct batch *batch = zeroed(sizeof *batch);
+    struct batch *batch = block_alloc(sizeof *batch);
     if (!batch) return NULL;
     const struct width width = width_of(most);
     batch->count = width.lanes;
@@ -84,19 +84,19 @@ static bool is_quiet(const struct run *run)
     return run->end.outcome == FBD_GOING && run->plain && !run->step.restart && run->step.crawl == 0 &&
            run->options.step == 0 && !run->options.apart && !structure_is_exact(run->kind) &&
            run->poles.count == 0 && !run->search.wakes && !run->contacts.due && !run->projected &&
-           run->passages.end == HUGE_VAL && run->state->rest == 0;
+           run->zeno_switches.end == HUGE_VAL && run->state->rest == 0;
 }
 
 /* What moves there; `motions` where that is none of them. */
-static enum lane_motion lane_motion_of(const struct run *run, const struct lent *lent)
+static enum lane_motion lane_motion_of(const struct run *run, const struct stepper_state_view *view)
 {
     const struct row *row = run->system.inner.params;
     if (run->system.inner.function == swing_row && row->q == 0 && row->v == 1) {
-        if (lent->type == step_nystrom) return swings;
-        if (lent->type == step_rk8pd) return swings_damped;
+        if (view->type == step_nystrom) return swings;
+        if (view->type == step_rk8pd) return swings_damped;
     }
     const bool in_order = row->links && row->links[0].coordinate == 0 && row->links[1].coordinate == 1;
-    return run->system.inner.function == two_pivots_row && in_order && lent->type == step_rk8pd
+    return run->system.inner.function == two_pivots_row && in_order && view->type == step_rk8pd
                ? swings_double
                : motions;
 }
@@ -153,27 +153,28 @@ static void gather(double *to, each_lane *from, unsigned lane, size_t count)
 /* Who carries the runs is to be heard now and then, also where no stiff method is to be asked. */
 static const double most_steps = 1000;
 
-static void fill_lane(struct lanes *lanes, unsigned lane, const struct run *run, const struct lent *lent)
+static void fill_lane(struct lanes *lanes, unsigned lane, const struct run *run,
+                      const struct stepper_state_view *view)
 {
-    const size_t n = lent->pairs;
+    const size_t n = view->pairs;
     put_constants(run, lanes, lane);
-    spread(lanes->cap, lane, lent->cap, n);
-    spread(lanes->noise, lane, lent->noise, n);
-    spread(lanes->floor, lane, lent->floor, n);
-    spread(lanes->y, lane, lent->last, 3 * n);
-    spread(lanes->before, lane, lent->before, 3 * n);
-    spread(lanes->rest, lane, lent->rest, 2 * n);
-    spread(lanes->scale, lane, lent->scale, 2 * n);
+    spread(lanes->cap, lane, view->cap, n);
+    spread(lanes->noise, lane, view->noise, n);
+    spread(lanes->floor, lane, view->floor, n);
+    spread(lanes->y, lane, view->last, 3 * n);
+    spread(lanes->before, lane, view->before, 3 * n);
+    spread(lanes->rest, lane, view->rest, 2 * n);
+    spread(lanes->scale, lane, view->scale, 2 * n);
     spread(lanes->most, lane, run->recent.anchor + 2 * n, 2 * n);
     lanes->until[lane] = run->options.until;
-    lanes->tolerance[lane] = lent->tolerance;
-    lanes->pause[lane] = (double)run->grain.pause;
+    lanes->tolerance[lane] = view->tolerance;
+    lanes->pause[lane] = (double)run->roundoff.pause;
     lanes->t[lane] = run->state->t;
     lanes->h[lane] = lanes->tried[lane] = run->step.h;
-    lanes->rate[lane] = lanes->tried_rate[lane] = lent->rate;
-    lanes->since[lane] = (double)run->grain.since;
-    lanes->steps_left[lane] = fmin(fmin(lent->steps, most_steps), (double)run_steps_to_noise(run));
-    lanes->growth[lane] = lent->growth;
+    lanes->rate[lane] = lanes->tried_rate[lane] = view->rate;
+    lanes->since[lane] = (double)run->roundoff.since;
+    lanes->steps_left[lane] = fmin(fmin(view->steps, most_steps), (double)roundoff_steps(run));
+    lanes->growth[lane] = view->growth;
     lanes->accepted[lane] = lanes->rejected[lane] = lanes->attempts[lane] = 0;
 }
 
@@ -185,63 +186,64 @@ static bool is_empty(const struct batch *batch)
 }
 
 /* Is what the method knows of the state the state? */
-static bool agrees_with(const struct lent *lent, const struct run *run)
+static bool agrees_with(const struct stepper_state_view *view, const struct run *run)
 {
-    const size_t bytes = lent->pairs * sizeof(double);
-    return memcmp(lent->last, run->state->y, 2 * bytes) == 0 &&
-           memcmp(lent->last + 2 * lent->pairs, run->work.f + lent->pairs, bytes) == 0;
+    const size_t bytes = view->pairs * sizeof(double);
+    return memcmp(view->last, run->state->y, 2 * bytes) == 0 &&
+           memcmp(view->last + 2 * view->pairs, run->work.f + view->pairs, bytes) == 0;
 }
 
 bool batch_put(struct batch *batch, unsigned lane, struct run *run)
 {
-    struct lent *lent = &batch->lent[lane];
+    struct stepper_state_view *view = &batch->view[lane];
     if (!batch_suits(run->model) || !is_quiet(run)) return false;
-    if (!switcher_lend(run->stepper, lent) || lent->pairs != (size_t)run->model->plan.n) return false;
-    const enum lane_motion motion = lane_motion_of(run, lent);
-    if (motion == motions || !agrees_with(lent, run)) return false;
+    if (!switcher_lend(run->stepper, view) || view->pairs != (size_t)run->model->plan.n) return false;
+    const enum lane_motion motion = lane_motion_of(run, view);
+    if (motion == motions || !agrees_with(view, run)) return false;
     if (is_empty(batch)) batch->motion = motion;
     if (batch->motion != motion) return false;
     batch->runs[lane] = run;
-    fill_lane(&batch->lanes, lane, run, lent);
+    fill_lane(&batch->lanes, lane, run, view);
     return true;
 }
 
 /* The last step has no inside: it goes from its end to its end. */
-static void settle_run(struct run *run, struct lanes *lanes, unsigned lane, const struct lent *lent)
+static void settle_run(struct run *run, struct lanes *lanes, unsigned lane,
+                       const struct stepper_state_view *view)
 {
-    const size_t n = lent->pairs, bytes = n * sizeof(double);
-    const unsigned long evaluations = lent->type == step_nystrom ? nystrom_stages : rk8pd_stages;
-    run->system.rhs += evaluations * (lent->accepted + lent->rejected);
-    memcpy(run->state->y, lent->last, 2 * bytes);
-    memcpy(run->work.y, lent->last, 2 * bytes);
-    memcpy(run->work.f, lent->last + n, 2 * bytes);
-    state_set_moment(run->state, moment_at(lanes->t[lane]));
+    const size_t n = view->pairs, bytes = n * sizeof(double);
+    const unsigned long evaluations = view->type == step_nystrom ? nystrom_stages : rk8pd_stages;
+    run->system.rhs += evaluations * (view->accepted + view->rejected);
+    memcpy(run->state->y, view->last, 2 * bytes);
+    memcpy(run->work.y, view->last, 2 * bytes);
+    memcpy(run->work.f, view->last + n, 2 * bytes);
+    state_set_moment(run->state, time_dd_at(lanes->t[lane]));
     run->step.from = run->state->t;
     run->step.from_rest = 0;
     run->step.h = lanes->h[lane];
     gather(run->recent.anchor + 2 * n, lanes->most, lane, 2 * n);
-    run->grain.since = (unsigned long)lanes->since[lane];
+    run->roundoff.since = (unsigned long)lanes->since[lane];
     run->stale = true;
 }
 
 void batch_take(struct batch *batch, unsigned lane)
 {
     struct run *run = batch->runs[lane];
-    struct lent *lent = &batch->lent[lane];
+    struct stepper_state_view *view = &batch->view[lane];
     struct lanes *lanes = &batch->lanes;
-    const size_t n = lent->pairs;
+    const size_t n = view->pairs;
     batch->runs[lane] = NULL;
-    lent->accepted = (unsigned long)lanes->accepted[lane];
-    lent->rejected = (unsigned long)lanes->rejected[lane];
-    if (lent->accepted == 0) return;
-    gather(lent->last, lanes->y, lane, 3 * n);
-    gather(lent->before, lanes->before, lane, 3 * n);
-    gather(lent->rest, lanes->rest, lane, 2 * n);
-    gather(lent->scale, lanes->scale, lane, 2 * n);
-    lent->rate = lanes->rate[lane];
-    lent->growth = lanes->growth[lane];
-    switcher_settle(run->stepper, lent);
-    settle_run(run, lanes, lane, lent);
+    view->accepted = (unsigned long)lanes->accepted[lane];
+    view->rejected = (unsigned long)lanes->rejected[lane];
+    if (view->accepted == 0) return;
+    gather(view->last, lanes->y, lane, 3 * n);
+    gather(view->before, lanes->before, lane, 3 * n);
+    gather(view->rest, lanes->rest, lane, 2 * n);
+    gather(view->scale, lanes->scale, lane, 2 * n);
+    view->rate = lanes->rate[lane];
+    view->growth = lanes->growth[lane];
+    switcher_settle(run->stepper, view);
+    settle_run(run, lanes, lane, view);
 }
 
 unsigned batch_go(struct batch *batch)

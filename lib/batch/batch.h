@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Batch: runs of equal structure that step abreast, in the lanes of the processor's vectors (lanes.h).
+ * Batch: runs of equal structure that advance together, in the lanes of the processor's vectors (lanes.h).
  *
  * A run is put into a lane between two of its steps, makes quiet ones there, and is taken out where its next one is not
  * quiet: it has to end at the end of the run, the stiff method is to be asked, rounding counts, an attempt is not finite or

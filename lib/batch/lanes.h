@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Lanes: pendulums that step abreast, each with a time, a step size and a judgement of its own, by the vectors of the
+ * Lanes: pendulums that advance together, each with a time, a step size and a judgement of its own, by the vectors of the
  * processor.
  *
  * What a run does in a step in which nothing happens is done here by the same operations in the same order: one attempt of
- * all lanes at a time (nystrom.c, pair8.c), its error against what is allowed (weights.c), the size of the next one
- * (stepper.c), and whether the rounding of accelerations counts (noise.c). There is no branch for a lane. One in which
+ * all lanes at a time (nystrom.c, pair8.c), its error against what is allowed (error_norm.c), the size of the next one
+ * (stepper.c), and whether the rounding of accelerations counts (roundoff.c). There is no branch for a lane. One in which
  * anything else is due keeps what it had before that step, and the run itself makes it.
  *
  * The functions are one text (lanes_step.h) for registers of two, four and eight numbers.

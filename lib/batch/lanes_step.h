@@ -179,7 +179,7 @@ INLINE void try_rk8pd(enum lane_motion kind, int n, struct system *system, wide 
     for (int c = 0; c < n; c++) end->da[c] = end->y[2 * n + c] - slopes[n + c].k[stages];
 }
 
-/* ---- its error (weights.c) */
+/* ---- its error (error_norm.c) */
 
 struct measure {
     wide tolerance, cap[most_pairs], noise[most_pairs], floor[most_pairs], scale[2 * most_pairs];
@@ -252,7 +252,7 @@ INLINE mask is_finite(int n, const struct attempt *end)
     return probe == 0;
 }
 
-/* The fastest rate that the step has seen (weights_rate). */
+/* The fastest rate that the step has seen (error_norm_rate). */
 INLINE wide rate_of(int n, const struct measure *m, const struct attempt *end)
 {
     const wide zero = {0};
@@ -377,7 +377,7 @@ INLINE struct verdict judge(enum lane_motion kind, int n, const struct standing 
     return verdict;
 }
 
-/* Would rounding count in the step after this one (weights_noise_counts, run_renew_noise)? */
+/* Would rounding count in the step after this one (error_norm_roundoff_counts, roundoff_renew)? */
 INLINE mask noise_counts(int n, const struct standing *s, const struct attempt *end, wide pause,
                          wide proposed, const wide *swings_of)
 {

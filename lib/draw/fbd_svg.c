@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/call.h"
+#include "base/api_check.h"
 #include "base/format.h"
 #include "draw/panel.h"
 #include "dynamics/mass.h"
@@ -463,8 +463,8 @@ char *fbd_diagram_svg(fbd_state *state, const fbd_drawing *drawing, fbd_errors *
     fbd_drawing own = {0};
     char *svg = NULL;
     if (!state)
-        call_refuse(errors, "there is no state");
-    else if (call_options(&own, sizeof own, drawing, errors))
+        api_refuse(errors, "there is no state");
+    else if (api_take_options(&own, sizeof own, drawing, errors))
         svg = make_svg(state, &own, errors);
     diag_end(&call);
     return svg;

@@ -6,12 +6,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/call.h"
+#include "base/api_check.h"
 #include "base/diag.h"
 #include "base/utf8.h"
 #include "draw/record.h"
 #include "dynamics/modes.h"
-#include "output/shown.h"
+#include "output/display_units.h"
 #include "output/words.h"
 
 enum { digits = 10, most_events = 200, plot_width = 900, plot_height = 300 };
@@ -112,7 +112,7 @@ bool fbd_model_has_columns(const fbd_model *model, const char *columns, fbd_erro
     struct diag_call call;
     fbd_errors *errors = diag_begin(&call, list);
     bool found = model && columns ? has_columns(model, columns, errors)
-                                  : call_refuse(errors, "there is no model, or no list of columns") != NULL;
+                                  : api_refuse(errors, "there is no model, or no list of columns") != NULL;
     diag_end(&call);
     return found;
 }
@@ -120,12 +120,12 @@ bool fbd_model_has_columns(const fbd_model *model, const char *columns, fbd_erro
 /* ---- the script */
 
 /* Of the choice: in which unit it is shown, and what its numbers are divided by for that. */
-static struct shown shown_column(const struct choice *choice, size_t index)
+static struct display display_of_column(const struct choice *choice, size_t index)
 {
     const struct record_column *column = &choice->record->columns[choice->columns[index]];
-    const struct shown shown = {column->name, column->unit, 1};
+    const struct display display = {column->name, column->unit, 1};
     const bool moves = column->kind == record_coordinate || column->kind == record_rate;
-    return moves ? shown_in_degrees(shown, choice->degrees) : shown;
+    return moves ? display_in_degrees(display, choice->degrees) : display;
 }
 
 /* Between single quotes gnuplot takes everything as it is, commands as well, and '' for one quote; but not at
@@ -180,7 +180,7 @@ static void write_row(struct text *text, const struct choice *choice, size_t row
         text_add(text, " ");
         text_number(text,
                     record->rows[row * record->column_count + (size_t)choice->columns[k]] /
-                        shown_column(choice, k).size,
+                        display_of_column(choice, k).size,
                     digits);
     }
     text_add(text, "\n");
@@ -206,7 +206,7 @@ static void write_data(struct text *text, const struct choice *choice)
                 text_add(text, " ");
                 text_number(text,
                             (double)cells[2 * (size_t)choice->columns[i] + (size_t)end] /
-                                shown_column(choice, i).size,
+                                display_of_column(choice, i).size,
                             digits);
             }
         }
@@ -246,7 +246,7 @@ static void write_event_names(struct text *text, const struct choice *choice, co
 
 static const char *unit_of(const struct choice *choice, size_t index)
 {
-    return shown_column(choice, index).unit;
+    return display_of_column(choice, index).unit;
 }
 
 /* Is this the first column of its unit? */
@@ -390,7 +390,7 @@ char *fbd_result_gnuplot(fbd_result *result, const char *file, const char *colum
     struct diag_call call;
     fbd_errors *errors = diag_begin(&call, list);
     char *script =
-        result ? make_script(result, file, columns, errors) : call_refuse(errors, "there is no result");
+        result ? make_script(result, file, columns, errors) : api_refuse(errors, "there is no result");
     diag_end(&call);
     return script;
 }

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/call.h"
+#include "base/api_check.h"
 #include "base/diag.h"
 #include "draw/svg.h"
 
@@ -139,7 +139,7 @@ char *fbd_result_html(fbd_result *result, fbd_errors *list)
     struct diag_call call;
     fbd_errors *errors = diag_begin(&call, list);
     const struct page_part parts[] = {{"POLICY", page_write_policy, NULL}, {0}};
-    char *page = result ? page_make(result, 0, parts, errors) : call_refuse(errors, "there is no result");
+    char *page = result ? page_make(result, 0, parts, errors) : api_refuse(errors, "there is no result");
     diag_end(&call);
     return page;
 }
@@ -159,7 +159,7 @@ char *fbd_result_page_data(fbd_result *result, fbd_errors *list)
 {
     struct diag_call call;
     fbd_errors *errors = diag_begin(&call, list);
-    char *data = result ? make_data(result, errors) : call_refuse(errors, "there is no result");
+    char *data = result ? make_data(result, errors) : api_refuse(errors, "there is no result");
     diag_end(&call);
     return data;
 }

@@ -278,8 +278,8 @@ static void write_equations(struct text *text, struct symbolic *symbolic, const 
     write_newton_equations(text, symbolic, record, b);
     text_add(text, "],\"kinematics\":[");
     const char *lines[most_kinematic_lines];
-    const bool shown = symbolic->equations && body_is_cut_free(record->model, b, record->components);
-    const int count = shown ? kinematic_lines(&symbolic->formulas, b, lines) : 0;
+    const bool display = symbolic->equations && body_is_cut_free(record->model, b, record->components);
+    const int count = display ? kinematic_lines(&symbolic->formulas, b, lines) : 0;
     for (int i = 0; i < count; i++) {
         text->failed |= !lines[i];
         json_comma(text, (size_t)i);

@@ -23,11 +23,11 @@
 
 #include <string.h>
 
-#include "dynamics/absolute.h"
-#include "dynamics/own.h"
 #include "dynamics/sliding.h"
 #include "dynamics/state.h"
 #include "dynamics/tree.h"
+#include "dynamics/user_states.h"
+#include "dynamics/world_refs.h"
 
 /* ---- planar bodies whose frame's origin O is not their centre of mass
  *
@@ -261,7 +261,7 @@ void state_jacobian(const struct fbd_model *model, const struct instant *given, 
         struct direction along = {0, dy};
         dy[j] = 1;
         vary(model, at, &along, slots, slots_along, column);
-        if (plan->own > 0) own_rates_along(model, at, &along, column + n);
+        if (plan->own > 0) user_state_rates_along(model, at, &along, column + n);
         dy[j] = 0;
         for (size_t i = 0; i < size - n; i++) dfdy[(n + i) * size + j] = column[i];
         if (j >= n && j < 2 * n) dfdy[(j - n) * size + j] = 1;
@@ -269,7 +269,7 @@ void state_jacobian(const struct fbd_model *model, const struct instant *given, 
     struct direction in_time = {1, dy};
     memset(dfdt, 0, n * sizeof *dfdt);
     vary(model, at, &in_time, slots, slots_along, dfdt + n);
-    if (plan->own > 0) own_rates_along(model, at, &in_time, dfdt + 2 * n);
+    if (plan->own > 0) user_state_rates_along(model, at, &in_time, dfdt + 2 * n);
     for (int pair = 0; pair < (int)plan->mode_count; pair++) {
         if (!holds_coordinate(plan, at, pair)) continue;
         size_t i = (size_t)plan->modes[pair].coordinate;

@@ -31,7 +31,7 @@ void accelerations_along_at_shares(const struct fbd_model *model, const struct i
                                    double *a_along);
 
 /* The same for body `b` alone, which is not jointed: its entries of slots and a. The instant is extended
- * already (absolute.h). */
+ * already (world_refs.h). */
 void body_accelerations(const struct fbd_model *model, int b, const struct instant *at, double *slots,
                         double *a);
 
@@ -43,7 +43,7 @@ void joint_forces(const struct fbd_model *model, const struct instant *at, doubl
 void accelerations_along(const struct fbd_model *model, const struct instant *at,
                          const struct direction *along, double *slots, double *slots_along, double *a_along);
 
-/* dydt[2 n] for an integrator, without the states of the file's own (own.h). A sticking coordinate moves with its surface. */
+/* dydt[2 n] for an integrator, without the states of the file's own (user_states.h). A sticking coordinate moves with its surface. */
 void state_rates(const struct fbd_model *model, const struct instant *at, double *slots, double *dydt);
 
 /* The entries of body `b` alone, which is not jointed, in a model whose expressions name no places. */

@@ -42,7 +42,7 @@ static void let_go(const struct fbd_model *model, const struct impulse_lines *li
     for (size_t i = 0; i < model->plan.mode_count; i++) {
         const struct mode *mode = &model->plan.modes[i];
         const struct tie *tie = mode->tie >= 0 ? &model->tree->ties[mode->tie] : NULL;
-        bool surface = tie && mode->kind == mode_surface && tie_takes_blows(tie);
+        bool surface = tie && mode->kind == mode_surface && tie_takes_impulses(tie);
         bool couples = tie && tie->kind == constraint_capstan;
         if (mode->kind == mode_rope || mode->kind == mode_contact || (mode_is_friction(mode) && !couples))
             modes[i] = slip_plus;

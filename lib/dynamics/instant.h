@@ -31,7 +31,7 @@ struct instant {
     const int *slip;        /* plan.mode_count: enum slip */
     const int *pull;        /* plan.mode_count: sign of the normal force of a two-sided guide, +1 otherwise */
     struct tree_work *tree; /* scratch and results of the jointed bodies; NULL when there are none */
-    double *extended;       /* scratch of absolute.h; NULL when no expression names a place in the world */
+    double *extended;       /* scratch of world_refs.h; NULL when no expression names a place in the world */
     struct sliding *sliding; /* switches that the motion slides on; NULL when there are none */
 };
 

@@ -35,7 +35,7 @@ static inline double body_I_O(const struct model_body *body, const struct instan
     return body->varies ? body->I_O * body_share(body, at) : body->I_O;
 }
 
-/* dm/dt, at an instant that has its places (absolute.h); and its variation along a direction that has them. */
+/* dm/dt, at an instant that has its places (world_refs.h); and its variation along a direction that has them. */
 double body_mass_rate(const struct fbd_model *model, const struct model_body *body, const struct instant *at);
 double body_mass_rate_along(const struct fbd_model *model, const struct model_body *body,
                             const struct instant *at, const struct direction *along);

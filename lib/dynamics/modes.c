@@ -22,8 +22,8 @@
 #include <float.h>
 #include <string.h>
 
-#include "dynamics/absolute.h"
 #include "dynamics/constraint.h"
+#include "dynamics/world_refs.h"
 
 double slip_velocity(const struct fbd_model *model, int pair, const struct instant *at)
 {

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/zeroed.h"
+#include "base/block_alloc.h"
 #include "dynamics/rates_row.h"
 #include "dynamics/tree.h"
 #include "dynamics/tree_bare.h"
@@ -226,7 +226,7 @@ void rates_bind(struct rates *rates)
 struct rates *rates_new(struct fbd_state *state, enum rates_kind kind)
 {
     size_t most = (size_t)state->model->plan.n + 2; /* a body that is a row has a coordinate at least */
-    struct rates *rates = zeroed(sizeof *rates + most * sizeof *rates->rows);
+    struct rates *rates = block_alloc(sizeof *rates + most * sizeof *rates->rows);
     if (!rates) return NULL;
     rates->state = state;
     rates->kind = kind;

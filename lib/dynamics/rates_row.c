@@ -5,8 +5,8 @@
 
 #include "base/sine.h"
 #include "dynamics/laws.h"
-#include "dynamics/own.h"
 #include "dynamics/tree.h"
+#include "dynamics/user_states.h"
 
 int steady_row(double t, const double y[], double dydt[], void *params)
 {
@@ -279,7 +279,7 @@ int own_row(double t, const double y[], double dydt[], void *params)
     const struct row *row = params;
     const struct fbd_state *state = row->all->state;
     struct instant at = {t, y, state->branch, state->slip, state->pull, state->tree, state->extended, NULL};
-    own_rates(state->model, &at, dydt + row->q);
+    user_state_rates(state->model, &at, dydt + row->q);
     return 0;
 }
 

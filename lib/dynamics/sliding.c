@@ -3,7 +3,7 @@
 
 #include <string.h>
 
-#include "dynamics/absolute.h"
+#include "dynamics/world_refs.h"
 
 /* ---- memory */
 

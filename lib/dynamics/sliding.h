@@ -20,7 +20,7 @@
  * A switch that watches places, u(x), has the same u' on both sides. It is slid on in second order, where u =
  * 0 and u' = 0, by the share that keeps u'' = 0: what is slid on is w = u' = g v with a constant g, and u = 0
  * besides. sign(v) and sign(x) together are of one unit there. A motion gets there by passing it infinitely
- * often in a finite time (loop/passages.h), or begins there.
+ * often in a finite time (loop/zeno_switch.h), or begins there.
  */
 #ifndef FBD_DYNAMICS_SLIDING_H
 #define FBD_DYNAMICS_SLIDING_H
@@ -49,7 +49,7 @@ struct sliding {
     int *branches; /* plan.branches: scratch of formulas */
     bool *keep;    /* plan.branches: not to be chosen by the values, when modes are settled */
     bool *left;    /* plan.branches: its share has just reached an end */
-    bool *ended;   /* plan.branches: the passages that are left are as good as none (loop/passages.h) */
+    bool *ended;   /* plan.branches: the passages that are left are as good as none (loop/zeno_switch.h) */
     int *
         aside; /* plan.mode_count: the side on which friction slips, as a switch holds its coordinate; else 0 */
     bool *slips; /* plan.mode_count: of `decided`, what is not left open */

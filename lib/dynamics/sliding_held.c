@@ -6,9 +6,9 @@
 #include <math.h>
 #include <string.h>
 
-#include "dynamics/absolute.h"
 #include "dynamics/friction.h"
 #include "dynamics/sliding_question.h"
+#include "dynamics/world_refs.h"
 
 double asked_rate(const struct question *q, const struct asked *asked, double dt, const double *dy)
 {

@@ -11,9 +11,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "dynamics/absolute.h"
 #include "dynamics/sliding_question.h"
 #include "dynamics/tree_driven.h"
+#include "dynamics/world_refs.h"
 
 /* ---- does a choice agree? */
 

@@ -9,12 +9,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "dynamics/absolute.h"
 #include "dynamics/forward.h"
 #include "dynamics/modes.h"
-#include "dynamics/own.h"
 #include "dynamics/state.h"
 #include "dynamics/tree.h"
+#include "dynamics/user_states.h"
+#include "dynamics/world_refs.h"
 
 /* ---- the surfaces */
 
@@ -256,7 +256,7 @@ static void take_flow(const struct fbd_model *model, const struct instant *at)
     size_t n = (size_t)model->plan.n;
     memcpy(s->flow, at->y + n, n * sizeof *s->flow);
     memcpy(s->flow + n, s->a, n * sizeof *s->flow);
-    if (model->plan.own > 0) own_rates(model, at, s->flow + 2 * n);
+    if (model->plan.own > 0) user_state_rates(model, at, s->flow + 2 * n);
 }
 
 /* c: the rates of the surfaces at the shares as they are. */
@@ -392,7 +392,7 @@ void sliding_solve_along(const struct fbd_model *model, const struct instant *gi
     accelerations_along_at_shares(model, &at, &along, s->slots, s->slots_along, s->a_along);
     memcpy(s->flow, along.dy + n, n * sizeof *s->flow);
     memcpy(s->flow + n, s->a_along, n * sizeof *s->flow);
-    if (model->plan.own > 0) own_rates_along(model, &at, &along, s->flow + 2 * n);
+    if (model->plan.own > 0) user_state_rates_along(model, &at, &along, s->flow + 2 * n);
     sliding_rates(model, &at, 0, s->flow, s->c);
     put_held(s, s->slots_along, NULL, s->c);
     accelerations_at_shares(model, &at, s->slots, s->a);

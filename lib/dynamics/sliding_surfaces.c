@@ -6,9 +6,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "dynamics/absolute.h"
 #include "dynamics/project.h"
 #include "dynamics/sliding_question.h"
+#include "dynamics/world_refs.h"
 
 /* ---- surfaces */
 

@@ -1,15 +1,15 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "dynamics/state.h"
 
-#include "base/zeroed.h"
-#include "dynamics/absolute.h"
+#include "base/block_alloc.h"
 #include "dynamics/contact.h"
 #include "dynamics/modes.h"
-#include "dynamics/own.h"
 #include "dynamics/project.h"
 #include "dynamics/rest_memo.h"
 #include "dynamics/rest_system.h"
 #include "dynamics/tree_system.h"
+#include "dynamics/user_states.h"
+#include "dynamics/world_refs.h"
 
 #include <float.h>
 #include <math.h>
@@ -36,7 +36,7 @@ static struct fbd_state *allocate(const struct fbd_model *model)
     size_t tree = model->tree ? sizeof(struct tree_work) + tree_work_size(model) : 0;
     size_t sliding = plan->slide_count > 0 ? sizeof(struct sliding) + sliding_size(model) : 0;
     struct fbd_state *state =
-        zeroed(sizeof *state + tree + sliding + doubles * sizeof(double) + ints * sizeof(int));
+        block_alloc(sizeof *state + tree + sliding + doubles * sizeof(double) + ints * sizeof(int));
     if (!state) return NULL;
     state->model = model;
     char *behind = (char *)(state + 1);
@@ -163,8 +163,8 @@ void state_evaluate_unshared(struct fbd_state *state)
     struct instant at = state_instant(state);
     accelerations(state->model, &at, state->slots, state->a);
     if (state->tree) tree_complete(state->model, state->tree);
-    if (state->extended) absolutes_write(state->model, &at, state->y);
-    if (state->model->plan.own > 0) own_rates(state->model, &at, state->a + state->model->plan.n);
+    if (state->extended) world_refs_write(state->model, &at, state->y);
+    if (state->model->plan.own > 0) user_state_rates(state->model, &at, state->a + state->model->plan.n);
 }
 
 void state_evaluate(struct fbd_state *state)

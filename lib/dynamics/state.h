@@ -24,10 +24,10 @@ struct holds_trouble {
 struct fbd_state {
     const struct fbd_model *model;
     bool settled;               /* the modes agree with t and y */
-    bool degrees;               /* texts of it show angles in degrees (output/shown.h) */
+    bool degrees;               /* texts of it show angles in degrees (output/display_units.h) */
     struct holds_trouble holds; /* of the last settling */
-    double t, rest;             /* the time, and what its rounding leaves: see base/moment.h */
-    double *y;     /* plan_size: coordinates, rates, states of the file's own; then what absolute.h adds, by
+    double t, rest;             /* the time, and what its rounding leaves: see base/time_dd.h */
+    double *y;     /* plan_size: coordinates, rates, states of the file's own; then what world_refs.h adds, by
                       state_evaluate */
     double *a;     /* plan_rates: accelerations, then the rates of those states, by state_evaluate */
     double *slots; /* plan.slots: generalized forces, by state_evaluate */
@@ -38,7 +38,7 @@ struct fbd_state {
     int *slip_rests;         /* and: friction that was at rest when the settling of a run began */
     int *slip_driven;        /* and: the side on which drives alone make it slip, 0 where forces do */
     double *scratch;         /* see struct scratch */
-    double *extended;        /* scratch of absolute.h */
+    double *extended;        /* scratch of world_refs.h */
     struct sliding *sliding; /* NULL when no switch can be slid on */
     struct tree_work *tree;  /* of the jointed bodies, by state_evaluate; NULL when there are none */
 };
@@ -112,12 +112,12 @@ static inline struct instant state_instant_at(const struct fbd_state *state, dou
                             state->pull, state->tree, state->extended, state_sliding(state)};
 }
 
-static inline struct moment state_moment(const struct fbd_state *state)
+static inline struct time_dd state_moment(const struct fbd_state *state)
 {
-    return (struct moment){state->t, state->rest};
+    return (struct time_dd){state->t, state->rest};
 }
 
-static inline void state_set_moment(struct fbd_state *state, struct moment t)
+static inline void state_set_moment(struct fbd_state *state, struct time_dd t)
 {
     state->t = t.t;
     state->rest = t.rest;

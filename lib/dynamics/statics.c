@@ -3,12 +3,12 @@
 
 #include <string.h>
 
-#include "dynamics/absolute.h"
 #include "dynamics/constraint.h"
 #include "dynamics/contact.h"
 #include "dynamics/friction.h"
 #include "dynamics/modes.h"
 #include "dynamics/tree_system.h"
+#include "dynamics/world_refs.h"
 
 /* ---- rest */
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "dynamics/tree_bare.h"
 
-#include "base/sine_two.h"
+#include "base/simd2_sine.h"
 #include "dynamics/tree.h"
 #include "dynamics/tree_short.h"
 
@@ -41,7 +41,7 @@ bool tree_is_bare(const struct fbd_model *model)
  * and answers with M and a force. */
 
 /* What goes on from link to link. */
-struct course {
+struct trajectory {
     double omega;
     struct vec turn, a;
 };
@@ -61,15 +61,16 @@ static void turn_links(const struct tree_link *links, int count, const double *y
     if (i < count) s[i].turn = unit_by_sine(angle + links[i].along + y[links[i].coordinate]);
 }
 
-static inline struct course set_out_from_ground(const struct tree_link *link, double v, struct tree_bare *s)
+static inline struct trajectory set_out_from_ground(const struct tree_link *link, double v,
+                                                    struct tree_bare *s)
 {
-    if (link->kind == motion_slide) return (struct course){0, s->turn, {0, 0}};
+    if (link->kind == motion_slide) return (struct trajectory){0, s->turn, {0, 0}};
     s->p.moment = -link->sine * s->turn.y - link->cosine * s->turn.x;
-    return (struct course){v, s->turn, {0, 0}};
+    return (struct trajectory){v, s->turn, {0, 0}};
 }
 
-static inline struct course set_out(const struct tree_link *link, const struct course *on, double v,
-                                    struct tree_bare *s)
+static inline struct trajectory set_out(const struct tree_link *link, const struct trajectory *on, double v,
+                                        struct tree_bare *s)
 {
     double w2 = on->omega * on->omega, omega = on->omega + v, own = omega * omega, m = link->mass;
     struct vec turn = s->turn, d = vec_turn(on->turn, link->at), mr = vec_turn(turn, link->moment);
@@ -78,7 +79,7 @@ static inline struct course set_out(const struct tree_link *link, const struct c
     s->mr = mr;
     s->p.force = (struct vec){m * a.x - own * mr.x - link->force.x, m * a.y - own * mr.y - link->force.y};
     s->p.moment = vec_cross(mr, a) - link->sine * turn.y - link->cosine * turn.x;
-    return (struct course){omega, turn, a};
+    return (struct trajectory){omega, turn, a};
 }
 
 static void set_joint_forces(const struct fbd_model *model, const double *y, struct tree_bare *links)
@@ -151,7 +152,7 @@ static void chain(const struct tree_link *links, struct tree_bare *s, int count,
 {
     struct passed passed = {{0, {0, 0}, 0, 0, 0}, {0, {0, 0}}};
     turn_links(links, count, y, s);
-    struct course course = set_out_from_ground(links, v[links->coordinate], s);
+    struct trajectory course = set_out_from_ground(links, v[links->coordinate], s);
     for (int i = 1; i < count; i++) course = set_out(&links[i], &course, v[links[i].coordinate], &s[i]);
     if (count > 1) passed = pass_last(&links[count - 1], &s[count - 1]);
     for (int i = count - 2; i > 0; i--) passed = pass_on(&links[i], &passed, &s[i]);

@@ -98,7 +98,7 @@ double tree_driven(struct fbd_state *state, const int *slip, int pair)
     for (int k = 0; then && v == 0 && k <= decades; k++) {
         state_copy(then, state);
         memcpy(then->slip, slip, pairs * sizeof *slip);
-        state_set_moment(then, moment_at(state->t + dt));
+        state_set_moment(then, time_dd_at(state->t + dt));
         for (size_t i = 0; i < n; i++) then->y[i] += dt * then->y[n + i];
         modes_hold(then);
         if (!state_project(then, false)) break;

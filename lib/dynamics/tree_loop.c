@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "dynamics/tree_loop.h"
 
-#include "base/sine_two.h"
+#include "base/simd2_sine.h"
 #include "dynamics/tree_bare.h"
 
 /* ---- constants */

@@ -3,8 +3,8 @@
 
 #include <string.h>
 
-#include "dynamics/own.h"
 #include "dynamics/tree_gather.h"
+#include "dynamics/user_states.h"
 
 struct direction tree_evaluate(struct fbd_state *state)
 {
@@ -12,7 +12,7 @@ struct direction tree_evaluate(struct fbd_state *state)
     struct scratch scratch = state_scratch(state);
     struct instant at = state_instant(state);
     accelerations(model, &at, scratch.slots, state->a);
-    if (model->plan.own > 0) own_rates(model, &at, state->a + model->plan.n);
+    if (model->plan.own > 0) user_state_rates(model, &at, state->a + model->plan.n);
     struct direction flow = state_flow(state, scratch.dy);
     force_balance(model, &at, scratch.slots);
     force_balance_along(model, &at, &flow, scratch.slots, scratch.slots_along);

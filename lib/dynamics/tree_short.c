@@ -15,7 +15,7 @@
  */
 #include "dynamics/tree_short.h"
 
-#include "base/sine_two.h"
+#include "base/simd2_sine.h"
 
 static inline double moment_of_forces(const struct tree_link *link, struct vec turn)
 {

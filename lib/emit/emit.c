@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "emit/emit.h"
-#include "base/call.h"
+#include "base/api_check.h"
 #include "loop/options.h"
 
 char *fbd_emit_c(const fbd_model *model, const fbd_options *options, fbd_errors *list)
@@ -8,10 +8,10 @@ char *fbd_emit_c(const fbd_model *model, const fbd_options *options, fbd_errors 
     fbd_options own = FBD_OPTIONS_DEFAULT;
     struct diag_call call;
     struct run_options chosen;
-    if (!model) return call_refuse(list, "there is no model");
+    if (!model) return api_refuse(list, "there is no model");
     fbd_errors *errors = diag_begin(&call, list);
     char *program = NULL;
-    if (call_options(&own, sizeof own, options, errors) && options_choose(model, &own, &chosen, errors))
+    if (api_take_options(&own, sizeof own, options, errors) && options_choose(model, &own, &chosen, errors))
         program = emit_program(model, chosen.until, chosen.tolerance, errors);
     diag_end(&call);
     return program;

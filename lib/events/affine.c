@@ -3,7 +3,7 @@
 
 #include <string.h>
 
-#include "events/outlook.h"
+#include "events/enclosure.h"
 
 /* ---- what is affine */
 
@@ -30,7 +30,7 @@ static bool add_terms(const struct plan *plan, const struct range *range, int sl
     return true;
 }
 
-/* Add `factor` times the sum of forces in a slot of a body of which outlook.h knows all; false when it is not affine. */
+/* Add `factor` times the sum of forces in a slot of a body of which enclosure.h knows all; false when it is not affine. */
 static bool add_slot(const struct plan *plan, int body, int slot, double factor, struct affine *f)
 {
     const struct body_terms *terms = &plan->bodies[body];
@@ -113,11 +113,12 @@ double affine_value(const struct affine *f, const double *y, const double *dy, d
 /* ---- over a piece of the course */
 
 /* Add one component; false where it is not followed. */
-static bool add_component(const struct course *course, int component, double factor, struct affine *f)
+static bool add_component(const struct trajectory *trajectory, int component, double factor, struct affine *f)
 {
-    int place = course->place[component], top = place < 0 ? -1 : course_top(course, (size_t)place);
+    int place = trajectory->place[component],
+        top = place < 0 ? -1 : trajectory_top(trajectory, (size_t)place);
     if (top < 0) return false;
-    const double *c = course_powers_of(course, (size_t)place);
+    const double *c = trajectory_powers_of(trajectory, (size_t)place);
     for (; f->top < top; f->top++) f->power[f->top + 1] = 0;
     double bend = 0, weight = 0; /* k (k - 1) */
     for (int k = 0; k <= top; k++) {
@@ -126,8 +127,8 @@ static bool add_component(const struct course *course, int component, double fac
         weight += 2 * k;
     }
     f->bend += fabs(factor) * bend;
-    f->doubt += fabs(factor) * course->doubt[place];
-    f->extent += fabs(factor) * course->extent[place];
+    f->doubt += fabs(factor) * trajectory->doubt[place];
+    f->extent += fabs(factor) * trajectory->extent[place];
     return true;
 }
 
@@ -144,19 +145,19 @@ static void set_rough(struct affine *f)
 }
 
 /* f as a polynomial of the piece. */
-static void follow(struct affine *f, const struct course *course)
+static void follow(struct affine *f, const struct trajectory *trajectory)
 {
     const double roundings = 4;
-    double radius = (course->to - course->from) / 2;
-    f->piece = course->piece;
-    f->middle = course->from + radius;
+    double radius = (trajectory->to - trajectory->from) / 2;
+    f->piece = trajectory->piece;
+    f->middle = trajectory->from + radius;
     f->per = 1 / radius;
     f->top = 0;
     f->power[0] = f->constant;
     f->doubt = f->bend = 0;
     f->extent = fabs(f->constant);
     for (int i = 0; i < f->count; i++) {
-        if (add_component(course, f->terms[i].component, f->terms[i].factor, f)) continue;
+        if (add_component(trajectory, f->terms[i].component, f->terms[i].factor, f)) continue;
         f->top = -1;
         return;
     }
@@ -165,10 +166,10 @@ static void follow(struct affine *f, const struct course *course)
     set_rough(f);
 }
 
-static bool is_followed(struct affine *f, const struct course *course)
+static bool is_followed(struct affine *f, const struct trajectory *trajectory)
 {
-    if (!f->known || !course->exact || !(course->to > course->from)) return false;
-    if (f->piece != course->piece) follow(f, course);
+    if (!f->known || !trajectory->exact || !(trajectory->to > trajectory->from)) return false;
+    if (f->piece != trajectory->piece) follow(f, trajectory);
     return f->top >= 0;
 }
 
@@ -184,19 +185,19 @@ static double value_at(const struct affine *f, int top, double s, double *slope)
     return value;
 }
 
-/* With |f''| <= B: |f - f(s0) - f'(s0) x| <= B x^2/2 and |f' - f'(s0)| <= B |x|. Wider than what course.c makes of all powers of a
+/* With |f''| <= B: |f - f(s0) - f'(s0) x| <= B x^2/2 and |f' - f'(s0)| <= B |x|. Wider than what trajectory_poly.c makes of all powers of a
  * series by little where they fall like those of a step of a method, and by far less work. Over long stretches B is so much that
  * the high powers do not matter. */
-bool affine_enclose(struct affine *f, const struct course *course, const struct stretch *stretch,
+bool affine_enclose(struct affine *f, const struct trajectory *trajectory, const struct stretch *stretch,
                     struct enclosure *out)
 {
     const double is_long = 1.0 / 8;
-    if (!is_followed(f, course)) return false;
+    if (!is_followed(f, trajectory)) return false;
     double r = stretch_radius(stretch) * f->per, s = (stretch->middle - f->middle) * f->per, slope;
     bool rough = r >= is_long;
     double value = value_at(f, rough ? f->rough : f->top, s, &slope), rest = rough ? f->rest : 0;
     double reach = (fabs(slope) + f->bend * r / 2) * r + rest + f->doubt,
-           steep = f->bend * r + rest + f->doubt * course->degree;
+           steep = f->bend * r + rest + f->doubt * trajectory->degree;
     out->value = interval_widen(value - reach, value + reach + f->slack, 1);
     out->rate = interval_widen((slope - steep) * f->per, (slope + steep) * f->per, 3);
     out->middle =
@@ -208,10 +209,10 @@ bool affine_enclose(struct affine *f, const struct course *course, const struct 
 
 /* Newton, in a bracket that is halved where he leaves it. A step d leaves an error of
  * f'' d^2/(2 f'). */
-double affine_zero(struct affine *f, const struct course *course, double low, double high)
+double affine_zero(struct affine *f, const struct trajectory *trajectory, double low, double high)
 {
     enum { most_steps = 60 };
-    if (!is_followed(f, course)) return (double)NAN;
+    if (!is_followed(f, trajectory)) return (double)NAN;
     double a = (low - f->middle) * f->per, b = (high - f->middle) * f->per, slope;
     double above = value_at(f, f->top, a, &slope), below = value_at(f, f->top, b, &slope);
     if (!(above > 0) || !(below < 0)) return (double)NAN;

@@ -10,7 +10,7 @@
 #define FBD_EVENTS_AFFINE_H
 
 #include "dynamics/state.h"
-#include "events/course.h"
+#include "events/trajectory_poly.h"
 
 enum { affine_most_terms = 4 };
 
@@ -31,7 +31,7 @@ struct affine {
     double middle, per;  /* s = (t - middle) per */
     int top;             /* of the powers of s, below zero where the course does not tell */
     int rough;           /* of those that tell enough over long stretches */
-    double power[course_most_powers + 1];
+    double power[trajectory_most_powers + 1];
     double extent; /* sum of the sizes of terms */
     double doubt, slack;
     double bend,
@@ -45,11 +45,11 @@ void affine_find(const struct fbd_state *state, const struct watcher *watcher, s
 double affine_value(const struct affine *f, const double *y, const double *dy, double *rate);
 
 /* f over a stretch of the present piece of the course; false where it is not followed there. */
-bool affine_enclose(struct affine *f, const struct course *course, const struct stretch *stretch,
+bool affine_enclose(struct affine *f, const struct trajectory *trajectory, const struct stretch *stretch,
                     struct enclosure *out);
 
 /* Where f passes from above to below zero within [low, high] of the present piece, to rounding; NAN where its sign at the
  * ends does not tell that it does, or the course is not that of the method itself. */
-double affine_zero(struct affine *f, const struct course *course, double low, double high);
+double affine_zero(struct affine *f, const struct trajectory *trajectory, double low, double high);
 
 #endif

@@ -4,7 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "dynamics/absolute.h"
+#include "dynamics/world_refs.h"
 
 /* A divisor below this part of its largest size is zero unless there is a pole. */
 static const double negligible = 1e-12;
@@ -29,7 +29,7 @@ bool poles_init(struct poles *poles, const struct fbd_model *model, struct arena
     return true;
 }
 
-/* At an instant and along a direction that are extended (absolute.h). */
+/* At an instant and along a direction that are extended (world_refs.h). */
 static void divisors_at(const struct plan *plan, const struct instant *at, const struct direction *along,
                         double *divisors, double *rates)
 {

@@ -33,7 +33,7 @@ bool scan_init(struct scan *scan, size_t count, scan_sampler *sample, void *cont
     scan->points = ARENA_ARRAY(memory, spare_points, struct scan_point);
     double *next = ARENA_ARRAY(memory, (size_t)2 * spare_points * count, double);
     scan->crossed = ARENA_ARRAY(memory, 6 * count, bool);
-    scan->lone = ARENA_ARRAY(memory, count, struct proof_group);
+    scan->lone = ARENA_ARRAY(memory, count, struct root_group);
     scan->prover.now = ARENA_ARRAY(memory, 2 * count, struct enclosure); /* a group has no more than all */
     scan->prover.waiting = ARENA_ARRAY(memory, count, bool);
     series_init(&scan->series, count, memory);
@@ -46,7 +46,7 @@ bool scan_init(struct scan *scan, size_t count, scan_sampler *sample, void *cont
     scan->silent = scan->waits + count;
     for (size_t i = 0; i < count; i++) {
         scan->sampled[i] = true;
-        scan->lone[i] = (struct proof_group){.first = i, .count = 1};
+        scan->lone[i] = (struct root_group){.first = i, .count = 1};
     }
     for (int i = 0; i < spare_points; i++, next += 2 * count)
         scan->points[i] = (struct scan_point){0, next, next + count};
@@ -136,14 +136,14 @@ static int locate(struct scan *scan, struct scan_point *a, struct scan_point *b,
 /* ---- searching with bounds */
 
 /* Panels and pieces begin where the last ones ended: what has been seen positive waits no longer. */
-static void note_seen(struct scan *scan, const struct proof_group *group)
+static void note_seen(struct scan *scan, const struct root_group *group)
 {
     for (size_t k = 0; k < group->count; k++) scan->waits[group->first + k] &= scan->prover.waiting[k];
 }
 
 /* The zero that a group has in its bracket, in scan->t. 0 when samples say that there is none: bounds and
  * samples differ by roundings. */
-static int locate_in_group(struct scan *scan, struct proof_group *group)
+static int locate_in_group(struct scan *scan, struct root_group *group)
 {
     struct scan_point *a = &scan->points[0], *b = &scan->points[1];
     int status = take_sample(scan, a, group->low);
@@ -164,7 +164,7 @@ static int locate_in_group(struct scan *scan, struct proof_group *group)
 
 /* The same without samples, for what can tell its zeros; not at the very end of the search, where a sample is to say that it has
  * passed. */
-static bool tell_in_group(struct scan *scan, const struct proof_group *group, double limit)
+static bool tell_in_group(struct scan *scan, const struct root_group *group, double limit)
 {
     const double roundings = 64;
     double first = HUGE_VAL;
@@ -182,7 +182,7 @@ static bool tell_in_group(struct scan *scan, const struct proof_group *group, do
     return true;
 }
 
-static void note_found(struct scan *scan, const struct proof_group *group, bool told, double *limit)
+static void note_found(struct scan *scan, const struct root_group *group, bool told, double *limit)
 {
     *limit = scan->t;
     scan->found_in = group;
@@ -191,18 +191,18 @@ static void note_found(struct scan *scan, const struct proof_group *group, bool 
 
 /* The first zero of a group at or before *limit, which it becomes then: 1, else 0. Bounds that decide nothing
  * leave the group open. */
-static int search_group(struct scan *scan, struct proof_group *groups, size_t g, double from, double *limit)
+static int search_group(struct scan *scan, struct root_group *groups, size_t g, double from, double *limit)
 {
     enum { most_refuted = 8 };
-    struct proof_group *group = &groups[g];
+    struct root_group *group = &groups[g];
     bool ahead = groups == scan->groups && !scan->follow;
     for (int refuted = 0; refuted < most_refuted; refuted++) {
         double far = ahead ? fmax(*limit, scan->horizon) : *limit;
-        enum proof_result result =
-            proof_search(&scan->prover, groups, g, from, *limit, far, scan->waits + group->first);
-        group->open = result == proof_unfinished;
-        if (result == proof_clear) note_seen(scan, group);
-        if (result != proof_found || group->low >= *limit) return 0;
+        enum roots_result result =
+            roots_search(&scan->prover, groups, g, from, *limit, far, scan->waits + group->first);
+        group->open = result == roots_unfinished;
+        if (result == roots_clear) note_seen(scan, group);
+        if (result != roots_found || group->low >= *limit) return 0;
         if (groups == scan->groups && tell_in_group(scan, group, *limit)) {
             note_found(scan, group, true, limit);
             return 1;
@@ -223,7 +223,7 @@ static int search_group(struct scan *scan, struct proof_group *groups, size_t g,
 
 /* ---- by enclosures */
 
-static void leave_to_samples(struct scan *scan, const struct proof_group *group, bool sampled)
+static void leave_to_samples(struct scan *scan, const struct root_group *group, bool sampled)
 {
     for (size_t i = group->first; i < group->first + group->count; i++) scan->sampled[i] = sampled;
 }
@@ -231,7 +231,7 @@ static void leave_to_samples(struct scan *scan, const struct proof_group *group,
 /* The functions of a group that has become stuck are as good as their enclosure at an instant there. */
 static void note_rounding(struct scan *scan, size_t g)
 {
-    const struct proof_group *group = &scan->groups[g];
+    const struct root_group *group = &scan->groups[g];
     const struct stretch instant = {group->clear, group->clear, group->clear};
     scan->enclose(scan->context, g, &instant, scan->prover.now);
     for (size_t i = 0; i < group->count; i++) {
@@ -250,7 +250,7 @@ static int search_open(struct scan *scan, double from, double *limit, bool stric
     scan->prover.context = scan->context;
     scan->prover.strict = strict;
     for (size_t g = 0; g < scan->group_count; g++) {
-        struct proof_group *group = &scan->groups[g];
+        struct root_group *group = &scan->groups[g];
         if (!group->open) continue;
         if (scan->follow) group->clear = NAN, group->width = 0;
         int status = search_group(scan, scan->groups, g, from, limit);
@@ -269,7 +269,7 @@ static int search_open(struct scan *scan, double from, double *limit, bool stric
     return found;
 }
 
-static bool is_silent(const struct scan *scan, const struct proof_group *group)
+static bool is_silent(const struct scan *scan, const struct root_group *group)
 {
     bool all = true;
     for (size_t i = group->first; i < group->first + group->count; i++) all &= scan->silent[i];
@@ -302,7 +302,7 @@ static int look_in_pieces(struct scan *scan, double from, double *limit)
             return status;
         }
         for (size_t g = 0; g < scan->group_count; g++) {
-            struct proof_group *group = &scan->groups[g];
+            struct root_group *group = &scan->groups[g];
             group->open = group->aside == scan->aside && group->proved && !group->stuck && group->again;
         }
         begin = end;
@@ -315,7 +315,7 @@ static int look_in_pieces(struct scan *scan, double from, double *limit)
 static int look_by_enclosures(struct scan *scan, double from, double *limit)
 {
     for (size_t g = 0; g < scan->group_count; g++) {
-        struct proof_group *group = &scan->groups[g];
+        struct root_group *group = &scan->groups[g];
         bool turn = group->aside == scan->aside && !is_silent(scan, group),
              proved = group->proved && !group->stuck;
         group->open = turn && proved && !group->idle;
@@ -344,7 +344,7 @@ static void enclose_series(void *context, size_t i, const struct stretch *stretc
 /* Look at function i with the samples of the present level; closes it when they suffice. */
 static int search_series(struct scan *scan, size_t i, double end, double *limit, bool halved)
 {
-    struct proof_group *alone = &scan->lone[i];
+    struct root_group *alone = &scan->lone[i];
     enum series_state state = series_fit(&scan->series, i, halved);
     bool positive = state != series_inactive && series_is_positive(&scan->series, i);
     scan->waits[i] &= !positive;
@@ -467,7 +467,7 @@ static int mark_crossed(struct scan *scan, double t)
     scan->t = t;
     /* Those that are searched in the other turn may have been negative for long. */
     bool ahead = scan->groups && !scan->follow;
-    const struct proof_group *group = scan->groups;
+    const struct root_group *group = scan->groups;
     for (size_t i = 0; i < scan->count; i++) {
         size_t first = scan->found_in->first;
         while (group && i >= group->first + group->count) group++;

@@ -2,7 +2,7 @@
  *
  * Scan: the first instant in an interval at which one of several smooth functions becomes negative.
  *
- * Functions that come with enclosures are searched with proof (proof.h): none of their zeros is missed or
+ * Functions that come with enclosures are searched with proof (interval_roots.h): none of their zeros is missed or
  * invented, however many oscillations an interval has. That is the rule: see watchers_can_enclose. Those
  * along a motion are looked at by wide bounds first, which cost little; what these leave open is searched by
  * close ones.
@@ -18,7 +18,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-#include "events/proof.h"
+#include "events/interval_roots.h"
 #include "events/series.h"
 
 /* Fill values[count] and rates[count] at t; +HUGE_VAL for a function that is not active. Non-zero stops the
@@ -52,9 +52,9 @@ struct scan {
     struct scan_point *points; /* two ends of a bracket and a spare one */
 
     /* Set by the caller after scan_init, or left NULL for functions without enclosures. */
-    struct proof_group *groups;
+    struct root_group *groups;
     size_t group_count;
-    proof_enclose *enclose;
+    roots_enclose *enclose;
     scan_zero *zero;       /* or NULL */
     scan_follower *follow; /* NULL: enclosures are there for all times, and searches may run ahead */
     double horizon;        /* how far ahead at most */
@@ -65,8 +65,8 @@ struct scan {
 
     struct prover prover;
     struct series series;
-    struct proof_group *lone; /* count: each function by itself, for its series */
-    const struct proof_group *found_in;
+    struct root_group *lone; /* count: each function by itself, for its series */
+    const struct root_group *found_in;
     bool told;              /* it is what `zero` has found, and `crossed` says which */
     bool located;           /* points[1] is the end of the bracket that was located last */
     bool resumed;           /* between scan_pass_over and scan_start */
@@ -77,7 +77,7 @@ struct scan {
 };
 
 /* With these enclosures; `groups` are in the order of the functions and cover all of them. */
-void scan_use_enclosures(struct scan *scan, struct proof_group *groups, size_t count, proof_enclose *enclose,
+void scan_use_enclosures(struct scan *scan, struct root_group *groups, size_t count, roots_enclose *enclose,
                          scan_follower *follow);
 
 /* Made of `memory`; false when that is out. */

@@ -6,7 +6,7 @@
 
 #include "events/scan.h"
 
-void scan_use_enclosures(struct scan *scan, struct proof_group *groups, size_t count, proof_enclose *enclose,
+void scan_use_enclosures(struct scan *scan, struct root_group *groups, size_t count, roots_enclose *enclose,
                          scan_follower *follow)
 {
     if (scan->count == 0) return;

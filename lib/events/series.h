@@ -8,7 +8,7 @@
  * proved. It holds for functions that are analytic on the panel and change there on no shorter scale than the
  * samples show; so panels are no longer than what is known to vary fast allows (scan.h), and a series whose
  * last terms do not fall, or which misses the rates, is not believed: the panel is halved. Given that, all
- * zeros of the function are those of the series, which proof.h finds without exception.
+ * zeros of the function are those of the series, which interval_roots.h finds without exception.
  *
  * Source: L. N. Trefethen, Approximation Theory and Approximation Practice, SIAM 2013, chapters 3, 4 and 8;
  * for events so F. Biscani, D. Izzo, MNRAS 504 (2021) 2614 (heyoka, with Taylor series).

@@ -1,14 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "events/outlook.h"
+#include "events/enclosure.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-#include "dynamics/absolute.h"
 #include "dynamics/constraint.h"
 #include "dynamics/contact.h"
 #include "dynamics/modes.h"
 #include "dynamics/tree.h"
+#include "dynamics/world_refs.h"
 
 /* ---- which functions a plan needs */
 
@@ -118,17 +118,17 @@ static void add_all(struct watchers *watchers, const struct fbd_model *model)
 /* Neighbours of the same kind and index. */
 static bool group_watchers(struct arena *memory, const struct fbd_model *model, struct watcher_set *set)
 {
-    set->groups = ARENA_ARRAY(memory, set->count + 1, struct proof_group);
+    set->groups = ARENA_ARRAY(memory, set->count + 1, struct root_group);
     if (!set->groups) return false;
-    struct proof_group *group = set->groups - 1;
+    struct root_group *group = set->groups - 1;
     for (size_t i = 0; i < set->count; i++) {
         const struct watcher *watcher = &set->watchers[i];
         bool same = i > 0 && watcher->kind == watcher[-1].kind && watcher->index == watcher[-1].index;
         if (!same)
-            *++group = (struct proof_group){.first = i,
-                                            .proved = watchers_can_enclose(model, watcher),
-                                            .aside = watcher->kind == watch_user,
-                                            .clear = (double)NAN};
+            *++group = (struct root_group){.first = i,
+                                           .proved = watchers_can_enclose(model, watcher),
+                                           .aside = watcher->kind == watch_user,
+                                           .clear = (double)NAN};
         group->count++;
     }
     set->group_count = (size_t)(group + 1 - set->groups);
@@ -233,7 +233,7 @@ static void follow_affine(struct watchers *watchers, const struct fbd_state *sta
     watchers->any_affine = false;
     watchers->all_affine = true;
     for (size_t g = 0; g < set->group_count; g++) {
-        const struct proof_group *group = &set->groups[g];
+        const struct root_group *group = &set->groups[g];
         for (size_t i = group->first; !group->idle && i < group->first + group->count; i++) {
             affine_find(state, &set->watchers[i], &watchers->affine[i]);
             watchers->any_affine |= watchers->affine[i].known;
@@ -247,7 +247,7 @@ bool watchers_evaluate_affine(const struct watchers *watchers, const double *y, 
 {
     const struct watcher_set *set = &watchers->moving;
     for (size_t g = 0; watchers->all_affine && g < set->group_count; g++) {
-        const struct proof_group *group = &set->groups[g];
+        const struct root_group *group = &set->groups[g];
         for (size_t i = group->first; i < group->first + group->count; i++) {
             values[i] = HUGE_VAL;
             rates[i] = 0;
@@ -265,7 +265,7 @@ void watchers_follow(struct watchers *watchers, const struct fbd_state *state)
         set->groups[g].idle = is_idle(state, &set->watchers[set->groups[g].first]);
     follow_affine(watchers, state);
     if (!state->sliding) return;
-    bool known = !state_sliding(state) || outlook_knows_shares(state);
+    bool known = !state_sliding(state) || enclosure_has_weights(state);
     for (size_t g = 0; g < set->group_count; g++)
         set->groups[g].proved = is_enclosed(state, &set->watchers[set->groups[g].first], known);
 }

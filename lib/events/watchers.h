@@ -19,7 +19,7 @@
 #include "base/arena.h"
 #include "dynamics/modes.h"
 #include "events/affine.h"
-#include "events/proof.h"
+#include "events/interval_roots.h"
 
 enum watcher_kind {
     watch_kink,         /* a branch of a switch ends; index: kink, part: switch, end 0 or 1 */
@@ -44,7 +44,7 @@ struct watcher {
 struct watcher_set {
     struct watcher *watchers;
     size_t count;
-    struct proof_group *groups; /* in the order of the watchers: those that enclosures see together */
+    struct root_group *groups; /* in the order of the watchers: those that enclosures see together */
     size_t group_count;
 };
 
@@ -78,7 +78,7 @@ bool watchers_init(struct watchers *watchers, const struct fbd_model *model, dou
  * happen in the present modes. `state` lends its modes and scratch; (t, y) may be any point of a step. Kinks
  * read the moment, all else its double. */
 void watchers_evaluate(const struct watchers *watchers, const struct watcher_set *set,
-                       struct fbd_state *state, struct moment t, const double *y, double *values,
+                       struct fbd_state *state, struct time_dd t, const double *y, double *values,
                        double *rates);
 
 /* The same for all that moves, at a state whose rates of change dy are those of the modes that are followed. False where not all
@@ -87,13 +87,13 @@ bool watchers_evaluate_affine(const struct watchers *watchers, const double *y, 
                               double *values, double *rates);
 
 /* The same for functions of t alone, with how near to zero each counts as zero. */
-void watchers_evaluate_timed(const struct watchers *watchers, struct fbd_state *state, struct moment t,
+void watchers_evaluate_timed(const struct watchers *watchers, struct fbd_state *state, struct time_dd t,
                              double *values, double *rates, double *roundings);
 
 /* Are there enclosures of this function? */
 bool watchers_can_enclose(const struct fbd_model *model, const struct watcher *watcher);
 
-/* Flag the components of the extended vector (absolute.h) that enclosures of the set read. */
+/* Flag the components of the extended vector (world_refs.h) that enclosures of the set read. */
 void watchers_mark_used(const struct fbd_model *model, const struct watcher_set *set, bool *used);
 
 /* Enclosures of the functions of a group over a stretch of time, in the modes of `state`, for motions within
@@ -103,7 +103,7 @@ void watchers_enclose(const struct watchers *watchers, const struct watcher_set 
                       struct enclosure *out);
 
 /* Say which functions have enclosures in the modes that follow: where the motion slides on switches whose shares
- * have none (outlook.h), these and sums of forces are samples. */
+ * have none (enclosure.h), these and sums of forces are samples. */
 void watchers_follow(struct watchers *watchers, const struct fbd_state *state);
 
 /* Of functions that are samples, in the modes of `state` where it is now: what is rounding, half of what keeps a zero of

@@ -7,18 +7,18 @@
  */
 #include <float.h>
 
-#include "dynamics/absolute.h"
-#include "events/outlook.h"
+#include "dynamics/world_refs.h"
+#include "events/enclosure.h"
 
-struct enclosure outlook_formula(const struct outlook *o, const struct formula *formula)
+struct enclosure enclose_formula(const struct enclosure_input *o, const struct formula *formula)
 {
     if (!formula->expr) return enclosure_point(formula->constant);
     int slides;
-    const struct slide *slide = outlook_slide(o->state, formula, &slides);
+    const struct slide *slide = enclose_filippov(o->state, formula, &slides);
     if (slides > 1) return enclosure_everything();
     if (slide) {
-        struct enclosure high = outlook_branch(o, formula, slide, 1),
-                         low = outlook_branch(o, formula, slide, -1);
+        struct enclosure high = enclose_branch(o, formula, slide, 1),
+                         low = enclose_branch(o, formula, slide, -1);
         struct enclosure share = enclosure_scale(slide->sign, o->shares[slide->unit]);
         return enclosure_add(enclosure_scale(0.5, enclosure_add(high, low)),
                              enclosure_multiply(share, enclosure_subtract(high, low)));
@@ -27,7 +27,7 @@ struct enclosure outlook_formula(const struct outlook *o, const struct formula *
     return expr_enclose(formula->expr, o->stretch, o->y, branch);
 }
 
-struct enclosure outlook_centred(const struct outlook *o, struct enclosure f)
+struct enclosure enclose_centred(const struct enclosure_input *o, struct enclosure f)
 {
     enclosure_centre(&f, stretch_radius(o->stretch));
     return f;
@@ -35,14 +35,14 @@ struct enclosure outlook_centred(const struct outlook *o, struct enclosure f)
 
 /* ---- sums of forces */
 
-bool outlook_knows(const struct fbd_model *model, int body)
+bool enclosure_is_known(const struct fbd_model *model, int body)
 {
     const struct body_terms *terms = &model->plan.bodies[body];
     return model->bodies[body].place.link == 0 && !terms->at_points && terms->potentials.count == 0 &&
            terms->links.count + terms->drags.count + terms->forces.count == 0 && terms->offset < 0;
 }
 
-static struct enclosure enclose_sine(const struct outlook *o, const struct sine_term *term)
+static struct enclosure enclose_sine(const struct enclosure_input *o, const struct sine_term *term)
 {
     const struct enclosure *q = &o->y[term->coordinate];
     struct interval sine = interval_sin(q->value), cosine = interval_cos(q->value);
@@ -59,7 +59,7 @@ static double signed_square(double v)
 }
 
 /* -k |v| v, which falls with the slope -2 k |v|. */
-static struct enclosure enclose_square(const struct outlook *o, const struct square_term *term)
+static struct enclosure enclose_square(const struct enclosure_input *o, const struct square_term *term)
 {
     const struct enclosure *v = &o->y[o->state->model->plan.n + term->coordinate];
     struct interval size = interval_hypot(v->value, interval_point(0));
@@ -69,7 +69,7 @@ static struct enclosure enclose_square(const struct outlook *o, const struct squ
     return enclosure_scale(-term->k, f);
 }
 
-static struct enclosure enclose_affine(const struct outlook *o, const struct affine_term *term)
+static struct enclosure enclose_affine(const struct enclosure_input *o, const struct affine_term *term)
 {
     const struct enclosure *q = &o->y[term->coordinate],
                            *v = &o->y[o->state->model->plan.n + term->coordinate];
@@ -79,7 +79,7 @@ static struct enclosure enclose_affine(const struct outlook *o, const struct aff
     return f;
 }
 
-struct enclosure outlook_slot(const struct outlook *o, int body, int slot)
+struct enclosure enclose_slot(const struct enclosure_input *o, int body, int slot)
 {
     const struct plan *plan = &o->state->model->plan;
     const struct body_terms *terms = &plan->bodies[body];
@@ -95,38 +95,38 @@ struct enclosure outlook_slot(const struct outlook *o, int body, int slot)
     for (int i = terms->formulas.first; i < terms->formulas.first + terms->formulas.count; i++) {
         const struct formula_term *term = &plan->formulas[i];
         if (term->slot != slot) continue;
-        struct enclosure value = outlook_formula(o, &term->value);
+        struct enclosure value = enclose_formula(o, &term->value);
         sum = enclosure_add(sum, enclosure_scale(term->scale, value));
     }
-    return outlook_centred(o, sum);
+    return enclose_centred(o, sum);
 }
 
 /* ---- friction */
 
-static bool stays_zero(const struct outlook *o, const struct formula *mu)
+static bool stays_zero(const struct enclosure_input *o, const struct formula *mu)
 {
-    const struct enclosure f = outlook_formula(o, mu);
+    const struct enclosure f = enclose_formula(o, mu);
     return f.value.low == 0 && f.value.high == 0;
 }
 
 /* Friction that is idle throughout (friction_is_idle) has none. */
-static struct enclosure slip_stop(const struct outlook *o, int pair)
+static struct enclosure slip_stop(const struct enclosure_input *o, int pair)
 {
     const struct fbd_model *model = o->state->model;
     const struct mode *mode = &model->plan.modes[pair];
     bool may_idle = mode->mu_s.expr || mode->mu_k.expr;
     if (may_idle && stays_zero(o, &mode->mu_s) && stays_zero(o, &mode->mu_k))
         return enclosure_point(HUGE_VAL);
-    struct enclosure speed = outlook_formula(o, &mode->surface_speed);
+    struct enclosure speed = enclose_formula(o, &mode->surface_speed);
     struct enclosure slip = enclosure_subtract(o->y[model->plan.n + mode->coordinate], speed);
-    return outlook_centred(o, enclosure_scale(o->state->slip[pair], slip));
+    return enclose_centred(o, enclosure_scale(o->state->slip[pair], slip));
 }
 
-struct enclosure outlook_press(const struct outlook *o, int pair)
+struct enclosure enclose_normal_force(const struct enclosure_input *o, int pair)
 {
     const struct mode *mode = &o->state->model->plan.modes[pair];
     if (mode->normal_slot < 0) return enclosure_point(1);
-    struct enclosure sum = outlook_slot(o, mode->body, mode->normal_slot);
+    struct enclosure sum = enclose_slot(o, mode->body, mode->normal_slot);
     return enclosure_scale(-o->state->pull[pair], sum);
 }
 
@@ -141,25 +141,25 @@ static struct enclosure larger_of(struct enclosure f, struct enclosure g)
 }
 
 /* What is left to both ends, which share the limit and the force that is held. */
-static void enclose_stick_limits(const struct outlook *o, const struct watcher *watchers, size_t count,
-                                 struct enclosure *out)
+static void enclose_stick_limits(const struct enclosure_input *o, const struct watcher *watchers,
+                                 size_t count, struct enclosure *out)
 {
     int pair = watchers->index;
     const struct mode *mode = &o->state->model->plan.modes[pair];
     for (size_t i = 0; i < count; i++) out[i] = enclosure_point(HUGE_VAL);
     if (o->state->slip[pair] != stick) return;
-    struct enclosure press = larger_of(outlook_press(o, pair), enclosure_point(0));
-    struct enclosure at_rest = enclosure_multiply(outlook_formula(o, &mode->mu_s), press);
-    struct enclosure moving = enclosure_multiply(outlook_formula(o, &mode->mu_k), press);
-    struct enclosure limit = larger_of(outlook_centred(o, at_rest), outlook_centred(o, moving));
-    struct enclosure push = outlook_slot(o, mode->body, mode->hold_slot);
+    struct enclosure press = larger_of(enclose_normal_force(o, pair), enclosure_point(0));
+    struct enclosure at_rest = enclosure_multiply(enclose_formula(o, &mode->mu_s), press);
+    struct enclosure moving = enclosure_multiply(enclose_formula(o, &mode->mu_k), press);
+    struct enclosure limit = larger_of(enclose_centred(o, at_rest), enclose_centred(o, moving));
+    struct enclosure push = enclose_slot(o, mode->body, mode->hold_slot);
     /* The room for rounding that friction_rounding gives. */
     double rounding = 8 * DBL_EPSILON * (interval_size(push.value) + interval_size(limit.value));
     for (size_t i = 0; i < count; i++) {
         struct enclosure f = enclosure_add(limit, enclosure_scale(watchers[i].end == 0 ? 1 : -1, push));
         f.value.high += rounding;
         f.middle.high += rounding;
-        out[i] = outlook_centred(o, f);
+        out[i] = enclose_centred(o, f);
     }
 }
 
@@ -172,16 +172,17 @@ bool watchers_can_enclose(const struct fbd_model *model, const struct watcher *w
         return true;
     if (watcher->kind == watch_lift || watcher->kind == watch_gap || watcher->kind == watch_edge)
         return false;
-    if (watcher->kind == watch_contact) return outlook_knows(model, plan->contacts[watcher->index].body);
+    if (watcher->kind == watch_contact) return enclosure_is_known(model, plan->contacts[watcher->index].body);
     const struct mode *mode = &plan->modes[watcher->index];
     if (mode->tie >= 0) return false;
     if (watcher->kind == watch_slip_stop) return true;
     bool known = watcher->kind != watch_stick_limit || !mode->surface_speed.expr; /* its second rate */
-    return known && mode->kind == mode_single && outlook_knows(model, mode->body);
+    return known && mode->kind == mode_single && enclosure_is_known(model, mode->body);
 }
 
 static void enclose_kink(const struct watchers *watchers, const struct watcher_set *set,
-                         const struct proof_group *group, const struct outlook *o, struct enclosure *out)
+                         const struct root_group *group, const struct enclosure_input *o,
+                         struct enclosure *out)
 {
     const struct watcher *first = &set->watchers[group->first];
     const struct kink *kink = &o->state->model->plan.kinks[first->index];
@@ -196,19 +197,20 @@ static void enclose_kink(const struct watchers *watchers, const struct watcher_s
     }
 }
 
-static struct enclosure enclose_user(const struct watchers *watchers, int index, const struct outlook *o)
+static struct enclosure enclose_user(const struct watchers *watchers, int index,
+                                     const struct enclosure_input *o)
 {
     const struct watch *watch = &o->state->model->plan.watches[index];
     int armed = watchers->armed[index];
     if (armed == 0) return enclosure_point(HUGE_VAL);
     struct enclosure difference =
-        enclosure_subtract(outlook_formula(o, &watch->left), outlook_formula(o, &watch->right));
+        enclosure_subtract(enclose_formula(o, &watch->left), enclose_formula(o, &watch->right));
     struct enclosure band = enclosure_point(watchers->band[index]);
-    return outlook_centred(o, enclosure_add(enclosure_scale(armed, difference), band));
+    return enclose_centred(o, enclosure_add(enclosure_scale(armed, difference), band));
 }
 
 /* s of the upper branch, or what is left to 1. */
-static struct enclosure enclose_share(const struct outlook *o, const struct watcher *watcher)
+static struct enclosure enclose_share(const struct enclosure_input *o, const struct watcher *watcher)
 {
     const struct fbd_state *state = o->state;
     int branch = state->model->plan.kinks[watcher->index].formula.branch + watcher->part;
@@ -221,7 +223,7 @@ static struct enclosure enclose_share(const struct outlook *o, const struct watc
 }
 
 static struct enclosure enclose_one(const struct watchers *watchers, const struct watcher *watcher,
-                                    const struct outlook *o)
+                                    const struct enclosure_input *o)
 {
     const struct fbd_model *model = o->state->model;
     int index = watcher->index;
@@ -230,9 +232,9 @@ static struct enclosure enclose_one(const struct watchers *watchers, const struc
     case watch_contact: {
         const struct contact *contact = &model->plan.contacts[index];
         struct enclosure slack = enclosure_point(watchers_contact_slack(model, NULL, contact));
-        return outlook_centred(o, enclosure_subtract(slack, outlook_slot(o, contact->body, contact->slot)));
+        return enclose_centred(o, enclosure_subtract(slack, enclose_slot(o, contact->body, contact->slot)));
     }
-    case watch_normal_turns: return outlook_press(o, index);
+    case watch_normal_turns: return enclose_normal_force(o, index);
     case watch_slip_stop:
         return o->state->slip[index] == stick ? enclosure_point(HUGE_VAL) : slip_stop(o, index);
     case watch_share: return enclose_share(o, watcher);
@@ -257,16 +259,16 @@ void watchers_enclose(const struct watchers *watchers, const struct watcher_set 
                       const struct fbd_state *state, const struct stretch *stretch, const struct enclosure *y,
                       struct enclosure *out)
 {
-    const struct proof_group *those = &set->groups[group];
-    struct outlook outlook = {.state = state, .stretch = stretch, .y = y};
+    const struct root_group *those = &set->groups[group];
+    struct enclosure_input input = {.state = state, .stretch = stretch, .y = y};
     const struct watcher *first = &set->watchers[those->first];
-    if (asks_shares(first->kind) && state_sliding(state)) outlook_find_shares(&outlook);
+    if (asks_shares(first->kind) && state_sliding(state)) enclosure_find_weights(&input);
     if (first->kind == watch_kink)
-        enclose_kink(watchers, set, those, &outlook, out);
+        enclose_kink(watchers, set, those, &input, out);
     else if (first->kind == watch_stick_limit)
-        enclose_stick_limits(&outlook, first, those->count, out);
+        enclose_stick_limits(&input, first, those->count, out);
     else
-        for (size_t i = 0; i < those->count; i++) out[i] = enclose_one(watchers, &first[i], &outlook);
+        for (size_t i = 0; i < those->count; i++) out[i] = enclose_one(watchers, &first[i], &input);
 }
 
 /* ---- what they read */

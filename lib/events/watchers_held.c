@@ -10,7 +10,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "dynamics/absolute.h"
+#include "dynamics/world_refs.h"
 #include "events/watchers.h"
 
 /* Numbers between -1 and 1 that follow no rule of a scene: multiples of the golden section. */
@@ -67,7 +67,7 @@ static void count_zeros(const struct watchers *watchers, const struct fbd_state 
     if (state->model->names_places && !state->model->tree) at = instant_extend(state->model, &at);
     double *margins = watchers->scratch, *roundings = margins + 4 * kink->count;
     const double *still = watchers->place + extended_size(state->model);
-    expr_margins(kink->formula.expr, moment_at(t), at.y, 0, still, state->branch + kink->formula.branch,
+    expr_margins(kink->formula.expr, time_dd_at(t), at.y, 0, still, state->branch + kink->formula.branch,
                  margins, margins + 2 * kink->count, roundings);
     for (size_t part = 0; part < kink->count; part++)
         for (size_t end = 2 * part; end < 2 * part + 2; end++)

@@ -6,14 +6,14 @@
 #include <float.h>
 #include <string.h>
 
-#include "dynamics/absolute.h"
 #include "dynamics/constraint.h"
 #include "dynamics/contact.h"
 #include "dynamics/friction.h"
 #include "dynamics/modes.h"
-#include "dynamics/own.h"
 #include "dynamics/rest_system.h"
 #include "dynamics/tree_driven.h"
+#include "dynamics/user_states.h"
+#include "dynamics/world_refs.h"
 #include "events/watchers.h"
 
 /* ---- their values */
@@ -192,7 +192,7 @@ static double share_value(const struct fbd_state *state, const struct watcher *w
 static void kink_margins(const struct watchers *watchers, const struct kink *kink, const struct view *view)
 {
     double *margins = watchers->scratch, *rates = margins + 2 * kink->count;
-    struct moment t = {view->at.t, view->rest};
+    struct time_dd t = {view->at.t, view->rest};
     expr_margins(kink->formula.expr, t, view->at.y, view->flow.dt, view->flow.dy,
                  formula_branches(&kink->formula, &view->at), margins, rates, rates + 2 * kink->count);
 }
@@ -232,7 +232,7 @@ static void set_flow(struct view *view, bool forces)
     struct scratch scratch = state_scratch(state);
     double *slots = scratch.slots, *slots_along = scratch.slots_along, *dy = scratch.dy;
     state_rates(state->model, &view->at, slots, dy);
-    if (plan->own > 0) own_rates(state->model, &view->at, dy + plan_own_place(plan));
+    if (plan->own > 0) user_state_rates(state->model, &view->at, dy + plan_own_place(plan));
     view->flow = (struct direction){1, dy};
     if (state->model->names_places) {
         view->at = instant_extend(state->model, &view->at);
@@ -250,7 +250,7 @@ static void set_flow(struct view *view, bool forces)
 }
 
 void watchers_evaluate(const struct watchers *watchers, const struct watcher_set *set,
-                       struct fbd_state *state, struct moment t, const double *y, double *values,
+                       struct fbd_state *state, struct time_dd t, const double *y, double *values,
                        double *rates)
 {
     /* What stands at its switch, as an integral at its limit, may be short of it by the error of the step that came there. */
@@ -312,7 +312,7 @@ void watchers_evaluate(const struct watchers *watchers, const struct watcher_set
     arena_free(&view.arena);
 }
 
-void watchers_evaluate_timed(const struct watchers *watchers, struct fbd_state *state, struct moment t,
+void watchers_evaluate_timed(const struct watchers *watchers, struct fbd_state *state, struct time_dd t,
                              double *values, double *rates, double *roundings)
 {
     const struct watcher_set *set = &watchers->timed;

@@ -66,11 +66,11 @@ static bool same_bits(double a, double b)
     return x == y;
 }
 
-static size_t add_constant(struct builder *b, struct twofold value)
+static size_t add_constant(struct builder *b, struct double_double value)
 {
     for (size_t i = 0; i < b->constant_count; i++)
         if (same_bits(b->constants[i].x, value.x) && b->constants[i].rest == value.rest) return i;
-    struct twofold *constants =
+    struct double_double *constants =
         grow(b, b->constants, b->constant_count, &b->constant_room, sizeof *constants);
     if (!constants) return 0;
     b->constants = constants;
@@ -110,7 +110,7 @@ static unsigned short name_register(struct builder *b, const struct operand *ope
     switch (operand->place) {
     case place_constant:
         return (unsigned short)(of_constant +
-                                (int)add_constant(b, (struct twofold){operand->value, operand->rest}));
+                                (int)add_constant(b, (struct double_double){operand->value, operand->rest}));
     case place_variable: return (unsigned short)(of_variable + (int)add_slot(b, operand->index));
     default: return (unsigned short)(of_temporary + operand->index);
     }
@@ -139,13 +139,13 @@ static void inherit(struct operand *whole, const struct operand *part)
  * width, whose digits behind those of the start would be lost. */
 static double rest_of(enum op op, const struct operand *x, const struct operand *y)
 {
-    struct twofold a = {x->value, x->rest}, b = {y->value, y->rest}, result = {0, 0};
+    struct double_double a = {x->value, x->rest}, b = {y->value, y->rest}, result = {0, 0};
     switch (op) {
     case op_negate: return -a.rest;
-    case op_add: result = twofold_add(a, b); break;
-    case op_subtract: result = twofold_subtract(a, b); break;
-    case op_multiply: result = twofold_multiply(a, b); break;
-    case op_divide: result = twofold_divide(a, b); break;
+    case op_add: result = dd_add(a, b); break;
+    case op_subtract: result = dd_subtract(a, b); break;
+    case op_multiply: result = dd_multiply(a, b); break;
+    case op_divide: result = dd_divide(a, b); break;
     default: break;
     }
     return isfinite(result.x) ? result.rest : 0;

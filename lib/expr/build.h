@@ -23,7 +23,7 @@ struct kind {
 struct operand {
     struct kind kind;
     enum { place_constant, place_variable, place_temporary } place;
-    double value, rest;   /* of a constant, with what its rounding has left (base/twofold.h) */
+    double value, rest;   /* of a constant, with what its rounding has left (base/double_double.h) */
     int index;            /* slot of a variable, number of a temporary */
     bool time, state, pi; /* depends on t, on other variables; contains the constant pi */
     struct pos at;        /* where to point when it does not fit */
@@ -36,7 +36,7 @@ struct builder {
     struct arena scratch; /* everything below, until the program is finished */
     struct instr *code;
     int *slots;
-    struct twofold *constants;
+    struct double_double *constants;
     struct expr_switch *switches;
     size_t operations, slot_count, constant_count, switch_count;
     size_t code_room, slot_room, constant_room, switch_room;

@@ -261,7 +261,7 @@ static struct enclosure with_tolerance(struct enclosure u)
     return u;
 }
 
-static struct enclosure knot_of(struct twofold knot)
+static struct enclosure knot_of(struct double_double knot)
 {
     struct interval range = interval_widen(knot.x, knot.x, 1);
     return (struct enclosure){range, none, range};
@@ -273,7 +273,7 @@ static void enclose_margins(const struct instr *i, struct enclosing *e)
     int n = e->branch[i->extra];
     struct enclosure u = watched(i, e), *lower = &e->margins[(ptrdiff_t)2 * i->extra], *upper = lower + 1;
     if (i->op == op_table) {
-        struct twofold from, to;
+        struct double_double from, to;
         if (n >= branch_limit || n <= -branch_limit) return;
         table_ends(i->table, n, &from, &to);
         if (isfinite(from.x)) *lower = enclosure_subtract(u, knot_of(from));

@@ -43,7 +43,7 @@
 
 #include "base/arena.h"
 #include "base/diag.h"
-#include "base/moment.h"
+#include "base/time_dd.h"
 #include "expr/interval.h"
 #include "expr/unit.h"
 
@@ -208,7 +208,7 @@ bool expr_switch_is_time(const struct expr *expr, size_t index);
  * not NULL, how near to zero a margin counts as zero. A switch in the side of an `if` that is not chosen is
  * silent: both margins are +HUGE_VAL. Margins have the unit of u, and for roundings that of the branch
  * number. */
-void expr_margins(const struct expr *expr, struct moment t, const double *y, double dt, const double *dy,
+void expr_margins(const struct expr *expr, struct time_dd t, const double *y, double dt, const double *dy,
                   const int *branch, double *margins, double *rates, double *roundings);
 
 /* Choose the branches at a point from the values; where a switching function is zero to rounding, by its rate
@@ -218,12 +218,12 @@ void expr_margins(const struct expr *expr, struct moment t, const double *y, dou
  * bounds of the rounding error of u, which is propagated through the expression; so an instant located to the
  * last bit is recognised. With `keep`, that of an event, the time and the constants count as exact; without,
  * the time may be any double. */
-void expr_resolve(const struct expr *expr, struct moment t, const double *y, double dt, const double *dy,
+void expr_resolve(const struct expr *expr, struct time_dd t, const double *y, double dt, const double *dy,
                   const bool *keep, int *branch);
 
 /* The same, but that a comparison which is zero with a rate of exactly zero stays on the branch that it has in `branch`,
  * if that is not 0: the branch holds it there, as the limit of an integral does. */
-void expr_resolve_at_rest(const struct expr *expr, struct moment t, const double *y, double dt,
+void expr_resolve_at_rest(const struct expr *expr, struct time_dd t, const double *y, double dt,
                           const double *dy, const bool *keep, int *branch);
 
 /* What the active switches watch, at a point of the motion: u, its rate along (dt, dy), and the rounding of

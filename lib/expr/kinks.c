@@ -32,11 +32,11 @@ struct motion {
     double value[frame_limit], rest[frame_limit], rate[frame_limit], error[frame_limit];
 };
 
-static const double twofold_rounding = DBL_EPSILON * DBL_EPSILON;
+static const double dd_rounding = DBL_EPSILON * DBL_EPSILON;
 
 /* The function that a switch watches, at one point of the motion. */
 struct crossing {
-    struct twofold exact;
+    struct double_double exact;
     double u, rate, tolerance;
 };
 
@@ -44,7 +44,7 @@ struct crossing {
 typedef void visit(void *context, const struct instr *i, const struct motion *at, struct crossing crossing);
 
 /* `rounding` is that of the time and of constants. */
-static void load(const struct expr *expr, struct moment t, const double *y, double dt, const double *dy,
+static void load(const struct expr *expr, struct time_dd t, const double *y, double dt, const double *dy,
                  double rounding, struct motion *m)
 {
     size_t n = 0;
@@ -64,52 +64,52 @@ static void load(const struct expr *expr, struct moment t, const double *y, doub
     }
 }
 
-static struct twofold number_of(const struct motion *m, size_t reg)
+static struct double_double number_of(const struct motion *m, size_t reg)
 {
-    return (struct twofold){m->value[reg], m->rest[reg]};
+    return (struct double_double){m->value[reg], m->rest[reg]};
 }
 
 static struct crossing crossing_at(const struct instr *i, const int *branch, const struct motion *m)
 {
-    struct twofold a = number_of(m, i->a), b = number_of(m, i->b), u = a;
+    struct double_double a = number_of(m, i->a), b = number_of(m, i->b), u = a;
     double rate = m->rate[i->a], error = m->error[i->a];
     if (op_is_by_difference(i->op)) {
-        u = twofold_subtract(a, b);
+        u = dd_subtract(a, b);
         rate -= m->rate[i->b];
-        error += m->error[i->b] + twofold_rounding * (fabs(a.x) + fabs(b.x));
+        error += m->error[i->b] + dd_rounding * (fabs(a.x) + fabs(b.x));
     } else if (i->op == op_relay) {
-        u = twofold_add(a, (struct twofold){branch && branch[i->extra] > 0 ? 1 : -1, 0});
-        error += twofold_rounding * fabs(a.x);
+        u = dd_add(a, (struct double_double){branch && branch[i->extra] > 0 ? 1 : -1, 0});
+        error += dd_rounding * fabs(a.x);
     } else if (op_is_by_quotient(i->op)) {
-        u = twofold_divide(a, b);
+        u = dd_divide(a, b);
         rate = (rate - u.x * m->rate[i->b]) / b.x;
-        error = (error + fabs(u.x) * m->error[i->b]) / fabs(b.x) + twofold_rounding * fabs(u.x);
+        error = (error + fabs(u.x) * m->error[i->b]) / fabs(b.x) + dd_rounding * fabs(u.x);
     } else if (i->op == op_square) {
-        u = (struct twofold){2 * a.x, 2 * a.rest};
+        u = (struct double_double){2 * a.x, 2 * a.rest};
         rate *= 2;
         error *= 2;
     }
     /* The bounds are of first order, so a few of them; never zero, so that u = 0 lies inside. */
-    return (struct crossing){u, twofold_value(u), rate, 4 * error + DBL_MIN};
+    return (struct crossing){u, dd_value(u), rate, 4 * error + DBL_MIN};
 }
 
 /* The rest of what an instruction makes, f its rounded value; false for one that keeps none. */
 static bool keep_rest(const struct instr *i, const struct motion *m, const int *branch, double f,
-                      struct twofold *result)
+                      struct double_double *result)
 {
-    struct twofold a = number_of(m, i->a), b = number_of(m, i->b);
+    struct double_double a = number_of(m, i->a), b = number_of(m, i->b);
     double n;
     switch (i->op) {
-    case op_add: *result = twofold_add(a, b); break;
-    case op_subtract: *result = twofold_subtract(a, b); break;
-    case op_multiply: *result = twofold_multiply(a, b); break;
-    case op_divide: *result = twofold_divide(a, b); break;
+    case op_add: *result = dd_add(a, b); break;
+    case op_subtract: *result = dd_subtract(a, b); break;
+    case op_multiply: *result = dd_multiply(a, b); break;
+    case op_divide: *result = dd_divide(a, b); break;
     case op_mod:
     case op_sawtooth:
         n = switch_branch(i, a.x, b.x, branch);
         if (n == 0) return false;
-        b = i->op == op_sawtooth ? (struct twofold){1, 0} : b;
-        *result = twofold_subtract(a, twofold_multiply((struct twofold){n, 0}, b));
+        b = i->op == op_sawtooth ? (struct double_double){1, 0} : b;
+        *result = dd_subtract(a, dd_multiply((struct double_double){n, 0}, b));
         break;
     default: return false;
     }
@@ -130,13 +130,13 @@ static void step_motion(const struct instr *i, const int *branch, struct motion 
     double rate = along(s.a, m->rate[i->a]) + along(s.b, m->rate[i->b]);
     double rest = along(s.a, m->rest[i->a]) + along(s.b, m->rest[i->b]);
     double error = along(fabs(s.a), m->error[i->a]) + along(fabs(s.b), m->error[i->b]);
-    struct twofold kept;
+    struct double_double kept;
     bool keeps = keep_rest(i, m, branch, s.f, &kept);
-    double own = (keeps || is_without_rounding(i->op) ? twofold_rounding : DBL_EPSILON) * fabs(s.f);
+    double own = (keeps || is_without_rounding(i->op) ? dd_rounding : DBL_EPSILON) * fabs(s.f);
     if (i->op == op_table)
         own = table_rounding(i->table, switch_branch(i, m->value[i->a], 0, branch), m->value[i->a]);
     if (keeps && (i->op == op_add || i->op == op_subtract || i->op == op_mod))
-        own += twofold_rounding * fabs(m->value[i->a]);
+        own += dd_rounding * fabs(m->value[i->a]);
     m->value[i->to] = keeps ? kept.x : s.f;
     m->rest[i->to] = keeps ? kept.rest : isfinite(rest) ? rest : 0;
     m->rate[i->to] = rate;
@@ -180,11 +180,11 @@ static void note_margins(void *context, const struct instr *i, const struct moti
     struct margins *m = context;
     int n = m->branch[i->extra], lower = 2 * i->extra, upper = lower + 1;
     if (i->op == op_table) {
-        struct twofold from, to;
+        struct double_double from, to;
         if (n >= branch_limit || n <= -branch_limit) return;
         table_ends(i->table, n, &from, &to);
-        if (isfinite(from.x)) set_margin(m, lower, twofold_value(twofold_subtract(c.exact, from)), c, 1);
-        if (isfinite(to.x)) set_margin(m, upper, twofold_value(twofold_subtract(to, c.exact)), c, -1);
+        if (isfinite(from.x)) set_margin(m, lower, dd_value(dd_subtract(c.exact, from)), c, 1);
+        if (isfinite(to.x)) set_margin(m, upper, dd_value(dd_subtract(to, c.exact)), c, -1);
     } else if (!op_is_by_sign(i->op)) {
         if (n >= branch_limit || n <= -branch_limit) return;
         double low = n + switch_offset(i->op);
@@ -200,7 +200,7 @@ static void note_margins(void *context, const struct instr *i, const struct moti
     }
 }
 
-void expr_margins(const struct expr *expr, struct moment t, const double *y, double dt, const double *dy,
+void expr_margins(const struct expr *expr, struct time_dd t, const double *y, double dt, const double *dy,
                   const int *branch, double *margins, double *rates, double *roundings)
 {
     if (!expr->switches) return;
@@ -211,7 +211,7 @@ void expr_margins(const struct expr *expr, struct moment t, const double *y, dou
         if (rates) rates[k] = 0;
         if (roundings) roundings[k] = 0;
     }
-    load(expr, t, y, dt, dy, twofold_rounding, &motion);
+    load(expr, t, y, dt, dy, dd_rounding, &motion);
     run(expr, branch, &motion, note_margins, &context);
 }
 
@@ -236,7 +236,7 @@ void expr_switchings(const struct expr *expr, double t, const double *y, double 
     struct motion motion;
     struct switchings context = {u, rates, rounding};
     for (size_t k = 0; k < expr->switches; k++) u[k] = rates[k] = rounding[k] = (double)NAN;
-    load(expr, moment_at(t), y, dt, dy, DBL_EPSILON, &motion);
+    load(expr, time_dd_at(t), y, dt, dy, DBL_EPSILON, &motion);
     run(expr, branch, &motion, note_switching, &context);
 }
 
@@ -296,12 +296,11 @@ static int branch_by_rounding(const struct instr *i, const struct motion *at, st
 
 static int branch_by_piece(const struct instr *i, const struct motion *at, struct crossing c)
 {
-    struct twofold from, to;
+    struct double_double from, to;
     double piece = table_piece(i->table, at->value[i->a]);
     if (!isfinite(c.u)) return counted(piece);
     table_ends(i->table, piece, &from, &to);
-    double below = twofold_value(twofold_subtract(c.exact, from)),
-           above = twofold_value(twofold_subtract(to, c.exact));
+    double below = dd_value(dd_subtract(c.exact, from)), above = dd_value(dd_subtract(to, c.exact));
     if (fabs(below) <= c.tolerance && c.rate != 0) return counted(c.rate > 0 ? piece : piece - 1);
     if (fabs(above) <= c.tolerance && c.rate != 0) return counted(c.rate > 0 ? piece + 1 : piece);
     return counted(piece);
@@ -325,7 +324,7 @@ static void choose_branch(void *context, const struct instr *i, const struct mot
     if (i->op == op_levels) *branch = (int)levels_clamp(*branch);
 }
 
-static void resolve(const struct expr *expr, struct moment t, const double *y, double dt, const double *dy,
+static void resolve(const struct expr *expr, struct time_dd t, const double *y, double dt, const double *dy,
                     const bool *keep, bool stays, int *branch)
 {
     if (!expr->switches) return;
@@ -336,17 +335,17 @@ static void resolve(const struct expr *expr, struct moment t, const double *y, d
     for (size_t k = 0; k < expr->switches; k++)
         if ((!keep || !keep[k]) && expr->switch_at[k].op != op_relay) branch[k] = 0;
     /* Who asks without an event means 0.7 by the double next to it, and so where three times that is. */
-    load(expr, t, y, dt, dy, keep ? twofold_rounding : DBL_EPSILON, &motion);
+    load(expr, t, y, dt, dy, keep ? dd_rounding : DBL_EPSILON, &motion);
     run(expr, branch, &motion, choose_branch, &context);
 }
 
-void expr_resolve(const struct expr *expr, struct moment t, const double *y, double dt, const double *dy,
+void expr_resolve(const struct expr *expr, struct time_dd t, const double *y, double dt, const double *dy,
                   const bool *keep, int *branch)
 {
     resolve(expr, t, y, dt, dy, keep, false, branch);
 }
 
-void expr_resolve_at_rest(const struct expr *expr, struct moment t, const double *y, double dt,
+void expr_resolve_at_rest(const struct expr *expr, struct time_dd t, const double *y, double dt,
                           const double *dy, const bool *keep, int *branch)
 {
     resolve(expr, t, y, dt, dy, keep, true, branch);

@@ -7,7 +7,7 @@
 #include "expr/interval.h"
 
 /* The formulas, and room for one of them at a time. */
-struct walk {
+struct substeps {
     const struct expr *const *formulas;
     size_t count;
     int slot, *branch; /* of all */
@@ -15,7 +15,7 @@ struct walk {
     struct enclosure *spans, *margins;
 };
 
-static size_t switches_of(const struct walk *walk)
+static size_t switches_of(const struct substeps *walk)
 {
     size_t switches = 0;
     for (size_t i = 0; i < walk->count; i++) switches += expr_switches(walk->formulas[i]);
@@ -23,7 +23,7 @@ static size_t switches_of(const struct walk *walk)
 }
 
 /* Do all of them depend on the one slot alone? */
-static bool is_of_one(const struct walk *walk)
+static bool is_of_one(const struct substeps *walk)
 {
     for (size_t i = 0; i < walk->count; i++) {
         const int *slots;
@@ -34,7 +34,7 @@ static bool is_of_one(const struct walk *walk)
     return true;
 }
 
-static bool start(struct walk *walk)
+static bool start(struct substeps *walk)
 {
     size_t switches = switches_of(walk), slots = (size_t)walk->slot;
     walk->branch = calloc(switches + 1, sizeof *walk->branch);
@@ -45,7 +45,7 @@ static bool start(struct walk *walk)
     return walk->branch && walk->margins && walk->y && walk->spans;
 }
 
-static void end(struct walk *walk)
+static void end(struct substeps *walk)
 {
     free(walk->branch);
     free(walk->margins);
@@ -53,18 +53,18 @@ static void end(struct walk *walk)
     free(walk->spans);
 }
 
-static void resolve(struct walk *walk, double at)
+static void resolve(struct substeps *walk, double at)
 {
     int *branch = walk->branch;
     walk->y[walk->slot - 1] = at;
     walk->on[walk->slot - 1] = 1;
     for (size_t i = 0; i < walk->count; branch += expr_switches(walk->formulas[i++]))
         if (expr_switches(walk->formulas[i]) > 0)
-            expr_resolve(walk->formulas[i], moment_at(0), walk->y, 0, walk->on, NULL, branch);
+            expr_resolve(walk->formulas[i], time_dd_at(0), walk->y, 0, walk->on, NULL, branch);
 }
 
 /* Does no switch turn between two values of the variable, for sure? */
-static bool is_one(struct walk *walk, double from, double to)
+static bool is_one(struct substeps *walk, double from, double to)
 {
     const int *branch = walk->branch;
     struct stretch stretch = stretch_between(from, to);
@@ -84,7 +84,7 @@ static bool is_one(struct walk *walk, double from, double to)
 }
 
 /* The end of the piece that begins at `from`. */
-static double piece_end(struct walk *walk, double from, double to, double narrow)
+static double piece_end(struct substeps *walk, double from, double to, double narrow)
 {
     double low = from, wide = to - from;
     while (low < to) {
@@ -101,7 +101,7 @@ static double piece_end(struct walk *walk, double from, double to, double narrow
     return to;
 }
 
-static int cut(struct walk *walk, double from, double to, int most, double *ends)
+static int cut(struct substeps *walk, double from, double to, int most, double *ends)
 {
     /* Below the smallest normal number halves are no halves any more, and in the end nothing: the search would not end. */
     const double narrow = fmax(4 * DBL_EPSILON * fmax(fabs(from), fabs(to)), DBL_MIN);
@@ -127,7 +127,7 @@ static int cut(struct walk *walk, double from, double to, int most, double *ends
 int pieces_cut(const struct expr *const *formulas, size_t count, int slot, double from, double to, int most,
                double *ends)
 {
-    struct walk walk = {.formulas = formulas, .count = count, .slot = slot};
+    struct substeps walk = {.formulas = formulas, .count = count, .slot = slot};
     ends[0] = from;
     ends[1] = to;
     if (switches_of(&walk) == 0 || !is_of_one(&walk)) return 1;
@@ -142,7 +142,7 @@ int pieces_cut(const struct expr *const *formulas, size_t count, int slot, doubl
 
 bool pieces_branches(const struct expr *formula, int slot, double from, double to, int *branch)
 {
-    struct walk walk = {.formulas = &formula, .count = 1, .slot = slot};
+    struct substeps walk = {.formulas = &formula, .count = 1, .slot = slot};
     bool started = start(&walk);
     if (started) resolve(&walk, from + (to - from) / 2);
     for (size_t k = 0; started && k < expr_switches(formula); k++) branch[k] = walk.branch[k];

@@ -114,7 +114,7 @@ struct expr {
     const int *slots; /* of the variables, ascending */
     size_t constants;
     const double *constant;
-    const double *constant_rest; /* what is left of them (base/twofold.h); NULL without instructions */
+    const double *constant_rest; /* what is left of them (base/double_double.h); NULL without instructions */
     double single;               /* where `constant` points to when the program is one number */
     size_t result;               /* its register */
     size_t switches;

@@ -80,7 +80,7 @@ enum table_status table_make(struct table *table, size_t count, const double *x,
         memcpy(table->x, x, count * sizeof *x);
         if (!spline) make_lines(table, y);
         bool made = !spline || make_spline(table, y);
-        table->period = twofold_sum(x[count - 1], -x[0]);
+        table->period = dd_sum(x[count - 1], -x[0]);
         table->before = table->beyond == table_hold ? y[0] : table->beyond == table_zero ? 0 : (double)NAN;
         table->after = table->beyond == table_hold ? y[count - 1] : table->before;
         table->per_knot = (double)(count - 1) / table->period.x;
@@ -154,11 +154,11 @@ static size_t within(const struct table *table, double piece, double *periods)
     return rest < pieces ? (size_t)rest : 0;
 }
 
-static struct twofold knot(const struct table *table, size_t i, double periods)
+static struct double_double knot(const struct table *table, size_t i, double periods)
 {
-    struct twofold x = {table->x[i], 0};
+    struct double_double x = {table->x[i], 0};
     if (periods == 0) return x;
-    return twofold_add(x, twofold_multiply((struct twofold){periods, 0}, table->period));
+    return dd_add(x, dd_multiply((struct double_double){periods, 0}, table->period));
 }
 
 static bool is_beyond(const struct table *table, double piece)
@@ -166,13 +166,15 @@ static bool is_beyond(const struct table *table, double piece)
     return table->beyond != table_repeat && (piece < 0 || piece >= (double)(table->count - 1));
 }
 
-void table_ends(const struct table *table, double piece, struct twofold *low, struct twofold *high)
+void table_ends(const struct table *table, double piece, struct double_double *low,
+                struct double_double *high)
 {
     size_t last = table->count - 1;
     if (is_beyond(table, piece)) {
-        *low =
-            piece < 0 ? (struct twofold){-HUGE_VAL, 0} : (struct twofold){table->x[last] + slack(table), 0};
-        *high = piece < 0 ? (struct twofold){table->x[0] - slack(table), 0} : (struct twofold){HUGE_VAL, 0};
+        *low = piece < 0 ? (struct double_double){-HUGE_VAL, 0}
+                         : (struct double_double){table->x[last] + slack(table), 0};
+        *high = piece < 0 ? (struct double_double){table->x[0] - slack(table), 0}
+                          : (struct double_double){HUGE_VAL, 0};
         return;
     }
     double periods = 0;
@@ -246,7 +248,7 @@ static bool agree(double a, double b, double size)
 
 int table_smoothness(const struct table *table, double piece)
 {
-    struct twofold low, start, high;
+    struct double_double low, start, high;
     double f[2], d[2], dd[2];
     table_ends(table, piece - 1, &low, &start);
     table_ends(table, piece, &start, &high);

@@ -23,7 +23,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-#include "base/twofold.h"
+#include "base/double_double.h"
 #include "expr/dim.h"
 
 /* Pieces of periods are counted this far; beyond, a table has no value. */
@@ -50,12 +50,12 @@ struct table {
     bool x_free, y_free; /* given without units: any dimension will do */
     enum table_interpolation interpolation;
     enum table_beyond beyond;
-    size_t count;          /* knots */
-    double *x;             /* count, ascending */
-    double *c;             /* 4 for each of the count - 1 pieces between */
-    double before, after;  /* the values beyond the ends */
-    double per_knot;       /* knots for each unit of x, if they are about even: where to look first */
-    struct twofold period; /* of `repeat` */
+    size_t count;                /* knots */
+    double *x;                   /* count, ascending */
+    double *c;                   /* 4 for each of the count - 1 pieces between */
+    double before, after;        /* the values beyond the ends */
+    double per_knot;             /* knots for each unit of x, if they are about even: where to look first */
+    struct double_double period; /* of `repeat` */
 };
 
 enum table_status {
@@ -78,7 +78,8 @@ void table_drop(struct table *table);
 double table_piece(const struct table *table, double x);
 
 /* Where a piece begins and ends; -HUGE_VAL and HUGE_VAL for what has no end. */
-void table_ends(const struct table *table, double piece, struct twofold *low, struct twofold *high);
+void table_ends(const struct table *table, double piece, struct double_double *low,
+                struct double_double *high);
 
 /* The polynomial of a piece: u = x - the knot `from`, and its coefficients. */
 struct table_polynomial {

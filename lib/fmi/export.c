@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "api/record.h"
-#include "base/call.h"
+#include "base/api_check.h"
 #include "base/file.h"
 #include "fmi/package.h"
 #include "fmi/zip.h"
@@ -222,13 +222,13 @@ char *fbd_fmu(const fbd_model *model, const fbd_fmu_options *options, size_t *le
     fbd_errors *errors = diag_begin(&call, list);
     fbd_fmu_options own = {0};
     fbd_options run = FBD_OPTIONS_DEFAULT;
-    bool sized =
-        call_options(&own, sizeof own, options, errors) && call_options(&run, sizeof run, own.run, errors);
+    bool sized = api_take_options(&own, sizeof own, options, errors) &&
+                 api_take_options(&run, sizeof run, own.run, errors);
     bool meant = sized && model && options && own.library && length &&
-                 call_has_settings(own.settings, own.setting_count);
+                 api_has_settings(own.settings, own.setting_count);
     if (length) *length = 0;
     if (sized && !meant)
-        call_refuse(errors, "there is no model, binary or place for the length, or a setting has no value");
+        api_refuse(errors, "there is no model, binary or place for the length, or a setting has no value");
     char *bytes = NULL;
     if (meant) {
         if (own.version == 0) own.version = 3;

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/call.h"
+#include "base/api_check.h"
 #include "base/file.h"
 #include "base/text.h"
 #include "grade/grade.h"
@@ -102,7 +102,7 @@ fbd_grade *fbd_grade_new(const fbd_key *key, const char *path, const char *stude
     fbd_errors *errors = diag_begin(&call, list);
     const struct submission submission = {.path = path};
     fbd_grade *grade = key && path ? make_grade(key, &submission, path, student, errors)
-                                   : call_refuse(errors, "there is no key, or no path of an answer");
+                                   : api_refuse(errors, "there is no key, or no path of an answer");
     diag_end(&call);
     return grade;
 }
@@ -115,7 +115,7 @@ fbd_grade *fbd_grade_parse(const fbd_key *key, const char *text, size_t length, 
     const struct submission submission = {.text = text, .length = length};
     fbd_grade *grade = key && text && student
                            ? make_grade(key, &submission, student, student, errors)
-                           : call_refuse(errors, "there is no key, no text of an answer, or no student");
+                           : api_refuse(errors, "there is no key, no text of an answer, or no student");
     diag_end(&call);
     return grade;
 }

@@ -5,7 +5,7 @@
  */
 #include <string.h>
 
-#include "base/call.h"
+#include "base/api_check.h"
 #include "base/text.h"
 #include "grade/handout.h"
 
@@ -225,7 +225,7 @@ static char *make_handout(const fbd_key *key, const char *student, bool solved, 
     struct text text = {0};
     struct arena arena = {0};
     char *made = NULL;
-    if (!key || !student) call_refuse(errors, "there is no key, or no name of a student");
+    if (!key || !student) api_refuse(errors, "there is no key, or no name of a student");
     if (key && student) {
         struct handout handout = {.text = &text, .arena = &arena, .key = key, .student = student};
         if (solved) handout.model = solution_model(&handout, errors);

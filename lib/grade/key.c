@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/call.h"
+#include "base/api_check.h"
 #include "base/file.h"
 #include "base/text.h"
 #include "dynamics/diagram.h"
@@ -222,9 +222,9 @@ static fbd_key *make_key(char *text, size_t length, const char *name, const fbd_
 
 static bool is_asked(const char *path_or_text, const fbd_setting *settings, size_t count, fbd_errors *errors)
 {
-    if (path_or_text && call_has_settings(settings, count)) return true;
-    call_refuse(errors, path_or_text ? "a setting has no name or no value"
-                                     : "there is no path, or no text, of a key");
+    if (path_or_text && api_has_settings(settings, count)) return true;
+    api_refuse(errors,
+               path_or_text ? "a setting has no name or no value" : "there is no path, or no text, of a key");
     return false;
 }
 
@@ -260,7 +260,7 @@ bool fbd_model_check_key(const fbd_model *model, fbd_errors *list)
     struct diag_call call;
     fbd_errors *errors = diag_begin(&call, list);
     bool is_key = model && model->source && model->scene->grading.given;
-    bool done = is_key ? check_source(model, errors) : model || call_refuse(errors, "there is no model");
+    bool done = is_key ? check_source(model, errors) : model || api_refuse(errors, "there is no model");
     diag_end(&call);
     return done;
 }

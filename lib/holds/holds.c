@@ -102,7 +102,7 @@ static void add_press(const struct affine *of, const struct hold *hold, double s
     to[of->first[problem->count + (size_t)hold->presses]] += (two_sided ? 2 : 1) * share;
 }
 
-static bool presses_on_both_sides(const struct affine *of, const struct hold *hold)
+static bool lint_friction_on_both_sides(const struct affine *of, const struct hold *hold)
 {
     return hold->kind == hold_friction && hold->press == press_guide &&
            of->problem->guides[hold->presses].two_sided;
@@ -128,7 +128,7 @@ static bool set_forces(struct affine *of)
         if (hold->kind == hold_one_sided) continue;
         add_press(of, hold, share_of(hold), f);
         of->implicit[i * count + i] = 1;
-        if (!presses_on_both_sides(of, hold)) continue;
+        if (!lint_friction_on_both_sides(of, hold)) continue;
         implicit = true;
         f[of->m] -= share_of(hold) * problem->guides[hold->presses].free;
     }
@@ -136,7 +136,8 @@ static bool set_forces(struct affine *of)
     for (size_t i = 0; i < count; i++) {
         const struct hold *hold = &problem->holds[i];
         for (size_t j = 0; j < count; j++) {
-            double B = presses_on_both_sides(of, hold) ? problem->B[(size_t)hold->presses * count + j] : 0;
+            double B =
+                lint_friction_on_both_sides(of, hold) ? problem->B[(size_t)hold->presses * count + j] : 0;
             of->implicit[i * count + j] = (i == j) + share_of(hold) * B;
         }
     }

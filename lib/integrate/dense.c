@@ -39,7 +39,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/zeroed.h"
+#include "base/block_alloc.h"
 #include "integrate/linear.h"
 #include "integrate/nystrom.h"
 #include "integrate/pair8.h"
@@ -78,7 +78,7 @@ struct dense {
     size_t pairs, extra;
     int level;
     bool prepared;
-    struct moment t0, t1;
+    struct time_dd t0, t1;
     double h;
     const double *y0, *f0, *y1, *f1;
     const double *error; /* see dense_set_errors; or NULL */
@@ -98,7 +98,7 @@ struct dense *dense_alloc(const struct layout *layout)
     size_t n = layout->pairs, m = layout->extra, size = layout_size(layout);
     if (size > SIZE_MAX / 16 / sizeof(struct pair)) return NULL;
     size_t bytes = n * sizeof(struct pair) + m * sizeof(struct single) + 3 * size * sizeof(double);
-    struct dense *d = zeroed(sizeof *d + bytes);
+    struct dense *d = block_alloc(sizeof *d + bytes);
     if (!d) return NULL;
     d->pairs = n;
     d->extra = m;
@@ -126,15 +126,15 @@ static int level_for(int order, size_t pairs, size_t extra)
     return order == 5 && (pairs == 0 || extra == 0) ? 1 : 2;
 }
 
-void dense_set(struct dense *d, int order, struct moment t0, const double *y0, const double *f0,
-               struct moment t1, const double *y1, const double *f1, const gsl_odeiv2_system *sys,
+void dense_set(struct dense *d, int order, struct time_dd t0, const double *y0, const double *f0,
+               struct time_dd t1, const double *y1, const double *f1, const gsl_odeiv2_system *sys,
                gsl_odeiv2_step *step)
 {
     d->level = level_for(order, d->pairs, d->extra);
     d->prepared = false;
     d->t0 = t0;
     d->t1 = t1;
-    d->h = moment_since(t1, t0);
+    d->h = time_dd_since(t1, t0);
     d->y0 = y0;
     d->f0 = f0;
     d->y1 = y1;
@@ -379,11 +379,11 @@ static int prepare(struct dense *d)
     return code;
 }
 
-int dense_eval(struct dense *d, struct moment t, double *y)
+int dense_eval(struct dense *d, struct time_dd t, double *y)
 {
     size_t size = 2 * d->pairs + d->extra;
-    bool start = moment_equal(t, d->t0);
-    if (start || moment_equal(t, d->t1)) {
+    bool start = time_dd_equal(t, d->t0);
+    if (start || time_dd_equal(t, d->t1)) {
         memcpy(y, start ? d->y0 : d->y1, size * sizeof *y);
         return GSL_SUCCESS;
     }
@@ -391,7 +391,7 @@ int dense_eval(struct dense *d, struct moment t, double *y)
         int code = prepare(d);
         if (code != GSL_SUCCESS) return code;
     }
-    double theta = moment_since(t, d->t0) / d->h;
+    double theta = time_dd_since(t, d->t0) / d->h;
     if (d->own)
         d->own->eval(d->step, theta, y);
     else
@@ -399,13 +399,13 @@ int dense_eval(struct dense *d, struct moment t, double *y)
     return GSL_SUCCESS;
 }
 
-static struct powers_piece piece_between(const struct dense *d, struct moment from, struct moment to)
+static struct powers_piece piece_between(const struct dense *d, struct time_dd from, struct time_dd to)
 {
-    double begin = moment_since(from, d->t0) / d->h, end = moment_since(to, d->t0) / d->h;
+    double begin = time_dd_since(from, d->t0) / d->h, end = time_dd_since(to, d->t0) / d->h;
     return (struct powers_piece){begin + (end - begin) / 2, (end - begin) / 2};
 }
 
-int dense_powers_of_ends(struct dense *d, struct moment from, struct moment to, size_t i, double *c)
+int dense_powers_of_ends(struct dense *d, struct time_dd from, struct time_dd to, size_t i, double *c)
 {
     size_t n = d->pairs;
     if (i >= 2 * n || d->prepared || (d->own && d->own->free_of_evaluations)) return -1;
@@ -414,7 +414,7 @@ int dense_powers_of_ends(struct dense *d, struct moment from, struct moment to, 
     return i < n ? q_powers(&d->pair[i], d->h, &piece, c) : v_powers(&d->pair[i - n], &piece, c);
 }
 
-int dense_powers(struct dense *d, struct moment from, struct moment to, size_t i, double *c)
+int dense_powers(struct dense *d, struct time_dd from, struct time_dd to, size_t i, double *c)
 {
     size_t n = d->pairs;
     if ((d->own && !d->own->powers) || (!d->prepared && prepare(d) != GSL_SUCCESS)) return -1;
@@ -425,9 +425,9 @@ int dense_powers(struct dense *d, struct moment from, struct moment to, size_t i
     return single_powers(&d->single[i - 2 * n], &piece, c);
 }
 
-void dense_eval_plain(struct dense *d, struct moment t, double *y)
+void dense_eval_plain(struct dense *d, struct time_dd t, double *y)
 {
     d->prepared = false;
     from_ends(d);
-    eval_all(d, moment_since(t, d->t0) / d->h, y);
+    eval_all(d, time_dd_since(t, d->t0) / d->h, y);
 }

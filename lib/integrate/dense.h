@@ -36,7 +36,7 @@
 
 #include <gsl/gsl_odeiv2.h>
 
-#include "base/moment.h"
+#include "base/time_dd.h"
 #include "integrate/layout.h"
 #include "integrate/powers.h"
 
@@ -50,8 +50,8 @@ void dense_free(struct dense *dense);
  * of order `order`. `step` is the stepper that made it, used if it has a dense output of its own (dop853 and
  * the methods of structure.h), or NULL. Nothing is computed or copied: all arguments have to stay as they are
  * until the next dense_set. */
-void dense_set(struct dense *dense, int order, struct moment t0, const double *y0, const double *f0,
-               struct moment t1, const double *y1, const double *f1, const gsl_odeiv2_system *sys,
+void dense_set(struct dense *dense, int order, struct time_dd t0, const double *y0, const double *f0,
+               struct time_dd t1, const double *y1, const double *f1, const gsl_odeiv2_system *sys,
                gsl_odeiv2_step *step);
 
 /* For steps of a multistep method, whose errors of q and v are independent of each other: `errors`, to stay
@@ -60,18 +60,18 @@ void dense_set_errors(struct dense *dense, const double *errors);
 
 /* y at time t; bit for bit y0 at t0 and y1 at t1. GSL_SUCCESS, or the code of a right-hand side that failed
  * inside of the step; then y is not touched. */
-int dense_eval(struct dense *dense, struct moment t, double *y);
+int dense_eval(struct dense *dense, struct time_dd t, double *y);
 
 /* Component i from `from` to `to` within the step as a polynomial, c[k] the coefficient of s^k, -1 <= s <= 1 between
  * them. Its degree, at most dense_most_degree; -1 where it is none, or a right-hand side has failed. */
 enum { dense_most_degree = 14 };
-int dense_powers(struct dense *dense, struct moment from, struct moment to, size_t i, double *c);
+int dense_powers(struct dense *dense, struct time_dd from, struct time_dd to, size_t i, double *c);
 
 /* The same of a coordinate or its rate by level 0, whatever the method, without an evaluation: for a first look. -1 where
  * the dense output itself costs none, or none any more. */
-int dense_powers_of_ends(struct dense *dense, struct moment from, struct moment to, size_t i, double *c);
+int dense_powers_of_ends(struct dense *dense, struct time_dd from, struct time_dd to, size_t i, double *c);
 
 /* As dense_eval, at level 0, whatever the method: what is left when evaluations inside of the step fail. */
-void dense_eval_plain(struct dense *dense, struct moment t, double *y);
+void dense_eval_plain(struct dense *dense, struct time_dd t, double *y);
 
 #endif

@@ -5,7 +5,7 @@
 #include <gsl/gsl_errno.h>
 #include <math.h>
 
-#include "integrate/weights.h"
+#include "integrate/error_norm.h"
 
 /* a / b where both are known, else no bound. */
 static double time_of(double a, double b)
@@ -81,7 +81,7 @@ int first_step(struct counted_system *system, const struct layout *layout, const
 {
     size_t size = layout_size(layout);
     double *y1 = work, *f1 = work + size, *scale = work + 2 * size;
-    weights_scales(control, 0, y, f, scale);
+    error_norm_scales(control, 0, y, f, scale);
     double tau = time_of_slopes(layout, y, f, scale);
     /* Bounded below, as a coordinate that is zero but for rounding may still fake a short time. */
     double shortest = fmax(1e-9 * h_max, 64 * DBL_EPSILON * fabs(t));
@@ -90,7 +90,7 @@ int first_step(struct counted_system *system, const struct layout *layout, const
     int code = probe_change(system, layout, t, y, f, scale, y1, f1, &probe, &change);
     if (code != GSL_SUCCESS) return code;
     tau = fmin(fmax(tau, probe), change);
-    double part = pow(0.01 * weights_tolerance(control), 1.0 / (order + 1));
+    double part = pow(0.01 * error_norm_tolerance(control), 1.0 / (order + 1));
     *h = fmin(h_max, 100 * probe);
     if (tau < INFINITY) *h = fmin(*h, tau * part);
     return GSL_SUCCESS;

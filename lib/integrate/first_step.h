@@ -5,7 +5,7 @@
  * The idea is that of HNW I, II.4 (starting step size): compare state, slope and, through a small Euler
  * step, second derivative. The formulas there add lengths to numbers without dimension (1e-6, 1e-15, and
  * the (p+1)-th root of a rate), so that another unit of time gives another step. Here everything is a
- * characteristic time. With S the scales of weights.h at the start, and j the change of acceleration per
+ * characteristic time. With S the scales of error_norm.h at the start, and j the change of acceleration per
  * time over the Euler step, for each pair (q, v),
  *
  *     L = max(S_q, v^2 / |a|)                         distance over which the motion changes
@@ -27,7 +27,7 @@
 #include "integrate/system.h"
 
 /* Choose *h > 0 for a step from (t, y) with f = f(t, y) by a method of order `order`, forward in time; *h
- * <= h_max, which has to be finite and positive. `control` is one of weights.h. `work` has room for three
+ * <= h_max, which has to be finite and positive. `control` is one of error_norm.h. `work` has room for three
  * states. Where the right-hand side cannot be evaluated at the end of the Euler step, the step is
  * shortened; GSL_EBADFUNC is returned at once, and any other code if even a very short step does not help. */
 int first_step(struct counted_system *system, const struct layout *layout, const gsl_odeiv2_control *control,

@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/zeroed.h"
+#include "base/block_alloc.h"
 #include "integrate/nystrom_sums.h"
 
 struct nystrom {
@@ -36,7 +36,7 @@ static void *nystrom_alloc(size_t dim)
 {
     size_t n = dim / 2, numbers = n * (row + nystrom_nodes + q_terms + v_terms) + 4 * dim;
     if (dim == 0 || dim % 2 != 0 || n > SIZE_MAX / sizeof(double) / (8 * (size_t)row)) return NULL;
-    struct nystrom *s = zeroed(sizeof *s + numbers * sizeof(double));
+    struct nystrom *s = block_alloc(sizeof *s + numbers * sizeof(double));
     if (!s) return NULL;
     s->n = n;
     s->k = s->memory;

@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/zeroed.h"
+#include "base/block_alloc.h"
 #include "integrate/dop853_table.h"
 #include "integrate/pair8_sums.h"
 #include "integrate/rk8pd_table.h"
@@ -64,7 +64,7 @@ static double *vector(struct pair8 *s, int index)
 static void *pair8_alloc(size_t n)
 {
     if (n > (SIZE_MAX - sizeof(struct pair8)) / (v_count * sizeof(double))) return NULL;
-    struct pair8 *s = zeroed(sizeof *s + v_count * n * sizeof(double));
+    struct pair8 *s = block_alloc(sizeof *s + v_count * n * sizeof(double));
     if (s) s->n = n;
     return s;
 }
@@ -110,8 +110,8 @@ INLINE void set_argument(struct pair8 *s, size_t n, const double *row, int i, co
     double *u = vector_of(s, n, v_argument);
     size_t c = 0;
     for (; c + 1 < n; c += 2) {
-        two rise = h * sum_of_two(row, i, k + c, n);
-        store_two(u + c, load_two(y + c) + (rest ? load_two(rest + c) + rise : rise));
+        simd2 rise = h * sum_of_two(row, i, k + c, n);
+        simd2_store(u + c, simd2_load(y + c) + (rest ? simd2_load(rest + c) + rise : rise));
     }
     if (c == n) return;
     double rise = h * sum_of_one(row, i, k + c, n);
@@ -174,14 +174,14 @@ INLINE void set_sums(struct pair8 *s, const struct tableau *tableau, size_t n, d
     double *y1 = vector_of(s, n, v_end), *r1 = vector_of(s, n, v_rest_end);
     size_t c = 0;
     for (; c + 1 < n; c += 2) {
-        two rise = sum_of_two(b, 13, k + c, n), error = sum_of_two(e, 13, k + c, n);
+        simd2 rise = sum_of_two(b, 13, k + c, n), error = sum_of_two(e, 13, k + c, n);
         if (tableau->more) {
             rise += b[13] * load_young(more + c);
             error += e[13] * load_young(more + c);
         }
-        store_two(y1 + c, rise);
-        store_two(yerr + c, error);
-        if (tableau->low) store_two(r1 + c, sum_of_two(tableau->low, 13, k + c, n));
+        simd2_store(y1 + c, rise);
+        simd2_store(yerr + c, error);
+        if (tableau->low) simd2_store(r1 + c, sum_of_two(tableau->low, 13, k + c, n));
     }
     if (c == n) return;
     y1[c] = sum_of_one(b, 13, k + c, n) + (tableau->more ? b[13] * more[c] : 0);
@@ -386,19 +386,19 @@ bool pair8_differences(const gsl_odeiv2_step *step, const double **dy, const dou
     return true;
 }
 
-void pair8_lend(const gsl_odeiv2_step *step, struct lent *lent)
+void pair8_lend(const gsl_odeiv2_step *step, struct stepper_state_view *view)
 {
     struct pair8 *s = step->state;
     const double *known = vector(s, v_end), *rest = vector(s, v_rest_end);
-    for (size_t i = 0; i < s->n; i++) lent->rest[i] = s->has_rest && lent->last[i] == known[i] ? rest[i] : 0;
+    for (size_t i = 0; i < s->n; i++) view->rest[i] = s->has_rest && view->last[i] == known[i] ? rest[i] : 0;
 }
 
 /* Of no time: the next step is not one that is tried again. */
-void pair8_settle(gsl_odeiv2_step *step, const struct lent *lent)
+void pair8_settle(gsl_odeiv2_step *step, const struct stepper_state_view *view)
 {
     struct pair8 *s = step->state;
-    memcpy(vector(s, v_end), lent->last, s->n * sizeof(double));
-    memcpy(vector(s, v_rest_end), lent->rest, s->n * sizeof(double));
+    memcpy(vector(s, v_end), view->last, s->n * sizeof(double));
+    memcpy(vector(s, v_rest_end), view->rest, s->n * sizeof(double));
     s->stepped = s->prepared = false;
     s->has_rest = true;
     s->t = NAN;

@@ -47,8 +47,8 @@
 #include <gsl/gsl_odeiv2.h>
 #include <stdbool.h>
 
-#include "integrate/lent.h"
 #include "integrate/powers.h"
+#include "integrate/stepper_state_view.h"
 
 extern const gsl_odeiv2_step_type *const step_dop853, *const step_rk8pd;
 
@@ -72,7 +72,7 @@ int dop853_dense_powers(const gsl_odeiv2_step *step, size_t i, const struct powe
 bool pair8_differences(const gsl_odeiv2_step *step, const double **dy, const double **df);
 
 /* What the last state of `lent` has lost by rounding, known to a step of one of these types; and take it back. */
-void pair8_lend(const gsl_odeiv2_step *step, struct lent *lent);
-void pair8_settle(gsl_odeiv2_step *step, const struct lent *lent);
+void pair8_lend(const gsl_odeiv2_step *step, struct stepper_state_view *view);
+void pair8_settle(gsl_odeiv2_step *step, const struct stepper_state_view *view);
 
 #endif

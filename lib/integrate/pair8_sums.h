@@ -11,19 +11,19 @@
 
 #include <stddef.h>
 
-#include "base/two.h"
+#include "base/simd2.h"
 
 #define INLINE static inline __attribute__((always_inline))
 
 /* As what has just been stored is loaded: number by number, which `volatile` makes compilers do. */
-INLINE two load_young(const double *from)
+INLINE simd2 load_young(const double *from)
 {
     const volatile double *numbers = from;
-    return (two){numbers[0], numbers[1]};
+    return (simd2){numbers[0], numbers[1]};
 }
 
 /* Stage j of those before stage `count`. */
-#define LOAD_TWO(j, from) ((j) < count - 1 ? load_two(from) : load_young(from))
+#define LOAD_TWO(j, from) ((j) < count - 1 ? simd2_load(from) : load_young(from))
 #define LOAD_ONE(j, from) (*(from))
 
 /* The term of stage j, and the sum; the stages of the component, or of two, begin at k and lie n apart. */
@@ -51,9 +51,9 @@ INLINE two load_young(const double *from)
         return sum;                                                                                          \
     } while (0)
 
-INLINE two sum_of_two(const double *row, int count, const double *k, size_t n)
+INLINE simd2 sum_of_two(const double *row, int count, const double *k, size_t n)
 {
-    STAGE_SUM(two, LOAD_TWO);
+    STAGE_SUM(simd2, LOAD_TWO);
 }
 
 INLINE double sum_of_one(const double *row, int count, const double *k, size_t n)

@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/zeroed.h"
+#include "base/block_alloc.h"
 
 struct parabola {
     size_t n; /* pairs */
@@ -23,7 +23,7 @@ static void *parabola_alloc(size_t dim)
 {
     size_t n = dim / 2;
     if (dim == 0 || dim % 2 != 0 || n > SIZE_MAX / sizeof(double) / 16) return NULL;
-    struct parabola *s = zeroed(sizeof *s + 5 * n * sizeof(double));
+    struct parabola *s = block_alloc(sizeof *s + 5 * n * sizeof(double));
     if (!s) return NULL;
     s->n = n;
     s->y0 = s->memory;

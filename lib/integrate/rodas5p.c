@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/zeroed.h"
+#include "base/block_alloc.h"
 #include "integrate/rodas5p_table.h"
 #include "numeric/lu.h"
 
@@ -48,7 +48,7 @@ static void *rodas5p_alloc(size_t n)
     if (n == 0 || n > SIZE_MAX / 64) return NULL;
     size_t columns = v_count + 2 * n, room = SIZE_MAX - sizeof(struct rodas5p);
     if (columns > room / n / sizeof(double) - 1) return NULL;
-    struct rodas5p *s = zeroed(sizeof *s + n * (columns * sizeof(double) + sizeof(size_t)));
+    struct rodas5p *s = block_alloc(sizeof *s + n * (columns * sizeof(double) + sizeof(size_t)));
     if (!s) return NULL;
     s->n = n;
     s->jacobian = vector(s, v_count);

@@ -8,14 +8,14 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/zeroed.h"
+#include "base/block_alloc.h"
+#include "integrate/error_norm.h"
 #include "integrate/first_step.h"
 #include "integrate/linear.h"
 #include "integrate/pair8.h"
 #include "integrate/rodas5p.h"
 #include "integrate/stepper_state.h"
 #include "integrate/stiffness.h"
-#include "integrate/weights.h"
 
 /* Not by gsl_odeiv2_step_alloc, which calls GSL's error handler when memory is out; the methods that are
  * GSL's own (method.c) still do. */
@@ -36,7 +36,7 @@ static struct stepper *state_alloc(size_t n)
 {
     enum { vectors = 8 };
     if (n == 0 || n > (SIZE_MAX - sizeof(struct stepper)) / (vectors * sizeof(double))) return NULL;
-    struct stepper *s = zeroed(sizeof *s + vectors * n * sizeof(double));
+    struct stepper *s = block_alloc(sizeof *s + vectors * n * sizeof(double));
     if (!s) return NULL;
     s->n = n;
     s->y0 = s->memory;
@@ -73,20 +73,20 @@ struct stepper *stepper_alloc(const struct stepper_options *options)
     s->h_fixed = options->h_fixed;
     struct step_law law = step_law_for(method->estimate_order);
     law.by_time = method->by_time;
-    s->control = weights_alloc(&options->layout, options->tolerance, law);
+    s->control = error_norm_alloc(&options->layout, options->tolerance, law);
     s->driver = (gsl_odeiv2_driver){.c = s->control};
     s->dense = dense_alloc(&options->layout);
     s->step = step_alloc(method, s->n, &s->driver);
     bool redo = !method->multistep && !method->exact, history = method->multistep && method->implicit;
     bool inside = redo && redoes_inside(method, &options->layout);
     if (redo) s->redo = step_alloc(method, s->n, &s->driver);
-    s->walk = redo ? walk_alloc(s->n) : NULL;
+    s->substeps = redo ? substeps_alloc(s->n) : NULL;
     if (history) s->history = history_alloc(s->n);
-    if (inside) s->inside = inside_alloc(s->n);
+    if (inside) s->inside = resteps_alloc(s->n);
     bool guarded = method->stable > 0 && s->n <= most_guarded;
     if (guarded) s->jacobian = malloc((s->n * s->n + 3 * s->n) * sizeof(double));
-    if (!s->control || !s->dense || !s->step || (redo && !(s->redo && s->walk)) || (history && !s->history) ||
-        (inside && !s->inside) || (guarded && !s->jacobian)) {
+    if (!s->control || !s->dense || !s->step || (redo && !(s->redo && s->substeps)) ||
+        (history && !s->history) || (inside && !s->inside) || (guarded && !s->jacobian)) {
         stepper_free(s);
         return NULL;
     }
@@ -102,16 +102,16 @@ void stepper_free(struct stepper *s)
     if (s->control) gsl_odeiv2_control_free(s->control);
     dense_free(s->dense);
     history_free(s->history);
-    inside_free(s->inside);
-    walk_free(s->walk);
+    resteps_free(s->inside);
+    substeps_free(s->substeps);
     free(s->jacobian);
     free(s);
 }
 
-int stepper_reset(struct stepper *s, struct counted_system *system, struct moment t, const double *y,
-                  double *f, struct moment t_limit, double *h)
+int stepper_reset(struct stepper *s, struct counted_system *system, struct time_dd t, const double *y,
+                  double *f, struct time_dd t_limit, double *h)
 {
-    double room = moment_since(t_limit, t);
+    double room = time_dd_since(t_limit, t);
     s->stepped = false;
     s->stable_h = s->rate = 0;
     if (!(room > 0)) return GSL_EINVAL;
@@ -119,7 +119,7 @@ int stepper_reset(struct stepper *s, struct counted_system *system, struct momen
     if (s->redo) gsl_odeiv2_step_reset(s->redo); /* rodas5p remembers a Jacobian */
     int code = counted_system_rhs(system, t.t, y, f);
     if (code != GSL_SUCCESS) return code;
-    weights_update(s->control, y, f);
+    error_norm_update(s->control, y, f);
     if (s->history) {
         history_clear(s->history);
         history_add(s->history, t.t, y);
@@ -134,36 +134,36 @@ int stepper_reset(struct stepper *s, struct counted_system *system, struct momen
 
 /* A step to be tried. */
 struct plan {
-    double asked;     /* its size before t1 was rounded: what shrinks from retry to retry */
-    double h;         /* its size */
-    struct moment t1; /* and end */
-    bool cut;         /* t_limit had a say in it */
+    double asked;      /* its size before t1 was rounded: what shrinks from retry to retry */
+    double h;          /* its size */
+    struct time_dd t1; /* and end */
+    bool cut;          /* t_limit had a say in it */
 };
 
 /* Is there room for some doubles only? Steps within a pulse between them end where they have to. */
-static bool is_between_doubles(struct moment t, double room)
+static bool is_between_doubles(struct time_dd t, double room)
 {
     const double roundings = 64;
     return room <= roundings * DBL_EPSILON * fabs(t.t);
 }
 
-static struct plan plan_step(const struct stepper *s, struct moment t, double h, struct moment t_limit)
+static struct plan plan_step(const struct stepper *s, struct time_dd t, double h, struct time_dd t_limit)
 {
-    double room = moment_since(t_limit, t);
+    double room = time_dd_since(t_limit, t);
     if (1.01 * h >= room) return (struct plan){room, room, t_limit, true};
-    if (s->h_fixed > 0) return (struct plan){h, h, moment_at(t.t + h), false};
+    if (s->h_fixed > 0) return (struct plan){h, h, time_dd_at(t.t + h), false};
     bool half = 2 * h > room;
     if (half) h = room / 2;
-    if (is_between_doubles(t, room)) return (struct plan){h, h, moment_after(t, h), half};
-    struct moment t1 = moment_at(t.t + h);
+    if (is_between_doubles(t, room)) return (struct plan){h, h, time_dd_after(t, h), half};
+    struct time_dd t1 = time_dd_at(t.t + h);
     /* The size that t1 really has, so that t and the stages agree. A multistep method would rather see a
      * constant step. */
-    return (struct plan){h, s->method->multistep ? h : moment_since(t1, t), t1, half};
+    return (struct plan){h, s->method->multistep ? h : time_dd_since(t1, t), t1, half};
 }
 
 /* Has a step become so short that no time passes? Where there is next to no room, or t = 0, there are always
  * shorter ones. */
-static bool is_nothing(const struct plan *plan, struct moment t, double room)
+static bool is_nothing(const struct plan *plan, struct time_dd t, double room)
 {
     return (!is_between_doubles(t, room) && t.t + plan->h == t.t) || !(plan->h > 1e-30 * room);
 }
@@ -195,7 +195,7 @@ static struct outcome keep_stable(struct stepper *s, double h, const double *y, 
     const double *dy, *df;
     if (!outcome.accepted || s->h_fixed > 0 || !pair8_differences(s->step, &dy, &df)) return outcome;
     /* The differences show the fastest rate now more and now less. */
-    s->rate = fmax(weights_rate(s->control, y, dy, df), kept * s->rate);
+    s->rate = fmax(error_norm_rate(s->control, y, dy, df), kept * s->rate);
     double h_rate = h * s->rate;
     if (h_rate > most) return (struct outcome){false, rejected_error, fmax(goal / h_rate, 0.1)};
     if (h_rate * outcome.factor > goal) outcome.factor = goal / h_rate;
@@ -231,42 +231,42 @@ static struct outcome judge(const struct stepper *s, double h, const double *y, 
         bool is_finite = all_finite(s->n, y, f);
         return (struct outcome){is_finite, rejected_not_finite, is_finite ? 1 : 0.25};
     }
-    double ratio = weights_ratio(s->control, h, y, s->yerr, f);
-    double factor = weights_factor(s->control, ratio, gsl_odeiv2_step_order(s->step));
+    double ratio = error_norm_ratio(s->control, h, y, s->yerr, f);
+    double factor = error_norm_factor(s->control, ratio, gsl_odeiv2_step_order(s->step));
     if (ratio <= 1) return (struct outcome){true, rejected_error, factor};
     if (ratio < INFINITY) return (struct outcome){false, rejected_error, factor};
     bool finite = all_finite(s->n, y, f);
     return (struct outcome){false, finite ? rejected_iteration : rejected_not_finite, factor};
 }
 
-static void keep(struct stepper *s, struct counted_system *system, struct moment t0, struct moment t1,
+static void keep(struct stepper *s, struct counted_system *system, struct time_dd t0, struct time_dd t1,
                  const double *y, const double *f)
 {
     s->t0 = t0;
     s->t1 = t1;
     memcpy(s->y1, y, s->n * sizeof *y);
     memcpy(s->f1, f, s->n * sizeof *f);
-    weights_update(s->control, y, f);
+    error_norm_update(s->control, y, f);
     dense_set(s->dense, s->method->order, t0, s->y0, s->f0, t1, s->y1, s->f1, &system->gsl, s->step);
-    if (s->inside) inside_set(s->inside, s->y0, s->y1);
-    if (s->walk) walk_forget(s->walk);
+    if (s->inside) resteps_set(s->inside, s->y0, s->y1);
+    if (s->substeps) substeps_forget(s->substeps);
     if (s->history && t1.t > t0.t) history_add(s->history, t1.t, y);
     s->system = system;
     s->stepped = true;
     s->counts.accepted++;
 }
 
-int stepper_shorten(struct stepper *s, struct moment t, double *y, double *f)
+int stepper_shorten(struct stepper *s, struct time_dd t, double *y, double *f)
 {
     const double far_off = 100;
-    double h = moment_since(t, s->t0), *inside = s->work;
-    bool within = s->stepped && h > 0 && moment_since(s->t1, t) > 0;
+    double h = time_dd_since(t, s->t0), *inside = s->work;
+    bool within = s->stepped && h > 0 && time_dd_since(s->t1, t) > 0;
     if (!within || !s->redo || s->history || s->method->exact || s->h_fixed > 0) return 0;
     int code = stepper_partial(s, t, y, f);
     if (code == GSL_SUCCESS) code = stepper_dense(s, t, inside);
     if (code != GSL_SUCCESS) return code;
     for (size_t i = 0; i < s->n; i++) inside[i] -= y[i];
-    if (weights_ratio(s->control, h, y, inside, f) <= far_off) return 0;
+    if (error_norm_ratio(s->control, h, y, inside, f) <= far_off) return 0;
     memcpy(y, s->y0, s->n * sizeof *y);
     code = gsl_odeiv2_step_apply(s->step, s->t0.t, h, y, s->yerr, s->f0, f, &s->system->gsl);
     if (code != GSL_SUCCESS || !all_finite(s->n, y, f)) return GSL_EFAILED;
@@ -293,12 +293,12 @@ static void count_rejection(struct stepper *s, enum rejection why, bool again)
 
 /* To a limit between doubles, by the terms that count in so short a time. Methods that measure their steps by
  * differences of times see none there. */
-static enum stepper_status step_between(struct stepper *s, struct counted_system *system, struct moment *t,
-                                        double *y, double *f, struct moment t_limit)
+static enum stepper_status step_between(struct stepper *s, struct counted_system *system, struct time_dd *t,
+                                        double *y, double *f, struct time_dd t_limit)
 {
     size_t pairs = s->layout.pairs;
-    struct moment t0 = *t;
-    double h = moment_since(t_limit, t0);
+    struct time_dd t0 = *t;
+    double h = time_dd_since(t_limit, t0);
     for (size_t i = 0; i < s->n; i++) y[i] += h * (f[i] + (i < pairs ? h / 2 * s->f0[pairs + i] : 0));
     if (counted_system_rhs(system, t_limit.t, y, f) != GSL_SUCCESS || !all_finite(s->n, y, f))
         return give_up(s, y, f, stepper_bad_function);
@@ -308,11 +308,11 @@ static enum stepper_status step_between(struct stepper *s, struct counted_system
     return stepper_ok;
 }
 
-enum stepper_status stepper_step(struct stepper *s, struct counted_system *system, struct moment *t,
-                                 double *y, double *f, double *h, struct moment t_limit)
+enum stepper_status stepper_step(struct stepper *s, struct counted_system *system, struct time_dd *t,
+                                 double *y, double *f, double *h, struct time_dd t_limit)
 {
-    struct moment t0 = *t;
-    double room = moment_since(t_limit, t0);
+    struct time_dd t0 = *t;
+    double room = time_dd_since(t_limit, t0);
     if (!(room > 0) || !(*h > 0) || system->gsl.dimension != s->n) return stepper_misuse;
     if (s->method->implicit && !system->gsl.jacobian) return stepper_misuse;
     s->stepped = false;
@@ -354,7 +354,7 @@ void stepper_set_linear(struct stepper *s, const double *A, double rho)
 
 double stepper_h_rate(const struct stepper *s)
 {
-    return s->rate > 0 ? moment_since(s->t1, s->t0) * s->rate : INFINITY;
+    return s->rate > 0 ? time_dd_since(s->t1, s->t0) * s->rate : INFINITY;
 }
 
 const double *stepper_jacobian(const struct stepper *s)
@@ -364,7 +364,7 @@ const double *stepper_jacobian(const struct stepper *s)
 
 void stepper_note(struct stepper *s, const double *y, const double *f)
 {
-    weights_update(s->control, y, f);
+    error_norm_update(s->control, y, f);
 }
 
 const struct stepper_counts *stepper_get_counts(const struct stepper *s)
@@ -372,30 +372,30 @@ const struct stepper_counts *stepper_get_counts(const struct stepper *s)
     return &s->counts;
 }
 
-bool stepper_lend(const struct stepper *s, struct lent *lent)
+bool stepper_lend(const struct stepper *s, struct stepper_state_view *view)
 {
     const struct method *method = s->method;
     bool plain = !method->implicit && !method->multistep && !method->exact && !(method->by_time > 0);
     if (!plain || s->h_fixed > 0 || s->h_max < INFINITY || s->jacobian) return false;
-    lent->type = s->step->type;
-    lent->rate = s->rate;
-    lent->growth = s->counts.growth;
-    lent->accepted = lent->rejected = 0;
-    if (!weights_lend(s->control, lent)) return false;
-    if (lent->type == step_rk8pd || lent->type == step_dop853) pair8_lend(s->step, lent);
+    view->type = s->step->type;
+    view->rate = s->rate;
+    view->growth = s->counts.growth;
+    view->accepted = view->rejected = 0;
+    if (!error_norm_view(s->control, view)) return false;
+    if (view->type == step_rk8pd || view->type == step_dop853) pair8_lend(s->step, view);
     return true;
 }
 
-void stepper_settle(struct stepper *s, const struct lent *lent)
+void stepper_settle(struct stepper *s, const struct stepper_state_view *view)
 {
     s->stepped = false;
-    s->rate = lent->rate;
-    s->counts.accepted += lent->accepted;
-    s->counts.rejected[rejected_error] += lent->rejected;
-    if (lent->rejected > 0) s->counts.last = rejected_error;
-    s->counts.growth = lent->growth;
-    weights_settle(s->control, lent);
-    if (lent->type == step_rk8pd || lent->type == step_dop853) pair8_settle(s->step, lent);
+    s->rate = view->rate;
+    s->counts.accepted += view->accepted;
+    s->counts.rejected[rejected_error] += view->rejected;
+    if (view->rejected > 0) s->counts.last = rejected_error;
+    s->counts.growth = view->growth;
+    error_norm_settle(s->control, view);
+    if (view->type == step_rk8pd || view->type == step_dop853) pair8_settle(s->step, view);
 }
 
 gsl_odeiv2_control *stepper_control(struct stepper *s)

@@ -6,12 +6,12 @@
 #include <string.h>
 
 #include "integrate/bsimp.h"
+#include "integrate/error_norm.h"
 #include "integrate/linear.h"
 #include "integrate/nystrom.h"
 #include "integrate/parabola.h"
 #include "integrate/rodas5p.h"
 #include "integrate/stepper_state.h"
-#include "integrate/weights.h"
 
 /* A step of size h by the same method from the start of the last one. */
 static int redo(struct stepper *s, double h, double *y, double *f)
@@ -29,16 +29,16 @@ static bool redo_well(struct stepper *s, double h, double *y, double *f)
     if (redo(s, h, y, f) != GSL_SUCCESS || !all_finite(s->n, y, f)) return false;
     const double far_off = 100;
     double most = *s->method->type == step_bsimp ? 1 : far_off;
-    return s->h_fixed > 0 || weights_ratio(s->control, h, y, s->yerr, f) <= most;
+    return s->h_fixed > 0 || error_norm_ratio(s->control, h, y, s->yerr, f) <= most;
 }
 
 static bool redo_share(void *context, double share, double *y)
 {
     struct stepper *s = context;
-    return redo_well(s, share * moment_since(s->t1, s->t0), y, s->work);
+    return redo_well(s, share * time_dd_since(s->t1, s->t0), y, s->work);
 }
 
-static double walk_part(void *context, double from, double h, double *y, double *f)
+static double substeps_part(void *context, double from, double h, double *y, double *f)
 {
     struct stepper *s = context;
     double *y1 = s->work, *f1 = s->work + s->n;
@@ -48,57 +48,59 @@ static double walk_part(void *context, double from, double h, double *y, double 
     if (code != GSL_SUCCESS || !all_finite(s->n, y1, f1)) return INFINITY;
     memcpy(y, y1, s->n * sizeof *y);
     memcpy(f, f1, s->n * sizeof *f);
-    return weights_ratio(s->control, h, y, s->yerr, f);
+    return error_norm_ratio(s->control, h, y, s->yerr, f);
 }
 
-static int walk_inside(struct stepper *s, struct moment t, double *y, double *f)
+static int substeps_inside(struct stepper *s, struct time_dd t, double *y, double *f)
 {
-    const struct walk_source source = {s, walk_part};
-    return walk_to(s->walk, &source, moment_since(s->t1, s->t0), s->y0, s->f0, moment_since(t, s->t0), y, f);
+    const struct substeps_source source = {s, substeps_part};
+    return substeps_to(s->substeps, &source, time_dd_since(s->t1, s->t0), s->y0, s->f0,
+                       time_dd_since(t, s->t0), y, f);
 }
 
 static double excess(void *context, const double *error)
 {
     const struct stepper *s = context;
-    return weights_ratio(s->control, moment_since(s->t1, s->t0), s->y1, error, s->f1);
+    return error_norm_ratio(s->control, time_dd_since(s->t1, s->t0), s->y1, error, s->f1);
 }
 
-static bool is_end(const struct stepper *s, struct moment t)
+static bool is_end(const struct stepper *s, struct time_dd t)
 {
-    return moment_equal(t, s->t0) || moment_equal(t, s->t1);
+    return time_dd_equal(t, s->t0) || time_dd_equal(t, s->t1);
 }
 
 /* What the method itself says of the inside. */
-static int own_dense(struct stepper *s, struct moment t, double *y)
+static int own_dense(struct stepper *s, struct time_dd t, double *y)
 {
     if (!(s->method->implicit || s->inside) || is_end(s, t)) return dense_eval(s->dense, t, y);
-    double share = moment_since(t, s->t0) / moment_since(s->t1, s->t0);
+    double share = time_dd_since(t, s->t0) / time_dd_since(s->t1, s->t0);
     if (s->step->type == step_rodas5p) {
         int code = rodas5p_dense_prepare(s->step);
         if (code == GSL_SUCCESS) rodas5p_dense_eval(s->step, share, y);
         return code;
     }
-    const struct inside_source source = {s, redo_share, excess};
-    if (s->inside && inside_eval(s->inside, &source, share, y)) return GSL_SUCCESS;
+    const struct resteps_source source = {s, redo_share, excess};
+    if (s->inside && resteps_eval(s->inside, &source, share, y)) return GSL_SUCCESS;
     if (!s->history)
-        return redo_well(s, moment_since(t, s->t0), y, s->work) ? GSL_SUCCESS
-                                                                : walk_inside(s, t, y, s->work + 2 * s->n);
+        return redo_well(s, time_dd_since(t, s->t0), y, s->work)
+                   ? GSL_SUCCESS
+                   : substeps_inside(s, t, y, s->work + 2 * s->n);
     history_eval(s->history, (int)gsl_odeiv2_step_order(s->step), t.t, y);
     return GSL_SUCCESS;
 }
 
 /* Is there a last step, and t within? A double next to an end of it may lie a rest outside. */
-static bool find_within(const struct stepper *s, struct moment *t)
+static bool find_within(const struct stepper *s, struct time_dd *t)
 {
     if (!s->stepped || !(t->t >= s->t0.t && t->t <= s->t1.t)) return false;
     if (t->rest == 0 && t->t > s->t0.t && t->t < s->t1.t) return true;
-    *t = moment_since(*t, s->t0) <= 0 ? s->t0 : moment_since(s->t1, *t) <= 0 ? s->t1 : *t;
+    *t = time_dd_since(*t, s->t0) <= 0 ? s->t0 : time_dd_since(s->t1, *t) <= 0 ? s->t1 : *t;
     return true;
 }
 
 /* An implicit method may succeed in a step and fail in a part of it; then the ends alone have to do, as a
  * step that is accepted has an inside. */
-int stepper_dense(struct stepper *s, struct moment t, double *y)
+int stepper_dense(struct stepper *s, struct time_dd t, double *y)
 {
     if (!find_within(s, &t)) return GSL_EINVAL;
     int last_code = s->system->last_code;
@@ -107,13 +109,13 @@ int stepper_dense(struct stepper *s, struct moment t, double *y)
     return GSL_SUCCESS;
 }
 
-int stepper_powers_of_ends(struct stepper *s, struct moment from, struct moment to, size_t i, double *c)
+int stepper_powers_of_ends(struct stepper *s, struct time_dd from, struct time_dd to, size_t i, double *c)
 {
     if (s->method->implicit || s->inside || !find_within(s, &from) || !find_within(s, &to)) return -1;
     return dense_powers_of_ends(s->dense, from, to, i, c);
 }
 
-int stepper_powers(struct stepper *s, struct moment from, struct moment to, size_t i, double *c)
+int stepper_powers(struct stepper *s, struct time_dd from, struct time_dd to, size_t i, double *c)
 {
     if (s->method->implicit || s->inside || !find_within(s, &from) || !find_within(s, &to)) return -1;
     int last_code = s->system->last_code;
@@ -140,24 +142,24 @@ int stepper_degree(const struct stepper *s, double *negligible)
     return 8;
 }
 
-int stepper_partial(struct stepper *s, struct moment t, double *y, double *f)
+int stepper_partial(struct stepper *s, struct time_dd t, double *y, double *f)
 {
     if (!find_within(s, &t)) return GSL_EINVAL;
-    bool start = moment_equal(t, s->t0);
-    if (start || moment_equal(t, s->t1)) {
+    bool start = time_dd_equal(t, s->t0);
+    if (start || time_dd_equal(t, s->t1)) {
         memcpy(y, start ? s->y0 : s->y1, s->n * sizeof *y);
         memcpy(f, start ? s->f0 : s->f1, s->n * sizeof *f);
         return GSL_SUCCESS;
     }
-    if (s->redo && redo_well(s, moment_since(t, s->t0), y, f)) return GSL_SUCCESS;
+    if (s->redo && redo_well(s, time_dd_since(t, s->t0), y, f)) return GSL_SUCCESS;
     int code = stepper_dense(s, t, y);
     return code == GSL_SUCCESS ? counted_system_rhs(s->system, t.t, y, f) : code;
 }
 
-int stepper_walk(struct stepper *s, struct moment t, double *y, double *f)
+int stepper_walk(struct stepper *s, struct time_dd t, double *y, double *f)
 {
-    if (!s->walk || !find_within(s, &t) || is_end(s, t)) return GSL_EINVAL;
-    return walk_inside(s, t, y, f);
+    if (!s->substeps || !find_within(s, &t) || is_end(s, t)) return GSL_EINVAL;
+    return substeps_inside(s, t, y, f);
 }
 
 double stepper_attempt(struct stepper *s, struct counted_system *system, const struct stepper *other,
@@ -168,5 +170,5 @@ double stepper_attempt(struct stepper *s, struct counted_system *system, const s
     memcpy(y1, other->y0, s->n * sizeof *y1);
     gsl_odeiv2_step_reset(s->redo);
     int code = gsl_odeiv2_step_apply(s->redo, other->t0.t, h, y1, s->yerr, other->f0, f1, &system->gsl);
-    return code == GSL_SUCCESS ? weights_ratio(s->control, h, y1, s->yerr, f1) : INFINITY;
+    return code == GSL_SUCCESS ? error_norm_ratio(s->control, h, y1, s->yerr, f1) : INFINITY;
 }

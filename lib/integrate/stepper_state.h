@@ -7,10 +7,10 @@
 #define FBD_INTEGRATE_STEPPER_STATE_H
 
 #include "integrate/dense.h"
+#include "integrate/dense_by_resteps.h"
 #include "integrate/history.h"
-#include "integrate/inside.h"
 #include "integrate/stepper.h"
-#include "integrate/walk.h"
+#include "integrate/substeps.h"
 
 struct stepper {
     const struct method *method;
@@ -23,8 +23,8 @@ struct stepper {
     gsl_odeiv2_driver driver; /* GSL's steppers ask it for its control only */
     struct dense *dense;      /* of explicit methods and msadams */
     struct history *history;  /* of msbdf, else NULL */
-    struct inside *inside; /* of methods without an interpolant that is as good as their steps, else NULL */
-    struct walk *walk;     /* of one-step methods, else NULL */
+    struct resteps *inside; /* of methods without an interpolant that is as good as their steps, else NULL */
+    struct substeps *substeps; /* of one-step methods, else NULL */
     struct stepper_counts counts;
     double *jacobian; /* n n + 3 n, for the limit of stability; NULL where that is not looked after */
     double stable_h;  /* the largest step within that limit, when last looked after */
@@ -32,7 +32,7 @@ struct stepper {
     double rate;      /* fastest rate that rk8pd or dop853 has seen lately */
     bool stepped;     /* a last step stands in the following */
     struct counted_system *system;
-    struct moment t0, t1;
+    struct time_dd t0, t1;
     double *y0, *f0, *y1, *f1;
     double *yerr, *work; /* n and 3 n */
     double memory[];

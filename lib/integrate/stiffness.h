@@ -3,7 +3,7 @@
  * The choice between an explicit and an implicit method while a run goes on, both ways.
  *
  * Now and then the other method attempts the step that has just been accepted, from the same state and of the
- * same size. The ratio r of its error to the level (weights_ratio) tells by how much longer its step could
+ * same size. The ratio r of its error to the level (error_norm_ratio) tells by how much longer its step could
  * be: gain = r^(-1/k) for an estimate that is O(h^k). Two answers in a row, the second a few steps after the
  * first, make the switch. The attempt is thrown away, so the accepted steps stay what they were.
  *

@@ -6,9 +6,9 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "base/zeroed.h"
+#include "base/block_alloc.h"
+#include "integrate/error_norm.h"
 #include "integrate/stiffness.h"
-#include "integrate/weights.h"
 
 struct switcher {
     struct stepper *steppers[2]; /* explicit, implicit or NULL */
@@ -32,7 +32,7 @@ static bool prepare_pair(struct switcher *s, const struct stepper_options *optio
 
 struct switcher *switcher_alloc(const struct stepper_options *options, const struct method *stiff)
 {
-    struct switcher *s = zeroed(sizeof *s);
+    struct switcher *s = block_alloc(sizeof *s);
     if (!s) return NULL;
     s->n = layout_size(&options->layout);
     s->methods[0] = options->method;
@@ -55,8 +55,8 @@ void switcher_free(struct switcher *s)
     free(s);
 }
 
-int switcher_reset(struct switcher *s, struct counted_system *system, struct moment t, const double *y,
-                   double *f, struct moment t_limit, double *h)
+int switcher_reset(struct switcher *s, struct counted_system *system, struct time_dd t, const double *y,
+                   double *f, struct time_dd t_limit, double *h)
 {
     stiffness_forget(&s->stiffness);
     if (s->steppers[1]) stepper_note(s->steppers[!s->now], y, f);
@@ -81,21 +81,21 @@ static bool is_confined(const struct switcher *s)
 
 /* The error ratio of the other method's attempt at a step of this size from t0; infinite where there is no room for it,
  * as what lies beyond the limit may be another motion. */
-static double attempt(struct switcher *s, struct counted_system *system, struct moment t0,
-                      struct moment t_limit, double size)
+static double attempt(struct switcher *s, struct counted_system *system, struct time_dd t0,
+                      struct time_dd t_limit, double size)
 {
-    if (moment_since(t_limit, t0) < size) return INFINITY;
+    if (time_dd_since(t_limit, t0) < size) return INFINITY;
     return stepper_attempt(s->steppers[!s->now], system, s->steppers[s->now], size);
 }
 
 /* Let the other method try the step that has just been made, and go on with it if it is the better one from
  * here. */
-static enum stepper_status consider(struct switcher *s, struct counted_system *system, struct moment t0,
-                                    struct moment t, const double *y, double *f, double *h,
-                                    struct moment t_limit)
+static enum stepper_status consider(struct switcher *s, struct counted_system *system, struct time_dd t0,
+                                    struct time_dd t, const double *y, double *f, double *h,
+                                    struct time_dd t_limit)
 {
     int other = !s->now, order = s->methods[other]->estimate_order;
-    double size = stiffness_stride(&s->stiffness) * moment_since(t, t0);
+    double size = stiffness_stride(&s->stiffness) * time_dd_since(t, t0);
     double ratio = attempt(s, system, t0, t_limit, size);
     if (ratio == 0 && is_confined(s)) ratio = DBL_MIN;
     if (stiffness_doubts(&s->stiffness, ratio, order))
@@ -118,8 +118,8 @@ static enum stepper_status consider(struct switcher *s, struct counted_system *s
 /* Where the steps of the implicit method shrink to nothing, the explicit one may still make some: rounding in a Jacobian
  * counts for more than in a right-hand side. Nothing has changed if it does not. */
 static enum stepper_status step_explicitly(struct switcher *s, struct counted_system *system,
-                                           struct moment *t, double *y, double *f, double *h,
-                                           struct moment t_limit)
+                                           struct time_dd *t, double *y, double *f, double *h,
+                                           struct time_dd t_limit)
 {
     double first;
     if (stepper_reset(s->steppers[0], system, *t, y, f, t_limit, &first) != GSL_SUCCESS)
@@ -132,32 +132,32 @@ static enum stepper_status step_explicitly(struct switcher *s, struct counted_sy
     return stepper_ok;
 }
 
-enum stepper_status switcher_step(struct switcher *s, struct counted_system *system, struct moment *t,
-                                  double *y, double *f, double *h, struct moment t_limit)
+enum stepper_status switcher_step(struct switcher *s, struct counted_system *system, struct time_dd *t,
+                                  double *y, double *f, double *h, struct time_dd t_limit)
 {
-    struct moment t0 = *t;
+    struct time_dd t0 = *t;
     enum stepper_status status = stepper_step(s->steppers[s->now], system, t, y, f, h, t_limit);
     if (status == stepper_underflow && s->steppers[1] && s->now == 1)
         status = step_explicitly(s, system, t, y, f, h, t_limit);
     s->made = s->now;
     if (status != stepper_ok || !s->steppers[1]) return status;
     stepper_note(s->steppers[!s->now], y, f);
-    if (moment_since(t_limit, *t) > 0 && stiffness_due(&s->stiffness, stepper_h_rate(s->steppers[s->now])))
+    if (time_dd_since(t_limit, *t) > 0 && stiffness_due(&s->stiffness, stepper_h_rate(s->steppers[s->now])))
         return consider(s, system, t0, *t, y, f, h, t_limit);
     return status;
 }
 
-int switcher_dense(struct switcher *s, struct moment t, double *y)
+int switcher_dense(struct switcher *s, struct time_dd t, double *y)
 {
     return stepper_dense(s->steppers[s->made], t, y);
 }
 
-int switcher_powers(struct switcher *s, struct moment from, struct moment to, size_t i, double *c)
+int switcher_powers(struct switcher *s, struct time_dd from, struct time_dd to, size_t i, double *c)
 {
     return stepper_powers(s->steppers[s->made], from, to, i, c);
 }
 
-int switcher_powers_of_ends(struct switcher *s, struct moment from, struct moment to, size_t i, double *c)
+int switcher_powers_of_ends(struct switcher *s, struct time_dd from, struct time_dd to, size_t i, double *c)
 {
     return stepper_powers_of_ends(s->steppers[s->made], from, to, i, c);
 }
@@ -167,23 +167,23 @@ int switcher_degree(const struct switcher *s, double *negligible)
     return stepper_degree(s->steppers[s->made], negligible);
 }
 
-int switcher_partial(struct switcher *s, struct moment t, double *y, double *f)
+int switcher_partial(struct switcher *s, struct time_dd t, double *y, double *f)
 {
     return stepper_partial(s->steppers[s->made], t, y, f);
 }
 
-int switcher_shorten(struct switcher *s, struct moment t, double *y, double *f)
+int switcher_shorten(struct switcher *s, struct time_dd t, double *y, double *f)
 {
     return stepper_shorten(s->steppers[s->made], t, y, f);
 }
 
-int switcher_walk(struct switcher *s, struct moment t, double *y, double *f)
+int switcher_walk(struct switcher *s, struct time_dd t, double *y, double *f)
 {
     return stepper_walk(s->steppers[s->made], t, y, f);
 }
 
 /* Do both methods have the same scales and the same last state? */
-static bool agree(const struct lent *a, const struct lent *b)
+static bool agree(const struct stepper_state_view *a, const struct stepper_state_view *b)
 {
     bool same = true;
     for (size_t i = 0; i < 2 * a->pairs; i++) same &= a->scale[i] == b->scale[i];
@@ -192,23 +192,23 @@ static bool agree(const struct lent *a, const struct lent *b)
 }
 
 /* The other method is told of every step, so it has the same scales and states from the second step on. */
-bool switcher_lend(const struct switcher *s, struct lent *lent)
+bool switcher_lend(const struct switcher *s, struct stepper_state_view *view)
 {
-    struct lent other;
-    if (s->now != 0 || s->made != 0 || !stepper_lend(s->steppers[0], lent)) return false;
-    lent->steps = INFINITY;
+    struct stepper_state_view other;
+    if (s->now != 0 || s->made != 0 || !stepper_lend(s->steppers[0], view)) return false;
+    view->steps = INFINITY;
     if (!s->steppers[1]) return true;
-    lent->steps = s->stiffness.wait - 1;
-    return lent->steps > 0 && weights_lend(stepper_control(s->steppers[1]), &other) && agree(lent, &other);
+    view->steps = s->stiffness.wait - 1;
+    return view->steps > 0 && error_norm_view(stepper_control(s->steppers[1]), &other) && agree(view, &other);
 }
 
-void switcher_settle(struct switcher *s, const struct lent *lent)
+void switcher_settle(struct switcher *s, const struct stepper_state_view *view)
 {
-    if (lent->accepted == 0) return;
-    stepper_settle(s->steppers[0], lent);
+    if (view->accepted == 0) return;
+    stepper_settle(s->steppers[0], view);
     if (!s->steppers[1]) return;
-    weights_settle(stepper_control(s->steppers[1]), lent);
-    s->stiffness.wait -= (int)lent->accepted;
+    error_norm_settle(stepper_control(s->steppers[1]), view);
+    s->stiffness.wait -= (int)view->accepted;
 }
 
 unsigned long switcher_rejected(const struct switcher *s, enum rejection why)
@@ -246,17 +246,17 @@ void switcher_set_linear(struct switcher *s, const double *A, double rho)
 void switcher_set_noise(struct switcher *s, size_t rate, double noise, double passing)
 {
     for (int k = 0; k < 2; k++)
-        if (s->steppers[k]) weights_set_noise(stepper_control(s->steppers[k]), rate, noise, passing);
+        if (s->steppers[k]) error_norm_set_roundoff(stepper_control(s->steppers[k]), rate, noise, passing);
 }
 
 bool switcher_noise_counts(const struct switcher *s, double h)
 {
-    return weights_noise_counts(stepper_control(s->steppers[s->made]), h);
+    return error_norm_roundoff_counts(stepper_control(s->steppers[s->made]), h);
 }
 
 void switcher_set_floor(struct switcher *s, size_t component, double floor)
 {
     if (!(floor > 0 && floor < INFINITY)) return;
     for (int k = 0; k < 2; k++)
-        if (s->steppers[k]) weights_set_floor(stepper_control(s->steppers[k]), component, floor);
+        if (s->steppers[k]) error_norm_set_floor(stepper_control(s->steppers[k]), component, floor);
 }

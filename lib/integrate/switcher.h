@@ -16,25 +16,25 @@ struct switcher;
 struct switcher *switcher_alloc(const struct stepper_options *options, const struct method *stiff);
 void switcher_free(struct switcher *switcher);
 
-int switcher_reset(struct switcher *switcher, struct counted_system *system, struct moment t, const double *y,
-                   double *f, struct moment t_limit, double *h);
+int switcher_reset(struct switcher *switcher, struct counted_system *system, struct time_dd t,
+                   const double *y, double *f, struct time_dd t_limit, double *h);
 
-enum stepper_status switcher_step(struct switcher *switcher, struct counted_system *system, struct moment *t,
-                                  double *y, double *f, double *h, struct moment t_limit);
+enum stepper_status switcher_step(struct switcher *switcher, struct counted_system *system, struct time_dd *t,
+                                  double *y, double *f, double *h, struct time_dd t_limit);
 
 /* Of the last step, whichever method made it. */
-int switcher_dense(struct switcher *switcher, struct moment t, double *y);
-int switcher_powers(struct switcher *switcher, struct moment from, struct moment to, size_t i, double *c);
-int switcher_powers_of_ends(struct switcher *switcher, struct moment from, struct moment to, size_t i,
+int switcher_dense(struct switcher *switcher, struct time_dd t, double *y);
+int switcher_powers(struct switcher *switcher, struct time_dd from, struct time_dd to, size_t i, double *c);
+int switcher_powers_of_ends(struct switcher *switcher, struct time_dd from, struct time_dd to, size_t i,
                             double *c);
 int switcher_degree(const struct switcher *switcher, double *negligible);
-int switcher_partial(struct switcher *switcher, struct moment t, double *y, double *f);
-int switcher_shorten(struct switcher *switcher, struct moment t, double *y, double *f);
-int switcher_walk(struct switcher *switcher, struct moment t, double *y, double *f);
+int switcher_partial(struct switcher *switcher, struct time_dd t, double *y, double *f);
+int switcher_shorten(struct switcher *switcher, struct time_dd t, double *y, double *f);
+int switcher_walk(struct switcher *switcher, struct time_dd t, double *y, double *f);
 
 /* stepper_lend for the explicit method, while it makes the steps, as many as there are before the other one is asked. */
-bool switcher_lend(const struct switcher *switcher, struct lent *lent);
-void switcher_settle(struct switcher *switcher, const struct lent *lent);
+bool switcher_lend(const struct switcher *switcher, struct stepper_state_view *view);
+void switcher_settle(struct switcher *switcher, const struct stepper_state_view *view);
 
 /* Counts of both methods together, or one of them. */
 struct stepper_counts switcher_counts(const struct switcher *switcher);
@@ -49,12 +49,12 @@ unsigned long switcher_stiff_steps(const struct switcher *switcher);
 /* linear_set_matrix where that is the method. */
 void switcher_set_linear(struct switcher *switcher, const double *A, double rho);
 
-/* See weights_set_floor, where a floor that is not positive and finite changes nothing, and
- * weights_set_noise; for both methods. */
+/* See error_norm_set_floor, where a floor that is not positive and finite changes nothing, and
+ * error_norm_set_roundoff; for both methods. */
 void switcher_set_floor(struct switcher *switcher, size_t component, double floor);
 void switcher_set_noise(struct switcher *switcher, size_t rate, double noise, double passing);
 
-/* weights_noise_counts for the method that makes the steps. */
+/* error_norm_roundoff_counts for the method that makes the steps. */
 bool switcher_noise_counts(const struct switcher *switcher, double h);
 
 #endif

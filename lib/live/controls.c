@@ -16,7 +16,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/call.h"
+#include "base/api_check.h"
 #include "base/diag.h"
 #include "draw/page_json.h"
 #include "expr/unit.h"
@@ -319,7 +319,7 @@ char *fbd_model_controls(const fbd_model *model, fbd_errors *list)
         write_effects(&controls);
     }
     if (!model)
-        call_refuse(errors, "there is no model");
+        api_refuse(errors, "there is no model");
     else if (!spans || text.failed)
         diag_out_of_memory(errors);
     if (text.failed) text_free(&text);

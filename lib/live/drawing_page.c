@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/call.h"
+#include "base/api_check.h"
 #include "base/diag.h"
 #include "draw/page.h"
 #include "draw/page_json.h"
@@ -213,7 +213,7 @@ char *fbd_key_page(const fbd_key *key, const char *student, bool exam, fbd_error
     struct diag_call call;
     fbd_errors *errors = diag_begin(&call, list);
     char *page = key && student ? make_page(key, student, exam, errors)
-                                : call_refuse(errors, "there is no key, or no name of a student");
+                                : api_refuse(errors, "there is no key, or no name of a student");
     diag_end(&call);
     return page;
 }

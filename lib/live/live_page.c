@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/call.h"
+#include "base/api_check.h"
 #include "base/diag.h"
 #include "base/file.h"
 #include "draw/page.h"
@@ -187,10 +187,10 @@ char *fbd_result_live_html(fbd_result *result, const fbd_live_options *options, 
     fbd_errors *errors = diag_begin(&call, list);
     fbd_live_options own = {0};
     fbd_options run = FBD_OPTIONS_DEFAULT;
-    bool sized =
-        call_options(&own, sizeof own, options, errors) && call_options(&run, sizeof run, own.run, errors);
-    bool meant = sized && result && call_has_settings(own.settings, own.setting_count);
-    if (sized && !meant) call_refuse(errors, "there is no result, or a setting has no value");
+    bool sized = api_take_options(&own, sizeof own, options, errors) &&
+                 api_take_options(&run, sizeof run, own.run, errors);
+    bool meant = sized && result && api_has_settings(own.settings, own.setting_count);
+    if (sized && !meant) api_refuse(errors, "there is no result, or a setting has no value");
     own.run = &run;
     char *page = meant ? make_page(result, &own, errors) : NULL;
     diag_end(&call);

@@ -122,7 +122,7 @@ static bool go_beyond(struct ensemble *own, double t, struct fbd_state *state)
         state->y[n + i] += s * state->a[i];
     }
     for (size_t i = 0; i < (size_t)own->model->plan.own; i++) state->y[2 * n + i] += s * state->a[n + i];
-    state_set_moment(state, moment_at(t));
+    state_set_moment(state, time_dd_at(t));
     state_evaluate(state);
     return true;
 }

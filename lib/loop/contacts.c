@@ -25,7 +25,7 @@ static size_t most_strikers(const struct tree *tree)
     size_t count = 0;
     for (int i = 0; i < tree->tie_count; i++)
         count += tree->ties[i].kind == constraint_contact || tree->ties[i].kind == constraint_rope ||
-                 tie_takes_blows(&tree->ties[i]);
+                 tie_takes_impulses(&tree->ties[i]);
     return count;
 }
 
@@ -207,7 +207,7 @@ static void note_impact(struct run *run, int i, int count)
         tau += P[1];
         taken += striker_taken(&work->strikers[k], work->v + (ptrdiff_t)2 * k, P);
     }
-    struct run_event *event = run_note(run, FBD_EVENT_IMPACT, tie->end[0].body, tie->load, -1);
+    struct run_event *event = log_event(run, FBD_EVENT_IMPACT, tie->end[0].body, tie->load, -1);
     if (!event) return;
     event->impact = (struct impact_record){
         p,     tau,          taken, {striker->v_n, v[0]}, {striker->v_t, v[1]}, work->makes && taken > 0,
@@ -223,7 +223,7 @@ static void note_several(struct run *run, int count)
         if (work->P[(ptrdiff_t)2 * i] > work->P[(ptrdiff_t)2 * most]) most = i;
     if (!work->several || count == 0) return;
     const struct tie *tie = &tree_of(run)->ties[work->strikers[most].tie];
-    struct run_event *event = run_note(run, FBD_EVENT_SEVERAL, tie->end[0].body, tie->load, -1);
+    struct run_event *event = log_event(run, FBD_EVENT_SEVERAL, tie->end[0].body, tie->load, -1);
     if (event) event->impact.several = true;
 }
 
@@ -306,7 +306,7 @@ static void leave_switches(struct run *run)
     if (s) sliding_drop(s);
 }
 
-/* What stuck and has got a speed slips. In a crowd of blows that nobody sees, `interval` apart, it sticks where it would not
+/* What stuck and has got a speed slips. In a series of impacts too small to see, `interval` apart, it sticks where it would not
  * come far until the next: it is its friction, at its limit for as long as that, that might make the next one. */
 static void unstick(struct run *run, double interval)
 {
@@ -373,20 +373,20 @@ static bool look_at_contacts(struct run *run)
     find_touching(run);
     int count = contacts_find_strikers(run);
     bool struck = any_closes(run, count);
-    if (struck && run_take_in_ropes(run)) count = contacts_find_strikers(run);
+    if (struck && close_taut_ropes(run)) count = contacts_find_strikers(run);
     if (struck) {
         if (refuse_low_step(run, count) || !contacts_strike(run, count)) return false;
         note_impacts(run, count);
         impulse_look(run->state);
         unstick(run, 0);
     }
-    bool rests = struck && contacts_end_bounces(run, count);
+    bool rests = struck && zeno_end_bounces(run, count);
     contacts_open_or_close(run, count, struck);
     if (struck) contacts_hold_speeds(run, count);
     if (rests) {
-        count = contacts_settle_down(run, count);
+        count = zeno_rest(run, count);
         contacts_open_or_close(run, count, true);
-        moved = contacts_lift_others(run);
+        moved = zeno_lift_others(run);
     }
     return moved;
 }
@@ -427,14 +427,14 @@ void run_strike_closed(struct run *run)
         find_touching(run);
     else
         impulse_look(run->state);
-    run_take_in_ropes(run);
+    close_taut_ropes(run);
     int count = contacts_find_strikers(run);
     if (!any_closes(run, count) || !contacts_strike(run, count)) return;
     note_impacts(run, count);
-    contacts_end_tugs(run, count);
+    zeno_end_rope_impacts(run, count);
     impulse_look(run->state);
     contacts_open_or_close(run, count, true);
-    unstick(run, contacts_crowd_of_tugs(run));
+    unstick(run, zeno_rope_limit(run));
 }
 
 static bool is_closed(const struct run *run, const struct fbd_state *state, int tie)
@@ -474,7 +474,7 @@ static void note_change(struct run *run, int index)
     bool now = is_closed(run, run->state, index);
     for (int k = 0; k < index; k++)
         if (changed[k] && ties[k].load == tie->load && is_closed(run, run->state, k) == now) return;
-    run_note(run, now ? FBD_EVENT_CONTACT : FBD_EVENT_LIFT_OFF, tie->end[0].body, tie->load, -1);
+    log_event(run, now ? FBD_EVENT_CONTACT : FBD_EVENT_LIFT_OFF, tie->end[0].body, tie->load, -1);
 }
 
 void run_release_contacts(struct run *run)

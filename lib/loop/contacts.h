@@ -44,7 +44,7 @@ struct striker {
     bool rubs;       /* it has a row along its surface, too, in which there may be friction */
     double v_n, v_t; /* before */
     double reel;     /* of a rope: how fast it grows by itself */
-    bool stays;      /* no contact, and let go by an impact, for so little that it is kept (bounces.c) */
+    bool stays;      /* no contact, and let go by an impact, for so little that it is kept (zeno.c) */
 };
 
 /* A contact at the place of another one, of the same two links and with the same normal: a corner that several parts of a
@@ -90,7 +90,7 @@ struct contacts_work {
     int *touched;            /* of each meeting: how many features touched, at the last look */
     double *deep;   /* of each meeting: how deep it was left open, at a corner that another side is next to */
     bool *touching; /* of each tie: scratch */
-    bool *moves;    /* and: for put_down.c */
+    bool *moves;    /* and: for zeno_rest.c */
     bool *was_closed; /* of each tie, when it was looked at last */
     struct fbd_state *trial;
     double speed;                  /* the largest of the shapes that have touched so far */
@@ -133,9 +133,9 @@ void run_strike_closed(struct run *run);
 /* A drive that moves, and how many do. */
 const struct mode *run_only_drive(const struct run *run, int *moving);
 
-/* What has been put on its surface by contacts_settle_down may have got into others that are next to it, the deeper the
+/* What has been put on its surface by zeno_rest may have got into others that are next to it, the deeper the
  * farther they are from where it turned: they are moved out. Whether there were any, which may now touch. */
-bool contacts_lift_others(struct run *run);
+bool zeno_lift_others(struct run *run);
 
 /* Note how deep in each other shapes are that do not touch: within what counts as touching, where a corner goes
  * over the end of a side. */
@@ -187,10 +187,10 @@ void contacts_open_or_close(struct run *run, int count, bool struck);
 
 /* A rope has got taut or something has landed, and by that lets others go, which do the same to it in turn: once by no
  * more than nobody sees all stay. */
-void contacts_end_tugs(struct run *run, int count);
+void zeno_end_rope_impacts(struct run *run, int count);
 
 /* The interval between the last two of many of them in a row that nobody sees; 0 elsewhere. */
-double contacts_crowd_of_tugs(const struct run *run);
+double zeno_rope_limit(const struct run *run);
 
 /* What counts as touching [m, or radians of a stop]; shapes that are in each other by a little more, which was seen late,
  * touch as well. */
@@ -205,19 +205,19 @@ int contacts_find_strikers(struct run *run);
 /* e of a meeting at a speed of approach; below zero after failing the run. */
 double contacts_restitution(struct run *run, int meeting, double approach);
 
-/* After an impact of `count` strikers: does a series of bounces end that nobody sees any more? (bounces.c) */
-bool contacts_end_bounces(struct run *run, int count);
+/* After an impact of `count` strikers: does a series of bounces end that nobody sees any more? (zeno.c) */
+bool zeno_end_bounces(struct run *run, int count);
 
 /* The speeds at which surfaces are left, and ropes let go, are taken away by impulses that rub as the weight would have
  * done that took them away: at rest from now on, surfaces press m a T in the time T of the series, and so they do in it
  * but for m v. */
-void contacts_take_leaving_speeds(struct run *run, int count);
+void zeno_remove_separation(struct run *run, int count);
 
-/* Put what bounces on its surface (put_down.c); the strikers are then those that touch. Returns their number. */
-int contacts_settle_down(struct run *run, int strikers);
+/* Put what bounces on its surface (zeno_rest.c); the strikers are then those that touch. Returns their number. */
+int zeno_rest(struct run *run, int strikers);
 
 /* Would that change the speed of any body by no more than bounces that nobody sees do? */
-bool contacts_settle_little(struct run *run, int count);
+bool zeno_rest_is_harmless(struct run *run, int count);
 
 /* ---- the loop */
 
@@ -225,7 +225,7 @@ bool contacts_settle_little(struct run *run, int count);
 void run_release_contacts(struct run *run);
 
 /* The next end of a series of bounces; HUGE_VAL without one. And noting those that end by now. */
-double run_next_rest(const struct run *run);
-void run_note_rests(struct run *run);
+double zeno_next_rest(const struct run *run);
+void log_rests(struct run *run);
 
 #endif

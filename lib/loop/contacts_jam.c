@@ -101,7 +101,7 @@ static void note_jam(struct run *run, int i, bool jams)
     double taken = striker_taken(striker, v, P);
     run->impact_work[tie->load] += taken;
     if (striker->rope || !jams) return;
-    struct run_event *event = run_note(run, FBD_EVENT_JAM, tie->end[0].body, tie->load, -1);
+    struct run_event *event = log_event(run, FBD_EVENT_JAM, tie->end[0].body, tie->load, -1);
     if (!event) return;
     event->impact = (struct impact_record){
         .p = P[0], .tau = P[1], .work = taken, .v_n = {striker->v_n, v[0]}, .v_t = {striker->v_t, v[1]}};

@@ -94,7 +94,7 @@ static struct look look_at(struct run *run, int index, int probe, double t)
     const struct meeting *meeting = &tree_of(run)->meetings[index];
     struct fbd_state *trial = run->contacts.trial;
     if (trial->t != t) {
-        switcher_dense(run->stepper, moment_at(t), trial->y);
+        switcher_dense(run->stepper, time_dd_at(t), trial->y);
         trial->t = t;
         const struct instant moved = state_instant(trial);
         tree_move(run->model, &moved);

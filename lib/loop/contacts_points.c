@@ -40,7 +40,7 @@ static bool is_striker(const struct run *run, int i)
     const struct tie *tie = &tree_of(run)->ties[i];
     if (tie->kind == constraint_contact) return run->state->tree->ties[i].feature != no_feature;
     if (tie->kind == constraint_rope) return run->state->slip[tie->pair] == stick;
-    return tie_takes_blows(tie) && run->state->slip[tie->surface] == stick;
+    return tie_takes_impulses(tie) && run->state->slip[tie->surface] == stick;
 }
 
 /* ---- coinciding points */

@@ -260,11 +260,11 @@ static void refuse_rubbing(struct run *run)
         const struct tie *tie = &tree->ties[i];
         bool closed = tie->surface < 0 || run->state->slip[tie->surface] == stick;
         if (tie->kind != constraint_capstan || !closed) continue;
-        run_fail(
-            run, FBD_BROKEN,
-            "at t = %.9g something strikes while the rope `%s` is taut round its drum: how much of the blow "
-            "friction takes is not followed. End the run before, by an event",
-            run_time(run), tie->name);
+        run_fail(run, FBD_BROKEN,
+                 "at t = %.9g an impact occurs while the rope `%s` is taut round its drum: how much of the "
+                 "impulse "
+                 "friction takes is not followed. End the run before, by an event",
+                 run_time(run), tie->name);
     }
 }
 
@@ -378,15 +378,15 @@ static void fail_impact(struct run *run, enum impacts_end end, enum impact_law l
         run_fail(run, FBD_OUT_OF_MEMORY, "out of memory");
     else if (end == impacts_unsolvable && !impact_by_velocity(law))
         run_fail(run, FBD_FAILED,
-                 "at t = %.9g the impulses of a blow have no solution: friction on a guide or in a slot "
+                 "at t = %.9g the impulses of an impact have no solution: friction on a guide or in a slot "
                  "feeds what presses there, as in Painleve's paradox. Less friction, or end the run before, "
                  "by an event",
                  run_time(run));
     else if (end == impacts_jammed)
         run_fail(
             run, FBD_FAILED,
-            "at t = %.9g a blow jams: friction locks what strikes, and what it strikes, moved by a drive "
-            "say, gives no way. Less friction, or end the run before, by an event",
+            "at t = %.9g an impact jams: friction locks the bodies, and the body that is struck, moved by a "
+            "drive say, cannot yield. Less friction, or end the run before, by an event",
             run_time(run));
     else
         run_fail(run, FBD_FAILED, "at t = %.9g impacts at several points %s", run_time(run), what[end]);

@@ -21,7 +21,7 @@ struct run;
 struct energy_guard {
     double t, *y;   /* where the run began */
     double jumps;   /* changes of kinetic energy at events beyond the work of impacts */
-    double lowered; /* potential energy that has gone into the work of impacts: put_down.c */
+    double lowered; /* potential energy that has gone into the work of impacts: zeno_rest.c */
 };
 
 /* A residual of the energy, and the largest one that tolerance and rounding explain. */

@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/zeroed.h"
+#include "base/block_alloc.h"
 #include "dynamics/constraint.h"
 #include "rest/balance.h"
 
@@ -76,7 +76,7 @@ static bool allocate_maps(struct ensemble *ensemble)
 static void map_branches(struct ensemble *ensemble)
 {
     const struct plan *plan = &ensemble->model->plan;
-    const struct division *division = &ensemble->division;
+    const struct islands *division = &ensemble->division;
     size_t watch = 0;
     for (size_t i = 0; i < plan->kink_count; i++) {
         const struct kink *kink = &plan->kinks[i];
@@ -120,11 +120,11 @@ static bool make_groups(struct ensemble *ensemble)
 {
     ensemble->count = 1;
     if (ensemble->options.structure) {
-        if (!division_make(&ensemble->division, ensemble->model)) return false;
+        if (!islands_make(&ensemble->division, ensemble->model)) return false;
         if (ensemble->division.count > 1) ensemble->count = ensemble->division.count;
     }
-    ensemble->groups = zeroed(ensemble->count * sizeof *ensemble->groups);
-    ensemble->queue = zeroed(2 * ensemble->count * sizeof *ensemble->queue);
+    ensemble->groups = block_alloc(ensemble->count * sizeof *ensemble->groups);
+    ensemble->queue = block_alloc(2 * ensemble->count * sizeof *ensemble->queue);
     if (!ensemble->groups || !ensemble->queue) return false;
     ensemble->due = ensemble->queue + ensemble->count;
     bool divided = ensemble->count > 1;
@@ -144,7 +144,7 @@ static bool make_groups(struct ensemble *ensemble)
 
 struct ensemble *ensemble_new(const struct fbd_model *model, const struct run_options *options)
 {
-    struct ensemble *ensemble = zeroed(sizeof *ensemble);
+    struct ensemble *ensemble = block_alloc(sizeof *ensemble);
     if (!ensemble) return NULL;
     ensemble->model = model;
     ensemble->options = *options;
@@ -152,7 +152,7 @@ struct ensemble *ensemble_new(const struct fbd_model *model, const struct run_op
     ensemble->from = ensemble->t = options->start ? options->start->t : 0;
     ensemble->next_told = HUGE_VAL;
     ensemble->state = state_new(model);
-    ensemble->arrows = zeroed(diagram_most_arrows(model) * sizeof *ensemble->arrows);
+    ensemble->arrows = block_alloc(diagram_most_arrows(model) * sizeof *ensemble->arrows);
     if (!ensemble->state || !ensemble->arrows || !make_groups(ensemble)) {
         ensemble_free(ensemble);
         return NULL;
@@ -176,7 +176,7 @@ void ensemble_free(struct ensemble *ensemble)
         model_free(ensemble->groups[p].owned);
     }
     state_free(ensemble->state);
-    division_free(&ensemble->division);
+    islands_free(&ensemble->division);
     free(ensemble->groups);
     free(ensemble->maps);
     free(ensemble->arrows);
@@ -276,20 +276,20 @@ static bool look_at_end(struct run *run, struct fbd_state *state)
 static bool look_run(struct run *run, double t, struct fbd_state *state)
 {
     if (t == run->state->t) return look_at_end(run, state);
-    return t >= run->step.from && t < run->state->t && run_look(run, moment_at(t), state);
+    return t >= run->step.from && t < run->state->t && run_look(run, time_dd_at(t), state);
 }
 
 /* The double next to the end of a step is the end, whose rest it has not. */
 static bool look_run_before(struct run *run, double t, struct fbd_state *state)
 {
-    return run_look(run, t == run->state->t ? run_end(run) : moment_at(t), state);
+    return run_look(run, t == run->state->t ? run_end(run) : time_dd_at(t), state);
 }
 
-struct fbd_state *ensemble_look_group(struct ensemble *ensemble, size_t index, struct moment t, bool forces)
+struct fbd_state *ensemble_look_group(struct ensemble *ensemble, size_t index, struct time_dd t, bool forces)
 {
     struct group *group = &ensemble->groups[index];
     struct run *run = group->run;
-    bool at_end = moment_equal(t, run_end(run)), within = t.t >= run->step.from && t.t <= run->state->t;
+    bool at_end = time_dd_equal(t, run_end(run)), within = t.t >= run->step.from && t.t <= run->state->t;
     if (!forces && within) {
         state_set_moment(group->probe, t);
         return run_coordinates(run, t, group->probe->y) ? group->probe : NULL;
@@ -312,7 +312,7 @@ static void scatter_coordinates(const struct fbd_model *whole, const struct grou
     }
 }
 
-bool ensemble_group_coordinates(struct ensemble *ensemble, size_t group, struct moment t, double *y)
+bool ensemble_group_coordinates(struct ensemble *ensemble, size_t group, struct time_dd t, double *y)
 {
     if (!ensemble_look_group(ensemble, group, t, false)) return false;
     scatter_coordinates(ensemble->model, &ensemble->groups[group], y);
@@ -368,7 +368,7 @@ static bool run_covers(const struct run *run, double t)
 
 static bool coordinates_of(struct run *run, double t, double *y)
 {
-    return run_coordinates(run, t == run->state->t ? run_end(run) : moment_at(t), y);
+    return run_coordinates(run, t == run->state->t ? run_end(run) : time_dd_at(t), y);
 }
 
 bool ensemble_coordinates(struct ensemble *ensemble, double t, double *y)
@@ -408,7 +408,7 @@ static bool look(struct ensemble *ensemble, double t, look_at_run *look_at, stru
         if (!look_at(ensemble->groups[p].run, t, ensemble->groups[p].probe)) return false;
         scatter(ensemble->model, &ensemble->groups[p], state);
     }
-    state_set_moment(state, moment_at(t));
+    state_set_moment(state, time_dd_at(t));
     state->settled = true;
     state_evaluate(state);
     return true;

@@ -26,7 +26,7 @@
 #ifndef FBD_LOOP_ENSEMBLE_H
 #define FBD_LOOP_ENSEMBLE_H
 
-#include "loop/division.h"
+#include "loop/islands.h"
 #include "loop/run.h"
 
 struct group {
@@ -54,7 +54,7 @@ struct observer {
 struct ensemble {
     const struct fbd_model *model;
     struct run_options options;
-    struct division division;
+    struct islands division;
     size_t count;
     struct group *groups;
     int *maps;     /* memory of the groups' maps */
@@ -107,7 +107,7 @@ bool ensemble_look(struct ensemble *ensemble, double t, struct fbd_state *state)
 
 /* Coordinates and rates of one group at t, within its last step, in their places among those of the whole. False when
  * they cannot be had. */
-bool ensemble_group_coordinates(struct ensemble *ensemble, size_t group, struct moment t, double *y);
+bool ensemble_group_coordinates(struct ensemble *ensemble, size_t group, struct time_dd t, double *y);
 
 /* The same, but at the very time of an event with the modes before it. */
 bool ensemble_look_before(struct ensemble *ensemble, double t, struct fbd_state *state);
@@ -130,7 +130,7 @@ struct fbd_state *ensemble_state(struct ensemble *ensemble);
 
 /* Group `index` at t, within its last step or at the end of it, as by ensemble_look, in its own coordinates:
  * its probe, or NULL. Without `forces` only its coordinates and rates are those at t. */
-struct fbd_state *ensemble_look_group(struct ensemble *ensemble, size_t index, struct moment t, bool forces);
+struct fbd_state *ensemble_look_group(struct ensemble *ensemble, size_t index, struct time_dd t, bool forces);
 
 /* The body or load of the whole scene that is `index` in a group; -1 for -1. */
 int group_body(const struct group *group, int index);

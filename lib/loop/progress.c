@@ -15,7 +15,7 @@
 static void check_crawl(struct run *run)
 {
     enum { most_steps = 100 };
-    bool tiny = moment_since(run_end(run), run_start(run)) <= 8 * DBL_EPSILON * fabs(run->state->t);
+    bool tiny = time_dd_since(run_end(run), run_start(run)) <= 8 * DBL_EPSILON * fabs(run->state->t);
     run->step.crawl = tiny ? run->step.crawl + 1 : 0;
     if (run->step.crawl <= most_steps) return;
     if (run->recent.crowd > 0)

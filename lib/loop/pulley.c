@@ -34,19 +34,19 @@ static bool is_taut(const struct fbd_state *state, const struct tie *tie)
 }
 
 /* Cut the step back to where the rope is just still on its pulley: halved as long as numbers can tell. */
-static bool cut_step(struct run *run, int tie, struct moment *t)
+static bool cut_step(struct run *run, int tie, struct time_dd *t)
 {
     double on = run->step.from, off = t->t;
     for (;;) {
         double middle = on + (off - on) / 2;
         if (!(middle > on && middle < off)) break;
-        if (switcher_partial(run->stepper, moment_at(middle), run->work.y, run->work.f) != 0) return false;
+        if (switcher_partial(run->stepper, time_dd_at(middle), run->work.y, run->work.f) != 0) return false;
         if (is_off(wrap_at(run, tie, run->work.y)))
             off = middle;
         else
             on = middle;
     }
-    *t = moment_at(on > run->step.from ? on : off);
+    *t = time_dd_at(on > run->step.from ? on : off);
     return switcher_partial(run->stepper, *t, run->work.y, run->work.f) == 0;
 }
 
@@ -56,7 +56,7 @@ static const char *pulley_of(const struct run *run, int tie)
     return run->model->bodies[rope->end[rope->end_count - 1].body].name;
 }
 
-void run_watch_pulleys(struct run *run, struct moment *t)
+void run_watch_pulleys(struct run *run, struct time_dd *t)
 {
     const struct tree *tree = run->model->tree;
     for (int i = 0; tree && i + 1 < tree->tie_count; i++) {
@@ -85,7 +85,7 @@ void run_check_pulleys(struct run *run)
     }
 }
 
-bool run_take_in_ropes(struct run *run)
+bool close_taut_ropes(struct run *run)
 {
     bool any = false;
     const struct tree *tree = run->model->tree;

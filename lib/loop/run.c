@@ -7,9 +7,9 @@
 #include <string.h>
 
 #include "dynamics/constraint.h"
-#include "dynamics/finite.h"
+#include "dynamics/nonfinite.h"
 #include "dynamics/project.h"
-#include "loop/cross.h"
+#include "loop/switch_event.h"
 #include "rest/start.h"
 
 /* ---- the system that the stepper sees */
@@ -87,16 +87,16 @@ static bool make_run(struct run *run, const struct state_start *begin)
     size_t size = plan_size(plan);
     run->state = begin ? state_new_from(run->model, begin) : state_new(run->model);
     run->during = state_new(run->model);
-    run->work.y = ARENA_ARRAY(memory, 5 * size + run_grain_size(run->model), double);
+    run->work.y = ARENA_ARRAY(memory, 5 * size + roundoff_size(run->model), double);
     if (!run->state || !run->during || !run->work.y || !run_make_scans(run)) return false;
     if (run->state->tree)
         run->state->tree->accuracy = run->during->tree->accuracy = projected_accuracy(&run->options);
     if (!poles_init(&run->poles, run->model, memory)) return false;
-    if (!mechanisms_init(&run->mechanisms, run->model, memory)) return false;
+    if (!coupled_scales_init(&run->mechanisms, run->model, memory)) return false;
     run->work.f = run->work.y + size;
     run->work.sample = run->work.f + size;
     run->work.aside = run->work.sample + size;
-    run_grain_init(run, run->work.aside + 2 * size);
+    roundoff_init(run, run->work.aside + 2 * size);
     size_t functions = 2 * run->search.moving.count, timed = 3 * run->search.timed.count;
     run->work.values = ARENA_ARRAY(memory, functions > timed ? functions : timed, double);
     run->work.kept = ARENA_ARRAY(memory, 2 * size, double);
@@ -104,7 +104,7 @@ static bool make_run(struct run *run, const struct state_start *begin)
     run->recent.anchor = ARENA_ARRAY(memory, 2 * size, double);
     run->work.arrows = ARENA_ARRAY(memory, diagram_most_arrows(run->model), struct arrow);
     run->decided.branches = ARENA_ARRAY(memory, (size_t)plan->branches + 2 * plan->mode_count, bool);
-    if (!contacts_work_init(&run->contacts, run->model, memory) || !passages_init(run)) return false;
+    if (!contacts_work_init(&run->contacts, run->model, memory) || !zeno_switch_init(run)) return false;
     run->watchers.asleep = run->contacts.asleep;
     run->watchers.deep = run->contacts.deep;
     run->impact_work = ARENA_ARRAY(memory, run->model->load_count, double);
@@ -173,13 +173,13 @@ static void start(struct run *run)
         refuse(run, &lack);
         return;
     }
-    run_note_several(run);
+    log_several(run);
     if (!hold_fixed(run)) {
         run_fail(run, FBD_OUT_OF_MEMORY, "out of memory");
         return;
     }
     run_release_contacts(run);
-    run_note_lifts_at_start(run);
+    log_lifts_at_start(run);
     run_check_counts(run);
     energy_guard_begin(run);
     watchers_arm(&run->watchers, run->state, 0);
@@ -242,12 +242,12 @@ static bool restart(struct run *run)
     memcpy(run->work.y, run->state->y, plan_size(&run->model->plan) * sizeof *run->work.y);
     scan_forget(&run->search.timed);
     scan_forget(&run->search.moving);
-    mechanisms_join(&run->mechanisms, run->state);
+    coupled_scales_join(&run->mechanisms, run->state);
     bind_rates(run);
-    if (!structure_is_exact(run->kind)) run_set_noise(run);
+    if (!structure_is_exact(run->kind)) roundoff_estimate(run);
     watchers_follow(&run->watchers, run->during);
     int status = switcher_reset(run->stepper, &run->system, run_end(run), run->work.y, run->work.f,
-                                moment_at(run->options.until), &run->step.h);
+                                time_dd_at(run->options.until), &run->step.h);
     if (status != GSL_SUCCESS) {
         run_fail_step(run, stepper_bad_function);
         return false;
@@ -261,18 +261,18 @@ static bool restart(struct run *run)
 }
 
 /* The next event of time alone within reach of a step, or the end of the run. */
-static struct moment next_time(struct run *run, bool *found)
+static struct time_dd next_time(struct run *run, bool *found)
 {
     const double stretch = 1.02; /* the stepper may lengthen a step by 1 % to end at its limit */
-    double rest = fmin(run_next_rest(run), run->passages.end), until = fmin(run->options.until, rest);
+    double rest = fmin(zeno_next_rest(run), run->zeno_switches.end), until = fmin(run->options.until, rest);
     double reach = fmin(until, run->state->t + stretch * run->step.h);
     int status = scan_interval(&run->search.timed, run->state->t, reach);
     *found = status == 1;
     /* Where functions of time change too fast for so long a step, it goes to where they have been seen. */
-    if (status == 2 && run->search.timed.clear > run->state->t) return moment_at(run->search.timed.clear);
-    struct moment end = moment_at(until);
-    if (moment_since(end, run_end(run)) <= 0) end.t = nextafter(end.t, HUGE_VAL); /* rests in no time */
-    return *found ? moment_earlier(run_pin_timed(run), end) : end;
+    if (status == 2 && run->search.timed.clear > run->state->t) return time_dd_at(run->search.timed.clear);
+    struct time_dd end = time_dd_at(until);
+    if (time_dd_since(end, run_end(run)) <= 0) end.t = nextafter(end.t, HUGE_VAL); /* rests in no time */
+    return *found ? time_dd_earlier(run_pin_timed(run), end) : end;
 }
 
 /* A coordinate that has grown beyond all numbers, though its rate has not; the step is not taken. */
@@ -284,7 +284,7 @@ static bool is_beyond_numbers(struct run *run, double t)
         if (i >= 2 * n) {
             run_fail(run, FBD_FAILED,
                      "the state `%s` is not finite at t = %.9g: %s. The last good state is that at t = %.9g",
-                     run->model->scene->own[i - 2 * n].name, t, not_finite_reason(run->work.y[i]),
+                     run->model->scene->own[i - 2 * n].name, t, nonfinite_reason(run->work.y[i]),
                      run->state->t);
             return true;
         }
@@ -292,13 +292,13 @@ static bool is_beyond_numbers(struct run *run, double t)
         run_fail(run, FBD_FAILED,
                  "`%s.%s` is not finite at t = %.9g: %s. The last good state is that at t = %.9g",
                  run->model->bodies[c->body].name, i < n ? c->name : c->rate_name, t,
-                 not_finite_reason(run->work.y[i]), run->state->t);
+                 nonfinite_reason(run->work.y[i]), run->state->t);
         return true;
     }
     return false;
 }
 
-static void accept(struct run *run, struct moment t)
+static void accept(struct run *run, struct time_dd t)
 {
     size_t size = plan_size(&run->model->plan);
     double *most = run->recent.anchor + size;
@@ -308,9 +308,9 @@ static void accept(struct run *run, struct moment t)
     memcpy(run->state->y, run->work.y, size * sizeof *run->work.y);
     if (run->plain) return;
     modes_hold(run->state);
-    run_close_step(run);
+    project_step(run);
     run_check_overlap(run);
-    run->step.restart |= run_has_gone_astray(run);
+    run->step.restart |= projection_has_failed(run);
     memcpy(run->work.y, run->state->y, size * sizeof *run->work.y);
 }
 
@@ -338,10 +338,10 @@ static void set_linear_step(struct run *run)
 /* ---- the stages of a turn: each goes on from the one before, and is the last where it ends the run */
 
 struct turn {
-    struct moment t;     /* the end of the step so far */
-    struct moment limit; /* which it does not pass */
-    bool timed;          /* because events of time alone happen there */
-    bool moving;         /* other events happen at its end */
+    struct time_dd t;     /* the end of the step so far */
+    struct time_dd limit; /* which it does not pass */
+    bool timed;           /* because events of time alone happen there */
+    bool moving;          /* other events happen at its end */
 };
 
 /* From where the step goes, in which modes; after events the stepper starts anew. */
@@ -361,11 +361,11 @@ static bool limit_step(struct run *run, struct turn *turn)
     if (run->step.crawl == 0) run->step.not_finite = switcher_rejected(run->stepper, rejected_not_finite);
     if (run->kind == structure_linear) set_linear_step(run);
     if (structure_is_one_step(run->kind)) run->step.h = run->options.until - run->step.from;
-    run_part_before(run);
+    desync_steps(run);
     if (run->options.step == 0 && !heed_poles(run)) return false;
     turn->limit = next_time(run, &turn->timed);
     turn->t = run_start(run);
-    run_part_from(run, turn->limit);
+    desync_steps_from(run, turn->limit);
     return true;
 }
 
@@ -388,13 +388,13 @@ static bool make_step(struct run *run, struct turn *turn)
         if (status == stepper_underflow && !run->plain && go_beyond(run, turn)) continue;
         if (run->end.outcome != FBD_GOING) return false;
         if (status != stepper_ok) run_fail_step(run, status);
-        if (status != stepper_ok || time == most_times || !run_step_is_torn(run, turn->t))
+        if (status != stepper_ok || time == most_times || !defect_is_large(run, turn->t))
             return status == stepper_ok;
-        double h = shorter * moment_since(turn->t, run_start(run));
+        double h = shorter * time_dd_since(turn->t, run_start(run));
         if (!(run->step.from + h > run->step.from)) return true;
         if (!restart(run)) return false;
         turn->t = run_start(run);
-        turn->limit = moment_at(run->step.from + h);
+        turn->limit = time_dd_at(run->step.from + h);
         turn->timed = false;
         run->step.h = fmin(run->step.h, h);
     }
@@ -414,7 +414,7 @@ static bool find_events(struct run *run, struct turn *turn)
     turn->moving = found > 0;
     run_watch_pulleys(run, &turn->t);
     run_watch_ends(run, &turn->t);
-    turn->timed = turn->timed && moment_equal(turn->t, turn->limit);
+    turn->timed = turn->timed && time_dd_equal(turn->t, turn->limit);
     return true;
 }
 
@@ -440,13 +440,13 @@ static bool apply_events(struct run *run, const struct turn *turn)
         run_apply(run, turn->timed ? run->search.timed.crossed : NULL,
                   turn->moving ? run->search.moving.crossed : NULL);
         energy_guard_events(run, struck);
-        if (turn->moving && run->end.outcome == FBD_GOING) run_stand_beyond(run);
+        if (turn->moving && run->end.outcome == FBD_GOING) step_past_switch(run);
     } else {
         /* Who shows forces shares them out: run_look, run_check_balance. */
         if (!run->lazy) run_evaluate(run);
         if (!run->plain) run_check_jam(run, true);
         if (!run->plain) run_check_sides(run);
-        run_renew_noise(run);
+        roundoff_renew(run);
     }
     return true;
 }
@@ -457,8 +457,8 @@ static void end_step(struct run *run, const struct turn *turn)
     bool at_end = turn->t.t >= run->options.until;
     if (!run->plain) {
         run_check_friction(run);
-        run_note_rests(run);
-        passages_note(run);
+        log_rests(run);
+        zeno_switch_log(run);
     }
     if (at_end) {
         run_evaluate(run); /* with the places that user events name */

@@ -9,7 +9,7 @@
  * time by Newton; apply all events of that instant; settle the modes; start the stepper anew. Between events
  * everything is smooth, so every method keeps its order.
  *
- * Searches run over doubles. What they find is pinned down to a moment (base/moment.h) where it is applied:
+ * Searches run over doubles. What they find is pinned down to a moment (base/time_dd.h) where it is applied:
  * within a rounding of the time every function is linear, so that its value and rate at a double next to the
  * event tell the rest.
  */
@@ -20,17 +20,17 @@
 #include "dynamics/modes.h"
 #include "dynamics/rates.h"
 #include "dynamics/tree.h"
-#include "events/course.h"
-#include "events/mechanisms.h"
+#include "events/coupled_error_scale.h"
 #include "events/poles.h"
 #include "events/scan.h"
+#include "events/trajectory_poly.h"
 #include "events/watchers.h"
 #include "integrate/linear.h"
 #include "integrate/switcher.h"
 #include "loop/contacts.h"
 #include "loop/energy_guard.h"
-#include "loop/passages.h"
 #include "loop/structure.h"
+#include "loop/zeno_switch.h"
 
 struct run_options {
     double until;
@@ -105,13 +105,13 @@ struct event_search {
     bool *wanted; /* those of the groups that are searched at present */
     bool paced, paced_by_motion; /* sampled functions may change as fast as formulas do, of the motion too */
     bool follows_places;         /* the course has places in the world */
-    bool leads;                  /* there are drives or surfaces that may lead (run_lead) */
+    bool leads;                  /* there are drives or surfaces that may lead (impose_drives) */
     bool leads_speeds;           /* drives say what their speeds are, too: guides turn by them */
     bool wakes; /* there are levels of what wakes up with the motion (expr_switch_is_silent) */
 };
 
-/* What is known of the rounding of accelerations: see noise.c. */
-struct grain {
+/* What is known of the rounding of accelerations: see roundoff.c. */
+struct roundoff {
     double *accelerations; /* plan_rates: what they, and rates of states, are known to */
     double *largest;       /* plan_rates: the largest for which that has been found */
     bool heeds_time;       /* a force, or the rate of a state, names the time */
@@ -144,8 +144,8 @@ struct event_log {
 struct recent {
     double time;      /* of the last one */
     int crowd, turns; /* how many at that instant; how often normal forces have changed their sides there */
-    struct moment moment; /* the start, or when events happened last */
-    double interval[2];   /* between the last three of these; infinite before there are three */
+    struct time_dd moment; /* the start, or when events happened last */
+    double interval[2];    /* between the last three of these; infinite before there are three */
     double *
         anchor; /* 2 plan_size: the state around which events have happened lately; the largest |y_i| before the
                        last step */
@@ -171,16 +171,16 @@ struct run {
     struct rates *rates; /* in the modes of `during` */
     struct switcher *stepper;
     struct linear_pace pace; /* of a linear system */
-    struct grain grain;
+    struct roundoff roundoff;
     struct drift drift; /* from the constraints */
     bool projected;
 
     struct watchers watchers;
     struct event_search search;
-    struct course course; /* of what moving functions with enclosures read */
+    struct trajectory trajectory; /* of what moving functions with enclosures read */
     struct poles poles;
-    struct mechanisms mechanisms;
-    struct passages passages;
+    struct coupled_scales mechanisms;
+    struct zeno_switches zeno_switches;
 
     struct decided decided;
     struct contacts_work contacts;
@@ -206,18 +206,18 @@ fbd_outcome run_advance(struct run *run);
 
 /* The state at t in [from, state->t] of the last step, with the modes of that step; evaluated (accelerations
  * are there). */
-bool run_look(struct run *run, struct moment t, struct fbd_state *state);
+bool run_look(struct run *run, struct time_dd t, struct fbd_state *state);
 
 /* Only coordinates, rates and states there, plan_size, without evaluating anything but the dense output. */
-bool run_coordinates(struct run *run, struct moment t, double *y);
+bool run_coordinates(struct run *run, struct time_dd t, double *y);
 
 /* The ends of the last step. */
-static inline struct moment run_start(const struct run *run)
+static inline struct time_dd run_start(const struct run *run)
 {
-    return (struct moment){run->step.from, run->step.from_rest};
+    return (struct time_dd){run->step.from, run->step.from_rest};
 }
 
-static inline struct moment run_end(const struct run *run)
+static inline struct time_dd run_end(const struct run *run)
 {
     return state_moment(run->state);
 }
@@ -233,26 +233,26 @@ int run_panels(const struct run *run);
 bool run_make_scans(struct run *run);
 
 /* The moment of the timed events that the scan has found, those that happen at it flagged in
- * run->search.timed.crossed. (run_moment.c) */
-struct moment run_pin_timed(struct run *run);
+ * run->search.timed.crossed. (run_time.c) */
+struct time_dd run_pin_timed(struct run *run);
 
 /* How long it is to the next event of time alone, or to the end of the run. */
 double run_time_to_switch(struct run *run);
 
 /* Bring y with slopes f from the double t to the moment of an event that is `move` away, a few roundings at
  * most; nothing happens where that is not within the step that ends at `end`. */
-struct moment run_pin_moving(struct run *run, double t, double move, struct moment end);
+struct time_dd run_pin_moving(struct run *run, double t, double move, struct time_dd end);
 
-/* What options.apart asks for: see run_moment.c. Before a limit is known, and when it is. */
-void run_part_before(struct run *run);
-void run_part_from(struct run *run, struct moment limit);
+/* What options.apart asks for: see run_time.c. Before a limit is known, and when it is. */
+void desync_steps(struct run *run);
+void desync_steps_from(struct run *run, struct time_dd limit);
 
-/* Has the step that has been made to `end` an inside that does not obey the equations? (torn.c) */
-bool run_step_is_torn(struct run *run, struct moment end);
+/* Has the step that has been made to `end` an inside that does not obey the equations? (defect_control.c) */
+bool defect_is_large(struct run *run, struct time_dd end);
 
 /* The first event in the step that has been made to *t, which becomes its time, with y and f there; where the step has
  * passed a pole it is cut before that. 1 found, 0 none, -1 failed. (run_find.c) */
-int run_find_event(struct run *run, struct moment *t);
+int run_find_event(struct run *run, struct time_dd *t);
 
 /* Where steps fail: is the state on the brink of switches, by a rounding of the time, as the roots and powers of max(x, 0) or
  * abs(x) do not let a step look beyond? Then it is put behind them, by as little, and they are the moving functions that have
@@ -261,27 +261,27 @@ bool run_pass_brink(struct run *run);
 
 /* The same after events that have been found, where the forces beyond are not there for the rounding by which the state is
  * before them. */
-void run_stand_beyond(struct run *run);
+void step_past_switch(struct run *run);
 
 /* Apply what has happened at run->state: `timed` and `moving` flag the functions of each set that have
  * crossed; NULL for none. Settles the modes. */
 void run_apply(struct run *run, const bool *timed, const bool *moving);
 
 /* Log the user events that have crossed at t; false when one of them ends the run. */
-bool run_tell(struct run *run, double t);
+bool log_user_events(struct run *run, double t);
 
 /* Bring the end of a step back onto the couplings. */
-void run_close_step(struct run *run);
+void project_step(struct run *run);
 
 /* Friction of joints that slips where couplings do not let it: its speed against its surface is zero. */
-void run_rest_held(struct run *run);
+void rest_held(struct run *run);
 
 /* The forces of the diagrams have to account for the motion. */
 void run_check_balance(struct run *run);
 
 /* Where a taut rope comes off a pulley within the step that ends at *t, cut the step there and end the run.
  */
-void run_watch_pulleys(struct run *run, struct moment *t);
+void run_watch_pulleys(struct run *run, struct time_dd *t);
 
 /* Where both pieces of a rope at a pulley have got taut and it is off it, end the run. After events: `during`
  * is free. */
@@ -289,15 +289,15 @@ void run_check_pulleys(struct run *run);
 
 /* A point that is off its slot, in the air: where it passes an end of the slot within the last step this is cut there, before
  * events are looked for. Fails the run where it comes back behind the slot. */
-void run_watch_slots(struct run *run, struct moment *t);
+void run_watch_slots(struct run *run, struct time_dd *t);
 
 /* The end of the first stretch of (from, to] of the step in which such points stay far from their slots and slack ropes from
  * being taut, or do not go far. */
 double run_flights(struct run *run, double from, double to);
 
 /* Where a coupling has come to an end within the step that ends at *t (a rope is unwound, a point is at the end of its
- * slot), cut the step there and end the run (ends.c). */
-void run_watch_ends(struct run *run, struct moment *t);
+ * slot), cut the step there and end the run (coupling_limits.c). */
+void run_watch_ends(struct run *run, struct time_dd *t);
 
 /* Where a rope has got taut that is longer than what was wound allows, end the run. After events: `during` is
  * free. */
@@ -307,16 +307,16 @@ void run_check_ends(struct run *run);
  * strike each other taut in turn, a plastic impact each, come to that within a few events, and there they are
  * one impact. So do those at their full length in what strikes their bodies. Whether there were any. Links and rows are
  * those of the state. */
-bool run_take_in_ropes(struct run *run);
+bool close_taut_ropes(struct run *run);
 
 /* Has the step that ends at run->work.y been brought back so far that its method has to start anew? */
-bool run_has_gone_astray(struct run *run);
+bool projection_has_failed(struct run *run);
 
 /* Put drives, and what sticks, where they are at time t in the modes of the step. */
-void run_lead(const struct run *run, double t, double *y);
+void impose_drives(const struct run *run, double t, double *y);
 
 /* Bring y[2n] at a time within the last step back to the couplings. */
-void run_close_within(struct run *run, double t, double *y);
+void project_within(struct run *run, double t, double *y);
 
 /* User events whose function is exactly zero at run->state (a body came to rest there, or the run ends there)
  * happen now; within its band (watchers.h) a zero counts at an event only, which may be what stopped the
@@ -324,25 +324,25 @@ void run_close_within(struct run *run, double t, double *y);
 void run_apply_touched(struct run *run, bool at_event);
 
 /* An entry of the log; NULL when memory is out. */
-struct run_event *run_note(struct run *run, fbd_event_kind kind, int body, int load, int watch);
+struct run_event *log_event(struct run *run, fbd_event_kind kind, int body, int load, int watch);
 
 /* After the modes have settled: log what they tell; the events of this instant are those from `first` on. */
-void run_note_happened(struct run *run, size_t first, const bool *moving);
+void log_mode_changes(struct run *run, size_t first, const bool *moving);
 
 /* Note that several motions agree with the forces, where the last settling has found that. */
-void run_note_several(struct run *run);
+void log_several(struct run *run);
 
 /* Note the lift-off of a body on its line at the start (a rolling wheel, a cam follower) that is lifted at once. */
-void run_note_lifts_at_start(struct run *run);
+void log_lifts_at_start(struct run *run);
 
 /* What counts as no time: against the time that has passed and steps of this run, for its end may be very far away. */
 double run_instant(const struct run *run);
 
 /* Log what a friction pair does, with its force and limit. */
-void run_note_friction(struct run *run, fbd_event_kind kind, int pair);
+void log_friction(struct run *run, fbd_event_kind kind, int pair);
 
 /* Log that the motion slides on a switch, or no longer, with the value that its force takes. */
-void run_note_slide(struct run *run, const struct kink *kink, fbd_event_kind kind);
+void log_filippov(struct run *run, const struct kink *kink, fbd_event_kind kind);
 
 /* Check normal forces at run->state; ends the run when one is negative, or about to be: `moving` are the watchers that
  * have crossed, or NULL. */
@@ -351,18 +351,18 @@ void run_check_contacts(struct run *run, const bool *moving);
 /* Tell the error control what it cannot know: floors for what is exactly zero, and how well the accelerations
  * at run->state are known: to rounding of the forces that are summed up, and of the time at which they are
  * taken. */
-void run_set_noise(struct run *run);
+void roundoff_estimate(struct run *run);
 
 /* After a step without an event: from time to time how well the accelerations are known now, as the forces in
  * joints change with the motion. */
-void run_renew_noise(struct run *run);
+void roundoff_renew(struct run *run);
 
-/* What run->grain asks for, and how it is put there: numbers. */
-size_t run_grain_size(const struct fbd_model *model);
-void run_grain_init(struct run *run, double *memory);
+/* What run->roundoff asks for, and how it is put there: numbers. */
+size_t roundoff_size(const struct fbd_model *model);
+void roundoff_init(struct run *run, double *memory);
 
 /* How many steps may be made before that has to be looked at for their number alone. */
-unsigned long run_steps_to_noise(const struct run *run);
+unsigned long roundoff_steps(const struct run *run);
 
 /* The time as it is told: what is nothing beside the first step is a rounding of the start. */
 double run_time(const struct run *run);

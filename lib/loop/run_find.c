@@ -28,9 +28,9 @@ static double instant_at(double t)
  * body lies almost flat. */
 static bool end_at(struct run *run, double t)
 {
-    if (switcher_partial(run->stepper, moment_at(t), run->work.y, run->work.f) != GSL_SUCCESS) return false;
-    run_lead(run, t, run->work.y);
-    run_close_within(run, t, run->work.y);
+    if (switcher_partial(run->stepper, time_dd_at(t), run->work.y, run->work.f) != GSL_SUCCESS) return false;
+    impose_drives(run, t, run->work.y);
+    project_within(run, t, run->work.y);
     return true;
 }
 
@@ -39,7 +39,7 @@ static void evaluate_at(struct run *run, double t)
 {
     double *values = run->work.values, *rates = values + run->search.moving.count;
     if (watchers_evaluate_affine(&run->watchers, run->work.y, run->work.f, values, rates)) return;
-    watchers_evaluate(&run->watchers, &run->watchers.moving, run->during, moment_at(t), run->work.y, values,
+    watchers_evaluate(&run->watchers, &run->watchers.moving, run->during, time_dd_at(t), run->work.y, values,
                       rates);
 }
 
@@ -125,19 +125,19 @@ static bool look_before(struct run *run, double start, double *t, double *move)
 }
 
 /* Cut the step to t, where nothing happens. 0, or -1 when that fails. */
-static int cut_step(struct run *run, struct moment t)
+static int cut_step(struct run *run, struct time_dd t)
 {
     return switcher_partial(run->stepper, t, run->work.y, run->work.f) == GSL_SUCCESS ? 0 : -1;
 }
 
 /* The longest share of a step that is believed when it has passed a pole: where that was is not asked. */
-static int stay_before_poles(struct run *run, struct moment *t)
+static int stay_before_poles(struct run *run, struct time_dd *t)
 {
     const double share = 0.25;
-    double h = moment_since(*t, run_start(run)), cut = run->step.from + share * h;
+    double h = time_dd_since(*t, run_start(run)), cut = run->step.from + share * h;
     if (run->options.step > 0 || !(cut > run->step.from)) return 0;
     if (!poles_passed(&run->poles, run->during, h, t->t, run->work.y, run->work.f)) return 0;
-    *t = moment_at(cut);
+    *t = time_dd_at(cut);
     run->step.h = share * h;
     run->step.restart = true;
     return cut_step(run, *t);
@@ -159,12 +159,12 @@ static int shorten_step(struct run *run, double t)
 {
     const size_t bytes = plan_size(&run->model->plan) * sizeof *run->work.y;
     double *y = run->work.kept, *f = y + plan_size(&run->model->plan);
-    int code = switcher_shorten(run->stepper, moment_at(t), y, f);
+    int code = switcher_shorten(run->stepper, time_dd_at(t), y, f);
     if (code != 1) return code == 0 ? 0 : -1;
     memcpy(run->work.y, y, bytes);
     memcpy(run->work.f, f, bytes);
     run->step.restart = true;
-    course_start(&run->course);
+    trajectory_start(&run->trajectory);
     return 1;
 }
 
@@ -173,7 +173,7 @@ static int shorten_step(struct run *run, double t)
  * step is cut to what it has seen; one that is noise (it gives up at the very start) is not looked at more
  * closely. One that dips again and again, as the gaps of a pile that has just bounced do to the last digits, is cut
  * where it did so last; where that is its very start the others are looked at without it. */
-static int find_change(struct run *run, struct moment *t)
+static int find_change(struct run *run, struct time_dd *t)
 {
     enum { most_dips = 8 };
     const double least_share = 1e-3;
@@ -192,7 +192,7 @@ static int find_change(struct run *run, struct moment *t)
         if (found <= 0) return found;
         if (found == 2) {
             if (run->search.moving.clear - run->step.from < least_share * (end - run->step.from)) return 0;
-            *t = moment_at(run->search.moving.clear);
+            *t = time_dd_at(run->search.moving.clear);
             run->step.restart = true;
             return cut_step(run, *t);
         }
@@ -203,7 +203,7 @@ static int find_change(struct run *run, struct moment *t)
             int shorter = shorten_step(run, when);
             if (shorter < 0) return -1;
             if (shorter > 0) {
-                *t = moment_at(when);
+                *t = time_dd_at(when);
                 return find_change(run, t);
             }
             *t = run_pin_moving(run, when, move, *t);
@@ -214,7 +214,7 @@ static int find_change(struct run *run, struct moment *t)
         start = fmax(when, run->search.moving.t);
     }
     if (!(start < end) || start - run->step.from <= instant_at(start)) return 0;
-    *t = moment_at(start); /* nothing has happened up to here; beyond nobody has looked */
+    *t = time_dd_at(start); /* nothing has happened up to here; beyond nobody has looked */
     run->step.restart = true;
     return cut_step(run, *t);
 }
@@ -223,7 +223,7 @@ static int find_change(struct run *run, struct moment *t)
  * nothing in it, so that a run with them has the bits of one without. One that ends the run cuts the step: 1,
  * else 0; -1 failed. Where there is no end of them, as in the steps of a method that is at a loss, the step is cut to
  * what has been seen, and whoever watches the run is asked again: 2. */
-static int find_told(struct run *run, struct moment *t)
+static int find_told(struct run *run, struct time_dd *t)
 {
     enum { most_dips = 8, most_told = 10000 };
     double start = run->step.from, end = t->t;
@@ -236,7 +236,7 @@ static int find_told(struct run *run, struct moment *t)
         double when = run->search.moving.t, move = 0;
         if (when < end && !polish(run, end, &when, &move)) return -1;
         bool passed = when >= end || goes_down(run, when, end) || is_down_at_end(run, when, end);
-        if (passed && !run_tell(run, when)) {
+        if (passed && !log_user_events(run, when)) {
             if (when < end) *t = run_pin_moving(run, when, move, *t);
             return 1;
         }
@@ -245,18 +245,18 @@ static int find_told(struct run *run, struct moment *t)
         start = passed ? when : fmax(when, run->search.moving.t);
         told += passed;
         if (told < most_told || !(start < end)) continue;
-        *t = moment_at(start);
+        *t = time_dd_at(start);
         run->step.restart = true;
         return cut_step(run, *t) < 0 ? -1 : 2;
     }
     return 0;
 }
 
-int run_find_event(struct run *run, struct moment *t)
+int run_find_event(struct run *run, struct time_dd *t)
 {
     if (stay_before_poles(run, t) < 0) return -1;
     size_t size = plan_size(&run->model->plan), bytes = size * sizeof *run->work.y;
-    course_start(&run->course);
+    trajectory_start(&run->trajectory);
     run_wake_contacts(run, t->t);
     int change = find_change(run, t);
     if (change < 0 || run->model->plan.watch_count == 0) return change;
@@ -306,7 +306,7 @@ bool run_pass_brink(struct run *run)
     return true;
 }
 
-void run_stand_beyond(struct run *run)
+void step_past_switch(struct run *run)
 {
     double probe = 0;
     for (size_t i = 0; i < plan_rates(&run->model->plan); i++) probe += 0 * run->state->a[i];

@@ -15,18 +15,18 @@ int run_panels(const struct run *run)
     return (int)fmin(fmax(1, ceil(2 * span * rate)), most);
 }
 
-bool run_coordinates(struct run *run, struct moment t, double *y)
+bool run_coordinates(struct run *run, struct time_dd t, double *y)
 {
-    if (moment_equal(t, run_end(run))) {
+    if (time_dd_equal(t, run_end(run))) {
         memcpy(y, run->state->y, plan_size(&run->model->plan) * sizeof *y);
         return true;
     }
     if (switcher_dense(run->stepper, t, y) != GSL_SUCCESS) return false;
-    run_close_within(run, t.t, y);
+    project_within(run, t.t, y);
     return true;
 }
 
-bool run_look(struct run *run, struct moment t, struct fbd_state *state)
+bool run_look(struct run *run, struct time_dd t, struct fbd_state *state)
 {
     state_copy(state, run->during);
     state_set_moment(state, t);

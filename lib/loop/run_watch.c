@@ -7,13 +7,13 @@
 #include <gsl/gsl_errno.h>
 #include <string.h>
 
-#include "dynamics/absolute.h"
+#include "dynamics/world_refs.h"
 #include "loop/run.h"
 
 static int sample_timed(void *context, double t, double *values, double *rate)
 {
     struct run *run = context;
-    watchers_evaluate(&run->watchers, &run->watchers.timed, run->during, moment_at(t), run->state->y, values,
+    watchers_evaluate(&run->watchers, &run->watchers.timed, run->during, time_dd_at(t), run->state->y, values,
                       rate);
     return 0;
 }
@@ -35,7 +35,7 @@ static bool any_leads(const struct run *run)
     return false;
 }
 
-/* Does run_lead change anything? */
+/* Does impose_drives change anything? */
 static bool is_led(const struct run *run)
 {
     bool led = false;
@@ -44,7 +44,7 @@ static bool is_led(const struct run *run)
     return led;
 }
 
-void run_lead(const struct run *run, double t, double *y)
+void impose_drives(const struct run *run, double t, double *y)
 {
     const struct plan *plan = &run->model->plan;
     double acceleration;
@@ -62,8 +62,8 @@ void run_lead(const struct run *run, double t, double *y)
 /* The state along the last step. */
 static int sample_state(struct run *run, double t, double *y)
 {
-    if (switcher_dense(run->stepper, moment_at(t), y) != GSL_SUCCESS) return -1;
-    run_lead(run, t, y);
+    if (switcher_dense(run->stepper, time_dd_at(t), y) != GSL_SUCCESS) return -1;
+    impose_drives(run, t, y);
     return 0;
 }
 
@@ -71,7 +71,7 @@ static int sample_moving(void *context, double t, double *values, double *rate)
 {
     struct run *run = context;
     if (sample_state(run, t, run->work.sample)) return -1;
-    watchers_evaluate(&run->watchers, &run->watchers.moving, run->during, moment_at(t), run->work.sample,
+    watchers_evaluate(&run->watchers, &run->watchers.moving, run->during, time_dd_at(t), run->work.sample,
                       values, rate);
     return 0;
 }
@@ -93,28 +93,29 @@ static void enclose_timed(void *context, size_t group, const struct stretch *str
 static bool enclose_affine(struct run *run, size_t group, const struct stretch *stretch,
                            struct enclosure *out)
 {
-    const struct proof_group *those = &run->watchers.moving.groups[group];
+    const struct root_group *those = &run->watchers.moving.groups[group];
     struct affine *f = run->watchers.affine + those->first;
     for (size_t i = 0; i < those->count; i++)
-        if (!f[i].known || !affine_enclose(&f[i], &run->course, stretch, &out[i])) return false;
+        if (!f[i].known || !affine_enclose(&f[i], &run->trajectory, stretch, &out[i])) return false;
     return true;
 }
 
 static double zero_of_affine(void *context, size_t i, double low, double high)
 {
     struct run *run = context;
-    return affine_zero(&run->watchers.affine[i], &run->course, low, high);
+    return affine_zero(&run->watchers.affine[i], &run->trajectory, low, high);
 }
 
 static void enclose_moving(void *context, size_t group, const struct stretch *stretch, struct enclosure *out)
 {
     struct run *run = context;
-    bool affine = run->course.exact && run->watchers.any_affine;
+    bool affine = run->trajectory.exact && run->watchers.any_affine;
     if (affine && enclose_affine(run, group, stretch, out)) return;
     /* What slides shares forces that other groups read. */
-    const bool *wanted = state_sliding(run->during) ? NULL : run->search.reads + group * run->course.count;
-    course_enclose(&run->course, stretch, wanted);
-    watchers_enclose(&run->watchers, &run->watchers.moving, group, run->during, stretch, run->course.now,
+    const bool *wanted =
+        state_sliding(run->during) ? NULL : run->search.reads + group * run->trajectory.count;
+    trajectory_enclose(&run->trajectory, stretch, wanted);
+    watchers_enclose(&run->watchers, &run->watchers.moving, group, run->during, stretch, run->trajectory.now,
                      out);
 }
 
@@ -153,48 +154,48 @@ static double measure(const struct run *run, double *speed)
 }
 
 /* Couplings keep coordinates at zero, or at rest, to the rounding of the places and speeds of all that they
- * join. What starts as a high power of the time is nothing beside the largest motion at first (noise.c). The sign of such a
+ * join. What starts as a high power of the time is nothing beside the largest motion at first (roundoff.c). The sign of such a
  * number means nothing, as an error of it does. */
 static void set_noise(struct run *run)
 {
     const double roundings = 64 * DBL_EPSILON, error = 0.1 * run->options.tolerance;
     const struct scene *scene = run->model->scene;
     size_t n = (size_t)run->model->plan.n, own = plan_size(&run->model->plan);
-    for (size_t k = 0; k < run->course.count; k++) {
-        size_t i = (size_t)run->course.component[k];
-        if (i < own) run->course.noise[k] = fmax(error, DBL_EPSILON) * run->grain.nothing[i];
+    for (size_t k = 0; k < run->trajectory.count; k++) {
+        size_t i = (size_t)run->trajectory.component[k];
+        if (i < own) run->trajectory.noise[k] = fmax(error, DBL_EPSILON) * run->roundoff.nothing[i];
     }
     if (!run->model->tree || run->model->tree->tie_count == 0) return;
     double speed, reach = measure(run, &speed);
-    for (size_t k = 0; k < run->course.count && reach > 0; k++) {
-        size_t i = (size_t)run->course.component[k];
+    for (size_t k = 0; k < run->trajectory.count && reach > 0; k++) {
+        size_t i = (size_t)run->trajectory.component[k];
         if (i >= 2 * n) continue;
         double size = i < n ? reach : speed;
         double noise = roundings * (scene->coordinates[i % n].angle ? size / reach : size);
-        run->course.noise[k] = fmax(run->course.noise[k], noise);
+        run->trajectory.noise[k] = fmax(run->trajectory.noise[k], noise);
     }
 }
 
 static int powers_of(void *context, double from, double to, int component, double *c)
 {
     const struct run *run = context;
-    return switcher_powers(run->stepper, moment_at(from), moment_at(to), (size_t)component, c);
+    return switcher_powers(run->stepper, time_dd_at(from), time_dd_at(to), (size_t)component, c);
 }
 
 static int powers_of_ends(void *context, double from, double to, int component, double *c)
 {
     const struct run *run = context;
-    return switcher_powers_of_ends(run->stepper, moment_at(from), moment_at(to), (size_t)component, c);
+    return switcher_powers_of_ends(run->stepper, time_dd_at(from), time_dd_at(to), (size_t)component, c);
 }
 
 /* By the powers that the method has, of its ends alone for a first look at what costs evaluations. False where it has none,
  * or the motion is functions: what leads, and places. */
 static bool follow_powers(struct run *run, double from, double to, bool coarse, const bool *wanted)
 {
-    struct course *course = &run->course;
+    struct trajectory *trajectory = &run->trajectory;
     if (run->search.follows_places || is_led(run)) return false;
-    if (coarse && course_set_powers(course, from, to, wanted, true, powers_of_ends, run)) return true;
-    return course_set_powers(course, from, to, wanted, false, powers_of, run);
+    if (coarse && trajectory_set_powers(trajectory, from, to, wanted, true, powers_of_ends, run)) return true;
+    return trajectory_set_powers(trajectory, from, to, wanted, false, powers_of, run);
 }
 
 /* Follow the wanted components; returns the end of the piece, NAN where the motion cannot be had. */
@@ -205,14 +206,15 @@ static double follow(struct run *run, double from, double to, bool coarse, const
     int degree = switcher_degree(run->stepper, &negligible);
     if (run->search.follows_places || any_leads(run)) { /* functions of the motion, and no polynomials */
         negligible = fmax(negligible, 1e-13);
-        degree = course_most_degree;
+        degree = trajectory_most_degree;
     }
     set_noise(run);
     coarse = coarse && degree > simple && run->options.step == 0 && !structure_is_exact(run->kind);
     if (follow_powers(run, from, to, coarse, wanted)) return to;
-    int status = coarse ? course_set_coarse(&run->course, from, to, wanted, sample_course, run)
-                        : course_set(&run->course, from, to, wanted, degree, negligible, sample_course, run);
-    return status ? NAN : run->course.to;
+    int status =
+        coarse ? trajectory_set_coarse(&run->trajectory, from, to, wanted, sample_course, run)
+               : trajectory_set(&run->trajectory, from, to, wanted, degree, negligible, sample_course, run);
+    return status ? NAN : run->trajectory.to;
 }
 
 /* What the groups read that are still searched; all where something slides: see enclose_moving. */
@@ -221,7 +223,7 @@ static const bool *find_wanted(struct run *run)
     const struct watcher_set *set = &run->watchers.moving;
     const bool *reads = run->search.reads;
     bool *wanted = run->search.wanted;
-    size_t count = run->course.count;
+    size_t count = run->trajectory.count;
     if (state_sliding(run->during)) return NULL;
     memset(wanted, 0, count * sizeof *wanted);
     for (size_t g = 0; g < set->group_count; g++, reads += count)
@@ -262,7 +264,7 @@ static double radians_of(const struct run *run, const struct formula *formula, c
 {
     const double nothing = 1e-7;
     const int *branch = formula->branch < 0 ? NULL : run->during->branch + formula->branch;
-    struct enclosure f = expr_enclose(formula->expr, stretch, run->course.now, branch);
+    struct enclosure f = expr_enclose(formula->expr, stretch, run->trajectory.now, branch);
     double range = interval_width(f.value), turn = interval_size(f.rate) * (stretch->to - stretch->from);
     if (!(range < HUGE_VAL && turn < HUGE_VAL)) return HUGE_VAL;
     range = fmax(range, nothing * interval_size(f.value));
@@ -294,11 +296,11 @@ static void hold_noise(struct run *run)
 {
     const double negligible = 1e-10, roundings = 4;
     double speed = 0, reach = run->model->tree ? measure(run, &speed) : 0;
-    for (size_t k = 0; k < run->course.count; k++) {
-        int i = run->course.component[k];
-        struct enclosure *now = &run->course.now[i];
+    for (size_t k = 0; k < run->trajectory.count; k++) {
+        int i = run->trajectory.component[k];
+        struct enclosure *now = &run->trajectory.now[i];
         double width = interval_width(now->value), middle = now->middle.low + interval_width(now->middle) / 2;
-        double noise = roundings * run->course.doubt[k];
+        double noise = roundings * run->trajectory.doubt[k];
         if (reach > 0) noise = fmax(noise, negligible * size_of(run, (size_t)i, reach, speed));
         if (width <= noise) *now = enclosure_point(middle);
     }
@@ -316,9 +318,9 @@ static double end_of_turn(struct run *run, const struct formula *formula, double
     for (int halving = 0; halving < most_halvings; halving++) {
         struct stretch stretch = stretch_between(from, to);
         if (run->search.paced_by_motion) {
-            course_enclose(&run->course, &stretch, NULL);
+            trajectory_enclose(&run->trajectory, &stretch, NULL);
             hold_noise(run);
-            run->course.enclosed.from = NAN;
+            run->trajectory.enclosed.from = NAN;
         }
         double radians = radians_of(run, formula, &stretch);
         if (!(radians > most) || !(stretch.middle > from)) return to;
@@ -379,15 +381,16 @@ static void mark_paced(struct run *run, bool *used)
 static bool mark_reads(struct run *run, bool *used, size_t size)
 {
     const struct watcher_set *set = &run->watchers.moving;
-    const struct course *course = &run->course;
-    bool *reads = run->search.reads = ARENA_ARRAY(&run->memory, (set->group_count + 1) * course->count, bool);
-    run->search.wanted = reads ? reads + set->group_count * course->count : NULL;
+    const struct trajectory *trajectory = &run->trajectory;
+    bool *reads = run->search.reads =
+        ARENA_ARRAY(&run->memory, (set->group_count + 1) * trajectory->count, bool);
+    run->search.wanted = reads ? reads + set->group_count * trajectory->count : NULL;
     for (size_t g = 0; reads && g < set->group_count; g++) {
-        const struct proof_group *group = &set->groups[g];
+        const struct root_group *group = &set->groups[g];
         const struct watcher_set own = {.watchers = set->watchers + group->first, .count = group->count};
         memset(used, 0, size * sizeof *used);
         watchers_mark_used(run->model, &own, used);
-        for (size_t k = 0; k < course->count; k++) *reads++ = used[course->component[k]];
+        for (size_t k = 0; k < trajectory->count; k++) *reads++ = used[trajectory->component[k]];
     }
     return run->search.reads != NULL;
 }
@@ -400,7 +403,7 @@ static bool make_course(struct run *run)
     watchers_mark_used(run->model, &run->watchers.moving, used);
     mark_paced(run, used);
     for (size_t i = plan_size(&run->model->plan); i < size; i++) run->search.follows_places |= used[i];
-    return course_init(&run->course, size, used, &run->memory) && mark_reads(run, used, size);
+    return trajectory_init(&run->trajectory, size, used, &run->memory) && mark_reads(run, used, size);
 }
 
 static bool use_enclosures(struct run *run)

@@ -18,7 +18,7 @@
 struct fbd_model;
 
 /* Share of the scene's size: tolerance of touching, and of level heights. A bounce within 2e-9 ends in rest
- * (loop/put_down.c), so that smaller steps cannot be distinguished from contact. */
+ * (loop/zeno_rest.c), so that smaller steps cannot be distinguished from contact. */
 #define contact_near  1e-12
 #define contact_level 1e-8
 

@@ -78,7 +78,7 @@ static inline bool tie_presses(const struct tie *tie)
 }
 
 /* Is it a surface whose impulses are found with those of contacts and ropes? What rolls is, and a follower on its cam. */
-static inline bool tie_takes_blows(const struct tie *tie)
+static inline bool tie_takes_impulses(const struct tie *tie)
 {
     return tie->surface >= 0 && tie->meeting < 0 && tie->kind != constraint_capstan;
 }

@@ -4,8 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "output/display_units.h"
 #include "output/force_columns.h"
-#include "output/shown.h"
 #include "output/words.h"
 #include "output/world.h"
 #include "record/finite_result.h"
@@ -61,8 +61,8 @@ static void ledger_headers(struct csv *csv, const struct fbd_state *start)
 
 static void component_header(struct csv *csv, int i)
 {
-    const struct shown shown = shown_component(csv->model, (size_t)i, csv->recording->degrees);
-    header(csv, shown.name, "", "", shown.unit);
+    const struct display display = display_of_component(csv->model, (size_t)i, csv->recording->degrees);
+    header(csv, display.name, "", "", display.unit);
 }
 
 static void headers(struct csv *csv, const struct fbd_state *start)
@@ -172,7 +172,7 @@ static bool put_row(struct csv *csv)
 
 static void component(struct csv *csv, const struct fbd_state *state, int i)
 {
-    const double size = shown_component(csv->model, (size_t)i, csv->recording->degrees).size;
+    const double size = display_of_component(csv->model, (size_t)i, csv->recording->degrees).size;
     number(csv, state->y[i] / size);
     if (csv->bars) error(csv, bars_component(csv->bars, state, (size_t)i) / size);
 }

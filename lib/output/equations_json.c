@@ -5,8 +5,8 @@
 #include <stdlib.h>
 
 #include "dynamics/kinematics.h"
+#include "output/display_units.h"
 #include "output/kinematic_lines.h"
-#include "output/shown.h"
 #include "output/terms.h"
 
 /* A quantity with its name and unit. */
@@ -26,7 +26,7 @@ static void write_coordinates(struct text *text, const struct fbd_state *state)
     text_add(text, "  \"coordinates\": {");
     for (size_t i = 0; i < n; i++) {
         text_add(text, i ? ", " : "");
-        const double size = shown_component(model, i, state->degrees).size;
+        const double size = display_of_component(model, i, state->degrees).size;
         text_json_member(text, model->labels[i].name, state->y[i] / size, ", ");
         text_json_member(text, model->labels[i].rate_name, state->y[n + i] / size, "");
     }

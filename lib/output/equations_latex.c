@@ -5,7 +5,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "base/call.h"
+#include "base/api_check.h"
 #include "output/kinematic_lines.h"
 
 /* N*m, kg*m^2, m/s^2 upright. */

@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/call.h"
+#include "base/api_check.h"
 #include "dynamics/modes.h"
 #include "integrate/method.h"
 #include "output/couplings.h"
@@ -18,15 +18,15 @@ enum { most_names = 4, most_bodies = 20 };
 
 /* Names after one another, with a count of those that are too many: begin with *shown = 0. `load` may be
  * NULL. */
-static void write_name(struct text *text, size_t *shown, const char *body, const char *load)
+static void write_name(struct text *text, size_t *display, const char *body, const char *load)
 {
-    if ((*shown)++ >= most_names) return;
-    text_printf(text, "%s%s%s%s", *shown > 1 ? ", " : "", body, load ? "." : "", load ? load : "");
+    if ((*display)++ >= most_names) return;
+    text_printf(text, "%s%s%s%s", *display > 1 ? ", " : "", body, load ? "." : "", load ? load : "");
 }
 
-static void end_names(struct text *text, size_t shown)
+static void end_names(struct text *text, size_t display)
 {
-    if (shown > most_names) text_printf(text, " and %zu more", shown - most_names);
+    if (display > most_names) text_printf(text, " and %zu more", display - most_names);
     text_add(text, "\n");
 }
 
@@ -79,7 +79,7 @@ static bool same_effect(const struct model_load *a, const struct model_load *b)
 
 static void write_effect(struct text *text, const struct fbd_model *model, const struct model_load *first)
 {
-    size_t count = 0, shown = 0;
+    size_t count = 0, display = 0;
     for (size_t i = 0; i < model->load_count; i++) count += same_effect(first, &model->loads[i]);
     text_printf(text, "  %s (%zu)", load_law(first->source)->effect, count);
     text_pad(text, 28);
@@ -87,9 +87,9 @@ static void write_effect(struct text *text, const struct fbd_model *model, const
     for (size_t i = 0; i < model->load_count; i++) {
         const struct model_load *load = &model->loads[i];
         if (same_effect(first, load))
-            write_name(text, &shown, model->bodies[load->body].name, load->source->name);
+            write_name(text, &display, model->bodies[load->body].name, load->source->name);
     }
-    end_names(text, shown);
+    end_names(text, display);
     for (size_t i = 0; i < model->load_count; i++) {
         const struct model_load *load = &model->loads[i];
         const struct spread *spread = &load->source->spread;
@@ -166,7 +166,7 @@ static void write_absent(struct text *text, const struct fbd_model *model)
     text_add(text, "\nEffects not simulated, because they are not listed\n");
     for (size_t k = 0; k < sizeof absents / sizeof *absents; k++) {
         const struct absent *absent = &absents[k];
-        size_t could = 0, without = 0, shown = 0;
+        size_t could = 0, without = 0, display = 0;
         for (size_t b = 0; b < model->body_count; b++) {
             if (!absent->on[model->bodies[b].kind]) continue;
             could++;
@@ -176,8 +176,8 @@ static void write_absent(struct text *text, const struct fbd_model *model)
         text_printf(text, "  %s\n      on ", absent->words);
         for (size_t b = 0; b < model->body_count; b++)
             if (absent->on[model->bodies[b].kind] && !lists(model, &model->bodies[b], absent->kind))
-                write_name(text, &shown, model->bodies[b].name, NULL);
-        end_names(text, shown);
+                write_name(text, &display, model->bodies[b].name, NULL);
+        end_names(text, display);
     }
 }
 
@@ -213,7 +213,7 @@ static void write_method(struct text *text, const struct fbd_model *model, const
 char *fbd_explain(const fbd_model *model, const fbd_options *options)
 {
     fbd_options own = FBD_OPTIONS_DEFAULT;
-    if (!model || !call_options(&own, sizeof own, options, NULL)) return NULL;
+    if (!model || !api_take_options(&own, sizeof own, options, NULL)) return NULL;
     struct text text = {0};
     struct fbd_state *state = state_new(model);
     if (!state) return NULL;

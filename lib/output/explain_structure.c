@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "dynamics/project.h"
-#include "loop/division.h"
+#include "loop/islands.h"
 #include "loop/structure.h"
 
 enum { most_listed = 12 };
@@ -38,7 +38,7 @@ static enum structure structure_as_it_lies(const struct fbd_model *model)
 }
 
 /* The structure of group `index`; structure_kinds when memory is out. */
-static enum structure structure_of_group(const struct fbd_model *model, const struct division *division,
+static enum structure structure_of_group(const struct fbd_model *model, const struct islands *division,
                                          size_t index)
 {
     if (division->count <= 1) return structure_as_it_lies(model);
@@ -57,7 +57,7 @@ static void write_names(struct text *text, const struct fbd_model *model, const 
         text_printf(text, " and %zu more", selection->body_count - most_listed);
 }
 
-static bool write_groups(struct text *text, const struct fbd_model *model, const struct division *division,
+static bool write_groups(struct text *text, const struct fbd_model *model, const struct islands *division,
                          bool automatic)
 {
     size_t counts[structure_kinds] = {0};
@@ -84,8 +84,8 @@ bool explain_structure(struct text *text, const struct fbd_model *model, const f
         text_add(text, "  no more than that, as asked for: all bodies together by one method\n");
         return true;
     }
-    struct division division;
-    bool done = division_make(&division, model);
+    struct islands division;
+    bool done = islands_make(&division, model);
     if (done) {
         if (division.count > 1)
             text_printf(text,
@@ -94,6 +94,6 @@ bool explain_structure(struct text *text, const struct fbd_model *model, const f
         bool automatic = (!method || strcmp(method, "auto") == 0) && step == 0;
         done = write_groups(text, model, &division, automatic);
     }
-    division_free(&division);
+    islands_free(&division);
     return done;
 }

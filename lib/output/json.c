@@ -7,8 +7,8 @@
 #include "dynamics/diagram.h"
 #include "dynamics/mass.h"
 #include "output/couplings.h"
+#include "output/display_units.h"
 #include "output/equations.h"
-#include "output/shown.h"
 #include "output/words.h"
 #include "output/world.h"
 #include "record/result.h"
@@ -51,7 +51,8 @@ static void write_own(struct text *text, const struct fbd_model *model, const do
 static void component(struct text *text, const fbd_result *result, const struct fbd_state *state, int i,
                       const char *name, bool last)
 {
-    member(text, name, state->y[i] / shown_component(state->model, (size_t)i, result->degrees).size, last);
+    member(text, name, state->y[i] / display_of_component(state->model, (size_t)i, result->degrees).size,
+           last);
 }
 
 static void write_final(struct text *text, const fbd_result *result, const struct fbd_state *state)
@@ -127,7 +128,7 @@ static void write_final_errors(struct text *text, const fbd_result *result)
             const struct coordinate *c = &model->scene->coordinates[body->first + i];
             member(text, rate ? c->rate_name : c->name,
                    bars_component(simulation->bars, state, (size_t)place) /
-                       shown_component(model, (size_t)place, result->degrees).size,
+                       display_of_component(model, (size_t)place, result->degrees).size,
                    k + 1 == 2 * body->count);
         }
         text_add(text, "}");

@@ -3,7 +3,7 @@
  * A linearisation as one JSON object (docs/output.md).
  */
 #include "base/text.h"
-#include "output/shown.h"
+#include "output/display_units.h"
 #include "rest/linearize.h"
 
 static void write_equilibrium(struct text *text, const struct fbd_linearization *linear)
@@ -13,7 +13,8 @@ static void write_equilibrium(struct text *text, const struct fbd_linearization 
     const int n = model->plan.n, count = n + model->plan.own;
     for (int i = 0; i < count; i++)
         text_json_member(text, i < n ? model->labels[i].name : model->own_labels[i - n].name,
-                         linear->q[i] / (i < n ? shown_component(model, (size_t)i, linear->degrees).size : 1),
+                         linear->q[i] /
+                             (i < n ? display_of_component(model, (size_t)i, linear->degrees).size : 1),
                          i + 1 < count ? ", " : "");
     text_add(text, "},\n");
 }

@@ -5,7 +5,7 @@
 #include <math.h>
 
 #include "base/text.h"
-#include "output/shown.h"
+#include "output/display_units.h"
 #include "rest/linearize.h"
 
 enum { digits = 9 };
@@ -16,10 +16,10 @@ static void write_equilibrium(struct text *text, const struct fbd_linearization 
 {
     text_add(text, "Equilibrium\n");
     for (int i = 0; i < linear->model->plan.n; i++) {
-        const struct shown shown = shown_component(linear->model, (size_t)i, linear->degrees);
-        text_printf(text, "  %s = ", shown.name);
-        text_number(text, linear->q[i] / shown.size, digits);
-        text_printf(text, " %s\n", shown.unit);
+        const struct display display = display_of_component(linear->model, (size_t)i, linear->degrees);
+        text_printf(text, "  %s = ", display.name);
+        text_number(text, linear->q[i] / display.size, digits);
+        text_printf(text, " %s\n", display.unit);
     }
     for (int i = 0; i < linear->model->plan.own; i++) {
         const struct own_label *label = &linear->model->own_labels[i];

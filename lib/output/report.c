@@ -8,9 +8,9 @@
 #include "dynamics/diagram.h"
 #include "dynamics/mass.h"
 #include "output/couplings.h"
+#include "output/display_units.h"
 #include "output/equations.h"
 #include "output/report.h"
-#include "output/shown.h"
 #include "output/words.h"
 
 enum { digits = report_digits, most_events = 40 };
@@ -34,11 +34,11 @@ static void plus_minus(const struct page *page, double error)
 static void write_value(const struct page *page, const struct fbd_model *model, size_t component,
                         const char *name, double value, const double *error)
 {
-    const struct shown shown = shown_component(model, component, page->result->degrees);
+    const struct display display = display_of_component(model, component, page->result->degrees);
     text_printf(page->text, "%s = ", name);
-    text_number(page->text, value / shown.size, digits);
-    if (error) plus_minus(page, *error / shown.size);
-    text_printf(page->text, "%s%s", unit_word(shown.unit)[0] ? " " : "", unit_word(shown.unit));
+    text_number(page->text, value / display.size, digits);
+    if (error) plus_minus(page, *error / display.size);
+    text_printf(page->text, "%s%s", unit_word(display.unit)[0] ? " " : "", unit_word(display.unit));
 }
 
 /* ---- events; switches of expressions are counted, not listed, when there are many */
@@ -110,15 +110,15 @@ static void write_events(const struct page *page)
     struct text *text = page->text;
     const struct ensemble *run = page->result->simulation->ensemble;
     enum { most_switches = 8 };
-    size_t count = run->event_count, shown = 0, switches = 0, hidden = 0;
+    size_t count = run->event_count, display = 0, switches = 0, hidden = 0;
     text_add(text, count ? "\nEvents\n" : "\nEvents: none\n");
     for (size_t i = 0; i < count; i++) switches += run->events[i].kind == FBD_EVENT_SWITCH;
     bool with_switches = switches <= most_switches;
     for (size_t i = 0; i < count; i++) {
         if (run->events[i].kind == FBD_EVENT_SWITCH && !with_switches) continue;
-        if (shown < most_events || i + 1 == count) {
+        if (display < most_events || i + 1 == count) {
             report_event(page, i);
-            shown++;
+            display++;
         } else {
             hidden++;
         }
@@ -435,11 +435,11 @@ static void write_assembled(const struct page *page, const struct fbd_model *mod
             bool rate = k >= body->count;
             const struct coordinate *c = &model->scene->coordinates[i];
             size_t component = (size_t)(rate ? i + model->plan.n : i);
-            const struct shown shown = shown_component(model, component, page->result->degrees);
-            text_printf(text, "  %s = ", shown.name);
-            text_number(text, start->y[component] / shown.size, digits);
-            text_printf(text, " %s, looked for near ", shown.unit);
-            text_number(text, (rate ? c->initial_rate : c->initial) / shown.size, digits);
+            const struct display display = display_of_component(model, component, page->result->degrees);
+            text_printf(text, "  %s = ", display.name);
+            text_number(text, start->y[component] / display.size, digits);
+            text_printf(text, " %s, looked for near ", display.unit);
+            text_number(text, (rate ? c->initial_rate : c->initial) / display.size, digits);
             text_add(text, "\n");
         }
     }

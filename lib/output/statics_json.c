@@ -3,8 +3,8 @@
  * A scene at rest for programs: its free-body diagrams by name, and as one JSON object (docs/output.md).
  */
 #include "dynamics/spatial.h"
+#include "output/display_units.h"
 #include "output/equations.h"
-#include "output/shown.h"
 #include "record/result.h"
 #include "rest/statics.h"
 
@@ -35,7 +35,7 @@ static void write_verdict(struct text *text, const struct fbd_statics *statics)
     for (int i = 0; i < statics->model->plan.n; i++)
         text_json_member(text, statics->model->labels[i].name,
                          statics->state->y[i] /
-                             shown_component(statics->model, (size_t)i, statics->state->degrees).size,
+                             display_of_component(statics->model, (size_t)i, statics->state->degrees).size,
                          i + 1 < statics->model->plan.n ? ", " : "");
     text_add(text, "},\n  ");
     text_json_flag(text, "equilibrium", fbd_statics_holds(statics), ",\n  ");

@@ -4,8 +4,8 @@
  */
 #include <string.h>
 
+#include "output/display_units.h"
 #include "output/equations.h"
-#include "output/shown.h"
 #include "output/words.h"
 #include "record/result.h"
 #include "rest/statics.h"
@@ -103,16 +103,16 @@ static void write_place(struct text *text, const struct fbd_statics *statics)
     const struct fbd_model *model = statics->model;
     int listed = 0;
     for (int i = 0; i < model->plan.n; i++) {
-        const struct shown shown = shown_component(model, (size_t)i, statics->state->degrees);
+        const struct display display = display_of_component(model, (size_t)i, statics->state->degrees);
         double q = statics->state->y[i], initial = model->scene->coordinates[i].initial;
         bool angle = model->scene->coordinates[i].angle;
         double size = angle ? 1 : statics->length; /* a radian */
         if (fabs(q - initial) <= 1e-12 * fmax(size, fabs(initial))) continue;
         if (listed++ >= most_listed) continue;
-        text_printf(text, listed == 1 ? "Where %s = " : "      %s = ", shown.name);
-        text_number(text, q / shown.size, digits);
-        text_printf(text, " %s (in the file ", shown.unit);
-        text_number(text, initial / shown.size, digits);
+        text_printf(text, listed == 1 ? "Where %s = " : "      %s = ", display.name);
+        text_number(text, q / display.size, digits);
+        text_printf(text, " %s (in the file ", display.unit);
+        text_number(text, initial / display.size, digits);
         text_add(text, ")\n");
     }
     if (listed > most_listed) text_printf(text, "      and %d others\n", listed - most_listed);

@@ -44,7 +44,7 @@ bool event_states_note(struct event_states *kept, struct ensemble *ensemble, siz
         if (!state) return false;
         state->group = group;
         state->order = kept->seen[group];
-        if (!ensemble_group_coordinates(ensemble, group, moment_at(event->t), state->y))
+        if (!ensemble_group_coordinates(ensemble, group, time_dd_at(event->t), state->y))
             state->order = SIZE_MAX;
     }
     return true;

@@ -1,25 +1,25 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "record/finite_result.h"
 
-#include "dynamics/finite.h"
+#include "dynamics/nonfinite.h"
 
 /* Works that were not wanted are NaN, and energies with them. */
 static bool note_work(struct ledger *ledger, const struct fbd_state *state, const double *work,
-                      struct not_finite *found)
+                      struct nonfinite *found)
 {
     const struct fbd_model *model = ledger->model;
     for (size_t i = 0; i < model->load_count; i++) {
         const struct model_load *load = &model->loads[i];
         if (ledger->counted[i] && !ledger->any) continue;
-        if (not_finite_note(found, ledger_work(ledger, state, i, work), load->source->at,
-                            "the work of `%s` on `%s`", load->source->name, model->bodies[load->body].name))
+        if (nonfinite_note(found, ledger_work(ledger, state, i, work), load->source->at,
+                           "the work of `%s` on `%s`", load->source->name, model->bodies[load->body].name))
             return true;
     }
     return false;
 }
 
 static bool note_energies(struct ledger *ledger, const struct fbd_state *state, const double *work,
-                          struct not_finite *found)
+                          struct nonfinite *found)
 {
     struct pos nowhere = {0, 0};
     fbd_energy energy = ledger_energy(ledger, state, work);
@@ -28,7 +28,7 @@ static bool note_energies(struct ledger *ledger, const struct fbd_state *state, 
                                         "residual of the energy"};
     int count = ledger->any ? 4 : 2;
     for (int i = 0; i < count; i++)
-        if (not_finite_note(found, values[i], nowhere, "the %s", names[i])) return true;
+        if (nonfinite_note(found, values[i], nowhere, "the %s", names[i])) return true;
     return false;
 }
 
@@ -38,14 +38,14 @@ static const char unresolved[] = "forces swing thousands of times within a step 
 bool result_finite(struct ensemble *ensemble, struct ledger *ledger, const double *work)
 {
     struct fbd_state *state = ensemble_state(ensemble);
-    struct not_finite found;
-    enum finite finite = finite_check(state, &found);
+    struct nonfinite found;
+    enum finite finite = nonfinite_check(state, &found);
     if (finite == finite_no_memory) return false;
     bool odd = finite == finite_not;
     if (!odd && ledger)
         odd = note_work(ledger, state, work, &found) || note_energies(ledger, state, work, &found);
     if (odd) {
-        const char *reason = ledger && ledger->unresolved ? unresolved : not_finite_reason(found.value);
+        const char *reason = ledger && ledger->unresolved ? unresolved : nonfinite_reason(found.value);
         ensemble_spoil(ensemble, "%s is not finite at t = %.9g: %s", found.what, state->t, reason);
     }
     return !odd;

@@ -167,7 +167,7 @@ bool ledger_within(struct ledger *ledger, struct ensemble *ensemble, double t, d
         }
         size_t first = first_load(ledger, group);
         struct sums sums = {work, ledger->lively[first], ledger->through[first], 0};
-        if (!at_end && !powers_integrate(ledger, ensemble, g, run_start(group->run), moment_at(t), &sums))
+        if (!at_end && !powers_integrate(ledger, ensemble, g, run_start(group->run), time_dd_at(t), &sums))
             return false;
     }
     return true;

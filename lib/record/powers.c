@@ -81,7 +81,7 @@ static const double legendre[5][power_points] = {
 /* A panel: a part of a group's last step. */
 struct panel {
     size_t group;
-    struct moment from;
+    struct time_dd from;
     double length;
     bool forces; /* powers need more than coordinates and rates */
     int points;
@@ -124,7 +124,7 @@ static bool sample(struct ledger *ledger, struct ensemble *ensemble, const struc
     for (int k = 0; k < panel->points; k++) {
         double *powers = ledger->powers + (size_t)k * ledger->model->load_count;
         for (size_t i = 0; i < group->model->load_count; i++) powers[group_load(group, (int)i)] = 0;
-        struct moment t = moment_after(panel->from, panel->length / 2 * (1 + point[k]));
+        struct time_dd t = time_dd_after(panel->from, panel->length / 2 * (1 + point[k]));
         const struct fbd_state *state = ensemble_look_group(ensemble, panel->group, t, panel->forces);
         if (!state) return false;
         add_powers(ledger, group, state, powers);
@@ -184,14 +184,15 @@ static struct look look_at(const struct ledger *ledger, const struct group *grou
 }
 
 /* What rounding within formulas does to the powers of a group, at an instant. */
-static bool take_grain(struct ensemble *ensemble, const struct panel *panel, struct moment t, double *grain)
+static bool take_roundoff(struct ensemble *ensemble, const struct panel *panel, struct time_dd t,
+                          double *roundoff)
 {
     struct fbd_state *state = ensemble_look_group(ensemble, panel->group, t, true);
     if (!state) return false;
     struct instant at = state_instant(state);
     double sum = 0;
     for (size_t i = 0; i < state->model->load_count; i++) sum += load_power_rounding(state->model, i, &at);
-    *grain = fmax(*grain, sum);
+    *roundoff = fmax(*roundoff, sum);
     return true;
 }
 
@@ -199,16 +200,16 @@ static bool take_grain(struct ensemble *ensemble, const struct panel *panel, str
 static bool set_floor(struct ledger *ledger, struct ensemble *ensemble, struct panel *panel)
 {
     const double rounding = 1e-14;
-    double grain = 0;
+    double roundoff = 0;
     for (int k = 0; k < gauss_points; k++) {
-        struct moment t = moment_after(panel->from, panel->length / 2 * (1 + point[k]));
-        if (!take_grain(ensemble, panel, t, &grain)) return false;
+        struct time_dd t = time_dd_after(panel->from, panel->length / 2 * (1 + point[k]));
+        if (!take_roundoff(ensemble, panel, t, &roundoff)) return false;
     }
     struct fbd_state *state = ensemble_look_group(ensemble, panel->group, panel->from, true);
     if (!state) return false;
     struct rounded rounded = rounded_at(state, ledger->arrows); /* of what rests, too */
     panel->floor = rounding * rounded.places + DBL_EPSILON * rounded.ways * panel->length * panel->length +
-                   panel->length * grain;
+                   panel->length * roundoff;
     return true;
 }
 
@@ -233,7 +234,7 @@ static bool add_panel(struct ledger *ledger, struct ensemble *ensemble, struct p
         panel.halved++;
         panel.missed = look.missed;
         struct panel second = panel;
-        second.from = moment_after(panel.from, panel.length);
+        second.from = time_dd_after(panel.from, panel.length);
         return add_panel(ledger, ensemble, panel, sums) && add_panel(ledger, ensemble, second, sums);
     }
     if (more) sums->lost += panel.length;
@@ -255,11 +256,11 @@ static void give_up(struct ledger *ledger, const struct group *group, const stru
     }
 }
 
-bool powers_integrate(struct ledger *ledger, struct ensemble *ensemble, size_t group, struct moment from,
-                      struct moment to, struct sums *sums)
+bool powers_integrate(struct ledger *ledger, struct ensemble *ensemble, size_t group, struct time_dd from,
+                      struct time_dd to, struct sums *sums)
 {
     const struct group *of = &ensemble->groups[group];
-    double length = moment_since(to, from);
+    double length = time_dd_since(to, from);
     if (!(length > 0) || !ledger_integrates(ledger, of)) return true;
     int panels = run_panels(of->run);
     bool done = true;
@@ -268,7 +269,7 @@ bool powers_integrate(struct ledger *ledger, struct ensemble *ensemble, size_t g
                           .forces = needs_forces(of->model),
                           .points = has_expressions(of->model) ? power_points : gauss_points};
     for (int i = 0; done && i < panels; i++) {
-        panel.from = moment_after(from, i * length / panels);
+        panel.from = time_dd_after(from, i * length / panels);
         done = add_panel(ledger, ensemble, panel, sums);
     }
     if (sums->lost > length / 10) give_up(ledger, of, sums); /* not the panels about a corner */

@@ -20,7 +20,7 @@ struct sums {
 /* Add the integrals over [from, to] of a group's last step, [J] each, to the tolerance of its run or 1e-7, whichever is less, of
  * the size of its energies. NAN where a tenth of that time is not resolved: then ledger->unresolved. False when the state
  * cannot be looked at. */
-bool powers_integrate(struct ledger *ledger, struct ensemble *ensemble, size_t group, struct moment from,
-                      struct moment to, struct sums *sums);
+bool powers_integrate(struct ledger *ledger, struct ensemble *ensemble, size_t group, struct time_dd from,
+                      struct time_dd to, struct sums *sums);
 
 #endif

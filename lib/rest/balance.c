@@ -12,7 +12,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "base/zeroed.h"
+#include "base/block_alloc.h"
 #include "dynamics/mass.h"
 #include "dynamics/rest_system.h"
 #include "dynamics/tree.h"
@@ -20,7 +20,7 @@
 
 /* Runs of all models need less than 2 roundings (tests/unit/test_balance.c); what is wrong is off by parts in
  * a thousand. */
-static const double grain = 1048576 * DBL_EPSILON;
+static const double answer_level = 1048576 * DBL_EPSILON;
 
 /* What acts on one body, and what it does: residuals, and the sizes of what they are made of. */
 struct sums {
@@ -97,7 +97,7 @@ static void compare(struct worst *worst, int body, const char *what, bool moment
 }
 
 /* What forces and moments of jointed bodies are right to. */
-struct grains {
+struct answer_levels {
     double force, moment;
 };
 
@@ -114,7 +114,7 @@ static double turn_of_track(const struct fbd_state *state, const struct model_bo
  * against how far away they stand. Accelerations are sums too, of those of the bodies below and of what their
  * turning adds, at the speed there is and at the distance from them: a body on which nothing acts has m a = 0 to the
  * rounding of m times these. */
-static struct grains joined_grain(const struct fbd_state *state, struct arrow *arrows)
+static struct answer_levels joined_level(const struct fbd_state *state, struct arrow *arrows)
 {
     const struct tree *tree = state->model->tree;
     const struct tree_work *work = state->tree;
@@ -137,9 +137,10 @@ static struct grains joined_grain(const struct fbd_state *state, struct arrow *a
     }
     if (tree && work->shared) force = fmax(force, work->shared_size);
     force += mass * (a + omega * v + d * (alpha + omega * omega));
-    force *= grain + (reach > 0 ? 64 * DBL_EPSILON * away / reach : 0);
+    force *= answer_level + (reach > 0 ? 64 * DBL_EPSILON * away / reach : 0);
     double gyration = mass > 0 ? sqrt(inertia / mass) : 0;
-    return (struct grains){force, force * fmax(reach, gyration) + grain * inertia * (alpha + omega * omega)};
+    return (struct answer_levels){force, force * fmax(reach, gyration) +
+                                             answer_level * inertia * (alpha + omega * omega)};
 }
 
 static void say(const struct fbd_state *state, const struct worst *worst, struct text *lack)
@@ -159,10 +160,10 @@ static void say(const struct fbd_state *state, const struct worst *worst, struct
 /* The force and the moment by which the motion of each body answers when the numbers of the state change by one rounding each,
  * as where stiff springs make much of the last digit of an angle: the forces of two evaluations differ by that. NULL without
  * memory. */
-static struct grains *find_answers(const struct fbd_state *state, struct arrow *arrows)
+static struct answer_levels *find_answers(const struct fbd_state *state, struct arrow *arrows)
 {
     const size_t bodies = state->model->body_count;
-    struct grains *answers = zeroed((bodies + 1) * sizeof *answers);
+    struct answer_levels *answers = block_alloc((bodies + 1) * sizeof *answers);
     struct fbd_state *here = state_new(state->model), *there = state_new(state->model);
     const bool made = answers && here && there;
     if (made) {
@@ -191,17 +192,17 @@ static struct grains *find_answers(const struct fbd_state *state, struct arrow *
 
 /* The equation that is farthest off; none within what rounding explains, at least `joined` for a jointed
  * body. `answers` may be NULL. */
-static struct worst find_worst(const struct fbd_state *state, struct arrow *arrows, struct grains joined,
-                               const struct grains *answers)
+static struct worst find_worst(const struct fbd_state *state, struct arrow *arrows,
+                               struct answer_levels joined, const struct answer_levels *answers)
 {
     const double roundings = 16;
     struct worst worst = {.ratio = 1};
     for (int b = 0; b < (int)state->model->body_count; b++) {
         struct sums sums = sums_of(state, b, arrows);
-        double force = grain * sums.force;
+        double force = answer_level * sums.force;
         bool jointed = state->model->bodies[b].place.link > 0;
         if (jointed) force = fmax(force, joined.force);
-        double moment = grain * sums.moment + force * sums.reach + 64 * sums.place;
+        double moment = answer_level * sums.moment + force * sums.reach + 64 * sums.place;
         if (jointed) moment = fmax(moment, joined.moment);
         if (answers) {
             force += roundings * answers[b].force;
@@ -220,12 +221,12 @@ bool balance_lack(struct fbd_state *state, struct arrow *arrows, struct text *la
     bool used =
         state->tree && (!state->tree->complete || (!state->tree->shared && rest_is_open(state->model, &at)));
     if (used) state_evaluate(state); /* others have used its scratch */
-    struct worst worst = find_worst(state, arrows, (struct grains){0, 0}, NULL);
+    struct worst worst = find_worst(state, arrows, (struct answer_levels){0, 0}, NULL);
     if (!worst.what) return false; /* nearly always: what the other bodies feel is not needed */
-    const struct grains joined = joined_grain(state, arrows);
+    const struct answer_levels joined = joined_level(state, arrows);
     worst = find_worst(state, arrows, joined, NULL);
     if (!worst.what) return false;
-    struct grains *answers = find_answers(state, arrows);
+    struct answer_levels *answers = find_answers(state, arrows);
     if (!answers) {
         lack->failed = true;
         return true;

@@ -6,14 +6,14 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/call.h"
+#include "base/api_check.h"
 #include "base/diag.h"
 #include "dynamics/modes.h"
-#include "dynamics/own.h"
 #include "dynamics/project.h"
 #include "dynamics/rates.h"
 #include "dynamics/statics.h"
 #include "dynamics/tree.h"
+#include "dynamics/user_states.h"
 #include "numeric/lu.h"
 #include "rest/balance.h"
 #include "rest/independent.h"
@@ -417,7 +417,7 @@ static bool measure(struct resting *balance)
     balance->zero = fmax(1e-13 * size, 1e-15 * balance_size(state, balance->arrows));
     for (size_t i = 0; i < unknowns_of(balance); i++) balance->scale[i] = 1;
     for (size_t i = n; i < unknowns_of(balance); i++) {
-        double rate = fabs(state->a[i]) + own_rate_size(state, (int)(i - n));
+        double rate = fabs(state->a[i]) + user_state_rate_size(state, (int)(i - n));
         if (rate > 0 && size > 0 && isfinite(rate)) balance->scale[i] = size / rate;
     }
     if (balance->share) balance->k = size / reach_of(state);

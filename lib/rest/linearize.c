@@ -4,11 +4,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/call.h"
+#include "base/api_check.h"
 #include "base/diag.h"
-#include "dynamics/finite.h"
 #include "dynamics/friction.h"
 #include "dynamics/modes.h"
+#include "dynamics/nonfinite.h"
 #include "dynamics/project.h"
 #include "dynamics/tree_driven.h"
 #include "rest/eigenvalues.h"
@@ -381,7 +381,7 @@ static bool is_finite(const struct fbd_linearization *linear, struct fbd_state *
                  "at the equilibrium the slope of %s `%s` with `%s` is not finite: %s",
                  row < 2 * f ? "the acceleration along" : "the rate of",
                  linearization_name(linear, row < 2 * f ? row % f : row),
-                 linearization_name(linear, i % size), not_finite_reason(linear->A[i]));
+                 linearization_name(linear, i % size), nonfinite_reason(linear->A[i]));
         return false;
     }
     return true;
@@ -434,7 +434,7 @@ fbd_linearization *fbd_linearize(fbd_state *state, fbd_errors *list)
 {
     struct diag_call call;
     fbd_errors *errors = diag_begin(&call, list);
-    fbd_linearization *linear = state ? linearize(state, errors) : call_refuse(errors, "there is no state");
+    fbd_linearization *linear = state ? linearize(state, errors) : api_refuse(errors, "there is no state");
     diag_end(&call);
     return linear;
 }

@@ -6,11 +6,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/call.h"
+#include "base/api_check.h"
 #include "base/diag.h"
 #include "dynamics/modes.h"
-#include "dynamics/own.h"
 #include "dynamics/statics.h"
+#include "dynamics/user_states.h"
 #include "expr/table.h"
 #include "rest/balance.h"
 #include "rest/equilibrium.h"
@@ -55,7 +55,7 @@ bool statics_refuse_states(const struct fbd_state *state, fbd_errors *errors)
     const struct fbd_model *model = state->model;
     for (int i = 0; i < model->plan.own; i++) {
         double rate = state->a[model->plan.n + i];
-        if (fabs(rate) <= rest_digits * own_rate_size(state, i)) continue;
+        if (fabs(rate) <= rest_digits * user_state_rate_size(state, i)) continue;
         diag_add(errors, FBD_ERROR, "not-at-rest", model->scene->own[i].rate.at,
                  "look where it rests (--settle), or give it an `initial` value at which its rate is zero",
                  "the state `%s` changes while all bodies are at rest, by %.6g %s: forces that depend on it "
@@ -126,7 +126,8 @@ bool equilibrium_holds(struct fbd_state *state)
     if (!modes_settle(state, NULL) || is_beyond_an_end(state)) return false;
     for (int i = 0; i < state->model->plan.n; i++) most = larger(most, fabs(state->a[i]));
     for (int i = 0; i < state->model->plan.own; i++)
-        if (!(fabs(state->a[state->model->plan.n + i]) <= rounding * own_rate_size(state, i))) return false;
+        if (!(fabs(state->a[state->model->plan.n + i]) <= rounding * user_state_rate_size(state, i)))
+            return false;
     if (most <= rounding * equilibrium_size(state)) return true;
     struct arrow *arrows = calloc(diagram_most_arrows(state->model), sizeof *arrows);
     if (!arrows) state->holds.found = holds_no_memory;
@@ -202,7 +203,7 @@ bool fbd_find_equilibrium(fbd_state *state, fbd_errors *list)
     fbd_errors *errors = diag_begin(&call, list);
     bool found = false;
     if (!state) {
-        call_refuse(errors, "there is no state");
+        api_refuse(errors, "there is no state");
     } else if (find_equilibrium(state, errors)) {
         found = warn_of_instability(state, errors);
         if (!found) diag_out_of_memory(errors);

@@ -4,11 +4,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/zeroed.h"
+#include "base/block_alloc.h"
 #include "dynamics/contact.h"
-#include "dynamics/finite.h"
 #include "dynamics/friction.h"
 #include "dynamics/modes.h"
+#include "dynamics/nonfinite.h"
 #include "dynamics/project.h"
 #include "events/watchers.h"
 #include "expr/unit.h"
@@ -18,15 +18,15 @@
 
 bool start_finite(const struct fbd_state *state, struct lack *lack)
 {
-    struct not_finite found;
-    enum finite finite = finite_check(state, &found);
+    struct nonfinite found;
+    enum finite finite = nonfinite_check(state, &found);
     if (finite == finite_all) return true;
     if (finite == finite_no_memory) return false;
     lack->id = "not-finite";
     lack->at = found.at;
     text_printf(&lack->text, "%s is not finite at t = ", found.what);
     text_number(&lack->text, state->t, 9);
-    text_printf(&lack->text, ": %s", not_finite_reason(found.value));
+    text_printf(&lack->text, ": %s", nonfinite_reason(found.value));
     return false;
 }
 
@@ -227,7 +227,7 @@ static bool is_free_to_move(struct fbd_state *state, struct fbd_state *other, st
 /* The forces account for the motion. */
 static bool is_balanced(struct fbd_state *state, struct lack *lack)
 {
-    struct arrow *arrows = zeroed(diagram_most_arrows(state->model) * sizeof *arrows);
+    struct arrow *arrows = block_alloc(diagram_most_arrows(state->model) * sizeof *arrows);
     bool balanced = arrows && !balance_lack(state, arrows, &lack->text);
     if (arrows && !balanced) lack->id = "forces-unbalanced";
     free(arrows);

@@ -5,9 +5,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/call.h"
+#include "base/api_check.h"
 #include "base/diag.h"
-#include "dynamics/finite.h"
+#include "dynamics/nonfinite.h"
 #include "dynamics/project.h"
 #include "rest/start.h"
 
@@ -159,17 +159,17 @@ static bool solve(struct fbd_statics *statics)
 /* What was found beside the forces of the diagrams. */
 static bool is_known(const struct fbd_statics *statics, fbd_errors *errors)
 {
-    struct not_finite found;
+    struct nonfinite found;
     struct pos nowhere = {0, 0};
-    bool odd = not_finite_note(&found, statics->left, nowhere, "what is out of balance");
+    bool odd = nonfinite_note(&found, statics->left, nowhere, "what is out of balance");
     for (size_t i = 0; !odd && i < statics->limit_count; i++) {
         const fbd_limit *limit = &statics->limits[i];
-        odd = not_finite_note(&found, limit->needed + limit->limit, nowhere, "what `%s` has to bear, or may",
-                              limit->name);
+        odd = nonfinite_note(&found, limit->needed + limit->limit, nowhere, "what `%s` has to bear, or may",
+                             limit->name);
     }
     for (size_t i = 0; !odd && i < statics->unbalanced_count; i++)
-        odd = not_finite_note(&found, statics->unbalanced[i].holding, nowhere, "what would hold `%s`",
-                              statics->unbalanced[i].coordinate);
+        odd = nonfinite_note(&found, statics->unbalanced[i].holding, nowhere, "what would hold `%s`",
+                             statics->unbalanced[i].coordinate);
     if (odd) diag_add(errors, FBD_ERROR, "not-finite", nowhere, NULL, "%s is not finite at rest", found.what);
     return !odd && is_finite(statics->state, errors);
 }
@@ -213,7 +213,7 @@ fbd_statics *fbd_statics_new(const fbd_state *state, fbd_errors *list)
 {
     struct diag_call call;
     fbd_errors *errors = diag_begin(&call, list);
-    fbd_statics *statics = state ? statics_new(state, errors) : call_refuse(errors, "there is no state");
+    fbd_statics *statics = state ? statics_new(state, errors) : api_refuse(errors, "there is no state");
     diag_end(&call);
     return statics;
 }

@@ -250,8 +250,8 @@ bool masses_start(struct reader *reader);
 /* What acts on it (read_loads.c, load_names.c), and what the user derived (read_hand.c). */
 bool body_loads_read(struct reader *reader, int body);
 bool body_loads_name(struct reader *reader, int body, const char *const *names, const struct pos *places);
-/* When all is read and right: warn of surfaces that nothing presses on (presses.c). False when memory is out. */
-bool presses_note(struct reader *reader);
+/* When all is read and right: warn of surfaces that nothing presses on (lint_friction.c). False when memory is out. */
+bool lint_friction_note(struct reader *reader);
 
 /* When all loads are read: what bodies feel that forces of others point to (read_reactions.c). */
 bool reactions_add(struct reader *reader);

@@ -157,7 +157,7 @@ static void read_scene(struct reader *reader, const struct override *overrides, 
     if (!is_hopeless(reader)) simulate_read(reader, &keys);
     if (!is_hopeless(reader)) grading_read(reader, keys.grading);
     if (fbd_errors_failed_count(reader->errors) > 0) return;
-    presses_note(reader);
+    lint_friction_note(reader);
     parameters_note_unused(reader);
     tables_note_unused(reader);
 }

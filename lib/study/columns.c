@@ -2,7 +2,7 @@
 #include "study/columns.h"
 
 #include "integrate/switcher.h"
-#include "output/shown.h"
+#include "output/display_units.h"
 #include "output/words.h"
 #include "record/result.h"
 
@@ -45,7 +45,7 @@ static const char *title(struct list *list, const char *name, const char *unit)
 
 static bool add_final(struct list *list, int index)
 {
-    const struct shown shown = shown_component(list->model, (size_t)index, list->degrees);
+    const struct display shown = display_of_component(list->model, (size_t)index, list->degrees);
     return add(list, (struct column){.title = title(list, shown.name, shown.unit),
                                      .kind = column_final,
                                      .index = index,
@@ -64,11 +64,11 @@ static bool add_extreme(struct list *list, int sign, int index, const char *name
 {
     struct columns *columns = list->columns;
     const struct fbd_model *model = list->model;
-    struct shown shown = {name, "", 1};
+    struct display shown = {name, "", 1};
     if (index < 0)
         shown.unit = world_part_unit(model, point->part);
     else
-        shown = shown_component(model, (size_t)index, list->degrees);
+        shown = display_of_component(model, (size_t)index, list->degrees);
     struct extreme *larger = ARENA_ARRAY(list->arena, columns->extreme_count + 1, struct extreme);
     if (!larger) return false;
     if (columns->extreme_count) memcpy(larger, columns->extremes, columns->extreme_count * sizeof *larger);

@@ -4,7 +4,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "base/call.h"
+#include "base/api_check.h"
 #include "base/diag.h"
 #include "model/variant.h"
 #include "study/stopwatch.h"
@@ -72,7 +72,7 @@ static const fbd_cost_options no_options = FBD_COST_OPTIONS_DEFAULT;
 
 void fbd_cost_options_init(fbd_cost_options *options, size_t size)
 {
-    if (options) call_fill(options, size, &no_options, sizeof no_options);
+    if (options) api_fill_options(options, size, &no_options, sizeof no_options);
 }
 
 bool study_is_asked(const fbd_model *model, const fbd_cost_options *options, fbd_cost_options *own,
@@ -80,12 +80,12 @@ bool study_is_asked(const fbd_model *model, const fbd_cost_options *options, fbd
 {
     const fbd_cost_options *asked = own;
     *own = no_options;
-    if (!call_options(own, sizeof *own, options, errors)) return false;
+    if (!api_take_options(own, sizeof *own, options, errors)) return false;
     if (!model)
-        call_refuse(errors, "there is no model");
-    else if ((asked->methods && !call_has_texts(asked->methods, asked->method_count)) ||
-             (asked->quantities && !call_has_texts(asked->quantities, asked->quantity_count)))
-        call_refuse(errors, "the name of a method or quantity is missing");
+        api_refuse(errors, "there is no model");
+    else if ((asked->methods && !api_has_texts(asked->methods, asked->method_count)) ||
+             (asked->quantities && !api_has_texts(asked->quantities, asked->quantity_count)))
+        api_refuse(errors, "the name of a method or quantity is missing");
     else
         return true;
     return false;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "study/sweep.h"
 
-#include "base/call.h"
+#include "base/api_check.h"
 #include "base/file.h"
 #include "loop/options.h"
 #include "scene/names.h"
@@ -291,16 +291,16 @@ static bool is_asked(struct asked *asked, const char *text, const fbd_sweep_plan
 {
     const fbd_sweep_plan *plan = &asked->plan;
     *asked = (struct asked){.run = FBD_OPTIONS_DEFAULT};
-    if (!call_options(&asked->plan, sizeof asked->plan, given, errors) ||
-        !call_options(&asked->run, sizeof asked->run, asked->plan.run, errors))
+    if (!api_take_options(&asked->plan, sizeof asked->plan, given, errors) ||
+        !api_take_options(&asked->run, sizeof asked->run, asked->plan.run, errors))
         return false;
     asked->plan.run = &asked->run;
     if (!text || !given)
-        call_refuse(errors, text ? "there is no plan" : "there is no text or path");
-    else if (!call_has_texts(plan->vary, plan->vary_count) ||
-             !call_has_texts(plan->outputs, plan->output_count) ||
-             !call_has_settings(plan->settings, plan->setting_count))
-        call_refuse(errors, "a text of the plan is missing");
+        api_refuse(errors, text ? "there is no plan" : "there is no text or path");
+    else if (!api_has_texts(plan->vary, plan->vary_count) ||
+             !api_has_texts(plan->outputs, plan->output_count) ||
+             !api_has_settings(plan->settings, plan->setting_count))
+        api_refuse(errors, "a text of the plan is missing");
     else
         return true;
     return false;

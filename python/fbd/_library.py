@@ -77,9 +77,9 @@ def _shown(pointer: Any) -> Optional[str]:
     """A text that somebody else wrote, safe to print."""
     if pointer == ffi.NULL:
         return None
-    room = lib.fbd_shown(pointer, ffi.NULL, 0) + 1
+    room = lib.fbd_escape(pointer, ffi.NULL, 0) + 1
     shown = ffi.new("char[]", room)
-    lib.fbd_shown(pointer, shown, room)
+    lib.fbd_escape(pointer, shown, room)
     return text_at(shown)
 
 

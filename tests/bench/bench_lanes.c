@@ -15,7 +15,7 @@
 #include "batch/batch.h"
 #include "claim.h"
 #include "open_sweep.h"
-#include "study/abreast.h"
+#include "study/sweep_simd.h"
 #include "timing.h"
 
 enum { rounds = 15, ways = 3 };
@@ -23,7 +23,7 @@ enum { rounds = 15, ways = 3 };
 /* Of each way what it needs, and its rows. */
 struct way {
     struct row_maker maker;
-    struct abreast *abreast; /* NULL: one after the other */
+    struct sweep_simd *abreast; /* NULL: one after the other */
     struct text rows;
 };
 
@@ -32,7 +32,7 @@ static double time_of(struct way *way, size_t runs)
     const double begin = processor_seconds();
     way->rows.length = 0;
     if (way->abreast) {
-        abreast_make(way->abreast, 0, runs, &way->rows);
+        sweep_simd_make(way->abreast, 0, runs, &way->rows);
     } else {
         for (size_t run = 0; run < runs; run++) row_make(&way->maker, run, &way->rows);
     }
@@ -43,14 +43,14 @@ static void open_way(struct way *way, const fbd_sweep *sweep, unsigned lanes)
 {
     *way = (struct way){0};
     if (lanes == 0 && row_maker_init(&way->maker, sweep)) return;
-    way->abreast = abreast_suits(sweep) ? abreast_new(sweep, lanes, NULL, NULL) : NULL;
+    way->abreast = sweep_simd_suits(sweep) ? sweep_simd_new(sweep, lanes, NULL, NULL) : NULL;
     if (!way->abreast) exit(1);
 }
 
 static void close_way(struct way *way)
 {
     if (!way->abreast) row_maker_free(&way->maker);
-    abreast_free(way->abreast);
+    sweep_simd_free(way->abreast);
     text_free(&way->rows);
 }
 
@@ -74,7 +74,7 @@ static void measure(const char *name, const char *path, double until, const char
                           memcmp(way[i].rows.data, way[0].rows.data, way[0].rows.length) == 0;
         const double most = median(gain[i], rounds); /* which sorts them */
         printf(", %u abreast %.1f us: %.2f times as many (quartiles %.2f to %.2f)",
-               abreast_lanes(way[i].abreast), 1e6 * median(seconds[i], rounds), most, gain[i][rounds / 4],
+               sweep_simd_lanes(way[i].abreast), 1e6 * median(seconds[i], rounds), most, gain[i][rounds / 4],
                gain[i][3 * rounds / 4]);
         if (!same) fputs("\nthe rows abreast differ from the others\n", stderr), exit(1);
     }
@@ -82,7 +82,7 @@ static void measure(const char *name, const char *path, double until, const char
     char what[160];
     snprintf(what, sizeof what, "sweep: runs of %s (%g s) in four lanes over the same one by one", name,
              until);
-    const bool four = abreast_lanes(way[1].abreast) == 4;
+    const bool four = sweep_simd_lanes(way[1].abreast) == 4;
     if (bound > 0) claim_at_least(what, four ? median(gain[1], rounds) : (double)NAN, bound);
     for (int i = 0; i < ways; i++) close_way(&way[i]);
     fbd_sweep_free(sweep);

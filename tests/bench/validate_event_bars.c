@@ -37,19 +37,19 @@ struct scene {
 };
 
 /* The truth on its way. */
-struct course {
+struct trajectory {
     struct scene scene;
     long double t, x, v;
     int side;  /* of the switch */
     bool lost; /* a zero that is hardly one */
 };
 
-static struct course course;
+static struct trajectory course;
 
 /* ---- the truth */
 
 /* x(s) = sum x_j s^j. With S = sin x, C = cos x: S' = C x', C' = -S x'. */
-static void series(const struct course *at, long double F, long double *x)
+static void series(const struct trajectory *at, long double F, long double *x)
 {
     const struct scene *scene = &at->scene;
     long double S[order + 1], C[order + 1];
@@ -76,7 +76,8 @@ static void value(const long double *x, long double s, long double *place, long 
 }
 
 /* The switching function, and its rate, at s from the present moment. */
-static long double switching(const struct course *at, const long double *x, long double s, long double *rate)
+static long double switching(const struct trajectory *at, const long double *x, long double s,
+                             long double *rate)
 {
     const struct scene *scene = &at->scene;
     const long double turn = 2 * acosl(-1), w = turn / (long double)scene->period;
@@ -94,7 +95,7 @@ static long double switching(const struct course *at, const long double *x, long
     return speed - scene->threshold;
 }
 
-static long double force(const struct course *at)
+static long double force(const struct trajectory *at)
 {
     const struct scene *scene = &at->scene;
     switch (scene->form) {
@@ -105,7 +106,7 @@ static long double force(const struct course *at)
 }
 
 /* To the time t, from switch to switch, in short steps. */
-static void go(struct course *at, long double t)
+static void go(struct trajectory *at, long double t)
 {
     const long double longest = 0.02L;
     while (at->t < t) {
@@ -138,7 +139,7 @@ static void exact(double t, double *y)
     if (t == 0) {
         const struct scene *scene = &course.scene;
         long double rate, x[order + 1] = {(long double)scene->x0, (long double)scene->v0};
-        course = (struct course){.scene = *scene, .x = x[0], .v = x[1]};
+        course = (struct trajectory){.scene = *scene, .x = x[0], .v = x[1]};
         long double start = switching(&course, x, 0, &rate);
         course.side = start > 0 || (start == 0 && rate > 0) ? 1 : -1;
     }

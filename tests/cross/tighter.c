@@ -41,7 +41,7 @@ static const double loosest = 1e-3, truest = 1e-13;
 static const double scene_length = 2;                 /* of a random scene [s] */
 static const unsigned long most_evaluations = 300000; /* beyond, a run is too dear to be asked */
 
-struct course {
+struct trajectory {
     size_t size;    /* numbers at one time: coordinates, rates */
     double *values; /* times x size */
     int count;      /* times that were reached */
@@ -49,10 +49,10 @@ struct course {
     bool dear; /* given up */
 };
 
-static struct course course_of(const fbd_model *model)
+static struct trajectory trajectory_of(const fbd_model *model)
 {
     size_t size = 2 * fbd_model_coordinate_count(model);
-    return (struct course){.size = size, .values = calloc(times * size + 1, sizeof(double))};
+    return (struct trajectory){.size = size, .values = calloc(times * size + 1, sizeof(double))};
 }
 
 static void take(fbd_simulation *simulation, fbd_state *state, const fbd_model *model, double t,
@@ -68,7 +68,7 @@ static void take(fbd_simulation *simulation, fbd_state *state, const fbd_model *
 }
 
 static void carry(const fbd_state *start, const fbd_model *model, const fbd_options *options,
-                  struct course *motion)
+                  struct trajectory *motion)
 {
     fbd_errors *errors = fbd_errors_new();
     fbd_simulation *simulation = fbd_simulation_from(start, options, errors);
@@ -96,7 +96,7 @@ static void carry(const fbd_state *start, const fbd_model *model, const fbd_opti
 
 struct ruler {
     const fbd_model *model;
-    struct course truth;
+    struct trajectory truth;
     double *scale;
     double floor; /* of errors, by rounding */
 };
@@ -121,9 +121,9 @@ static void take_scales(struct ruler *ruler, double until)
 }
 
 /* INFINITY where one of them did not come as far. */
-static double distance(const struct ruler *ruler, const struct course *a)
+static double distance(const struct ruler *ruler, const struct trajectory *a)
 {
-    const struct course *b = &ruler->truth;
+    const struct trajectory *b = &ruler->truth;
     double worst = 0;
     bool failed = a->outcome == FBD_FAILED && b->outcome != FBD_FAILED;
     /* The run may end by an event, just before one of the times in one of the two. */
@@ -155,7 +155,7 @@ static void perturb(fbd_state *state, const fbd_model *model, uint64_t seed)
     }
 }
 
-static double floor_of(struct ruler *ruler, const fbd_options *options, struct course *motion)
+static double floor_of(struct ruler *ruler, const fbd_options *options, struct trajectory *motion)
 {
     const double least = 1e-13, steps = 16;
     double most = least;
@@ -212,7 +212,7 @@ static void print_ladder(const struct ruler *ruler, const char *name, const char
 }
 
 static void climb(const struct ruler *ruler, const char *name, const char *method, fbd_options *options,
-                  struct course *course, struct counts *counts)
+                  struct trajectory *course, struct counts *counts)
 {
     fbd_state *start = fbd_state_new(ruler->model);
     double errors[decades];
@@ -253,10 +253,10 @@ static double time_until(const fbd_model *model)
 }
 
 static bool make_ruler(struct ruler *ruler, const fbd_model *model, fbd_options *options,
-                       struct course *motion)
+                       struct trajectory *motion)
 {
     fbd_state *start = fbd_state_new(model);
-    *ruler = (struct ruler){.model = model, .truth = course_of(model)};
+    *ruler = (struct ruler){.model = model, .truth = trajectory_of(model)};
     ruler->scale = calloc(ruler->truth.size + 1, sizeof(double));
     options->until = time_until(model);
     options->tolerance = truest;
@@ -272,7 +272,7 @@ static bool make_ruler(struct ruler *ruler, const fbd_model *model, fbd_options 
 static void study(const char *name, const fbd_model *model, struct counts *counts)
 {
     struct ruler ruler;
-    struct course motion = course_of(model);
+    struct trajectory motion = trajectory_of(model);
     fbd_options options = FBD_OPTIONS_DEFAULT;
     bool known = make_ruler(&ruler, model, &options, &motion);
     unsigned long worse = counts->worse;

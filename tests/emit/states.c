@@ -32,7 +32,7 @@ static void draw(struct fbd_state *state, const struct fbd_state *start, gsl_rng
 {
     int n = state->model->plan.n;
     state_copy(state, start);
-    state_set_moment(state, moment_at(gsl_rng_uniform(rng)));
+    state_set_moment(state, time_dd_at(gsl_rng_uniform(rng)));
     for (int i = 0; i < 2 * n; i++) {
         bool rests = i >= n && gsl_rng_uniform(rng) < 1.0 / 3;
         state->y[i] = rests ? 0 : start->y[i] * (1 + gsl_rng_uniform(rng)) + 2 * gsl_rng_uniform(rng) - 1;

@@ -83,9 +83,9 @@ static void evaluate(const struct expr *expr)
         const double *y = points[i] + 1;
         claim_one_value(expr, t, y, NULL);
         if (switches == 0 || switches > most_switches) continue;
-        expr_resolve(expr, moment_at(t), y, 1, direction, NULL, branch);
+        expr_resolve(expr, time_dd_at(t), y, 1, direction, NULL, branch);
         claim_one_value(expr, t, y, branch);
-        expr_margins(expr, moment_at(t), y, 1, direction, branch, margins, rates, NULL);
+        expr_margins(expr, time_dd_at(t), y, 1, direction, branch, margins, rates, NULL);
         for (size_t k = 0; k < switches; k++)
             for (int end = 0; end < 2; end++) expr_branch_beyond(expr, k, end, branch[k]);
     }

@@ -27,7 +27,7 @@ QUICK = 50  # ms from the slider to the scene and the numbers beside it; the plo
 SIMILAR = 1e-3
 MOTION = ("[m]", "[rad]", "[m/s]", "[rad/s]")
 CHAOTIC = {"double_pendulum", "chain_of_ten_rods", "n_four_bar", "andrews_squeezer", "dominoes", "woodpecker"}
-# Balls in a row touch exactly: whether one opens and closes at the instant of a blow is a matter of the last bit.
+# Balls in a row touch exactly: whether one opens and closes at the instant of an impact is a matter of the last bit.
 UNDECIDED = {"cradle"}
 SLOW = {"million_revolutions", "long_pendulum"}  # minutes in a browser on a busy machine
 

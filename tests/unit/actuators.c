@@ -31,7 +31,7 @@ static double table_at(const struct act_table *table, double x)
 
 /* ---- forces */
 
-struct moment { /* what forces depend on */
+struct time_dd { /* what forces depend on */
     double t, x, v, other_x, other_v;
     const double *z; /* states */
 };
@@ -41,14 +41,14 @@ static double sign(double u)
     return (u > 0) - (u < 0);
 }
 
-static double control(const struct act *act, const struct moment *at)
+static double control(const struct act *act, const struct time_dd *at)
 {
     const double *p = act->p;
     double e = p[0] * sin(p[1] * at->t) - at->x, u = p[2] * e + p[3] * at->z[act->state] - p[4] * at->v;
     return fmax(-p[5], fmin(p[5], u));
 }
 
-static double state_rate(const struct act *act, const struct moment *at)
+static double state_rate(const struct act *act, const struct time_dd *at)
 {
     const double *p = act->p, z = at->z[act->state];
     if (act->kind == act_motor) {
@@ -66,7 +66,7 @@ static void relay(struct act *act, double x)
 }
 
 /* Along the line of the slide and across it. */
-static void add_force(struct act *act, const struct act_body *body, const struct moment *at, double *f)
+static void add_force(struct act *act, const struct act_body *body, const struct time_dd *at, double *f)
 {
     const double *p = act->p, c = cos(body->along), s = sin(body->along);
     double dx, dy, size;
@@ -111,7 +111,7 @@ static void forces(const void *context, double t, const double *q, const double 
         double m = mass_at(body, t), c = cos(body->along), s = sin(body->along);
         double sum[2] = {-m * act_g * s, -m * act_g * c};
         int other = (i + 1) % n;
-        const struct moment at = {t, q[i], v[i], q[other], v[other], v + n + 1};
+        const struct time_dd at = {t, q[i], v[i], q[other], v[other], v + n + 1};
         sum[0] += body->flow * (body->comes ? body->jet - v[i] : -body->jet);
         for (int k = 0; k < body->acts; k++) {
             add_force(&body->act[k], body, &at, sum);

@@ -4,7 +4,7 @@
  */
 #include "bad_calls.h"
 
-#include "fbd_crew.h"
+#include "fbd_workers.h"
 
 /* ---- sweeps */
 
@@ -59,7 +59,7 @@ void sweeps(void **context)
     ANSWERS(fbd_sweep_start, !fbd_sweep_start(NULL, &work, 1));
     ANSWERS(fbd_sweep_start, !fbd_sweep_start(sweep, NULL, 1));
     ANSWERS(fbd_sweep_start, !fbd_sweep_start(sweep, &idle, 1));
-    fbd_sweep_crew *crew = fbd_sweep_start(sweep, &work, 1);
+    fbd_sweep_workers *crew = fbd_sweep_start(sweep, &work, 1);
     fbd_sweep_share share = {0, 2, &bytes}; /* a ticket of nobody */
     assert_non_null(crew);
     ANSWERS(fbd_sweep_claim, fbd_sweep_claim(NULL, 1, &share) == -1);

@@ -62,8 +62,8 @@ static inline void start_with(struct run *run, struct scene *scene, const struct
     run->t = t;
     run->y[0] = q;
     run->y[1] = v;
-    assert_int_equal(stepper_reset(run->stepper, &run->system, moment_at(t), run->y, run->f,
-                                   moment_at(t_limit), &run->h),
+    assert_int_equal(stepper_reset(run->stepper, &run->system, time_dd_at(t), run->y, run->f,
+                                   time_dd_at(t_limit), &run->h),
                      GSL_SUCCESS);
 }
 
@@ -76,9 +76,9 @@ static inline void start(struct run *run, struct scene *scene, const struct meth
 
 static inline enum stepper_status step(struct run *run, double t_limit)
 {
-    struct moment t = moment_at(run->t);
+    struct time_dd t = time_dd_at(run->t);
     enum stepper_status status =
-        stepper_step(run->stepper, &run->system, &t, run->y, run->f, &run->h, moment_at(t_limit));
+        stepper_step(run->stepper, &run->system, &t, run->y, run->f, &run->h, time_dd_at(t_limit));
     assert_true(t.rest == 0);
     run->t = t.t;
     return status;

@@ -65,9 +65,9 @@ static void errors_and_models(void **state)
     ANSWERS(fbd_errors_file, !fbd_errors_file(errors, past));
     ANSWERS(fbd_errors_get, !fbd_errors_get(errors, past).message);
     char shown[4];
-    ENDURES(fbd_shown, assert_int_equal(fbd_shown(NULL, shown, sizeof shown), 0));
-    ENDURES(fbd_shown, assert_int_equal(fbd_shown("\x1b[", NULL, 0), 5));
-    ENDURES(fbd_shown, assert_int_equal(fbd_shown("ab\xE2\x80\xAE", shown, sizeof shown), 8));
+    ENDURES(fbd_escape, assert_int_equal(fbd_escape(NULL, shown, sizeof shown), 0));
+    ENDURES(fbd_escape, assert_int_equal(fbd_escape("\x1b[", NULL, 0), 5));
+    ENDURES(fbd_escape, assert_int_equal(fbd_escape("ab\xE2\x80\xAE", shown, sizeof shown), 8));
     assert_string_equal(shown, "ab"); /* whole characters only */
     ENDURES(fbd_errors_print, fbd_errors_print(NULL, stderr));
     ENDURES(fbd_errors_print, fbd_errors_print(errors, NULL));
@@ -402,7 +402,7 @@ static void no_function_is_forgotten(void **context)
     note("fbd_schema");
     size_t forgotten = 0;
     assert_true(check_header("fbd.h", &forgotten) > 100);
-    assert_int_equal(check_header("fbd_crew.h", &forgotten), 4);
+    assert_int_equal(check_header("fbd_workers.h", &forgotten), 4);
     assert_int_equal(forgotten, 0);
 }
 

@@ -17,7 +17,7 @@
 
 #include "base/sine.h"
 #include "batch/batch.h"
-#include "integrate/lent.h"
+#include "integrate/stepper_state_view.h"
 #include "loop/options.h"
 #include "random_numbers.h"
 #include "scenes.h"
@@ -82,8 +82,8 @@ static void compare(const struct twins *twins)
     CHECK(step.h);
     CHECK(step.crawl);
     CHECK(step.restart);
-    CHECK(grain.since);
-    CHECK(grain.pause);
+    CHECK(roundoff.since);
+    CHECK(roundoff.pause);
     CHECK(system.rhs);
     CHECK(stale);
     CHECK(end.outcome);
@@ -96,12 +96,12 @@ static void compare(const struct twins *twins)
     assert_int_equal(counts.accepted, of_alone.accepted);
     assert_int_equal(counts.last, of_alone.last);
     assert_memory_equal(counts.rejected, of_alone.rejected, sizeof counts.rejected);
-    struct lent lent, lent_alone;
-    memset(&lent, 0, sizeof lent);
+    struct stepper_state_view view, lent_alone;
+    memset(&view, 0, sizeof view);
     memset(&lent_alone, 0, sizeof lent_alone);
-    const bool lends = switcher_lend(run->stepper, &lent);
+    const bool lends = switcher_lend(run->stepper, &view);
     assert_int_equal(lends, switcher_lend(alone->stepper, &lent_alone));
-    if (lends) check_bits(twins, "what it goes by", &lent, &lent_alone, sizeof lent);
+    if (lends) check_bits(twins, "what it goes by", &view, &lent_alone, sizeof view);
 }
 
 static unsigned long steps_of(const struct run *run)

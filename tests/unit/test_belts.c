@@ -173,7 +173,7 @@ static const char two_weights[] =
     "           around: {on: ground.post, radius: 0.1, static: 0.3, kinetic: 0.2}}\n"
     "simulate: {until: 1}\n";
 
-static struct trial weights_trial(const char *heavy)
+static struct trial error_norm_trial(const char *heavy)
 {
     char text[1024];
     snprintf(text, sizeof text, two_weights, heavy);
@@ -186,7 +186,7 @@ static void a_rope_slips_round_a_post(void **unused)
     (void)unused;
     struct checks checks = {0};
     const double E = exp(0.2 * pi), a = g * (3 - E) / (3 + E), T = g + a;
-    struct trial trial = weights_trial("3");
+    struct trial trial = error_norm_trial("3");
     trial_run(&trial, NULL);
     check_close(&checks, "heavy", trial_get(&trial, "heavy.x"), -a / 2, 1e-10);
     check_close(&checks, "light", trial_get(&trial, "light.v"), a, 1e-10);
@@ -204,13 +204,13 @@ static void a_rope_holds_up_to_its_limit(void **unused)
 {
     (void)unused;
     struct checks checks = {0};
-    struct trial trial = weights_trial("2.56");
+    struct trial trial = error_norm_trial("2.56");
     trial_run(&trial, NULL);
     check_close(&checks, "at rest", trial_get(&trial, "heavy.x"), 0, 1e-13);
     check_close(&checks, "light", arrow_on(&trial, 0, "cord").fy, g, 1e-11);
     check_close(&checks, "heavy", arrow_on(&trial, 1, "cord").fy, 2.56 * g, 1e-11);
     trial_close(&trial);
-    trial = weights_trial("2.57");
+    trial = error_norm_trial("2.57");
     trial_run(&trial, NULL);
     check_that(&checks, "slips", trial_get(&trial, "heavy.v") < -0.1);
     trial_close(&trial);

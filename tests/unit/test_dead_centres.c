@@ -74,13 +74,13 @@ static void slopes_at(const struct flywheel *wheel, double theta, double *first,
 }
 
 /* What presses, and with which signs: the force of the rod's guide or of the slot, and the yoke's normal force. */
-struct presses {
+struct lint_friction {
     int first, second;
 };
 
 /* theta_ddot of the yoke. Neither force has to be above zero. */
-static double yoke_answer(const struct flywheel *wheel, double theta, double u, struct presses on, double *Q,
-                          double *N)
+static double yoke_answer(const struct flywheel *wheel, double theta, double u, struct lint_friction on,
+                          double *Q, double *N)
 {
     double c = wheel->R * cos(theta), s = wheel->R * sin(theta), I = wheel->I, m = wheel->m;
     double mu = -copysign(wheel->mu, s * wheel->way) * on.second;
@@ -91,7 +91,8 @@ static double yoke_answer(const struct flywheel *wheel, double theta, double u, 
 }
 
 /* theta_ddot of the slider on a rod. */
-static double rod_answer(const struct flywheel *wheel, double theta, double u, struct presses on, double *N)
+static double rod_answer(const struct flywheel *wheel, double theta, double u, struct lint_friction on,
+                         double *N)
 {
     double first, second, I = wheel->I, m = wheel->m, L = wheel->L, q = wheel->R * sin(theta) - wheel->e;
     slopes_at(wheel, theta, &first, &second);
@@ -103,11 +104,11 @@ static double rod_answer(const struct flywheel *wheel, double theta, double u, s
 }
 
 /* Of the sides on which both press those that agree with the forces. */
-static double acceleration(const struct flywheel *wheel, double theta, double u, struct presses *on)
+static double acceleration(const struct flywheel *wheel, double theta, double u, struct lint_friction *on)
 {
     for (int k = 0; k < 4; k++) {
         double first, second = 1;
-        *on = (struct presses){k % 2 ? -1 : 1, k / 2 ? -1 : 1};
+        *on = (struct lint_friction){k % 2 ? -1 : 1, k / 2 ? -1 : 1};
         double a = wheel->yoke ? yoke_answer(wheel, theta, u, *on, &first, &second)
                                : rod_answer(wheel, theta, u, *on, &first);
         if (first * on->first >= 0 && second * on->second >= 0) return a;
@@ -117,7 +118,7 @@ static double acceleration(const struct flywheel *wheel, double theta, double u,
 
 static bool same_sides(const struct flywheel *wheel, double theta, double u, double to, double u_there)
 {
-    struct presses here, there;
+    struct lint_friction here, there;
     acceleration(wheel, theta, u, &here);
     acceleration(wheel, to, u_there, &there);
     return here.first == there.first && here.second == there.second;
@@ -128,7 +129,7 @@ static void step(const struct flywheel *wheel, double theta, double h, double *t
 {
     const double inside = 1e-6; /* of the step */
     double at[3] = {theta + inside * h, theta + h / 2, theta + h - inside * h};
-    struct presses on;
+    struct lint_friction on;
     double k1 = 2 * acceleration(wheel, at[0], *u, &on), u2 = *u + h / 2 * k1;
     double k2 = 2 * acceleration(wheel, at[1], u2, &on), u3 = *u + h / 2 * k2;
     double k3 = 2 * acceleration(wheel, at[1], u3, &on), u4 = *u + h * k3;
@@ -157,7 +158,7 @@ static bool go_to(const struct flywheel *wheel, double theta, double to, double 
 static void set_out(const struct flywheel *wheel, double *theta, double *t, double *u)
 {
     const double least = 1e-12, most = 0.1, share = 0.01;
-    struct presses on;
+    struct lint_friction on;
     double a = fabs(acceleration(wheel, *theta + wheel->way * least, 0, &on)), way = least;
     *t = sqrt(2 * way / a), *u = 2 * a * way;
     for (; way < most; way *= 1 + share)

@@ -78,11 +78,11 @@ static void errors(struct layout layout, int order, double h, double worst[size]
     rhs(t0, y0, f0, &problem);
     rhs(t0 + h, y1, f1, &problem);
     struct dense *dense = dense_alloc(&layout);
-    dense_set(dense, order, moment_at(t0), y0, f0, moment_at(t0 + h), y1, f1, &sys, NULL);
+    dense_set(dense, order, time_dd_at(t0), y0, f0, time_dd_at(t0 + h), y1, f1, &sys, NULL);
     for (int i = 0; i < size; i++) worst[i] = 0;
     for (int k = 1; k < 64; k++) {
         double t = t0 + h * k / 64;
-        assert_int_equal(dense_eval(dense, moment_at(t), y), GSL_SUCCESS);
+        assert_int_equal(dense_eval(dense, time_dd_at(t), y), GSL_SUCCESS);
         exact(t, z);
         for (int i = 0; i < size; i++) worst[i] = fmax(worst[i], fabs(y[i] - z[i]));
     }
@@ -152,13 +152,13 @@ static void swing_errors(int order, double h, double worst[2], long *calls)
     swing(0, y0, f0, &count);
     swing(h, y1, f1, &count);
     struct dense *dense = dense_alloc(&layout);
-    dense_set(dense, order, moment_at(0), y0, f0, moment_at(h), y1, f1, &sys, NULL);
+    dense_set(dense, order, time_dd_at(0), y0, f0, time_dd_at(h), y1, f1, &sys, NULL);
     count = 0;
-    assert_int_equal(dense_eval(dense, moment_at(h / 2), y), GSL_SUCCESS);
+    assert_int_equal(dense_eval(dense, time_dd_at(h / 2), y), GSL_SUCCESS);
     *calls = count;
     worst[0] = worst[1] = 0;
     for (int k = 1; k < 32; k++) {
-        dense_eval(dense, moment_at(h * k / 32), y);
+        dense_eval(dense, time_dd_at(h * k / 32), y);
         reference(h * k / 32, &sys, z);
         for (int i = 0; i < 2; i++) worst[i] = fmax(worst[i], fabs(y[i] - z[i]));
     }
@@ -210,16 +210,16 @@ static void the_ends_are_exact_and_cost_nothing(void **state)
     double y[size];
     struct dense *dense = dense_alloc(&layout);
     for (int order = 1; order <= 8; order++) {
-        dense_set(dense, order, moment_at(0.1), y0, f, moment_at(0.4), y1, f, &sys, NULL);
-        assert_int_equal(dense_eval(dense, moment_at(0.1), y), GSL_SUCCESS);
+        dense_set(dense, order, time_dd_at(0.1), y0, f, time_dd_at(0.4), y1, f, &sys, NULL);
+        assert_int_equal(dense_eval(dense, time_dd_at(0.1), y), GSL_SUCCESS);
         assert_memory_equal(y, y0, sizeof y);
-        assert_int_equal(dense_eval(dense, moment_at(0.4), y), GSL_SUCCESS);
+        assert_int_equal(dense_eval(dense, time_dd_at(0.4), y), GSL_SUCCESS);
         assert_memory_equal(y, y1, sizeof y);
     }
     assert_int_equal(problem.calls, 0);
-    assert_int_equal(dense_eval(dense, moment_at(0.2), y), GSL_SUCCESS);
+    assert_int_equal(dense_eval(dense, time_dd_at(0.2), y), GSL_SUCCESS);
     long once = problem.calls;
-    assert_int_equal(dense_eval(dense, moment_at(0.3), y), GSL_SUCCESS);
+    assert_int_equal(dense_eval(dense, time_dd_at(0.3), y), GSL_SUCCESS);
     assert_int_equal(problem.calls, once);
     dense_free(dense);
 }
@@ -233,11 +233,11 @@ static void a_failing_right_hand_side_is_reported(void **state)
     const double y0[size] = {0}, f[size] = {0};
     double y[size] = {1, 2, 3};
     struct dense *dense = dense_alloc(&layout);
-    dense_set(dense, 8, moment_at(0), y0, f, moment_at(1), y0, f, &sys, NULL);
-    assert_int_equal(dense_eval(dense, moment_at(0.5), y), 33);
+    dense_set(dense, 8, time_dd_at(0), y0, f, time_dd_at(1), y0, f, &sys, NULL);
+    assert_int_equal(dense_eval(dense, time_dd_at(0.5), y), 33);
     assert_true(y[0] == 1 && y[1] == 2 && y[2] == 3);
     problem.code = GSL_SUCCESS;
-    assert_int_equal(dense_eval(dense, moment_at(0.5), y), GSL_SUCCESS); /* tried again */
+    assert_int_equal(dense_eval(dense, time_dd_at(0.5), y), GSL_SUCCESS); /* tried again */
     dense_free(dense);
 }
 
@@ -254,9 +254,9 @@ static void dop853_answers_by_itself(void **state)
     memcpy(y1, y0, sizeof y1);
     gsl_odeiv2_step_apply(step, 0, 0.2, y1, yerr, f0, f1, &sys);
     struct dense *dense = dense_alloc(&layout);
-    dense_set(dense, 8, moment_at(0), y0, f0, moment_at(0.2), y1, f1, &sys, step);
+    dense_set(dense, 8, time_dd_at(0), y0, f0, time_dd_at(0.2), y1, f1, &sys, step);
     problem.calls = 0;
-    assert_int_equal(dense_eval(dense, moment_at(0.05), y), GSL_SUCCESS);
+    assert_int_equal(dense_eval(dense, time_dd_at(0.05), y), GSL_SUCCESS);
     assert_int_equal(problem.calls, 3);
     dop853_dense_eval(step, 0.05 / 0.2, z);
     assert_memory_equal(y, z, sizeof y);
@@ -265,7 +265,7 @@ static void dop853_answers_by_itself(void **state)
 }
 
 /* By powers of s over a piece of the step as by its time, to rounding. */
-static void expect_same(struct dense *dense, struct moment from, struct moment to, int count)
+static void expect_same(struct dense *dense, struct time_dd from, struct time_dd to, int count)
 {
     double c[dense_most_degree + 1], y[size];
     for (int i = 0; i < count; i++) {
@@ -273,7 +273,7 @@ static void expect_same(struct dense *dense, struct moment from, struct moment t
         assert_true(degree >= 0 && degree <= dense_most_degree);
         for (int k = 0; k <= 16; k++) {
             double s = k / 8.0 - 1, sum = 0, terms = 0;
-            assert_int_equal(dense_eval(dense, moment_at(from.t + (to.t - from.t) * (1 + s) / 2), y),
+            assert_int_equal(dense_eval(dense, time_dd_at(from.t + (to.t - from.t) * (1 + s) / 2), y),
                              GSL_SUCCESS);
             for (int m = degree; m >= 0; m--) sum = c[m] + s * sum, terms += fabs(c[m]);
             assert_true(fabs(sum - y[i]) <= 16 * DBL_EPSILON * terms);
@@ -308,9 +308,9 @@ static void expect_same_of(const gsl_odeiv2_step_type *type, double a, double h)
     assert_int_equal(gsl_odeiv2_step_apply(step, 0.4, h, y1, yerr, f0, f1, &sys), GSL_SUCCESS);
     const struct layout layout = {.pairs = 1};
     struct dense *dense = dense_alloc(&layout);
-    dense_set(dense, 8, moment_at(0.4), y0, f0, moment_at(0.4 + h), y1, f1, &sys, step);
-    expect_same(dense, moment_at(0.4), moment_at(0.4 + h), 2);
-    expect_same(dense, moment_at(0.4 + 0.3 * h), moment_at(0.4 + 0.4 * h), 2);
+    dense_set(dense, 8, time_dd_at(0.4), y0, f0, time_dd_at(0.4 + h), y1, f1, &sys, step);
+    expect_same(dense, time_dd_at(0.4), time_dd_at(0.4 + h), 2);
+    expect_same(dense, time_dd_at(0.4 + 0.3 * h), time_dd_at(0.4 + 0.4 * h), 2);
     dense_free(dense);
     gsl_odeiv2_step_free(step);
 }
@@ -330,9 +330,9 @@ static void powers_over_a_piece_are_the_same_polynomial(void **state)
         rhs(t0, y0, f0, &problem);
         rhs(t0 + h, y1, f1, &problem);
         struct dense *dense = dense_alloc(&layout);
-        dense_set(dense, order, moment_at(t0), y0, f0, moment_at(t0 + h), y1, f1, &sys, NULL);
-        expect_same(dense, moment_at(t0), moment_at(t0 + h), size);
-        expect_same(dense, moment_at(t0 + 0.6 * h), moment_at(t0 + 0.85 * h), size);
+        dense_set(dense, order, time_dd_at(t0), y0, f0, time_dd_at(t0 + h), y1, f1, &sys, NULL);
+        expect_same(dense, time_dd_at(t0), time_dd_at(t0 + h), size);
+        expect_same(dense, time_dd_at(t0 + 0.6 * h), time_dd_at(t0 + 0.85 * h), size);
         dense_free(dense);
     }
     expect_same_of(step_dop853, 0, 0.8);
@@ -351,9 +351,9 @@ static void rounding_of_a_large_coordinate_is_not_seen_in_the_velocity(void **st
     const double f0[2] = {10, a}, f1[2] = {10 + h * a, a};
     double y[2];
     struct dense *dense = dense_alloc(&layout);
-    dense_set(dense, 4, moment_at(0), y0, f0, moment_at(h), y1, f1, NULL, NULL);
+    dense_set(dense, 4, time_dd_at(0), y0, f0, time_dd_at(h), y1, f1, NULL, NULL);
     for (int k = 1; k < 16; k++) {
-        assert_int_equal(dense_eval(dense, moment_at(h * k / 16), y), GSL_SUCCESS);
+        assert_int_equal(dense_eval(dense, time_dd_at(h * k / 16), y), GSL_SUCCESS);
         assert_true(fabs(y[1] - (10 + a * h * k / 16)) < 16 * DBL_EPSILON * 10);
         assert_true(fabs(y[0] - y0[0] - 10 * h * k / 16) < 2 * DBL_EPSILON * 1e6);
     }

@@ -38,35 +38,35 @@ static double drawn(struct random_numbers *random, double from, double to)
 
 /* ---- runs */
 
-struct course {
+struct trajectory {
     size_t count; /* of what is no user event */
     fbd_event_kind kind[most_told];
     double t[most_told], x, v;
     bool ended;
 };
 
-static struct course run(const char *bodies, const char *events, const char *x, const char *v)
+static struct trajectory run(const char *bodies, const char *events, const char *x, const char *v)
 {
     char text[text_size];
-    struct course course = {0};
+    struct trajectory trajectory = {0};
     snprintf(text, sizeof text, "fbd: 1\n%ssimulate: {until: %g%s}\n", bodies, until, events);
     fbd_model *model = model_from(text);
     fbd_simulation *simulation = fbd_simulation_new(model, NULL, NULL);
     const fbd_recording recording = {.motion_only = true};
     fbd_result *result = fbd_simulation_run(simulation, &recording);
-    course.ended = fbd_result_outcome(result) == FBD_DONE;
-    fbd_state_get(fbd_result_state(result), x, &course.x);
-    fbd_state_get(fbd_result_state(result), v, &course.v);
-    for (size_t i = 0; i < fbd_simulation_event_count(simulation) && course.count < most_told; i++) {
+    trajectory.ended = fbd_result_outcome(result) == FBD_DONE;
+    fbd_state_get(fbd_result_state(result), x, &trajectory.x);
+    fbd_state_get(fbd_result_state(result), v, &trajectory.v);
+    for (size_t i = 0; i < fbd_simulation_event_count(simulation) && trajectory.count < most_told; i++) {
         fbd_event event = fbd_simulation_event(simulation, i);
         if (event.kind == FBD_EVENT_USER) continue;
-        course.kind[course.count] = event.kind;
-        course.t[course.count++] = event.t;
+        trajectory.kind[trajectory.count] = event.kind;
+        trajectory.t[trajectory.count++] = event.t;
     }
     fbd_result_free(result);
     fbd_simulation_free(simulation);
     fbd_model_free(model);
-    return course;
+    return trajectory;
 }
 
 /* One to three events about `t`, or where `v` is next to nothing. */
@@ -103,16 +103,16 @@ static bool stops_as_it_should(struct random_numbers *random)
            back = g * (sin(phi) - kinetic * cos(phi));
     if (stop > 0.9 * until || fabs(tan(phi) - limit) < 1e-6) return true;
     write_events(random, stop, "b.v", "m/s", events);
-    struct course course = run(bodies, events, "b.x", "b.v");
+    struct trajectory trajectory = run(bodies, events, "b.x", "b.v");
     bool holds = tan(phi) < limit;
     double since = until - stop, x = v * v / (2 * up) - (holds ? 0 : back * since * since / 2);
-    bool right = course.ended && fabs(course.x - x) < 1e-9 &&
-                 fabs(course.v + (holds ? 0 : back * since)) < 1e-9 && course.count == 1 &&
-                 course.kind[0] == (holds ? FBD_EVENT_STICK : FBD_EVENT_REVERSAL) &&
-                 fabs(course.t[0] - stop) < 1e-9;
+    bool right = trajectory.ended && fabs(trajectory.x - x) < 1e-9 &&
+                 fabs(trajectory.v + (holds ? 0 : back * since)) < 1e-9 && trajectory.count == 1 &&
+                 trajectory.kind[0] == (holds ? FBD_EVENT_STICK : FBD_EVENT_REVERSAL) &&
+                 fabs(trajectory.t[0] - stop) < 1e-9;
     if (!right)
         print_error("%s%s: ends at %.17g with %.17g, should be %.17g with %.17g; %zu events\n", bodies,
-                    events, course.x, course.v, x, holds ? 0 : -back * since, course.count);
+                    events, trajectory.x, trajectory.v, x, holds ? 0 : -back * since, trajectory.count);
     return right;
 }
 
@@ -161,7 +161,7 @@ static const struct other others[] = {
 };
 
 /* Times are those of another search; what is between events is the same. */
-static bool is_same(const struct course *one, const struct course *two)
+static bool is_same(const struct trajectory *one, const struct trajectory *two)
 {
     const double tolerance = 1e-8;
     bool same = one->ended == two->ended && one->count == two->count && fabs(one->x - two->x) < tolerance &&
@@ -182,10 +182,10 @@ static bool goes_on_as_without(struct random_numbers *random)
 #pragma GCC diagnostic ignored "-Wformat-nonliteral"
     snprintf(bodies, sizeof bodies, other->bodies, drawn_numbers[0], drawn_numbers[1], drawn_numbers[2]);
 #pragma GCC diagnostic pop
-    struct course without = run(bodies, "", other->x, other->v);
+    struct trajectory without = run(bodies, "", other->x, other->v);
     double t = without.count > 0 ? without.t[random_bits(random) % without.count] : 1;
     write_events(random, t, other->v, other->unit, events);
-    struct course with = run(bodies, events, other->x, other->v);
+    struct trajectory with = run(bodies, events, other->x, other->v);
     if (is_same(&with, &without)) return true;
     print_error("%s%s: ends at %.17g with %.17g, without events at %.17g with %.17g; %zu events and %zu\n",
                 bodies, events, with.x, with.v, without.x, without.v, with.count, without.count);
@@ -214,12 +214,12 @@ static void what_couplings_hold_rubs_on_both_ways(void **unused)
                                  "{static: 0.4, kinetic: 0.3, "
                                  "surface_speed: \"0.3[m/s]*cos(1[rad/s]*t)\"}]}\n"
                                  "couplings:\n  - rod: {name: link, between: [b, ground.Q], length: 1}\n";
-    struct course course = run(bodies, "", "b.x", "b.v");
-    assert_true(course.ended);
-    assert_int_equal(course.count, 1);
-    assert_int_equal(course.kind[0], FBD_EVENT_REVERSAL);
-    assert_true(fabs(course.t[0] - acos(0)) < 1e-12);
-    assert_true(fabs(course.x) < 1e-15 && fabs(course.v) < 1e-15);
+    struct trajectory trajectory = run(bodies, "", "b.x", "b.v");
+    assert_true(trajectory.ended);
+    assert_int_equal(trajectory.count, 1);
+    assert_int_equal(trajectory.kind[0], FBD_EVENT_REVERSAL);
+    assert_true(fabs(trajectory.t[0] - acos(0)) < 1e-12);
+    assert_true(fabs(trajectory.x) < 1e-15 && fabs(trajectory.v) < 1e-15);
 }
 
 int main(void)

@@ -52,7 +52,7 @@ static void on_a_free_body(struct scene *scene)
 static const char *wave_of(const struct scene *scene)
 {
     static char text[text_size / 4];
-    bool time = scene->h.course == along_time;
+    bool time = scene->h.trajectory == along_time;
     waves_write(&scene->h, time ? "t" : "b.x", time ? "1/s" : "1/m", text, sizeof text);
     return text;
 }
@@ -181,7 +181,7 @@ static void product_of_two_waves(struct random_numbers *numbers, struct scene *s
     const double quarter = acos(0);
     struct waves f = waves_random(numbers, along_time), *h = &scene->h;
     double v = random_power(numbers, 0.5, 100), q = random_between(numbers, -3, 3);
-    *h = (struct waves){.course = along_time, .count = 2, .c = random_between(numbers, -1, 1)};
+    *h = (struct waves){.trajectory = along_time, .count = 2, .c = random_between(numbers, -1, 1)};
     h->a[0] = 0.5, h->w[0] = f.w[0] - v, h->p[0] = f.p[0] - q + quarter;
     h->a[1] = -0.5, h->w[1] = f.w[0] + v, h->p[1] = f.p[0] + q + quarter;
     one_level(scene);
@@ -229,8 +229,8 @@ static void place_in_an_oscillation(struct random_numbers *numbers, struct scene
 static void speed_in_an_oscillation(struct random_numbers *numbers, struct scene *scene)
 {
     double s = random_between(numbers, 0.5, 4), gap = random_power(numbers, 1e-3, 1);
-    scene->h =
-        (struct waves){.course = along_time, .count = 1, .a = {-s}, .w = {s}, .c = s * (1 - gap), .speed = s};
+    scene->h = (struct waves){
+        .trajectory = along_time, .count = 1, .a = {-s}, .w = {s}, .c = s * (1 - gap), .speed = s};
     oscillate(scene);
     when(scene, "b.v/1[m/s]");
 }
@@ -240,8 +240,8 @@ static void energy_of_an_oscillation(struct random_numbers *numbers, struct scen
 {
     double s = random_between(numbers, 0.5, 4), q = s * s / 4;
     struct waves *h = &scene->h;
-    *h =
-        (struct waves){.course = along_time, .count = 1, .a = {-q}, .w = {2 * s}, .p = {acos(0)}, .speed = s};
+    *h = (struct waves){
+        .trajectory = along_time, .count = 1, .a = {-q}, .w = {2 * s}, .p = {acos(0)}, .speed = s};
     h->c = random_between(numbers, 0.05, 1.95) * q;
     oscillate(scene);
     when(scene, "0.5*b.v^2/1[m^2/s^2]");

@@ -183,7 +183,7 @@ static void all_forms_give_the_same_bits(void **state)
                 double y[] = {random_between(&numbers, -3, 3), random_between(&numbers, -3, 3)};
                 int branch[most_switches] = {0};
                 check_forms(expr, text, t, y, NULL);
-                expr_resolve(expr, moment_at(t), y, 1, (double[]){1, 1}, NULL, branch);
+                expr_resolve(expr, time_dd_at(t), y, 1, (double[]){1, 1}, NULL, branch);
                 y[0] += 0.1;
                 check_forms(expr, text, t, y, branch);
             }

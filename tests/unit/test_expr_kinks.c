@@ -18,7 +18,7 @@ static int resolved_branch(const char *text, double t, const double *y, double d
     struct trial trial = must_compile(text);
     int branch[most_switches];
     assert_int_equal(expr_switches(trial.expr), 1);
-    expr_resolve(trial.expr, moment_at(t), y, dt, dy, NULL, branch);
+    expr_resolve(trial.expr, time_dd_at(t), y, dt, dy, NULL, branch);
     end_trial(&trial);
     return branch[0];
 }
@@ -149,10 +149,10 @@ static void a_kept_branch_stays_and_what_depends_on_it_follows(void **state)
     int branch[2] = {2, 5};
     const bool keep[2] = {true, false};
     assert_int_equal(expr_switches(trial.expr), 2);
-    expr_resolve(trial.expr, moment_at(2.1), origin, 1, NULL, keep, branch);
+    expr_resolve(trial.expr, time_dd_at(2.1), origin, 1, NULL, keep, branch);
     assert_int_equal(branch[0], 2); /* still in its last period: mod is 0.7 */
     assert_int_equal(branch[1], 1);
-    expr_resolve(trial.expr, moment_at(2.1), origin, 1, NULL, NULL, branch);
+    expr_resolve(trial.expr, time_dd_at(2.1), origin, 1, NULL, NULL, branch);
     assert_int_equal(branch[0], 3);
     assert_int_equal(branch[1], -1);
     end_trial(&trial);
@@ -215,12 +215,12 @@ static void margins_measure_the_way_to_both_ends_of_a_branch(void **state)
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
         struct trial trial = must_compile(rows[i].text);
         double margins[2], rates[2];
-        expr_margins(trial.expr, moment_at(rows[i].t), NULL, 1, NULL, &rows[i].branch, margins, rates, NULL);
+        expr_margins(trial.expr, time_dd_at(rows[i].t), NULL, 1, NULL, &rows[i].branch, margins, rates, NULL);
         assert_true(margins[0] == rows[i].lower && margins[1] == rows[i].upper);
         assert_true(rates[0] == (isinf(rows[i].lower) ? 0 : rows[i].rate));
         assert_true(rates[1] == (isinf(rows[i].upper) ? 0 : -rows[i].rate));
         margins[0] = margins[1] = NAN;
-        expr_margins(trial.expr, moment_at(rows[i].t), NULL, 0, NULL, &rows[i].branch, margins, NULL, NULL);
+        expr_margins(trial.expr, time_dd_at(rows[i].t), NULL, 0, NULL, &rows[i].branch, margins, NULL, NULL);
         assert_true(margins[0] == rows[i].lower && margins[1] == rows[i].upper);
         end_trial(&trial);
     }
@@ -232,13 +232,13 @@ static void a_sign_at_rest_ends_as_soon_as_it_moves(void **state)
     struct trial trial = must_compile("sign(v)");
     const int branch = 0;
     double y[5] = {0, 0, 0, 0, 0}, margins[2];
-    expr_margins(trial.expr, moment_at(0), y, 0, NULL, &branch, margins, NULL, NULL);
+    expr_margins(trial.expr, time_dd_at(0), y, 0, NULL, &branch, margins, NULL, NULL);
     assert_true(margins[0] > 0 && margins[1] > 0);
     y[1] = 1e-100;
-    expr_margins(trial.expr, moment_at(0), y, 0, NULL, &branch, margins, NULL, NULL);
+    expr_margins(trial.expr, time_dd_at(0), y, 0, NULL, &branch, margins, NULL, NULL);
     assert_true(margins[0] > 0 && margins[1] < 0);
     y[1] = -1e-100;
-    expr_margins(trial.expr, moment_at(0), y, 0, NULL, &branch, margins, NULL, NULL);
+    expr_margins(trial.expr, time_dd_at(0), y, 0, NULL, &branch, margins, NULL, NULL);
     assert_true(margins[0] < 0 && margins[1] > 0);
     end_trial(&trial);
 }
@@ -263,8 +263,8 @@ static void steps_beyond_counting_are_smooth_and_silent(void **state)
     const double y[5] = {0, 0, 1.5, 0, 0};
     int branch[2];
     double margins[4];
-    expr_resolve(trial.expr, moment_at(0), y, 1, NULL, NULL, branch);
-    expr_margins(trial.expr, moment_at(0), y, 1, NULL, branch, margins, NULL, NULL);
+    expr_resolve(trial.expr, time_dd_at(0), y, 1, NULL, NULL, branch);
+    expr_margins(trial.expr, time_dd_at(0), y, 1, NULL, branch, margins, NULL, NULL);
     for (int i = 0; i < 4; i++) assert_true(margins[i] == HUGE_VAL);
     assert_true(expr_eval(trial.expr, 0, y, branch) == 1.5e12);
     assert_true(expr_branch_beyond(trial.expr, 0, 1, branch[0]) == branch[0]);
@@ -277,15 +277,15 @@ static void switches_of_the_side_not_chosen_are_silent_until_it_is_chosen(void *
     struct trial trial = must_compile("if(x > 0, abs(v), F*floor(theta)/5[N*s/m])");
     double y[5] = {1, -2, 3.5, 0, 0}, margins[6], rates[6];
     int branch[3] = {77, 77, 77};
-    expr_resolve(trial.expr, moment_at(0), y, 1, NULL, NULL, branch);
-    expr_margins(trial.expr, moment_at(0), y, 1, NULL, branch, margins, rates, NULL);
+    expr_resolve(trial.expr, time_dd_at(0), y, 1, NULL, NULL, branch);
+    expr_margins(trial.expr, time_dd_at(0), y, 1, NULL, branch, margins, rates, NULL);
     assert_true(branch[0] == 1 && branch[1] == -1 && branch[2] == 0);
     assert_true(margins[2] == HUGE_VAL && margins[3] == 2);
     assert_true(margins[4] == HUGE_VAL && margins[5] == HUGE_VAL && rates[4] == 0 && rates[5] == 0);
     assert_true(expr_eval(trial.expr, 0, y, branch) == 2);
     y[0] = -1;
-    expr_resolve(trial.expr, moment_at(0), y, 1, NULL, NULL, branch);
-    expr_margins(trial.expr, moment_at(0), y, 1, NULL, branch, margins, rates, NULL);
+    expr_resolve(trial.expr, time_dd_at(0), y, 1, NULL, NULL, branch);
+    expr_margins(trial.expr, time_dd_at(0), y, 1, NULL, branch, margins, rates, NULL);
     assert_true(branch[0] == -1 && branch[2] == 3);
     assert_true(margins[2] == HUGE_VAL && margins[3] == HUGE_VAL && margins[4] == 0.5 && margins[5] == 0.5);
     assert_true(expr_eval(trial.expr, 0, y, branch) == 3);
@@ -323,14 +323,14 @@ static void resolved_branches_give_the_plain_value_and_positive_margins(void **s
                 y[j] = random_between(&numbers, -2, 2);
                 dy[j] = random_between(&numbers, -2, 2);
             }
-            expr_resolve(trial.expr, moment_at(0), y, 1, dy, NULL, branch);
+            expr_resolve(trial.expr, time_dd_at(0), y, 1, dy, NULL, branch);
             double plain = expr_eval_along(trial.expr, 0, y, 1, dy, NULL, &a);
             double smooth = expr_eval_along(trial.expr, 0, y, 1, dy, branch, &b);
             /* mod is exact in plain form and a - n b in a branch. */
             if (fabs(plain - smooth) > 1e-14 || a != b || expr_eval(trial.expr, 0, y, branch) != smooth)
                 fail_msg("seed %u, point %d of `%s`: %.17g and %.17g, slopes %.17g and %.17g", seed, k,
                          laws[i], plain, smooth, a, b);
-            expr_margins(trial.expr, moment_at(0), y, 1, dy, branch, margins, NULL, NULL);
+            expr_margins(trial.expr, time_dd_at(0), y, 1, dy, branch, margins, NULL, NULL);
             for (size_t j = 0; j < 2 * expr_switches(trial.expr); j++) assert_true(margins[j] > 0);
         }
         end_trial(&trial);

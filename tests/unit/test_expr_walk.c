@@ -8,21 +8,21 @@
 
 enum { most_switches = 16 };
 
-struct walk {
+struct substeps {
     const struct expr *expr;
     int branch[most_switches];
     double t;
 };
 
-static double margin_at(const struct walk *walk, double t, size_t index)
+static double margin_at(const struct substeps *walk, double t, size_t index)
 {
     double margins[2 * most_switches];
-    expr_margins(walk->expr, moment_at(t), NULL, 1, NULL, walk->branch, margins, NULL, NULL);
+    expr_margins(walk->expr, time_dd_at(t), NULL, 1, NULL, walk->branch, margins, NULL, NULL);
     return margins[index];
 }
 
 /* The first double at which margin `index`, negative at `high`, is negative. */
-static double find_end(const struct walk *walk, double low, double high, size_t index)
+static double find_end(const struct substeps *walk, double low, double high, size_t index)
 {
     for (;;) {
         double middle = low + (high - low) / 2;
@@ -35,7 +35,7 @@ static double find_end(const struct walk *walk, double low, double high, size_t 
 }
 
 /* Go on to the next event, or to `until`, in strides of at most `stride`; false at `until`. */
-static bool next_event(struct walk *walk, double stride, double until)
+static bool next_event(struct substeps *walk, double stride, double until)
 {
     while (walk->t < until) {
         double high = fmin(walk->t + stride, until), first = HUGE_VAL;
@@ -57,7 +57,7 @@ static bool next_event(struct walk *walk, double stride, double until)
         walk->t = first;
         walk->branch[index] = expr_branch_beyond(walk->expr, index, (int)(found % 2), walk->branch[index]);
         keep[index] = true;
-        expr_resolve(walk->expr, moment_at(walk->t), NULL, 1, NULL, keep, walk->branch);
+        expr_resolve(walk->expr, time_dd_at(walk->t), NULL, 1, NULL, keep, walk->branch);
         return true;
     }
     return false;
@@ -76,9 +76,9 @@ struct script {
 static void follow(const struct script *script, double stride)
 {
     struct trial trial = must_compile(script->text);
-    struct walk walk = {.expr = trial.expr, .t = 0};
+    struct substeps walk = {.expr = trial.expr, .t = 0};
     int piece = 0, events = 0;
-    expr_resolve(trial.expr, moment_at(0), NULL, 1, NULL, NULL, walk.branch);
+    expr_resolve(trial.expr, time_dd_at(0), NULL, 1, NULL, NULL, walk.branch);
     double value = expr_eval(trial.expr, 0, NULL, walk.branch);
     assert_true(value == script->value(0));
     while (next_event(&walk, stride, script->until)) {
@@ -194,9 +194,9 @@ static void coinciding_kinks_are_crossed_together(void **state)
     (void)state;
     struct trial trial =
         must_compile("step(t - 0.3) + step(3*t - 0.9) + step(t/0.3[s] - 1) + abs(t - 0.3)/1[s]");
-    struct walk walk = {.expr = trial.expr, .t = 0};
+    struct substeps walk = {.expr = trial.expr, .t = 0};
     int events = 0;
-    expr_resolve(trial.expr, moment_at(0), NULL, 1, NULL, NULL, walk.branch);
+    expr_resolve(trial.expr, time_dd_at(0), NULL, 1, NULL, NULL, walk.branch);
     while (next_event(&walk, 0.1, 1)) events++;
     assert_int_equal(events, 1);
     end_trial(&trial);

@@ -12,8 +12,8 @@
 #include <gsl/gsl_errno.h>
 #include <math.h>
 
+#include "integrate/error_norm.h"
 #include "integrate/first_step.h"
-#include "integrate/weights.h"
 
 static const struct layout one_pair = {.pairs = 1};
 
@@ -40,10 +40,10 @@ static int choose(struct scene scene, double q, double v, int order, double tole
     gsl_odeiv2_system inner = {.function = motion, .dimension = 2, .params = &scene};
     struct counted_system system;
     counted_system_init(&system, &inner);
-    gsl_odeiv2_control *control = weights_alloc(&one_pair, tolerance, step_law_for(order));
+    gsl_odeiv2_control *control = error_norm_alloc(&one_pair, tolerance, step_law_for(order));
     double y[2] = {q, v}, f[2], work[6];
     assert_int_equal(counted_system_rhs(&system, 0, y, f), GSL_SUCCESS);
-    weights_update(control, y, f);
+    error_norm_update(control, y, f);
     int code = first_step(&system, &one_pair, control, order, 0, y, f, h_max, work, h);
     gsl_odeiv2_control_free(control);
     return code;

@@ -292,7 +292,7 @@ static double value_of(struct arena *arena, const char *text, const struct value
     if (!fine || !right) return (double)NAN;
     int branch[64] = {0};
     assert_true(expr_switches(right) < 64);
-    expr_resolve(right, (struct moment){0}, values->y, 0, NULL, NULL, branch);
+    expr_resolve(right, (struct time_dd){0}, values->y, 0, NULL, NULL, branch);
     return expr_eval(right, 0, values->y, branch);
 }
 

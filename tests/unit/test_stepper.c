@@ -34,9 +34,9 @@ static void every_method_reaches_its_accuracy_at_the_ends_and_within(void **stat
             ends = fmax(ends, deviation(run.y, run.t));
             for (int k = 1; k < 4; k++) {
                 double t = t0 + (run.t - t0) * k / 4;
-                assert_int_equal(stepper_dense(run.stepper, moment_at(t), y), GSL_SUCCESS);
+                assert_int_equal(stepper_dense(run.stepper, time_dd_at(t), y), GSL_SUCCESS);
                 within = fmax(within, deviation(y, t));
-                assert_int_equal(stepper_partial(run.stepper, moment_at(t), y, f), GSL_SUCCESS);
+                assert_int_equal(stepper_partial(run.stepper, time_dd_at(t), y, f), GSL_SUCCESS);
                 partial = fmax(partial, deviation(y, t));
                 assert_true(f[0] == y[1]);
             }
@@ -86,7 +86,7 @@ static void a_pendulum_keeps_its_energy(void **state)
                                           .layout = {1, 0, angle},
                                           .tolerance = tolerance_for(method_at(m))};
         struct stepper *stepper = stepper_alloc(&options);
-        struct moment t = moment_at(0), end = moment_at(10);
+        struct time_dd t = time_dd_at(0), end = time_dd_at(10);
         double h, y[2] = {2, 0}, f[2];
         assert_int_equal(stepper_reset(stepper, &system, t, y, f, end, &h), GSL_SUCCESS);
         while (t.t < 10) assert_int_equal(stepper_step(stepper, &system, &t, y, f, &h, end), stepper_ok);
@@ -110,16 +110,16 @@ static void multistep_methods_go_on_after_a_reset(void **state)
             /* An impact: to another solution and, after the next reset, back. */
             run.y[1] += i % 2 ? 1 : 0;
             double q = forced_q(run.t), v = forced_v(run.t);
-            assert_int_equal(stepper_reset(run.stepper, &run.system, moment_at(run.t), run.y, run.f,
-                                           moment_at(20), &run.h),
+            assert_int_equal(stepper_reset(run.stepper, &run.system, time_dd_at(run.t), run.y, run.f,
+                                           time_dd_at(20), &run.h),
                              GSL_SUCCESS);
             if (i % 2 == 0) {
                 /* One period of time 1 of the kicked oscillator: dq = sin 1, dv = cos 1. */
                 assert_true(fabs(run.y[0] - q - sin(1)) < 1e-5 && fabs(run.y[1] - v - cos(1)) < 1e-5);
                 run.y[0] = q;
                 run.y[1] = v;
-                assert_int_equal(stepper_reset(run.stepper, &run.system, moment_at(run.t), run.y, run.f,
-                                               moment_at(20), &run.h),
+                assert_int_equal(stepper_reset(run.stepper, &run.system, time_dd_at(run.t), run.y, run.f,
+                                               time_dd_at(20), &run.h),
                                  0);
             }
         }
@@ -269,15 +269,15 @@ static void looking_into_steps_changes_none(void **state)
             assert_true(quiet.t == watched.t && quiet.h == watched.h);
             assert_memory_equal(quiet.y, watched.y, sizeof quiet.y);
             for (int k = 0; k <= 4; k++) {
-                assert_int_equal(stepper_dense(watched.stepper, moment_at(t0 + (watched.t - t0) * k / 4), y),
+                assert_int_equal(stepper_dense(watched.stepper, time_dd_at(t0 + (watched.t - t0) * k / 4), y),
                                  GSL_SUCCESS);
-                assert_int_equal(stepper_partial(watched.stepper, moment_at(t0 + (watched.t - t0) * k / 4), y,
-                                                 f),
+                assert_int_equal(stepper_partial(watched.stepper, time_dd_at(t0 + (watched.t - t0) * k / 4),
+                                                 y, f),
                                  GSL_SUCCESS);
             }
             assert_memory_equal(y, watched.y, sizeof y);
             assert_memory_equal(f, watched.f, sizeof f);
-            assert_int_equal(stepper_dense(watched.stepper, moment_at(nextafter(watched.t, 1e9)), y),
+            assert_int_equal(stepper_dense(watched.stepper, time_dd_at(nextafter(watched.t, 1e9)), y),
                              GSL_EINVAL);
         }
         stepper_free(quiet.stepper);
@@ -350,7 +350,7 @@ static void sample_steps(const struct method *method, enum sampled which)
         v_most = fmax(v_most, fabs(run.y[1]));
         long before = scene.calls, redone = 0;
         for (int i = 0; i < samples; i++) {
-            struct moment t = moment_at(t0 + (run.t - t0) * (i + 0.37) / samples);
+            struct time_dd t = time_dd_at(t0 + (run.t - t0) * (i + 0.37) / samples);
             assert_int_equal(stepper_dense(run.stepper, t, y), GSL_SUCCESS);
             if (i % 40 != 0) continue;
             long calls = scene.calls;
@@ -398,18 +398,18 @@ static void a_step_is_walked_through_once(void **state)
         start_with(&run, &scene, &options, 0, 1, 0, 2);
         double y[2], f[2];
         if (step(&run, 2) != stepper_ok || method->multistep) {
-            assert_int_equal(stepper_walk(run.stepper, moment_at(1), y, f), GSL_EINVAL);
+            assert_int_equal(stepper_walk(run.stepper, time_dd_at(1), y, f), GSL_EINVAL);
             stepper_free(run.stepper);
             continue;
         }
         for (int i = 0; i < places; i++) {
             double t = run.t * (i + 0.5) / places;
-            assert_int_equal(stepper_walk(run.stepper, moment_at(t), first[i], f), GSL_SUCCESS);
+            assert_int_equal(stepper_walk(run.stepper, time_dd_at(t), first[i], f), GSL_SUCCESS);
             worst = fmax(worst, deviation(first[i], t));
         }
         long calls = scene.calls;
         for (int i = places - 1; i >= 0; i--) {
-            assert_int_equal(stepper_walk(run.stepper, moment_at(run.t * (i + 0.5) / places), y, f),
+            assert_int_equal(stepper_walk(run.stepper, time_dd_at(run.t * (i + 0.5) / places), y, f),
                              GSL_SUCCESS);
             assert_memory_equal(y, first[i], sizeof y);
             assert_true(f[0] == y[1]);

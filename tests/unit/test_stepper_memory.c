@@ -60,15 +60,15 @@ static void a_run_takes_no_memory(void **state)
     for (size_t m = 0; method_at(m); m++) {
         struct stepper_options options = {.method = method_at(m), .layout = {.pairs = 1}, .tolerance = 1e-6};
         struct stepper *stepper = stepper_alloc(&options);
-        struct moment t = moment_at(0), end = moment_at(1);
+        struct time_dd t = time_dd_at(0), end = time_dd_at(1);
         double h, y[2] = {0, 3}, f[2], z[2];
         fail_alloc_from(0);
         int code = stepper_reset(stepper, &system, t, y, f, end, &h);
         while (code == GSL_SUCCESS && t.t < 1) {
             double t0 = t.t;
             code = (int)stepper_step(stepper, &system, &t, y, f, &h, end);
-            if (code == GSL_SUCCESS) code = stepper_dense(stepper, moment_at((t0 + t.t) / 2), z);
-            if (code == GSL_SUCCESS) code = stepper_partial(stepper, moment_at((t0 + t.t) / 2), z, f);
+            if (code == GSL_SUCCESS) code = stepper_dense(stepper, time_dd_at((t0 + t.t) / 2), z);
+            if (code == GSL_SUCCESS) code = stepper_partial(stepper, time_dd_at((t0 + t.t) / 2), z, f);
             if (code == GSL_SUCCESS) code = fall(t.t, y, f, NULL);
         }
         size_t asked = fail_alloc_count();

@@ -83,7 +83,7 @@ static void trouble_leaves_the_state_bit_for_bit(void **state)
                 assert_int_equal(stepper_get_counts(run.stepper)->last, cases[c].why);
                 assert_true(1 - t < 1e-10); /* as near as the numbers allow */
             }
-            assert_int_equal(stepper_dense(run.stepper, moment_at(t), y), GSL_EINVAL);
+            assert_int_equal(stepper_dense(run.stepper, time_dd_at(t), y), GSL_EINVAL);
             stepper_free(run.stepper);
         }
     }
@@ -117,7 +117,7 @@ static void a_blow_up_ends_in_underflow_at_its_time(void **state)
                                           .layout = {.extra = 1},
                                           .tolerance = 1e-9};
         struct stepper *stepper = stepper_alloc(&options);
-        struct moment t = moment_at(0), end = moment_at(2);
+        struct time_dd t = time_dd_at(0), end = time_dd_at(2);
         double h, y = 1, f, before = 1;
         assert_int_equal(stepper_reset(stepper, &system, t, &y, &f, end, &h), GSL_SUCCESS);
         enum stepper_status status;
@@ -158,7 +158,7 @@ static void exact_growth_ends_where_its_slope_does(void **state)
             .name = "linear", .type = &step_linear, .order = 8, .estimate_order = 8, .exact = true};
         struct stepper_options options = {.method = &exact, .layout = {.extra = 1}, .tolerance = 1e-9};
         struct stepper *stepper = stepper_alloc(&options);
-        struct moment t = moment_at(0), end = moment_at(2);
+        struct time_dd t = time_dd_at(0), end = time_dd_at(2);
         double h, y = 1, f;
         assert_int_equal(stepper_reset(stepper, &system, t, &y, &f, end, &h), GSL_SUCCESS);
         enum stepper_status status;
@@ -232,7 +232,7 @@ static void stiff_steps_can_be_looked_into(void **state)
             ends = fmax(ends, fabs(run.y[0] - cos(2 * (run.t - 2e-4))));
             for (int k = 1; k < 8; k++) {
                 double t = t0 + (run.t - t0) * k / 8;
-                assert_int_equal(stepper_dense(run.stepper, moment_at(t), y), GSL_SUCCESS);
+                assert_int_equal(stepper_dense(run.stepper, time_dd_at(t), y), GSL_SUCCESS);
                 within = fmax(within, fabs(y[0] - cos(2 * (t - 2e-4))));
             }
         }
@@ -256,7 +256,7 @@ static void a_limit_next_to_nothing_away_ends_the_step(void **state)
             struct run run;
             start(&run, &scene, method, tolerance_for(method), 1, 0, 9);
             run_to(&run, 8);
-            struct moment t = moment_at(run.t), limit = {run.t, rooms[k]};
+            struct time_dd t = time_dd_at(run.t), limit = {run.t, rooms[k]};
             double q = run.y[0];
             enum stepper_status status =
                 stepper_step(run.stepper, &run.system, &t, run.y, run.f, &run.h, limit);
@@ -274,13 +274,13 @@ static void misuse_is_refused(void **state)
     struct run run;
     start(&run, &scene, method_find("dop853"), 1e-6, 1, 0, 1);
     double y[2], f[2];
-    assert_int_equal(stepper_dense(run.stepper, moment_at(0), y), GSL_EINVAL);
-    assert_int_equal(stepper_partial(run.stepper, moment_at(0), y, f), GSL_EINVAL);
+    assert_int_equal(stepper_dense(run.stepper, time_dd_at(0), y), GSL_EINVAL);
+    assert_int_equal(stepper_partial(run.stepper, time_dd_at(0), y, f), GSL_EINVAL);
     assert_int_equal(step(&run, 0), stepper_misuse);
     assert_int_equal(step(&run, -1), stepper_misuse);
     run.h = NAN;
     assert_int_equal(step(&run, 1), stepper_misuse);
-    assert_int_equal(stepper_reset(run.stepper, &run.system, moment_at(1), run.y, run.f, moment_at(1),
+    assert_int_equal(stepper_reset(run.stepper, &run.system, time_dd_at(1), run.y, run.f, time_dd_at(1),
                                    &run.h),
                      GSL_EINVAL);
     stepper_free(run.stepper);

@@ -13,7 +13,7 @@
 #include <cmocka.h>
 #include <gsl/gsl_errno.h>
 
-#include "fbd_crew.h"
+#include "fbd_workers.h"
 #include "sweep_table.h"
 
 static void rows_show_what_happened(void **state)
@@ -183,7 +183,7 @@ static void shares_that_others_make_take_their_place_in_the_order(void **state)
     const fbd_sweep_plan plan = plan_of(TEXTS("v0=1:9:200"), NULL);
     struct sweep_table alone = sweep_by(projectile, &plan, 0, 1), led = open_table(projectile, &plan);
     const fbd_sweep_work work = {.end = 200, .jobs = 1, .write = append, .write_context = &led.rows};
-    fbd_sweep_crew *crew = fbd_sweep_start(led.sweep, &work, 1);
+    fbd_sweep_workers *crew = fbd_sweep_start(led.sweep, &work, 1);
     assert_non_null(crew);
     fbd_sweep_share share;
     for (int claimed; (claimed = fbd_sweep_claim(crew, 1, &share)) >= 0;) {

@@ -116,7 +116,7 @@ static void tables_are_those_of_gsl(void **unused)
             double x =
                 k < p.count ? p.x[k] + 1e-7 : random_between(&numbers, p.x[0] - span, p.x[0] + 2.5 * span);
             double want = plain(&p, spline, x, &slope), piece = table_piece(&table, x);
-            struct twofold low, high;
+            struct double_double low, high;
             table_slopes(&table, piece, x, &f, &d, &dd);
             table_ends(&table, piece, &low, &high);
             bool inside = low.x <= x && x <= high.x;

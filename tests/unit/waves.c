@@ -7,13 +7,13 @@
 /* x(t), its first derivative, and bounds of the first two. */
 static double place(const struct waves *h, double t, double *rate, double *first, double *second)
 {
-    if (h->course == along_oscillation) {
+    if (h->trajectory == along_oscillation) {
         *rate = -h->speed * sin(h->speed * t);
         *first = h->speed;
         *second = h->speed * h->speed;
         return cos(h->speed * t);
     }
-    *rate = *first = h->course == along_time ? 1 : h->speed;
+    *rate = *first = h->trajectory == along_time ? 1 : h->speed;
     *second = 0;
     return *rate * t;
 }
@@ -70,17 +70,17 @@ double random_power(struct random_numbers *numbers, double low, double high)
     return low * pow(high / low, random_between(numbers, 0, 1));
 }
 
-struct waves waves_random(struct random_numbers *numbers, enum course course)
+struct waves waves_random(struct random_numbers *numbers, enum trajectory trajectory)
 {
-    struct waves h = {.course = course, .count = 1 + (int)(random_bits(numbers) % 3)};
+    struct waves h = {.trajectory = trajectory, .count = 1 + (int)(random_bits(numbers) % 3)};
     h.speed = random_between(numbers, 0.5, 4);
     for (int k = 0; k < h.count; k++) {
         h.a[k] = k == 0 ? 1 : random_between(numbers, -1, 1);
-        h.w[k] = random_power(numbers, 0.5, course == along_time ? 100 : 12);
+        h.w[k] = random_power(numbers, 0.5, trajectory == along_time ? 100 : 12);
         h.p[k] = random_between(numbers, -3, 3);
     }
     double gap = random_power(numbers, 1e-12, 1);
-    bool crest = h.count == 1 && course == along_time;
+    bool crest = h.count == 1 && trajectory == along_time;
     h.c = crest ? (random_bits(numbers) % 2 ? 1 - gap : -1 + gap) : random_between(numbers, -1, 1);
     return h;
 }
@@ -89,7 +89,7 @@ struct waves waves_near(struct random_numbers *numbers, double R)
 {
     static const double beyond[] = {1e-2, 1e-3, 1e-4, -1e-4, -1e-3};
     double most = R * (1 + beyond[(int)random_between(numbers, 0, 4.999)]);
-    struct waves h = {.count = 2, .c = R, .course = along_time};
+    struct waves h = {.count = 2, .c = R, .trajectory = along_time};
     for (int k = 0; k < 2; k++) {
         h.w[k] = k == 0 ? random_between(numbers, 1, 60) : random_between(numbers, 0.3, 8);
         h.p[k] = random_between(numbers, 0, 6.28);

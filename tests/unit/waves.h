@@ -16,12 +16,12 @@
 
 enum { most_waves = 6, most_zeros = 4096 };
 
-enum course { along_time, along_coast, along_oscillation };
+enum trajectory { along_time, along_coast, along_oscillation };
 
 struct waves {
     int count;
     double a[most_waves], w[most_waves], p[most_waves], c;
-    enum course course;
+    enum trajectory trajectory;
     double speed; /* of the coast; of the oscillation x = cos(speed t) */
 };
 
@@ -38,7 +38,7 @@ double waves_value(const struct waves *h, double t, double *slope, double *most)
 void waves_find(const struct waves *h, double low, double high, struct zeros *zeros);
 
 /* Up to three waves. Thresholds near the crest of one wave, by gaps from 1e-12 to 1, or anywhere. */
-struct waves waves_random(struct random_numbers *numbers, enum course course);
+struct waves waves_random(struct random_numbers *numbers, enum trajectory trajectory);
 
 /* Two waves along time whose sizes add up to R and a share of 1e-4 to 1e-2 more or less, less R: their peaks are
  * just beyond it, or not. */

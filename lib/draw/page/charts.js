@@ -69,14 +69,14 @@ function drawMarks(context, area, graph) {
   const visible = [];
   eventTimes.forEach((t, i) => { if (t >= plotWindow.from && t <= plotWindow.to) visible.push(i); });
   const switches = visible.filter((i) => eventLabel(i).kind === "switch").length;
-  const shown = visible.length > 60 && switches < visible.length ? visible.filter((i) => eventLabel(i).kind !== "switch") : visible;
-  const every = Math.ceil(shown.length / 300);
+  const display = visible.length > 60 && switches < visible.length ? visible.filter((i) => eventLabel(i).kind !== "switch") : visible;
+  const every = Math.ceil(display.length / 300);
   context.save();
   context.setLineDash([3, 3]);
   context.strokeStyle = view.colour.soft;
   context.globalAlpha = 0.6;
-  for (let k = 0; k < shown.length; k += every) {
-    const x = Math.round(graph.toDomXCoord(eventTimes[shown[k]])) + 0.5;
+  for (let k = 0; k < display.length; k += every) {
+    const x = Math.round(graph.toDomXCoord(eventTimes[display[k]])) + 0.5;
     context.beginPath();
     context.moveTo(x, area.y);
     context.lineTo(x, area.y + area.h);

@@ -1,0 +1,167 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "dynamics/world_refs.h"
+
+#include <string.h>
+
+#include "dynamics/constraint.h"
+#include "dynamics/friction.h"
+#include "dynamics/mass.h"
+
+size_t extended_size(const struct fbd_model *model)
+{
+    return plan_size(&model->plan) + (model->absolute_count > 0 ? hand_slots + model->absolute_count : 0);
+}
+
+static double choose(enum absolute_kind kind, struct motion_of_point at, double angle, double omega)
+{
+    switch (kind) {
+    case absolute_x: return at.p.x;
+    case absolute_y: return at.p.y;
+    case absolute_vx: return at.v.x;
+    case absolute_vy: return at.v.y;
+    case absolute_angle: return angle;
+    case absolute_angle_dot: return omega;
+    case absolute_acceleration: /* output/hand.c */
+    case absolute_force:
+    case absolute_ax:
+    case absolute_ay:
+    case absolute_alpha:
+    case absolute_inertia:
+    case absolute_work:
+    case absolute_impulse:
+    case absolute_mass:
+    case absolute_mass_rate:
+    case absolute_slip: break;
+    }
+    return 0;
+}
+
+/* ---- the speed of a pair on its surface
+ *
+ * slip = |v - s|, which is sigma (v - s) in the mode sigma: smooth across the end of a mode, as a step that
+ * goes beyond needs it, with the slope d slip / d v = sigma. While the pair sticks it is 0 whatever varies.
+ */
+
+static double relative_speed(const struct fbd_model *model, int pair, const struct instant *at)
+{
+    const struct mode *mode = &model->plan.modes[pair];
+    if (mode->tie >= 0) return at->slip[pair] * tie_slip(model, at, mode->tie, false).value;
+    double v = at->y[model->plan.n + mode->coordinate];
+    return at->slip[pair] * (v - formula_value(&mode->surface_speed, at));
+}
+
+static double slip_at(const struct fbd_model *model, const struct model_absolute *slip,
+                      const struct instant *at)
+{
+    if (slip->pair < 0 || at->slip[slip->pair] == stick) return 0;
+    double speed = relative_speed(model, slip->pair, at);
+    return slip->even ? fabs(speed) : speed;
+}
+
+static double slip_along(const struct fbd_model *model, const struct model_absolute *slip,
+                         const struct instant *at, const struct direction *along)
+{
+    if (slip->pair < 0 || at->slip[slip->pair] == stick) return 0;
+    const struct mode *mode = &model->plan.modes[slip->pair];
+    int sign = at->slip[slip->pair];
+    if (slip->even && relative_speed(model, slip->pair, at) < 0) sign = -sign;
+    if (mode->tie >= 0) return sign * tie_slip(model, at, mode->tie, true).variation;
+    double d_speed, dv = along->dy[model->plan.n + mode->coordinate];
+    formula_along(&mode->surface_speed, at, along, &d_speed);
+    return sign * (dv - d_speed);
+}
+
+/* ---- all of them */
+
+/* How fast masses change goes with the rates of states, which may name any of the others. */
+static void write_mass_rates(const struct fbd_model *model, const struct instant *at, double *y)
+{
+    double *places = y + plan_size(&model->plan) + hand_slots;
+    struct instant written = *at;
+    written.y = y;
+    for (size_t k = 0; k < model->absolute_count; k++) {
+        const struct model_absolute *absolute = &model->absolutes[k];
+        if (absolute->kind == absolute_mass_rate)
+            places[k] = body_mass_rate(model, &model->bodies[absolute->body], &written);
+    }
+}
+
+void world_refs_write(const struct fbd_model *model, const struct instant *at, double *y)
+{
+    double *places = y + plan_size(&model->plan) + hand_slots;
+    for (size_t k = 0; k < model->absolute_count; k++) {
+        const struct model_absolute *absolute = &model->absolutes[k];
+        const struct model_body *body = &model->bodies[absolute->body];
+        if (absolute->kind == absolute_slip) {
+            places[k] = slip_at(model, absolute, at);
+            continue;
+        }
+        if (absolute->kind == absolute_mass) places[k] = body_mass(body, at);
+        if (absolute->kind == absolute_mass || absolute->kind == absolute_mass_rate) continue;
+        struct pose pose = body_pose(body, at);
+        places[k] = choose(absolute->kind, point_motion(body, &pose, absolute->point), body_angle(body, at),
+                           pose.omega);
+    }
+    write_mass_rates(model, at, y);
+}
+
+struct instant instant_extend(const struct fbd_model *model, const struct instant *at)
+{
+    struct instant extended = *at;
+    if (!model->names_places) return extended;
+    if (at->y != at->extended) memcpy(at->extended, at->y, plan_size(&model->plan) * sizeof *at->extended);
+    extended.y = at->extended;
+    if (model->tree) tree_move(model, &extended);
+    world_refs_write(model, &extended, at->extended);
+    return extended;
+}
+
+/* The variation of a point of a jointed body. */
+static struct motion_of_point jointed_along(const struct model_body *body, const struct instant *at,
+                                            struct vec point)
+{
+    const struct tree_state *s = &at->tree->links[body->place.link];
+    const struct tree_variation *d = &at->tree->variation[body->place.link];
+    struct vec r = vec_turn(s->turn, placement_point(&body->place, point));
+    struct vec dr = vec_scale(d->angle, vec_perp(r));
+    struct vec dv = vec_add(vec_scale(d->omega, vec_perp(r)), vec_scale(s->omega, vec_perp(dr)));
+    return (struct motion_of_point){vec_add(d->p, dr), vec_add(d->v, dv)};
+}
+
+static double varied(const struct fbd_model *model, const struct model_absolute *absolute,
+                     const struct instant *at, const struct direction *along)
+{
+    const struct model_body *body = &model->bodies[absolute->body];
+    if (absolute->kind == absolute_slip) return slip_along(model, absolute, at, along);
+    if (absolute->kind == absolute_mass) {
+        double variation;
+        formula_along(&body->mass, at, along, &variation);
+        return variation;
+    }
+    if (absolute->kind == absolute_mass_rate) return body_mass_rate_along(model, body, at, along);
+    if (body->place.link > 0) {
+        const struct tree_variation *d = &at->tree->variation[body->place.link];
+        return choose(absolute->kind, jointed_along(body, at, absolute->point), d->angle, d->omega);
+    }
+    struct pose pose = body_pose(body, at);
+    int turn = body_angle_coordinate(body);
+    double d_angle = turn >= 0 ? along->dy[turn] : 0,
+           d_omega = turn >= 0 ? along->dy[model->plan.n + turn] : 0;
+    return choose(absolute->kind, point_variation(body, &pose, absolute->point, along), d_angle, d_omega);
+}
+
+struct direction direction_extend(const struct fbd_model *model, const struct instant *at,
+                                  const struct direction *along)
+{
+    if (!model->names_places) return *along;
+    size_t size = plan_size(&model->plan);
+    double *dy = at->extended + extended_size(model);
+    if (along->dy != dy) memcpy(dy, along->dy, size * sizeof *dy);
+    if (model->tree) tree_move_along(model, at, along);
+    const struct direction extended = {along->dt, dy};
+    for (int rates = 0; rates < 2; rates++) /* how fast masses change goes with all the others */
+        for (size_t k = 0; k < model->absolute_count; k++)
+            if ((model->absolutes[k].kind == absolute_mass_rate) == (rates == 1))
+                dy[size + hand_slots + k] = varied(model, &model->absolutes[k], at, &extended);
+    return extended;
+}

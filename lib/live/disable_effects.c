@@ -1,0 +1,271 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * The text of a model without some of its effects. What stands on lines of its own becomes a comment, so that the
+ * lines keep their numbers and whoever reads the file sees what is missing; what stands in brackets is cut out. A body
+ * that lacks an effect loses its derivations by hand as well: they were made for the whole scene.
+ */
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/api_check.h"
+#include "base/diag.h"
+#include "live/live.h"
+
+/* Bytes `from` to before `to` give way to `with`. */
+struct change {
+    size_t from, to;
+    const char *with;
+};
+
+struct changes {
+    const char *text;
+    size_t length;
+    struct change *list;
+    size_t count, room;
+    bool failed;
+};
+
+static void change(struct changes *changes, size_t from, size_t to, const char *with)
+{
+    if (changes->count == changes->room) {
+        size_t room = changes->room ? 2 * changes->room : 64;
+        struct change *list = realloc(changes->list, room * sizeof *list);
+        if (!list) {
+            changes->failed = true;
+            return;
+        }
+        changes->list = list;
+        changes->room = room;
+    }
+    changes->list[changes->count++] = (struct change){from, to, with};
+}
+
+/* ---- entries on lines of their own */
+
+static size_t line_start(const struct changes *changes, size_t at)
+{
+    while (at > 0 && changes->text[at - 1] != '\n') at--;
+    return at;
+}
+
+/* The lines from `from` on, where the entry begins, to that of `to`, each from the same column on. */
+static void comment_out(struct changes *changes, size_t from, size_t to)
+{
+    size_t column = from - line_start(changes, from);
+    for (size_t at = from; at < to;) {
+        change(changes, at, at, "# ");
+        const char *end = memchr(changes->text + at, '\n', to - at);
+        if (!end) return;
+        at = (size_t)(end - changes->text) + 1;
+        while (at < to && strchr("\r\n", changes->text[at])) at++; /* empty lines stay */
+        size_t indent = 0;
+        while (indent < column && at + indent < to && changes->text[at + indent] == ' ') indent++;
+        at += indent;
+    }
+}
+
+/* The dash in front of an entry of a list. */
+static size_t dash_before(const struct changes *changes, size_t from)
+{
+    size_t at = from;
+    while (at > 0 && changes->text[at - 1] == ' ') at--;
+    return at > 0 && changes->text[at - 1] == '-' ? at - 1 : from;
+}
+
+/* ---- entries in brackets: with the comma that follows, those at the end with the one before */
+
+static void cut_entry(struct changes *changes, const struct span *entries, const bool *off, size_t count,
+                      size_t index)
+{
+    size_t kept = count;
+    for (size_t i = 0; i < count; i++)
+        if (!off[i]) kept = i;
+    bool trailing = kept < index || kept == count;
+    if (!trailing)
+        change(changes, entries[index].from, entries[index + 1].from, "");
+    else if (kept == count && index == 0)
+        change(changes, entries[0].from, entries[count - 1].to, "");
+    else if (kept + 1 == index)
+        change(changes, entries[kept].to, entries[count - 1].to, "");
+}
+
+/* ---- lists and bodies */
+
+struct leaving {
+    const struct spans *spans;
+    const struct live_effect *effects;
+    const bool *off;
+    size_t count;
+    struct changes changes;
+};
+
+/* The entries of the list that effect `first` is the first one of; returns the effect behind them. */
+static size_t leave_out_of_list(struct leaving *leaving, size_t first)
+{
+    const struct live_effect *effect = &leaving->effects[first];
+    const struct spans *spans = leaving->spans;
+    struct changes *changes = &leaving->changes;
+    int list = spans_find(spans, effect->owner, effect->key);
+    size_t count = spans_count(spans, list), end = first, left = 0;
+    struct span *entries = calloc(count + 1, sizeof *entries);
+    bool *off = calloc(count + 1, sizeof *off);
+    changes->failed |= !entries || !off;
+    for (; end < leaving->count && leaving->effects[end].owner == effect->owner &&
+           strcmp(leaving->effects[end].key, effect->key) == 0;
+         end++)
+        if (off && leaving->off[end]) off[leaving->effects[end].index] = true;
+    for (size_t i = 0; i < count && entries && off; i++) {
+        entries[i] = spans_of(spans, spans_item(spans, list, i));
+        left += !off[i];
+    }
+    for (size_t i = 0; i < count && entries && off; i++) {
+        if (!off[i]) continue;
+        if (spans_is_flow(spans, list))
+            cut_entry(changes, entries, off, count, i);
+        else
+            comment_out(changes, dash_before(changes, entries[i].from), entries[i].to);
+    }
+    if (!changes->failed && left == 0 && !spans_is_flow(spans, list)) {
+        size_t colon = spans_key(spans, effect->owner, effect->key).to;
+        const char *found = memchr(changes->text + colon, ':', changes->length - colon);
+        if (found)
+            change(changes, (size_t)(found - changes->text) + 1, (size_t)(found - changes->text) + 1, " []");
+    }
+    free(entries);
+    free(off);
+    return end;
+}
+
+/* Of the mapping of a body. */
+static void leave_out_hand(struct leaving *leaving, int body)
+{
+    const struct spans *spans = leaving->spans;
+    struct span key = spans_key(spans, body, "hand"),
+                value = spans_of(spans, spans_find(spans, body, "hand"));
+    size_t next = 0, before = 0;
+    if (key.to == 0) return;
+    if (!spans_is_flow(spans, body)) {
+        comment_out(&leaving->changes, key.from, value.to);
+        return;
+    }
+    for (size_t i = 0; i < spans_count(spans, body); i++) {
+        const char *name = spans_key_name(spans, body, i);
+        struct span other = name ? spans_key(spans, body, name) : key;
+        if (other.from > key.from && (next == 0 || other.from < next)) next = other.from;
+        if (other.from < key.from) {
+            struct span of = spans_of(spans, spans_find(spans, body, name));
+            if (of.to > before) before = of.to;
+        }
+    }
+    change(&leaving->changes, next || before == 0 ? key.from : before, next ? next : value.to, "");
+}
+
+static int by_place(const void *a, const void *b)
+{
+    const struct change *first = a, *second = b;
+    return (first->from > second->from) - (first->from < second->from);
+}
+
+static void apply(struct text *text, struct changes *changes)
+{
+    size_t at = 0;
+    if (changes->count > 0) qsort(changes->list, changes->count, sizeof *changes->list, by_place);
+    for (size_t i = 0; i < changes->count; i++) {
+        const struct change *now = &changes->list[i];
+        if (now->from < at) continue; /* within what has gone already */
+        text_add_bytes(text, changes->text + at, now->from - at);
+        text_add(text, now->with);
+        at = now->to;
+    }
+    text_add_bytes(text, changes->text + at, changes->length - at);
+    text->failed |= changes->failed;
+}
+
+static void leave_out(struct leaving *leaving)
+{
+    for (size_t i = 0; i < leaving->count;) i = leave_out_of_list(leaving, i);
+    int done = 0; /* effects of one body follow each other */
+    for (size_t i = 0; i < leaving->count; i++) {
+        if (!leaving->off[i] || !leaving->effects[i].body || leaving->effects[i].owner == done) continue;
+        done = leaving->effects[i].owner;
+        leave_out_hand(leaving, done);
+    }
+}
+
+/* ---- the names */
+
+static const char *effect_name(const struct live_effect *effect, fbd_errors *errors)
+{
+    return effect->body ? diag_hint(errors, "%s.%s", effect->body, effect->name) : effect->name;
+}
+
+static void note_unknown(const struct leaving *leaving, const char *name, fbd_errors *errors)
+{
+    const char **names = calloc(leaving->count + 1, sizeof *names);
+    for (size_t i = 0; names && i < leaving->count; i++) names[i] = effect_name(&leaving->effects[i], errors);
+    diag_add(errors, FBD_ERROR, "unknown-effect", (struct pos){0, 0},
+             names && leaving->count > 0 ? diag_nearest(errors, name, names, leaving->count)
+                                         : "no list of the file has entries that could be left out",
+             "the file lists no effect `%.80s`", name);
+    free(names);
+}
+
+static bool choose(const struct leaving *leaving, bool *off, const char *const *names, size_t count,
+                   fbd_errors *errors)
+{
+    bool all = true;
+    for (size_t k = 0; k < count; k++) {
+        bool found = false;
+        for (size_t i = 0; i < leaving->count; i++) {
+            if (!live_effect_is(&leaving->effects[i], names[k])) continue;
+            off[i] = found = true;
+        }
+        if (!found) note_unknown(leaving, names[k], errors);
+        all = all && found;
+    }
+    return all;
+}
+
+static char *write_without(const struct fbd_model *model, const char *const *names, size_t count,
+                           fbd_errors *errors)
+{
+    struct text text = {0};
+    struct spans *spans = spans_open(model->source, model->source_length);
+    size_t room = spans ? live_effects(model, spans, NULL, 0) : 0;
+    struct live_effect *effects = calloc(room + 1, sizeof *effects);
+    bool *off = calloc(room + 1, sizeof *off), fine = spans && effects && off;
+    if (fine) {
+        live_effects(model, spans, effects, room);
+        struct leaving leaving = {
+            spans, effects, off, room, {.text = model->source, .length = model->source_length}};
+        fine = choose(&leaving, off, names, count, errors);
+        if (fine) {
+            leave_out(&leaving);
+            apply(&text, &leaving.changes);
+        }
+        free(leaving.changes.list);
+    } else {
+        diag_out_of_memory(errors);
+    }
+    if (fine && text.failed) diag_out_of_memory(errors);
+    if (text.failed) text_free(&text);
+    spans_close(spans);
+    free(effects);
+    free(off);
+    return fine && !text.failed ? text.data : NULL;
+}
+
+char *fbd_model_without(const fbd_model *model, const char *const *effects, size_t count, fbd_errors *list)
+{
+    struct diag_call call;
+    fbd_errors *errors = diag_begin(&call, list);
+    char *text = NULL;
+    if (model && api_has_texts(effects, count)) {
+        diag_in_file(errors, model->scene->file);
+        text = write_without(model, effects, count, errors);
+    } else {
+        api_refuse(errors, "there is no model, or no name of an effect");
+    }
+    diag_end(&call);
+    return text;
+}

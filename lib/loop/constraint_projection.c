@@ -1,0 +1,327 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * Couplings that close loops: a start that does not fit is refused, and every step ends on the constraints.
+ */
+#include <float.h>
+#include <gsl/gsl_errno.h>
+#include <math.h>
+#include <string.h>
+
+#include "dynamics/modes.h"
+#include "dynamics/project.h"
+#include "dynamics/tree_driven.h"
+#include "dynamics/tree_system.h"
+#include "loop/run.h"
+#include "rest/balance.h"
+#include "rest/fit.h"
+
+static bool has_ties(const struct run *run)
+{
+    return run->model->tree && run->model->tree->tie_count > 0;
+}
+
+/* The largest change from `from` to `to`, in tolerances of the largest size that each number has had. */
+static double tolerances_apart(const struct run *run, const double *from, const double *to)
+{
+    size_t n = (size_t)run->model->plan.n;
+    const double *most = run->recent.anchor + plan_size(&run->model->plan);
+    double apart = 0;
+    for (size_t i = 0; i < 2 * n; i++) {
+        double moved = fabs(to[i] - from[i]);
+        if (moved > 0) apart = fmax(apart, moved / (run->options.tolerance * fmax(most[i], fabs(to[i]))));
+    }
+    return apart;
+}
+
+/* y at time t, brought back; by how much. */
+static double close_at(struct run *run, double t, double *y)
+{
+    struct instant at = state_instant(run->during);
+    double *before = run->work.sample;
+    memcpy(before, y, plan_size(&run->model->plan) * sizeof *y);
+    at.t = t;
+    return_to_constraints(run->model, &at, y);
+    return tolerances_apart(run, before, y);
+}
+
+void project_within(struct run *run, double t, double *y)
+{
+    const double far = 100;
+    if (!has_ties(run)) return;
+    double moved = close_at(run, t, y);
+    if (moved <= far) return;
+    /* The curve through a step that passes a singular position may be off by more than the step's end is: no
+     * error estimate covers what it is made of. Steps that end at t have one. */
+    size_t size = plan_size(&run->model->plan);
+    double *other = run->work.aside, *f = other + size;
+    int code = switcher_walk(run->stepper, time_dd_at(t), other, f);
+    if (code == GSL_ENOMEM) run_fail(run, FBD_OUT_OF_MEMORY, "out of memory");
+    if (code == GSL_SUCCESS && close_at(run, t, other) < moved) memcpy(y, other, size * sizeof *y);
+}
+
+/* What rounding may do in the last step: in a scene at rest accelerations are what is left of forces that
+ * cancel, 1e-12 of what one of the forces alone would do, which is some thousand roundings; and as a drive
+ * starts, velocities that are made of positions. */
+struct rounding {
+    double speed, way; /* made by that in the time of the step: [m/s], [m] */
+    double energy;     /* of all that moves so fast */
+};
+
+static struct rounding rounding_of_step(struct run *run)
+{
+    const double share = 1e-12;
+    const struct tree *tree = run->model->tree;
+    double mass = 0, most = 0, time = run->state->t - run->step.from;
+    state_evaluate_unshared(run->state);
+    for (int i = 1; i < tree->count; i++) {
+        mass += tree->links[i].mass;
+        most = fmax(most, vec_norm(run->state->tree->links[i].F.force) / tree->links[i].mass);
+        most = fmax(most, vec_norm(tree->links[i].force) / tree->links[i].mass);
+    }
+    for (int k = 0; k < tree->tie_count; k++) { /* what couplings do, no joint passes on */
+        const struct tie *tie = &tree->ties[k];
+        for (int j = 0; j < tie->row_count * tie->end_count; j++) {
+            const struct tree_link *link = &tree->links[tie->end[j / tie->row_count].link];
+            double force = run->state->tree->rows[tie->first_row + j % tie->row_count].lambda;
+            if (link->mass > 0) most = fmax(most, fabs(force) / link->mass);
+        }
+    }
+    double unseen = 16 * DBL_EPSILON * run->drift.reach; /* a way that changes no digit of a position */
+    double speed = share * most * time + (time > 0 ? unseen / time : 0);
+    return (struct rounding){speed, speed * time, mass * speed * speed / 2};
+}
+
+/* Has the return to the constraints moved nothing but rounding, of a scene at rest say? */
+static bool is_moved_by_rounding(struct run *run)
+{
+    const double roundings = 64 * DBL_EPSILON;
+    const struct coordinate *coordinates = run->model->scene->coordinates;
+    size_t n = (size_t)run->model->plan.n;
+    struct rounding rounding = rounding_of_step(run);
+    double reach = run->drift.reach, speed = run->drift.speed;
+    const double least[] = {rounding.way + roundings * reach, rounding.speed + roundings * speed};
+    for (size_t i = 0; i < 2 * n; i++) {
+        double moved = fabs(run->work.y[i] - run->state->y[i]) * (coordinates[i % n].angle ? reach : 1);
+        if (!(moved <= least[i / n])) return false;
+    }
+    return true;
+}
+
+/* A multistep method goes on from what it remembers, which a return to the constraints does not change. When
+ * that has gone far it starts anew: near a singular position being off grows. */
+bool projection_has_failed(struct run *run)
+{
+    const double far = 10;
+    if (!run->projected || !run->options.method->multistep) return false;
+    return tolerances_apart(run, run->work.y, run->state->y) > far && !is_moved_by_rounding(run);
+}
+
+/* Note how large the mechanism is and how fast, with the points that couplings take; returns its present
+ * size.
+ */
+static double measure(struct run *run)
+{
+    const struct tree *tree = run->model->tree;
+    double reach = 0, speed = 0;
+    for (int i = 1; i < tree->count; i++) {
+        const struct tree_state *s = &run->state->tree->links[i];
+        reach = larger(reach, vec_norm(s->p));
+        speed = larger(speed, vec_norm(s->v));
+    }
+    for (int k = 0; k < tree->tie_count; k++)
+        for (int j = 0; j < tree->ties[k].end_count; j++) {
+            const struct tie_end *end = &tree->ties[k].end[j];
+            const struct tree_state *s = &run->state->tree->links[end->link];
+            double arm = end->radius + vec_norm(end->point);
+            reach = larger(reach, vec_norm(s->p) + arm);
+            speed = larger(speed, vec_norm(s->v) + fabs(s->omega) * arm);
+        }
+    /* Shapes have their size wherever they are. An angle has a stop also where nothing has a length, as of a wheel about
+     * its centre. */
+    for (int i = 0; i < tree->meeting_count; i++)
+        reach = larger(reach, tree->meetings[i].stop != 0 ? tree->meetings[i].reach : tree->meetings[i].size);
+    run->drift.reach = fmax(run->drift.reach, reach);
+    run->drift.speed = fmax(run->drift.speed, speed);
+    return reach;
+}
+
+/* What a step may be off by before it is brought back, as a share of the size of the mechanism: its error,
+ * and more where it was not asked for (a fixed step). */
+static double explained(const struct run *run)
+{
+    const double many = 1e4, least = 1e-12, unknown = 0.1;
+    return run->options.step > 0 ? unknown : fmin(many * fmax(run->options.tolerance, least), unknown);
+}
+
+/* A rope that has become longer than it is without having been taut at any time: the event was missed. To
+ * make it taut now would throw the bodies about. */
+static bool overlong_rope(struct run *run, double most)
+{
+    const struct plan *plan = &run->model->plan;
+    struct instant at = state_instant(run->state);
+    for (size_t i = 0; i < plan->mode_count; i++) {
+        if (plan->modes[i].kind != mode_rope || run->state->slip[i] == stick) continue;
+        int tie = plan->modes[i].tie;
+        double excess = one_sided_at(run->model, &at, (int)i).excess;
+        if (excess <= most) continue;
+        const char *name = run->model->tree->ties[tie].name;
+        if (isnan(excess))
+            run_fail(run, FBD_FAILED,
+                     "at t = %.9g the rope `%s`, which is slack, has no way: what it goes to is within a "
+                     "circle that "
+                     "it runs over. End the run before, by an event",
+                     run_time(run), name);
+        else
+            run_fail(
+                run, FBD_FAILED,
+                "at t = %.9g the rope `%s` is longer than it is by %.3g: the instant at which it became taut "
+                "was missed. Try a smaller tolerance or step",
+                run_time(run), name, excess);
+        return true;
+    }
+    return false;
+}
+
+/* Bring the end of the step back, and note what that took. */
+static struct closing bring_back(struct run *run)
+{
+    struct drift *drift = &run->drift;
+    struct closing closing = state_close(run->state);
+    const struct misfit *off = &closing.off, *left = &closing.left;
+    if (off->row >= 0 && (!drift->worst || off->position > drift->position))
+        drift->worst = tie_row_name(run->model->tree, off->row);
+    drift->position = fmax(drift->position, off->position);
+    drift->velocity = fmax(drift->velocity, off->velocity);
+    drift->left_position = fmax(drift->left_position, left->position);
+    drift->left_velocity = fmax(drift->left_velocity, left->velocity);
+    return closing;
+}
+
+/* In a structure at rest error control sees nothing but rounding, and steps grow without end. What rounding
+ * alone has moved goes back; the next step is shorter, so that it always can. */
+static bool is_rounding(struct run *run, const struct misfit *misfit)
+{
+    if (!(misfit->position <= rounding_of_step(run).way)) return false;
+    run->step.h = fmin(run->step.h, (run->state->t - run->step.from) / 2);
+    return true;
+}
+
+/* Does what is prescribed go to where the couplings cannot be closed? Some steps later it is beyond by some
+ * steps' ways, while a position that is only passed lies behind. Nothing is seen of a way that is rounding:
+ * steps next to such a position are short. `during` is free. */
+static bool ends_reach(struct run *run)
+{
+    struct fbd_state *later = run->during;
+    double after = fmax(10 * (run->state->t - run->step.from), 1e-3 * run->step.first);
+    if (!model_is_driven(run->model)) return false;
+    for (int looks = 0; looks < 3; looks++) {
+        state_copy(later, run->state);
+        later->t = run->state->t + after;
+        after *= 10;
+        later->rest = 0;
+        modes_hold(later);
+        if (state_project(later, false)) return false;
+    }
+    return true;
+}
+
+/* Of rounding of forces the lightest bodies are torn from their places: say so where the masses are that far apart. */
+static bool fail_by_masses(struct run *run, const struct misfit *misfit)
+{
+    const double ratio = run->model->tree->mass_ratio;
+    if (ratio <= masses_far_apart) return false;
+    run_fail(
+        run, FBD_FAILED,
+        "at t = %.9g the coupling `%s` cannot be closed any more (it is off by %.3g): the heaviest of the "
+        "jointed bodies has %.2g times the mass of the lightest, and up to about 1e12 can be solved. Give "
+        "the lightest one more mass",
+        run_time(run), tie_row_name(run->model->tree, misfit->row >= 0 ? misfit->row : 0), misfit->position,
+        ratio);
+    return true;
+}
+
+static void fail_singular(struct run *run, const struct misfit *misfit)
+{
+    if (ends_reach(run))
+        run_fail(
+            run, FBD_BROKEN,
+            "at t = %.9g the mechanism is at the end of its reach: what is prescribed goes on to where the "
+            "coupling `%s` cannot be closed",
+            run_time(run), tie_row_name(run->model->tree, misfit->row >= 0 ? misfit->row : 0));
+    else if (!fail_by_masses(run, misfit))
+        run_fail(run, FBD_FAILED,
+                 "at t = %.9g the couplings pass a singular position, where the mechanism could go on in "
+                 "two ways, and the step cannot tell which: try another tolerance or --method dop853",
+                 run_time(run));
+}
+
+void project_step(struct run *run)
+{
+    if (!has_ties(run)) return;
+    run->projected = true;
+    const struct closing closing = bring_back(run);
+    const struct misfit misfit = closing.off, left = closing.left;
+    const double before = closing.energy[0], after = closing.energy[1];
+    constraints_follow(run->model, run->state->tree);
+    run->liveliest = fmax(run->liveliest, fmax(before, after));
+    double reach = measure(run);
+    coupled_scales_set_floors(&run->mechanisms, run->state, run->stepper);
+    if (overlong_rope(run, explained(run) * reach)) return;
+    /* What has come to the origin has no size of its own there: a stop at zero. */
+    bool nothing = misfit.position <= 16 * DBL_EPSILON * run->drift.reach;
+    bool explains = nothing || misfit.position <= explained(run) * reach;
+    nothing |= !explains && is_rounding(run, &misfit);
+    if (!explains && !nothing) {
+        run_fail(
+            run, FBD_FAILED,
+            "at t = %.9g the coupling `%s` is off by %.3g, far more than the error of a step: the mechanism "
+            "moves too fast there for the tolerance or the step",
+            run_time(run), tie_row_name(run->model->tree, misfit.row >= 0 ? misfit.row : 0), misfit.position);
+        return;
+    }
+    /* Where a mechanism can fold over to another branch (all bars in one line) a step may start to, and going
+     * back takes the energy with it: that is no rounding any more. */
+    if (!(fabs(after - before) <= 1e4 * fmax(run->options.tolerance, 1e-12) * run->liveliest) &&
+        !(fabs(after - before) <= rounding_of_step(run).energy)) {
+        fail_singular(run, &misfit);
+        return;
+    }
+    if (nothing || left.position <= 1e3 * fmax(run->options.tolerance, 1e-12) * reach) return;
+    if (!fail_by_masses(run, &misfit))
+        run_fail(
+            run, FBD_FAILED,
+            "at t = %.9g the coupling `%s` cannot be closed any more (it is off by %.3g): the mechanism is "
+            "at the end of its reach, or the tolerance is too large",
+            run_time(run), tie_row_name(run->model->tree, misfit.row >= 0 ? misfit.row : 0), misfit.position);
+}
+
+/* What rounding has left of such a speed would be taken for a side that it moves to. That nothing comes of it is told by its
+ * acceleration: not even a step as long as the longest makes a speed of that. */
+void rest_held(struct run *run)
+{
+    const double rounding = 1e-14, little = 1e-12;
+    const struct plan *plan = &run->model->plan;
+    const double *most = run->recent.anchor + plan_size(plan) + plan->n;
+    const struct instant at = state_instant(run->state);
+    bool evaluated = false;
+    for (int pair = 0; pair < (int)plan->mode_count; pair++) {
+        const struct mode *mode = &plan->modes[pair];
+        if (!mode_is_joint_friction(mode) || mode->tie >= 0 || run->state->slip[pair] == stick) continue;
+        double v = slip_velocity(run->model, pair, &at), fastest = most[mode->coordinate];
+        if (v == 0 || fabs(v) > rounding * fastest) continue;
+        if (!evaluated) state_evaluate_unshared(run->state);
+        evaluated = true;
+        double a = tree_hold_acceleration(run->state, &at, pair);
+        if (fabs(a) * run->step.longest <= little * fastest) run->state->y[plan->n + mode->coordinate] -= v;
+    }
+}
+
+void run_check_balance(struct run *run)
+{
+    struct text lack = {0};
+    run_evaluate(run);
+    if (run->end.outcome == FBD_GOING && balance_lack(run->state, run->work.arrows, &lack))
+        run_fail(run, lack.failed ? FBD_OUT_OF_MEMORY : FBD_FAILED, "%s",
+                 lack.failed ? "out of memory" : lack.data);
+    text_free(&lack);
+}

@@ -1,0 +1,395 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * Couplings come to an end: a rope that is wound on a disc is unwound, or its free end has come to the disc, where it
+ * would turn ever faster; one that is hauled in has come to the end of its way; the point of a slot has come to where
+ * the slot ends. None of these can be passed with the same equations, so that each ends the run by name.
+ *
+ * What is left may have gone to nothing and be back within a step: so a step is looked at in parts, and where the rate
+ * turns within a part its least is found.
+ */
+#include <math.h>
+#include <string.h>
+
+#include "dynamics/constraint.h"
+#include "dynamics/project.h"
+#include "loop/run.h"
+
+struct end {
+    struct run *run;
+    int tie, end;
+    bool piece; /* not an end but the straight piece after place `end` */
+};
+
+static const struct tie *tie_of(const struct end *end)
+{
+    return &end->run->model->tree->ties[end->tie];
+}
+
+static void look(struct run *run, double t, const double *y)
+{
+    struct fbd_state *state = run->during;
+    memcpy(state->y, y, 2 * (size_t)run->model->plan.n * sizeof *state->y);
+    state->t = t;
+    state_misfit(state); /* puts the links in their places */
+}
+
+/* What is left before the end, where the links have been looked at. */
+static struct room room_of(const struct end *end)
+{
+    const struct tree_work *work = end->run->during->tree;
+    return end->piece ? rope_piece(end->run->model, work, end->tie, end->end)
+                      : tie_room(end->run->model, work, end->tie, end->end);
+}
+
+/* The same within the last step; NAN where that is not known. */
+static struct room room_at(const struct end *end, double t)
+{
+    struct run *run = end->run;
+    if (switcher_partial(run->stepper, time_dd_at(t), run->work.y, run->work.f) != 0)
+        return (struct room){NAN, NAN, 0};
+    look(run, t, run->work.y);
+    return room_of(end);
+}
+
+/* Used up by more than rounding. */
+static bool is_used_up(struct room room)
+{
+    const double rounding = 1e-12;
+    return room.left < -rounding * room.size;
+}
+
+/* A time in a stretch at which it is used up, where it may be at its least; NAN where it is not. */
+static double used_up_within(const struct end *end, double from, double to)
+{
+    struct room before = room_at(end, from), after = room_at(end, to);
+    if (is_used_up(before)) return from;
+    if (is_used_up(after)) return to;
+    while (before.rate < 0 && after.rate > 0) {
+        double middle = from + (to - from) / 2;
+        if (!(middle > from && middle < to)) break;
+        struct room room = room_at(end, middle);
+        if (is_used_up(room)) return middle;
+        *(room.rate < 0 ? &from : &to) = middle;
+    }
+    return NAN;
+}
+
+/* The time at which nothing is left: between one at which there is something, and one at which it is used up. */
+static double empty_time(const struct end *end, double some, double none)
+{
+    for (;;) {
+        double middle = some + (none - some) / 2;
+        if (!(middle > some && middle < none)) return some;
+        *(is_used_up(room_at(end, middle)) ? &none : &some) = middle;
+    }
+}
+
+/* What is no rope always is, whatever it rubs, but for a point that is off its slot. */
+static bool is_taut(const struct fbd_state *state, const struct tie *tie)
+{
+    if (slot_is_open(tie, state->slip)) return false;
+    return tie->kind != constraint_rope || tie->pair < 0 || state->slip[tie->pair] == stick;
+}
+
+static const char *name_of(const struct run *run, const struct tie *tie, int k)
+{
+    return tie->end[k].body < 0 ? "the ground" : run->model->bodies[tie->end[k].body].name;
+}
+
+static void fail_at_end(const struct end *end, double t, bool gets_taut)
+{
+    struct run *run = end->run;
+    const struct tie *tie = tie_of(end);
+    if (tie->kind == constraint_slot || tie->kind == constraint_groove)
+        run_fail(
+            run, FBD_BROKEN,
+            "at t = %.9g the point in the slot `%s` comes to the end of it. Make it longer, or end the run "
+            "before, by an event",
+            t, tie->name);
+    else
+        run_fail(
+            run, FBD_BROKEN,
+            "at t = %.9g the rope `%s` %s all unwound from `%s`. End the run before, by an event, or wind "
+            "more on it (`length` of `wound`)",
+            t, tie->name, gets_taut ? "gets taut where it is" : "is",
+            name_of(run, tie, end->end == 0 ? 0 : tie->end_count - 1));
+}
+
+/* Is there plenty left in a part of a step, as the interpolant tells? Where the rate turns, what is left is above its
+ * tangents at both ends. */
+static bool has_plenty(const struct end *end, struct room before, struct room after, double length)
+{
+    const double share = 0.01, tolerances = 100; /* errors of interpolants are some tens of them */
+    double least = fmax(share, tolerances * end->run->options.tolerance) * after.size;
+    if (!(before.left > least && after.left > least)) return false;
+    bool turns = before.rate < 0 && after.rate > 0;
+    return !turns || fmax(before.left + before.rate * length, after.left - after.rate * length) > least;
+}
+
+/* The same of all parts of the last step, by samples that take no steps. */
+static bool is_far(const struct end *end, double from, double length, int parts)
+{
+    struct run *run = end->run;
+    struct room before = {0};
+    if (run->options.step > 0) return false; /* of no known accuracy */
+    for (int k = 0; k <= parts; k++) {
+        if (switcher_dense(run->stepper, time_dd_at(from + k * length), run->work.aside) != 0) return false;
+        look(run, from + k * length, run->work.aside);
+        struct room room = room_of(end);
+        if (k > 0 && !has_plenty(end, before, room, length)) return false;
+        before = room;
+    }
+    return true;
+}
+
+static void watch_end(const struct end *end, struct time_dd *t)
+{
+    enum { parts = 8 };
+    struct run *run = end->run;
+    double from = run->step.from, length = (t->t - from) / parts, used = NAN;
+    if (!isfinite(room_of(end).size) || is_far(end, from, length, parts)) return;
+    for (int k = 0; k < parts && isnan(used); k++)
+        used = used_up_within(end, from + k * length, k + 1 == parts ? t->t : from + (k + 1) * length);
+    if (!isnan(used)) *t = time_dd_at(used > from ? empty_time(end, from, used) : from);
+    switcher_partial(run->stepper, *t, run->work.y, run->work.f);
+    if (!isnan(used)) fail_at_end(end, t->t, false);
+}
+
+/* Where a piece is at its shortest within the last step: it may go through nothing and grow again, beyond the rim. */
+static double shortest_at(const struct end *piece, double little, double to)
+{
+    enum { parts = 8 };
+    double from = piece->run->step.from;
+    double before = room_at(piece, from).rate, after = room_at(piece, to).rate;
+    if (before < 0 && after > 0 && is_far(piece, from, (to - from) / parts, parts)) return to;
+    while (before < 0 && after > 0) {
+        double middle = from + (to - from) / 2;
+        if (!(middle > from && middle < to)) break;
+        struct room room = room_at(piece, middle);
+        if (room.rate < 0 && room.left <= little * room.size) return middle; /* while it has a direction */
+        *(room.rate < 0 ? &from : &to) = middle;
+    }
+    return to;
+}
+
+/* What is left of a straight piece and gets less: a millionth of the disc, a thousandth of the rope that is hauled in, about
+ * whose end a load turns ever faster, or 1e-9 of the rope between points. */
+static void watch_piece(const struct end *piece, struct time_dd *t)
+{
+    struct run *run = piece->run;
+    const struct tie *tie = tie_of(piece);
+    const bool at_rim = tie->end[piece->end].radius > 0 || tie->end[piece->end + 1].radius > 0;
+    const double little = tie->reels ? 1e-3 : at_rim ? 1e-6 : 1e-9;
+    double when = shortest_at(piece, little, t->t);
+    struct room room = room_at(piece, when);
+    if (room.left > little * room.size || room.rate > 0) { /* a number that is none has gone beyond */
+        switcher_partial(run->stepper, *t, run->work.y, run->work.f);
+        return;
+    }
+    *t = time_dd_at(when);
+    run_fail(
+        run, FBD_BROKEN,
+        "at t = %.9g the rope `%s` is at an end of its way: there is nothing left between `%s` and `%s`. End "
+        "the run before, by an event",
+        t->t, tie->name, name_of(run, tie, piece->end), name_of(run, tie, piece->end + 1));
+}
+
+/* Pieces between points of a taut rope of constant length: one becomes shorter as another becomes longer. The ends of the
+ * step show which of them have to be watched within. A piece that ends on a rim passes through zero length where its
+ * other end passes the point of tangency, and the motion goes on. */
+static void watch_shortening(struct run *run, int index, struct time_dd *t)
+{
+    const struct tie *tie = &run->model->tree->ties[index];
+    const double length = t->t - run->step.from;
+    for (int k = 0; k + 1 < tie->end_count && run->end.outcome == FBD_GOING; k++) {
+        const struct end piece = {run, index, k, true};
+        if (tie->end[k].radius > 0 || tie->end[k + 1].radius > 0) continue;
+        look(run, run->step.from, run->state->y);
+        const struct room before = room_of(&piece);
+        look(run, t->t, run->work.y);
+        if (!has_plenty(&piece, before, room_of(&piece), length)) watch_piece(&piece, t);
+    }
+}
+
+/* A rope that rubs has become straight, and comes off its drum. */
+static void watch_wrap(struct run *run, int index, struct time_dd t)
+{
+    const struct tie *tie = &run->model->tree->ties[index];
+    look(run, t.t, run->work.y);
+    const struct instant at = state_instant(run->during);
+    if (capstan_wrap(run->model, &at, index, false, NULL) >= 0) return;
+    run_fail(run, FBD_BROKEN,
+             "by t = %.9g the rope `%s` has come off its drum: its two sides have become one straight line. "
+             "End the "
+             "run before, by an event",
+             t.t, tie->name);
+}
+
+static void watch_tie(struct run *run, int i, struct time_dd *t)
+{
+    const struct tie *tie = &run->model->tree->ties[i];
+    const struct fbd_state *state = run->during;
+    bool rubs = tie->kind == constraint_capstan && state->slip[tie->surface] == stick;
+    bool winds = tie->wound[0] != 0 || tie->wound[1] != 0;
+    bool hauls = tie->kind == constraint_rope && (winds || tie->reels) && is_taut(state, tie);
+    for (int end = 0; end < 2 && is_taut(state, tie); end++) watch_end(&(struct end){run, i, end, false}, t);
+    if (rubs) watch_wrap(run, i, *t);
+    for (int k = 0; (rubs || hauls) && k + 1 < tie->end_count; k++)
+        watch_piece(&(struct end){run, i, k, true}, t);
+    if (tie->kind == constraint_rope && !hauls && is_taut(state, tie)) watch_shortening(run, i, t);
+}
+
+/* ---- a point that is off its slot passes an end of it */
+
+/* What is left of the slot, from where rounding cannot tell any more that it is within (half of slot_rounding). */
+static struct room way_at(const struct end *end, double t)
+{
+    struct room room = room_at(end, t);
+    room.left += slot_rounding / 2 * room.size;
+    return room;
+}
+
+/* A time in a stretch at which it is on the other side of the end than it was before; NAN where it is not. */
+static double passed_within(const struct end *end, int side, double from, double to)
+{
+    double before = side * way_at(end, from).rate;
+    const struct room there = way_at(end, to);
+    double after = side * there.rate;
+    if (side * there.left < 0) return to;
+    while (before < 0 && after > 0) {
+        double middle = from + (to - from) / 2;
+        if (!(middle > from && middle < to)) break;
+        struct room room = way_at(end, middle);
+        if (side * room.left < 0) return middle;
+        *(side * room.rate < 0 ? &from : &to) = middle;
+    }
+    return NAN;
+}
+
+/* The last time on the same side, between one at which it is there and one at which it has passed; the first on the other
+ * side where that is where the step begins. */
+static double passing_time(const struct end *end, int side, double not_yet, double passed)
+{
+    for (;;) {
+        double middle = not_yet + (passed - not_yet) / 2;
+        if (!(middle > not_yet && middle < passed)) return not_yet > end->run->step.from ? not_yet : passed;
+        *(side * way_at(end, middle).left < 0 ? &passed : &not_yet) = middle;
+    }
+}
+
+/* What it meets is another thing there, so that one step ends just before, and the next one just behind. It does not come
+ * back from behind. */
+static void watch_passing(const struct end *end, struct time_dd *t)
+{
+    enum { parts = 8 };
+    struct run *run = end->run;
+    const double from = run->step.from, length = (t->t - from) / parts;
+    const struct row *row = &run->during->tree->rows[tie_of(end)->first_row];
+    double passed = NAN;
+    if (is_far(end, from, length, parts)) return;
+    const int side = way_at(end, from).left < 0 ? -1 : 1;
+    for (int k = 0; k < parts && isnan(passed); k++)
+        passed = passed_within(end, side, from + k * length, k + 1 == parts ? t->t : from + (k + 1) * length);
+    if (!isnan(passed)) {
+        *t = time_dd_at(passing_time(end, side, from, passed));
+        way_at(end, t->t);
+        if (side < 0 && row->g.x < 0)
+            run_fail(
+                run, FBD_BROKEN,
+                "at t = %.9g the point of the slot `%s` comes back behind it. Make it longer, or end the run "
+                "before, by an event",
+                t->t, tie_of(end)->name);
+    }
+    switcher_partial(run->stepper, *t, run->work.y, run->work.f);
+}
+
+void run_watch_slots(struct run *run, struct time_dd *t)
+{
+    const struct tree *tree = run->model->tree;
+    for (int i = 0; tree && i < tree->tie_count; i++) {
+        if (!slot_is_open(&tree->ties[i], run->during->slip)) continue;
+        for (int k = 0; k < 2 && run->end.outcome == FBD_GOING; k++) {
+            const struct end end = {run, i, k, false};
+            if (isfinite(tie_room(run->model, run->during->tree, i, k).size)) watch_passing(&end, t);
+        }
+    }
+}
+
+/* ---- a point that is off its slot comes back to it, a slack rope gets taut */
+
+/* How far it is off, by how much that varies in a second at most, and for how long it is a function without surprises: while
+ * nothing at it turns by more than a radian, nor goes a quarter of the radius of a curve. */
+struct flight {
+    double apart, speed, longest;
+};
+
+static bool is_slack(const struct fbd_state *state, const struct tie *tie)
+{
+    return tie->kind == constraint_rope && tie->pair >= 0 && state->slip[tie->pair] != stick;
+}
+
+/* Within the last step. */
+static bool flight_at(struct run *run, int index, double t, struct flight *flight)
+{
+    const struct tie *tie = &run->model->tree->ties[index];
+    if (switcher_dense(run->stepper, time_dd_at(t), run->work.aside) != 0) return false;
+    look(run, t, run->work.aside);
+    const struct instant at = state_instant(run->during);
+    struct one_sided now =
+        one_sided_at(run->model, &at, is_slack(run->during, tie) ? tie->pair : tie->surface);
+    struct slot_size size = slot_size(run->model, run->during->tree, index);
+    flight->apart = -now.excess;
+    flight->speed =
+        2 * (tie->end_count > 1 ? tie->end_count - 1 : 1) * (now.speed + now.turning * size.reach);
+    flight->longest = fmin(1 / now.turning, size.radius / (4 * flight->speed));
+    return true;
+}
+
+/* How far it is off bends where another place of a slot has come nearer, and may fall to nothing and grow again on its way
+ * through a cam, or as a crank turns that pulls a rope. So a stretch is as long as it stays apart, or else short. */
+static double until_near(struct run *run, int index, double from, double to)
+{
+    const double speeds = 1.5;
+    struct flight a, b;
+    if (!flight_at(run, index, from, &a)) return to;
+    for (;;) {
+        double span = to - from, middle = from + span / 2;
+        if (!flight_at(run, index, to, &b)) return to;
+        bool stays = a.apart + b.apart > speeds * fmax(a.speed, b.speed) * span;
+        if (stays || !(span > fmin(a.longest, b.longest)) || !(middle > from && middle < to)) return to;
+        to = middle;
+    }
+}
+
+double run_flights(struct run *run, double from, double to)
+{
+    const struct tree *tree = run->model->tree;
+    for (int i = 0; tree && i < tree->tie_count; i++) {
+        const struct tie *tie = &tree->ties[i];
+        if (slot_is_open(tie, run->during->slip) || is_slack(run->during, tie))
+            to = until_near(run, i, from, to);
+    }
+    return to;
+}
+
+/* ---- the whole */
+
+void run_watch_ends(struct run *run, struct time_dd *t)
+{
+    const struct tree *tree = run->model->tree;
+    for (int i = 0; tree && i < tree->tie_count && run->end.outcome == FBD_GOING; i++) watch_tie(run, i, t);
+}
+
+void run_check_ends(struct run *run)
+{
+    const struct tree *tree = run->model->tree;
+    for (int i = 0; tree && i < tree->tie_count && run->end.outcome == FBD_GOING; i++) {
+        if (tree->ties[i].kind != constraint_rope || !is_taut(run->state, &tree->ties[i])) continue;
+        for (int k = 0; k < 2; k++) {
+            struct end end = {run, i, k, false};
+            if (!isfinite(room_of(&end).size)) continue;
+            look(run, run->state->t, run->state->y);
+            if (is_used_up(room_of(&end))) fail_at_end(&end, run_time(run), true);
+        }
+    }
+}

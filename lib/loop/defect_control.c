@@ -1,0 +1,101 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * Steps that are torn: at the ends and stages of a step a pulse may be asleep, and awake at a place inside at which the
+ * method looks for nothing but the interpolant that events are searched by. Then the interpolant goes astray over all of
+ * the step, and with it the search for the pulse. It does not obey the equations any more, by far: the slopes that it has
+ * are not those that they give. Implicit methods are not asked: between fast components their interpolants need not.
+ * (But those of bounces: falls_at_once.)
+ */
+#include <gsl/gsl_errno.h>
+#include <math.h>
+#include <string.h>
+
+#include "loop/run.h"
+
+/* The slopes of the interpolant at a share of the step, by differences, and those of the equations. */
+static bool take_slopes(struct run *run, double share, double h, double *slope, double *f)
+{
+    const double apart = 1e-3; /* of the step */
+    size_t size = plan_size(&run->model->plan);
+    double *above = run->work.kept, *y = above + size, t = run->step.from + share * h;
+    bool taken = switcher_dense(run->stepper, time_dd_at(t - apart * h), slope) == GSL_SUCCESS &&
+                 switcher_dense(run->stepper, time_dd_at(t + apart * h), above) == GSL_SUCCESS &&
+                 switcher_dense(run->stepper, time_dd_at(t), y) == GSL_SUCCESS &&
+                 counted_system_rhs(&run->system, t, y, f) == GSL_SUCCESS;
+    for (size_t i = 0; taken && i < size; i++) slope[i] = (above[i] - slope[i]) / (2 * apart * h);
+    return taken;
+}
+
+/* The largest rate, and state, of a kind: what is less than a rounding of it is nothing. */
+static double largest(const double *most, size_t from, size_t to)
+{
+    double size = 0;
+    for (size_t i = from; i < to; i++) size = fmax(size, most[i]);
+    return size;
+}
+
+static bool obeys(const struct run *run, double h, const double *slope, const double *f, size_t from,
+                  size_t to)
+{
+    const double far_off = 0.01, nothing = 1e-9, roundings = 4;
+    const size_t n = (size_t)run->model->plan.n;
+    const double *most = run->recent.anchor + plan_size(&run->model->plan);
+    double least = nothing * fmax(largest(most, from, to), largest(run->work.y, from, to));
+    for (size_t i = from; i < to; i++) {
+        double size = fmax(fmax(most[i], fabs(run->work.y[i])), least), off = fabs(f[i] - slope[i]);
+        /* What a coupling holds has accelerations that are rounding. */
+        if (i < 2 * n && off <= roundings * run->roundoff.accelerations[i - n]) continue;
+        if (h * off > far_off * size + far_off * h * fabs(run->work.f[i])) return false;
+    }
+    return true;
+}
+
+/* The moving functions at the start of the step, or a share of it further. */
+static bool look_at_functions(struct run *run, double share, double h)
+{
+    double *y = run->work.kept;
+    const double t = run->step.from + share * h;
+    if (share == 0)
+        memcpy(y, run->state->y, plan_size(&run->model->plan) * sizeof *y);
+    else if (switcher_dense(run->stepper, time_dd_at(t), y) != GSL_SUCCESS)
+        return false;
+    watchers_evaluate(&run->watchers, &run->watchers.moving, run->during, time_dd_at(t), y, run->work.values,
+                      run->work.values + run->watchers.moving.count);
+    return true;
+}
+
+/* The first step of a method that knows no more than ends of steps is a line, with the speed that it comes to. What has just
+ * bounced goes through its floor at once, where that is beyond the top of its flight: a flight less high than an error
+ * of the step. */
+static bool falls_at_once(struct run *run, double h)
+{
+    const double share = 1.0 / 16;
+    const struct watcher_set *set = &run->watchers.moving;
+    const double *values = run->work.values, *rates = values + set->count;
+    bool *below = run->work.crossed, any = false;
+    if (!look_at_functions(run, share, h)) return false;
+    for (size_t i = 0; i < set->count; i++)
+        any |= below[i] = set->watchers[i].kind == watch_gap && values[i] < 0;
+    if (!any || !look_at_functions(run, 0, h)) return false;
+    for (size_t i = 0; i < set->count; i++)
+        if (below[i] && rates[i] * share * h > fabs(values[i])) return true;
+    return false;
+}
+
+bool defect_is_large(struct run *run, struct time_dd end)
+{
+    const double shares[] = {0.31, 0.72};
+    size_t n = (size_t)run->model->plan.n, size = plan_size(&run->model->plan);
+    double h = time_dd_since(end, run_start(run)), *slope = run->work.aside, *f = slope + size;
+    const struct method *method = run->options.method;
+    bool meets = run->model->tree && run->model->tree->meeting_count > 0;
+    bool by_ends = method->multistep && method->implicit && run->options.step == 0;
+    if (by_ends && meets && falls_at_once(run, h)) return true;
+    bool asked = run->search.wakes && run->options.step == 0 && !structure_is_exact(run->kind);
+    if (!asked || switcher_made_implicitly(run->stepper)) return false;
+    for (size_t k = 0; k < sizeof shares / sizeof *shares; k++) {
+        if (!take_slopes(run, shares[k], h, slope, f)) return false;
+        if (!obeys(run, h, slope, f, n, 2 * n) || !obeys(run, h, slope, f, 2 * n, size)) return true;
+    }
+    return false;
+}

@@ -1,0 +1,192 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * What has happened at an event, read off the modes before and after it.
+ */
+#include "dynamics/constraint.h"
+#include "loop/run.h"
+
+/* ---- friction, and what is one-sided */
+
+void log_friction(struct run *run, fbd_event_kind kind, int pair)
+{
+    const struct mode *mode = &run->model->plan.modes[pair];
+    struct run_event *event = log_event(run, kind, mode->body, mode->load, -1);
+    if (!event) return;
+    struct instant at = state_instant(run->state);
+    double *slots = run->during->scratch;
+    state_balance_of(run->state, mode->body, slots); /* with its share of what several hold */
+    struct friction_values values = friction_at(run->model, pair, &at, slots);
+    event->force = values.force;
+    event->limit = values.limit;
+}
+
+/* What a mode was and is. */
+struct change {
+    int pair, before, after;
+    bool stopped; /* its velocity has come to zero */
+};
+
+/* What is open at no more than rounding beyond where it closes is no farther from that by the rounding of another place. */
+static double left_beyond(const struct run *run, int pair)
+{
+    const struct instant at = state_instant(run->state);
+    if (run->state->slip[pair] == stick) return 0;
+    const struct one_sided now = one_sided_at(run->model, &at, pair);
+    return now.excess > 0 && now.excess <= now.near ? now.excess : 0;
+}
+
+static void note_one_sided(struct run *run, const struct change *change)
+{
+    const struct mode *mode = &run->model->plan.modes[change->pair];
+    run->watchers.quiet[change->pair] = left_beyond(run, change->pair);
+    bool rope = run->model->tree->ties[mode->tie].law->way;
+    if (change->before == stick && change->after != stick)
+        log_event(run, rope ? FBD_EVENT_ROPE_SLACK : FBD_EVENT_LIFT_OFF, mode->body, mode->load, -1);
+    bool snapped = run->snap.pair == change->pair;
+    if (snapped) run->snap.pair = -1;
+    if (!snapped && (change->before == stick || change->after != stick)) return;
+    if (!snapped && run->end.outcome == FBD_BROKEN)
+        return; /* an impact that the run does not pass is not listed */
+    if (snapped && !isfinite(run->snap.work)) {
+        run_fail(run, FBD_FAILED,
+                 "at t = %.9g the impact at which `%s` becomes taut takes more work than numbers can tell",
+                 run_time(run), run->model->tree->ties[mode->tie].name);
+        return;
+    }
+    struct run_event *event =
+        log_event(run, rope ? FBD_EVENT_ROPE_TAUT : FBD_EVENT_LANDING, mode->body, mode->load, -1);
+    if (!event) return;
+    event->force = snapped ? -run->snap.work : 0;
+    event->impact = run->contacts.of_ties[mode->tie];
+}
+
+void log_lifts_at_start(struct run *run)
+{
+    const struct instant at = state_instant(run->state);
+    for (int pair = 0; pair < (int)run->model->plan.mode_count; pair++) {
+        const struct mode *mode = &run->model->plan.modes[pair];
+        if (mode->kind != mode_surface || run->model->tree->ties[mode->tie].meeting >= 0) continue;
+        if (run->state->slip[pair] != stick && one_sided_at(run->model, &at, pair).touches)
+            log_event(run, FBD_EVENT_LIFT_OFF, mode->body, mode->load, -1);
+    }
+}
+
+/* Friction of a contact that has just closed or opened has no event of its own. */
+static bool rubbed_throughout(const struct run *run, const struct mode *mode)
+{
+    const struct tie *tie = mode->tie < 0 ? NULL : &run->model->tree->ties[mode->tie];
+    if (!tie || tie->meeting < 0) return true;
+    return run->during->slip[tie->surface] == stick && run->state->slip[tie->surface] == stick;
+}
+
+static void note_rubbing(struct run *run, const struct change *change)
+{
+    const struct mode *mode = &run->model->plan.modes[change->pair];
+    int pair = change->pair, before = change->before, after = change->after;
+    if (!rubbed_throughout(run, mode)) return;
+    if (before == stick && after != stick) {
+        zeno_switch_log_stick(run, pair);
+        log_friction(run, FBD_EVENT_BREAKAWAY, pair);
+    }
+    if (before != stick && after == stick) {
+        if (mode->tie >= 0) tie_rezero(run->model, run->state->tree, mode->tie);
+        if (run->zeno_switches.now)
+            run->zeno_switches.sticks[pair] = true; /* at the end of the series */
+        else
+            log_friction(run, FBD_EVENT_STICK, pair);
+    }
+    if (change->stopped && after != stick && after != before) log_friction(run, FBD_EVENT_REVERSAL, pair);
+}
+
+/* By kind; a drive has no events, and those of a contact are noted by run_release_contacts. */
+static void (*const note[mode_kinds])(struct run *run,
+                                      const struct change *change) = {[mode_single] = note_rubbing,
+                                                                      [mode_joint] = note_rubbing,
+                                                                      [mode_tangent] = note_rubbing,
+                                                                      [mode_rope] = note_one_sided,
+                                                                      [mode_surface] = note_one_sided};
+
+/* What each pair has done is read off its modes before and after, whichever event was the cause. */
+static void note_frictions(struct run *run, const bool *moving)
+{
+    const struct watcher_set *set = &run->watchers.moving;
+    for (int pair = 0; pair < (int)run->model->plan.mode_count; pair++) {
+        struct change change = {pair, run->during->slip[pair], run->state->slip[pair], false};
+        for (size_t i = 0; moving && i < set->count; i++)
+            change.stopped |=
+                moving[i] && set->watchers[i].kind == watch_slip_stop && set->watchers[i].index == pair;
+        enum mode_kind kind = run->model->plan.modes[pair].kind;
+        if (note[kind]) note[kind](run, &change);
+    }
+}
+
+/* ---- switches */
+
+/* What has come to its switch and goes on as before has not passed it. */
+static void drop_touched(struct run *run, size_t first)
+{
+    size_t kept = first;
+    for (size_t i = first; i < run->log.count; i++) {
+        const struct run_event *event = &run->log.events[i];
+        bool same = event->kind == FBD_EVENT_SWITCH &&
+                    run->state->branch[event->branch] == run->during->branch[event->branch];
+        bool slid_on = same && run->state->sliding && run->state->sliding->slide_at[event->branch] > 0;
+        if (!same || slid_on) run->log.events[kept++] = *event;
+    }
+    run->log.count = kept;
+}
+
+/* The event of a slide, with the value that the force takes. */
+static void set_slide(const struct run *run, const struct kink *kink, fbd_event_kind kind,
+                      struct run_event *event)
+{
+    const struct formula *value = &run->model->loads[kink->load].value;
+    const struct instant at = state_instant(run->state);
+    if (!event) return;
+    event->kind = kind;
+    event->limit = value->expr && value->branch == kink->formula.branch;
+    if (event->limit > 0) event->force = formula_value(value, &at);
+}
+
+void log_filippov(struct run *run, const struct kink *kink, fbd_event_kind kind)
+{
+    set_slide(run, kink, kind, log_event(run, kind, kink->body, kink->load, -1));
+}
+
+/* Sliding is read off the modes before and after, too. What begins to slide has not passed to another branch,
+ * as was noted when its switch was reached: `first` is the first event of this instant. */
+static void note_slides(struct run *run, size_t first)
+{
+    const struct plan *plan = &run->model->plan;
+    for (size_t k = 0; run->state->sliding && k < plan->kink_count; k++) {
+        const struct kink *kink = &plan->kinks[k];
+        for (size_t part = 0; part < kink->count; part++) {
+            size_t branch = (size_t)kink->formula.branch + part;
+            bool before = run->during->sliding->slide_at[branch] > 0,
+                 after = run->state->sliding->slide_at[branch] > 0;
+            if (before == after) continue;
+            if (after) zeno_switch_blunt(run, (int)branch);
+            bool *waits = &run->zeno_switches.list[branch].slides; /* for the end of the series */
+            if ((run->zeno_switches.now && after) || *waits) {
+                *waits = after;
+                continue;
+            }
+            struct run_event *event = NULL;
+            for (size_t i = first; after && i < run->log.count; i++)
+                if (run->log.events[i].kind == FBD_EVENT_SWITCH && run->log.events[i].load == kink->load)
+                    event = &run->log.events[i];
+            fbd_event_kind kind = after ? FBD_EVENT_SLIDING : FBD_EVENT_SLIDING_ENDS;
+            if (event)
+                set_slide(run, kink, kind, event);
+            else
+                log_filippov(run, kink, kind);
+        }
+    }
+}
+
+void log_mode_changes(struct run *run, size_t first, const bool *moving)
+{
+    drop_touched(run, first);
+    note_slides(run, first);
+    note_frictions(run, moving);
+}

@@ -1,0 +1,298 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * The pace of an ensemble: whose turn it is, and how far the common time has come.
+ */
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "base/format.h"
+#include "loop/ensemble.h"
+
+/* ---- the queue: a binary heap with the group that is furthest behind on top */
+
+static double end_of(const struct ensemble *ensemble, size_t group)
+{
+    return ensemble->groups[group].run->state->t;
+}
+
+/* Among equals the first group comes first. */
+static bool before(const struct ensemble *ensemble, size_t a, size_t b)
+{
+    double end_a = end_of(ensemble, a), end_b = end_of(ensemble, b);
+    return end_a < end_b || (end_a == end_b && a < b);
+}
+
+/* Restore the order below place i, whose group has moved on. */
+static void sift(struct ensemble *ensemble, size_t i)
+{
+    size_t *queue = ensemble->queue, group = queue[i];
+    for (;;) {
+        size_t child = 2 * i + 1;
+        if (child >= ensemble->queued) break;
+        if (child + 1 < ensemble->queued && before(ensemble, queue[child + 1], queue[child])) child++;
+        if (!before(ensemble, queue[child], group)) break;
+        queue[i] = queue[child];
+        i = child;
+    }
+    queue[i] = group;
+}
+
+static void start(struct ensemble *ensemble, bool lazy)
+{
+    if (ensemble->started) return;
+    ensemble->started = true;
+    ensemble->lazy = lazy;
+    ensemble->calm = -HUGE_VAL;
+    for (size_t p = 0; p < ensemble->count; p++)
+        if (!(lazy && ensemble->groups[p].quiet)) ensemble->queue[ensemble->queued++] = p;
+}
+
+/* ---- steps */
+
+/* What forces do over a step is summed up from states within it; where there are none, no memory is missing.
+ */
+static void fail_within(struct ensemble *ensemble, const struct run *run)
+{
+    format_into(
+        ensemble->own_reason, sizeof ensemble->own_reason,
+        "between t = %.9g and t = %.9g the motion cannot be told: the step is a rounding of the time, or "
+        "a force has no value there",
+        run->step.from, run->state->t);
+    ensemble_fail(ensemble, FBD_FAILED, ensemble->own_reason);
+}
+
+/* One step of a group. A run that fails may have made none. */
+static void step(struct ensemble *ensemble, size_t p)
+{
+    struct run *run = ensemble->groups[p].run;
+    ensemble->stepping = true;
+    size_t events = run->log.count;
+    run_advance(run);
+    for (; events < run->log.count && run->log.events[events].t < run->state->t; events++)
+        if (run->log.events[events].t > run->step.from)
+            ensemble->next_told = fmin(ensemble->next_told, run->log.events[events].t);
+    const struct observer *observer = &ensemble->observer;
+    if (observer->step && time_dd_since(run_end(run), run_start(run)) > 0 &&
+        !observer->step(observer->context, ensemble, p))
+        fail_within(ensemble, run);
+    ensemble->stepping = false;
+    if (run->end.outcome == FBD_OUT_OF_MEMORY) ensemble_fail(ensemble, run->end.outcome, run->end.reason);
+}
+
+static bool ended_early(const struct run *run)
+{
+    return run->end.outcome != FBD_GOING && run->end.outcome != FBD_DONE;
+}
+
+static void step_top(struct ensemble *ensemble)
+{
+    step(ensemble, ensemble->queue[0]);
+    sift(ensemble, 0);
+}
+
+/* The common time is t: what happens there happens to the whole. due[0 .. count - 1] are the groups that may
+ * have something to tell. */
+static void arrive(struct ensemble *ensemble, double t, size_t count)
+{
+    ensemble->t = t;
+    ensemble->current = false;
+    ensemble_release(ensemble, count);
+    for (size_t i = 0; i < count; i++) {
+        const struct run *run = ensemble->groups[ensemble->due[i]].run;
+        if (ended_early(run) && run->state->t <= t)
+            ensemble_fail(ensemble, run->end.outcome, run->end.reason);
+    }
+    if (ensemble->outcome == FBD_GOING && t >= ensemble->options.until) ensemble->outcome = FBD_DONE;
+}
+
+/* ---- step by step */
+
+static int by_number(const void *a, const void *b)
+{
+    const size_t *first = a, *second = b;
+    return *first < *second ? -1 : *first > *second;
+}
+
+/* List the groups below place i of the queue whose last steps end at t; returns how many `due` then has. */
+static size_t list_due(struct ensemble *ensemble, size_t i, double t, size_t count)
+{
+    if (i >= ensemble->queued || end_of(ensemble, ensemble->queue[i]) > t) return count;
+    ensemble->due[count++] = ensemble->queue[i];
+    count = list_due(ensemble, 2 * i + 1, t, count);
+    return list_due(ensemble, 2 * i + 2, t, count);
+}
+
+/* Where a group has an event to tell that lies within its last step. */
+static double told_within(const struct group *group)
+{
+    const struct run *run = group->run;
+    if (group->released == run->log.count) return HUGE_VAL;
+    double t = run->log.events[group->released].t;
+    return t > run->step.from && t < run->state->t ? t : HUGE_VAL;
+}
+
+static void find_next_told(struct ensemble *ensemble)
+{
+    ensemble->next_told = HUGE_VAL;
+    for (size_t p = 0; p < ensemble->count; p++)
+        ensemble->next_told = fmin(ensemble->next_told, told_within(&ensemble->groups[p]));
+}
+
+static void arrive_all(struct ensemble *ensemble, double t)
+{
+    for (size_t p = 0; p < ensemble->count; p++) ensemble->due[p] = p;
+    arrive(ensemble, t, ensemble->count);
+}
+
+fbd_outcome ensemble_advance(struct ensemble *ensemble)
+{
+    if (ensemble->outcome != FBD_GOING) return ensemble->outcome;
+    start(ensemble, false);
+    ensemble->from = ensemble->t;
+    while (end_of(ensemble, ensemble->queue[0]) <= ensemble->from) {
+        if (ensemble->groups[ensemble->queue[0]].run->end.outcome != FBD_GOING) break;
+        step_top(ensemble);
+    }
+    double t = end_of(ensemble, ensemble->queue[0]);
+    if (ensemble->next_told < t) {
+        arrive_all(ensemble, ensemble->next_told);
+        find_next_told(ensemble);
+        return ensemble->outcome;
+    }
+    size_t count = list_due(ensemble, 0, t, 0);
+    if (count > 1) qsort(ensemble->due, count, sizeof *ensemble->due, by_number);
+    arrive(ensemble, t, count);
+    return ensemble->outcome;
+}
+
+/* ---- in one go */
+
+/* The time at which the whole has to stop for this group: an event that is still to be told, or its end, when
+ * that is an early one. */
+static double stop_of(const struct ensemble *ensemble, size_t p, bool pause)
+{
+    const struct group *group = &ensemble->groups[p];
+    bool untold = pause && group->released < group->run->log.count;
+    double within = untold ? told_within(group) : HUGE_VAL;
+    return within < HUGE_VAL || !(untold || ended_early(group->run)) ? within : group->run->state->t;
+}
+
+/* Carry the queued groups on; returns the time that can be reached. */
+static double go_queued(struct ensemble *ensemble, double target, double near, bool pause)
+{
+    double stop = HUGE_VAL;
+    for (size_t i = 0; i < ensemble->queued; i++)
+        stop = fmin(stop, stop_of(ensemble, ensemble->queue[i], pause));
+    while (ensemble->queued > 0 && ensemble->outcome == FBD_GOING && !ensemble->cut) {
+        size_t p = ensemble->queue[0];
+        if (end_of(ensemble, p) >= fmin(target, stop) || ended_early(ensemble->groups[p].run)) break;
+        step_top(ensemble);
+        stop = fmin(stop, stop_of(ensemble, p, pause));
+    }
+    if (ensemble->cut && ensemble->queued > 0) stop = fmin(stop, end_of(ensemble, ensemble->queue[0]));
+    return stop <= target + near ? stop : target;
+}
+
+/* Carry the quiet groups on; returns the time that can be reached, less than `target` when one fails or is
+ * interrupted: a stiff one may have any number of steps to make. What others have gone beyond is made again.
+ */
+static double go_quiet(struct ensemble *ensemble, double target)
+{
+    for (size_t p = 0; p < ensemble->count && ensemble->outcome == FBD_GOING; p++) {
+        const struct group *group = &ensemble->groups[p];
+        if (!group->quiet) continue;
+        bool alone = ensemble->count == 1; /* several are carried on to one time, if they can be */
+        while (group->run->end.outcome == FBD_GOING && end_of(ensemble, p) < target && !ensemble->cut)
+            step(ensemble, p);
+        if (ended_early(group->run) || alone || ensemble->cut) target = fmin(target, end_of(ensemble, p));
+    }
+    return target;
+}
+
+/* Carry a group that has gone too far to t once more. */
+static void rewind_group(struct ensemble *ensemble, size_t p, double t)
+{
+    struct group *group = &ensemble->groups[p];
+    run_free(group->run);
+    if (!ensemble_make_run(ensemble, group)) {
+        ensemble_fail(ensemble, FBD_OUT_OF_MEMORY, "out of memory");
+        return;
+    }
+    if (ensemble->observer.restart) ensemble->observer.restart(ensemble->observer.context, ensemble, p);
+    while (group->run->end.outcome == FBD_GOING && end_of(ensemble, p) < t) step(ensemble, p);
+}
+
+static void end_cut(struct ensemble *ensemble)
+{
+    format_into(ensemble->own_reason, sizeof ensemble->own_reason, "interrupted at t = %.9g", ensemble->t);
+    ensemble_fail(ensemble, FBD_INTERRUPTED, ensemble->own_reason);
+}
+
+void ensemble_interrupt(struct ensemble *ensemble)
+{
+    ensemble->cut = true;
+    if (!ensemble->stepping) end_cut(ensemble);
+}
+
+double ensemble_next_end(const struct ensemble *ensemble)
+{
+    double first = HUGE_VAL;
+    for (size_t p = 0; p < ensemble->count; p++) first = fmin(first, end_of(ensemble, p));
+    /* One that is at t has to step before its end is known. */
+    return first > ensemble->t ? first : nextafter(ensemble->t, HUGE_VAL);
+}
+
+/* Until when a group is calm: it has made a step beyond, or its last one, and has nothing to tell before. */
+static double calm_until(const struct group *group)
+{
+    const struct run *run = group->run;
+    if (ended_early(run)) return -HUGE_VAL;
+    return group->released < run->log.count ? fmin(run->state->t, run->log.events[group->released].t)
+                                            : run->state->t;
+}
+
+/* A thousand rows of a hundred thousand groups that made one step each are no reason to look at all of them a
+ * thousand times. */
+static void find_calm(struct ensemble *ensemble)
+{
+    ensemble->calm = HUGE_VAL;
+    for (size_t p = 0; p < ensemble->count; p++)
+        ensemble->calm = fmin(ensemble->calm, calm_until(&ensemble->groups[p]));
+}
+
+bool ensemble_has_reached(const struct ensemble *ensemble, double t)
+{
+    if (ensemble->started && t < ensemble->calm) return true;
+    for (size_t p = 0; p < ensemble->count; p++)
+        if (end_of(ensemble, p) < t) return false;
+    return true;
+}
+
+/* Carry every group that is behind to t, the target or what is before it. */
+static void go(struct ensemble *ensemble, double target, double near, bool pause)
+{
+    double queued = go_queued(ensemble, target, near, pause);
+    double t = ensemble->queued < ensemble->count ? go_quiet(ensemble, queued) : queued;
+    if (ensemble->outcome != FBD_GOING) return; /* memory is out */
+    for (size_t p = 0; p < ensemble->count; p++) {
+        if (ensemble->groups[p].run->step.from > t) rewind_group(ensemble, p, t);
+        if (ensemble->outcome != FBD_GOING) return;
+    }
+    ensemble->from = t;
+    arrive_all(ensemble, t);
+    find_calm(ensemble);
+}
+
+fbd_outcome ensemble_go(struct ensemble *ensemble, double target, double near, bool pause)
+{
+    if (ensemble->outcome != FBD_GOING) return ensemble->outcome;
+    start(ensemble, true);
+    target = fmin(target, ensemble->options.until);
+    if (target + near < ensemble->calm && !ensemble->cut) {
+        ensemble->from = target;
+        arrive(ensemble, target, 0);
+    } else
+        go(ensemble, target, near, pause);
+    if (ensemble->cut && ensemble->outcome == FBD_GOING) end_cut(ensemble);
+    return ensemble->outcome;
+}

@@ -1,0 +1,405 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * Bounces without end: when they are too low to be seen the series is summed up, and what bounces rests.
+ */
+#include <float.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "dynamics/contact.h"
+#include "dynamics/energy.h"
+#include "dynamics/impulse.h"
+#include "dynamics/tree_system.h"
+#include "loop/contacts.h"
+#include "loop/run.h"
+#include "numeric/lu.h"
+
+/* Speeds after an impact below this share of those before it are rounding. */
+static const double leaving_rounding = 1e-9;
+
+static const struct tree *tree_of(const struct run *run)
+{
+    return run->model->tree;
+}
+
+/* The gap's acceleration where only the surfaces that stay closed act: neither those that the impact just now has given a
+ * speed away - a box that falls flat bounces on all its corners, and one of a row may leave the next as well - nor its own;
+ * by a trial of the modes as they are. */
+static double acceleration_of(struct run *run, int tie, int feature)
+{
+    const struct contacts_work *work = &run->contacts;
+    struct fbd_state *state = work->trial;
+    const struct tree *tree = tree_of(run);
+    state_copy(state, run->state);
+    tie_set_feature(run->model, state->tree, tie, feature);
+    state->slip[tree->ties[tie].surface] = slip_plus;
+    for (int i = 0; i < work->struck; i++) {
+        const struct striker *striker = &work->strikers[i];
+        bool leaves = striker->contact && contacts_part(run, i);
+        if (leaves) state->slip[tree->ties[striker->tie].surface] = slip_plus;
+    }
+    for (int k = 0; k < work->twin_count; k++) {
+        int own = work->twins[k].tie, point = work->twins[k].point;
+        bool leaves = work->strikers[point].tie == tie || contacts_part(run, point);
+        if (leaves) state->slip[tree->ties[own].surface] = slip_plus;
+    }
+    state_evaluate(state);
+    return state->tree->rows[tree_of(run)->ties[tie].first_row].g.x2;
+}
+
+/* Is the restitution of a meeting the same at all speeds? */
+static bool has_constant_restitution(const struct run *run, int meeting)
+{
+    int index = tree_of(run)->meetings[meeting].constraint;
+    const struct expr *expr = run->model->scene->constraints[index].contact.restitution.expr;
+    return !expr || expr_is_constant(expr);
+}
+
+/* The sum of the intervals that are still to come after an impact from which the surface is left with v at
+ * the acceleration -a: 2 v / a, and so on with e v. */
+static double sum_of_bounces(struct run *run, int meeting, double v, double a)
+{
+    enum { most_terms = 1000000 };
+    double sum = 0;
+    for (int k = 0; k < most_terms; k++) {
+        double interval = 2 * v / a, e = contacts_restitution(run, meeting, v);
+        if (e < 0) return NAN;
+        if (has_constant_restitution(run, meeting)) return interval / (1 - e);
+        sum += interval;
+        if (interval <= DBL_EPSILON * sum) return sum;
+        v *= e;
+    }
+    return HUGE_VAL;
+}
+
+/* The sum of intervals of which the last four impacts show two, from corner to corner and back, and their
+ * ratio. */
+static double sum_of_rocking(const struct bounces *bounces)
+{
+    if (bounces->count < 4) return HUGE_VAL;
+    const double *t = bounces->t;
+    double last = t[0] - t[1], before = t[1] - t[2], first = t[2] - t[3];
+    double ratio = last / first;
+    return ratio > 0 && ratio < 1 ? ratio * (last + before) / (1 - ratio) : HUGE_VAL;
+}
+
+/* What is left of bounces of one point, by their last intervals: where accelerations change on the way, as others slip and
+ * stick at each bounce, no one of them tells it. */
+static double sum_of_intervals(const struct bounces *bounces)
+{
+    if (bounces->count < 4) return HUGE_VAL;
+    const double *t = bounces->t;
+    double last = t[0] - t[1], before = t[1] - t[2], first = t[2] - t[3];
+    return last < before && before < first ? last * last / (before - last) : HUGE_VAL;
+}
+
+/* Bounces that nobody sees and that do not come to an end: what slips and sticks at each of them, or after a plastic one,
+ * may throw the point up again by as much (chatter, and reverse chatter, of Nordmark, Dankowicz and Champneys, IMA Journal of Applied Mathematics
+ * 76, 2011). Their heights are below the rounding of places, and rest is a motion, too: after so many, at rest. Of an
+ * impact that leaves nothing, plastic ones for example, the speed that it took tells what is to be seen: those of a disc
+ * that comes and goes are far apart, and no series. */
+enum { many = 20 };
+
+static bool is_crowd(struct bounces *bounces, double speed, double unseen)
+{
+    double interval = bounces->t[0] - bounces->t[1];
+    bool seen = bounces->count < 2 || speed * interval > unseen;
+    bounces->unseen = seen ? 0 : bounces->unseen + 1;
+    return bounces->unseen >= many;
+}
+
+/* What is left of rocking that has struck plastically: the series of the last impacts where they are one, and else the one
+ * hop that is low, `next`. */
+static double sum_of_plastic_rocking(const struct bounces *bounces, double next, bool nothing)
+{
+    const double alike = 0.01; /* accelerations change that little from hop to hop of a series that is low */
+    const double *t = bounces->t;
+    if (bounces->count < 5) return nothing ? next : HUGE_VAL; /* it is known when there have been five */
+    double ratio = (t[0] - t[1]) / (t[2] - t[3]), before = (t[1] - t[2]) / (t[3] - t[4]);
+    double all = sum_of_rocking(bounces);
+    return fabs(ratio - before) <= alike * before ? all : fmin(all, next);
+}
+
+static void remember(struct bounces *bounces, double t, int feature)
+{
+    for (int k = 4; k > 0; k--) bounces->t[k] = bounces->t[k - 1];
+    bounces->t[0] = t;
+    bounces->feature = feature;
+    bounces->count++;
+}
+
+/* The largest speed with which a meeting's features open after an impact. */
+static double leaving_speed(const struct run *run, int meeting, int count)
+{
+    const double *v = run->contacts.v;
+    double most = 0;
+    for (int i = 0; i < count; i++, v += 2)
+        if (tree_of(run)->ties[run->contacts.strikers[i].tie].meeting == meeting) most = fmax(most, *v);
+    return most;
+}
+
+/* ---- ropes that are let go by what strikes a surface, and throw it up again when they get taut */
+
+/* The largest speed with which ropes, and surfaces of what does not bounce, are let go by the last impact. */
+static double slackening_speed(const struct run *run, int count)
+{
+    const struct contacts_work *work = &run->contacts;
+    double most = 0;
+    for (int i = 0; i < count; i++)
+        if (!work->strikers[i].contact) most = fmax(most, work->v[(ptrdiff_t)2 * i]);
+    return most;
+}
+
+static void note_return(struct bounces *bounces, double t)
+{
+    enum { most = sizeof bounces->returned / sizeof bounces->returned[0] };
+    for (int k = most - 1; k > 0; k--) bounces->returned[k] = bounces->returned[k - 1];
+    bounces->returned[0] = t;
+    if (bounces->returns < most) bounces->returns++;
+}
+
+/* The end of a geometric series that has come to t[2], t[1], t[0]; HUGE_VAL where it has none. */
+static double end_of_three(const double t[3])
+{
+    double last = t[0] - t[1], ratio = last / (t[1] - t[2]);
+    return ratio > 0 && ratio < 1 ? t[0] + ratio * last / (1 - ratio) : HUGE_VAL;
+}
+
+/* When returns that follow each other ever faster come to their end. The last intervals are short against the rounding
+ * of places over speeds, the first ones not yet geometric where accelerations change on the way: so it is the end that
+ * three returns and those one before agree on best. */
+static double end_of_returns(const struct bounces *bounces)
+{
+    double best = HUGE_VAL, apart = HUGE_VAL;
+    for (int k = 0; k + 4 <= bounces->returns; k++) {
+        double end = end_of_three(bounces->returned + k), before = end_of_three(bounces->returned + k + 1);
+        if (!(fabs(end - before) < apart) || end < bounces->returned[0]) continue;
+        apart = fabs(end - before);
+        best = end;
+    }
+    return best;
+}
+
+/* In a crowd ropes are kept as well that are let go by no more than nobody sees. */
+static void keep_ropes(struct run *run, const struct bounces *bounces, double unseen, int count)
+{
+    struct contacts_work *work = &run->contacts;
+    double interval = bounces->t[0] - bounces->t[1];
+    for (int i = 0; i < count; i++)
+        work->strikers[i].stays |=
+            !work->strikers[i].contact && work->v[(ptrdiff_t)2 * i] * interval <= unseen;
+}
+
+/* The end of such a series, once ropes are let go by no more than nobody sees; they are kept then. */
+static double end_of_tugs(struct run *run, const struct bounces *bounces, double unseen, int count)
+{
+    double leaving = slackening_speed(run, count), end = end_of_returns(bounces);
+    if (leaving == 0 || leaving * (bounces->returned[0] - bounces->returned[1]) > unseen) return HUGE_VAL;
+    for (int i = 0; i < count && end < HUGE_VAL; i++)
+        run->contacts.strikers[i].stays = !run->contacts.strikers[i].contact;
+    return end;
+}
+
+/* Does any contact open by the impact of striker i, by more than rounding? */
+static bool any_leaves(const struct run *run, int i, int count)
+{
+    const struct contacts_work *work = &run->contacts;
+    const double *v = work->v;
+    for (int k = 0; k < count; k++, v += 2)
+        if (work->strikers[k].contact && *v > -leaving_rounding * work->strikers[i].v_n) return true;
+    return false;
+}
+
+/* Does any contact open by the impact for no more than a bounce that nobody sees? What parts as slowly, and does not come
+ * back, does not. */
+static bool any_hops(struct run *run, int count)
+{
+    const struct contacts_work *work = &run->contacts;
+    for (int i = 0; i < count; i++) {
+        const struct striker *striker = &work->strikers[i];
+        if (!striker->contact || !contacts_part(run, i)) continue;
+        double v = work->v[(ptrdiff_t)2 * i],
+               a = -acceleration_of(run, striker->tie, run->state->tree->ties[striker->tie].feature),
+               unseen = contacts_low *
+                        meeting_near(run->model, run->state->tree, tree_of(run)->ties[striker->tie].meeting);
+        if (a > 0 && v * v <= 2 * a * unseen) return true;
+    }
+    return false;
+}
+
+/* The impacts of striker i's meeting: do they end soon, in bounces that nobody sees? Then when. */
+static double end_of_series(struct run *run, int i, int count)
+{
+    const struct contacts_work *work = &run->contacts;
+    const struct striker *striker = &work->strikers[i];
+    int index = tree_of(run)->ties[striker->tie].meeting,
+        feature = run->state->tree->ties[striker->tie].feature;
+    struct bounces *bounces = &run->contacts.bounces[index];
+    double v = work->v[(ptrdiff_t)2 * i], leaving = leaving_speed(run, index, count),
+           unseen = contacts_low * meeting_near(run->model, run->state->tree, index);
+    bool same = bounces->feature == feature && bounces->count > 0;
+    if (bounces->is_closed) note_return(bounces, run->state->t);
+    remember(bounces, run->state->t, feature);
+    bounces->is_closed = !any_leaves(run, i, count);
+    bool stops = bounces->is_closed || leaving <= -leaving_rounding * striker->v_n;
+    bool crowd = is_crowd(bounces, stops ? -striker->v_n : leaving, unseen);
+    if (bounces->is_closed && !crowd) return end_of_tugs(run, bounces, unseen, count);
+    double a = -acceleration_of(run, striker->tie, feature), left = HUGE_VAL;
+    bool low = a > 0 && leaving * leaving <= 2 * a * unseen;
+    bounces->slow = a > 0 ? sqrt(2 * a * unseen) : leaving;
+    if (bounces->is_closed) return run->state->t; /* in a crowd */
+    if (!low && bounces->unseen < 3) return HUGE_VAL;
+    if (leaving == 0 && !any_hops(run, count)) return HUGE_VAL; /* it rests, and others part */
+    if (same && v > 0) {
+        left = low ? sum_of_bounces(run, index, v, a) : sum_of_intervals(bounces);
+    } else if (low && !(v > 0)) {
+        bool nothing = contacts_low * leaving * leaving <= 2 * a * unseen;
+        left = sum_of_plastic_rocking(bounces, 2 * leaving / a, nothing);
+    } else {
+        left = sum_of_rocking(bounces);
+        if (low) left = fmin(left, sum_of_bounces(run, index, v, a));
+    }
+    if (crowd && !(left < HUGE_VAL)) left = 0;
+    if (crowd) keep_ropes(run, bounces, unseen, count);
+    double tugs = end_of_tugs(run, bounces, unseen, count);
+    return tugs < HUGE_VAL ? tugs : run->state->t + left;
+}
+
+/* Close the meeting for good, as its bounces do in the end; its event comes with that end. */
+bool zeno_end_bounces(struct run *run, int count)
+{
+    bool ended = false;
+    run->contacts.struck = count;
+    for (int i = 0; i < count; i++) {
+        const struct striker *striker = &run->contacts.strikers[i];
+        if (!striker->contact || striker->v_n >= 0) continue;
+        int index = tree_of(run)->ties[striker->tie].meeting;
+        const struct bounces *bounces = &run->contacts.bounces[index];
+        if (bounces->count > 0 && bounces->t[0] == run->state->t)
+            continue; /* another corner of the same shapes */
+        double end = end_of_series(run, i, count);
+        if (!(end < HUGE_VAL)) continue;
+        run->contacts.bounces[index].rests_from = end;
+        ended = true;
+    }
+    if (!ended || zeno_rest_is_harmless(run, count)) return ended;
+    for (int i = 0; i < count; i++) {
+        const struct striker *striker = &run->contacts.strikers[i];
+        if (striker->contact && striker->v_n < 0)
+            run->contacts.bounces[tree_of(run)->ties[striker->tie].meeting].rests_from = HUGE_VAL;
+    }
+    return false;
+}
+
+/* Friction -mu p sign(v_t) of what slips; what sticks does so by another row. */
+static double rubbing(const struct contacts_work *work, int i)
+{
+    if (!work->strikers[i].rubs) return 0;
+    double v_t = work->v[(ptrdiff_t)2 * i + 1];
+    return v_t > 0 ? -work->points[i].mu : v_t < 0 ? work->points[i].mu : 0;
+}
+
+static bool leaves_for_the_last_time(const struct run *run, int i)
+{
+    const struct contacts_work *work = &run->contacts;
+    if (!work->strikers[i].contact) return work->strikers[i].stays; /* also with those that are not let go */
+    if (!(work->v[(ptrdiff_t)2 * i] > 0)) return false;
+    return work->bounces[tree_of(run)->ties[work->strikers[i].tie].meeting].rests_from < HUGE_VAL;
+}
+
+void zeno_remove_separation(struct run *run, int count)
+{
+    struct contacts_work *work = &run->contacts;
+    size_t n = (size_t)run->model->plan.n, size = 0, all = 2 * (size_t)count + (size_t)work->slide_count;
+    size_t *which = calloc(2 * (size_t)count + 1, sizeof *which), *pivot = which ? which + count : NULL;
+    for (int i = 0; which && i < count; i++)
+        if (leaves_for_the_last_time(run, i)) which[size++] = (size_t)i;
+    double *A = size > 0 ? calloc(size * size + size, sizeof *A) : NULL, *P = A ? A + size * size : NULL;
+    for (size_t i = 0; A && i < size; i++) {
+        const double *row = work->W + 2 * which[i] * all;
+        P[i] = -work->v[2 * which[i]];
+        for (size_t j = 0; j < size; j++)
+            A[i * size + j] = row[2 * which[j]] + rubbing(work, (int)which[j]) * row[2 * which[j] + 1];
+    }
+    if (A && lu_decompose(size, A, pivot)) {
+        lu_solve(size, A, pivot, P);
+        for (size_t i = 0; i < size; i++) {
+            const double *answer = work->answers + 2 * which[i] * n;
+            double f = rubbing(work, (int)which[i]), sign = work->strikers[which[i]].rope ? -1 : 1;
+            for (size_t k = 0; k < n; k++)
+                run->state->y[n + k] += P[i] * (sign * answer[k] + f * answer[n + k]);
+        }
+    }
+    if (!which || (size > 0 && !A)) run_fail(run, FBD_OUT_OF_MEMORY, "out of memory");
+    free(A);
+    free(which);
+}
+
+/* Within what nobody sees whether it is let go. */
+static double unseen_of(const struct run *run, const struct striker *striker)
+{
+    const double nobody_sees = 1e-9; /* of a rope */
+    const struct instant at = state_instant(run->state);
+    if (striker->rope) return nobody_sees * run->state->tree->ties[striker->tie].zero;
+    return one_sided_at(run->model, &at, tree_of(run)->ties[striker->tie].surface).near;
+}
+
+/* Do ropes get taut ever faster, in turn? Compared over two of them, as intervals alternate. */
+static bool hurries(const struct bounces *tugs)
+{
+    const double *t = tugs->returned;
+    return tugs->returns >= 5 && t[0] - t[2] < t[2] - t[4];
+}
+
+void zeno_end_rope_impacts(struct run *run, int count)
+{
+    struct contacts_work *work = &run->contacts;
+    double leaving = slackening_speed(run, count), unseen = HUGE_VAL;
+    const double *t = work->tugs.returned;
+    double speed = 0;
+    note_return(&work->tugs, run->state->t);
+    remember(&work->tugs, run->state->t, 0);
+    for (int i = 0; i < count; i++)
+        if (!work->strikers[i].contact) unseen = fmin(unseen, unseen_of(run, &work->strikers[i]));
+    for (int i = 0; i < count; i++) speed = fmax(speed, -work->strikers[i].v_n);
+    is_crowd(&work->tugs, speed, unseen);
+    if (leaving == 0 || !hurries(&work->tugs) || leaving * (t[0] - t[2]) > unseen) return;
+    double before = jointed_kinetic_energy(run->state);
+    for (int i = 0; i < count; i++) work->strikers[i].stays = !work->strikers[i].contact;
+    zeno_remove_separation(run, count);
+    run->impact_work[tree_of(run)->ties[work->strikers[0].tie].load] +=
+        jointed_kinetic_energy(run->state) - before;
+}
+
+double zeno_rope_limit(const struct run *run)
+{
+    const struct bounces *tugs = &run->contacts.tugs;
+    return tugs->unseen >= many ? tugs->t[0] - tugs->t[1] : 0;
+}
+
+/* ---- their end */
+
+double zeno_next_rest(const struct run *run)
+{
+    double next = HUGE_VAL;
+    int count = tree_of(run) ? tree_of(run)->meeting_count : 0;
+    for (int i = 0; i < count; i++) next = fmin(next, run->contacts.bounces[i].rests_from);
+    return next;
+}
+
+void log_rests(struct run *run)
+{
+    const struct tree *tree = tree_of(run);
+    int count = tree ? tree->meeting_count : 0;
+    for (int i = 0; i < count; i++) {
+        struct bounces *bounces = &run->contacts.bounces[i];
+        if (bounces->rests_from > run->state->t) continue;
+        const struct tie *tie = &tree->ties[tree->meetings[i].first_tie];
+        struct run_event *event = log_event(run, FBD_EVENT_REST, tie->end[0].body, tie->load, -1);
+        if (event) event->limit = bounces->count;
+        bounces->count = bounces->unseen = 0;
+        bounces->feature = -1;
+        bounces->rests_from = HUGE_VAL;
+        bounces->is_closed = true;
+    }
+}

@@ -1,0 +1,320 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * What bounces too low to be seen is put down on its surface.
+ */
+#include <string.h>
+
+#include "dynamics/contact.h"
+#include "dynamics/energy.h"
+#include "dynamics/impulse.h"
+#include "dynamics/project.h"
+#include "dynamics/tree_system.h"
+#include "loop/contacts.h"
+#include "loop/energy_guard.h"
+#include "loop/run.h"
+
+/* Within what a corner is about to come down; and what that moves of others, which are farther from where it turns. */
+static const double wide = 2 * contacts_low, levers = 8;
+
+static const struct tree *tree_of(const struct run *run)
+{
+    return run->model->tree;
+}
+
+/* A meeting whose series is summed up. */
+static int last_at_rest(const struct run *run)
+{
+    int last = 0;
+    for (int i = 0; i < tree_of(run)->meeting_count; i++)
+        if (run->contacts.bounces[i].rests_from < HUGE_VAL) last = i;
+    return last;
+}
+
+/* The largest speed that is lost, of those whose series are summed up. */
+static double slow_speed(const struct run *run)
+{
+    double slow = 0;
+    for (int i = 0; i < tree_of(run)->meeting_count; i++) {
+        const struct bounces *bounces = &run->contacts.bounces[i];
+        if (bounces->rests_from < HUGE_VAL) slow = fmax(slow, bounces->slow);
+    }
+    return slow;
+}
+
+/* What parts faster than by what is lost goes on to do so: it only touches still. */
+static void let_part(struct run *run, double slow)
+{
+    const struct tree *tree = tree_of(run);
+    struct fbd_state *state = run->state;
+    for (int i = 0; i < tree->tie_count; i++) {
+        const struct tie *tie = &tree->ties[i];
+        if (tie->kind != constraint_contact || state->tree->ties[i].feature == no_feature) continue;
+        if (state->tree->rows[tie->first_row].g.x1 <= slow) continue;
+        state->tree->ties[i].feature = no_feature;
+        state->slip[tie->surface] = slip_plus;
+    }
+}
+
+/* A slip that friction ends within what counts as the same place, as the impacts that are left would. */
+static bool stops_at_once(const struct run *run, int index, double slow)
+{
+    const struct tie *tie = &tree_of(run)->ties[index];
+    const struct instant at = state_instant(run->state);
+    if (run->state->tree->ties[index].feature == no_feature) return false;
+    double mu = formula_value(&run->model->plan.modes[tie->pair].mu_k, &at);
+    double v_t = run->state->tree->rows[tie->first_row + 1].g.x1;
+    return v_t * v_t <= fmin(mu, 1) * slow * slow;
+}
+
+/* The largest change of speed of a shape from one state to the other. */
+static double speed_between(const struct run *run, const struct tree_work *before,
+                            const struct tree_work *after)
+{
+    const struct tree *tree = tree_of(run);
+    double most = 0;
+    for (int i = 0; i < tree->meeting_count; i++)
+        for (int k = 0; k < 2; k++) {
+            const struct contact_shape *shape = &tree->meetings[i].shape[k];
+            const struct tree_state *a = &before->links[shape->link], *b = &after->links[shape->link];
+            double turning = fabs(b->omega - a->omega) * shape->radius;
+            most = fmax(most, vec_norm(vec_sub(b->v, a->v)) + turning);
+        }
+    return most;
+}
+
+/* Does striker i belong to a series that is summed up, and leave slowly? */
+static bool is_summed_up(const struct run *run, int i, double slow)
+{
+    const struct contacts_work *work = &run->contacts;
+    const struct striker *striker = &work->strikers[i];
+    return striker->contact &&
+           work->bounces[tree_of(run)->ties[striker->tie].meeting].rests_from < HUGE_VAL &&
+           work->v[(ptrdiff_t)2 * i] <= slow;
+}
+
+/* The state after an impact, with what is summed up closed without friction, and what parts open. */
+static void try_to_close(struct run *run, int count, double slow, struct fbd_state *state)
+{
+    const struct contacts_work *work = &run->contacts;
+    const struct tree *tree = tree_of(run);
+    state_copy(state, run->state);
+    for (int i = 0; i < count; i++) {
+        const struct striker *striker = &work->strikers[i];
+        const struct tie *tie = &tree->ties[striker->tie];
+        bool parts = contacts_part(run, i) && !striker->stays && !is_summed_up(run, i, slow);
+        if (parts) state->slip[striker->rope ? tie->pair : tie->surface] = slip_plus;
+        if (striker->contact && tie->pair >= 0) state->slip[tie->pair] = slip_plus;
+    }
+    for (int k = 0; k < work->twin_count; k++) {
+        const struct tie *own = &tree->ties[work->twins[k].tie],
+                         *point = &tree->ties[work->strikers[work->twins[k].point].tie];
+        state->slip[own->surface] = state->slip[point->surface];
+        if (own->pair >= 0) state->slip[own->pair] = slip_plus;
+    }
+    state_project_velocity(state, false);
+    impulse_look(state);
+}
+
+/* Points that are close together leave slowly while their body turns fast: a hop too low to be seen at them is seen
+ * elsewhere. A trial shows it: it changes speeds by much, or does not even bring the points to rest. */
+bool zeno_rest_is_harmless(struct run *run, int count)
+{
+    const double resolved = 0.1; /* of the speed with which they leave */
+    const struct tree *tree = tree_of(run);
+    struct fbd_state *state = run->contacts.trial;
+    double slow = slow_speed(run), leaving = 0, left = 0;
+    for (int i = 0; i < count; i++)
+        if (is_summed_up(run, i, slow)) leaving = fmax(leaving, run->contacts.v[(ptrdiff_t)2 * i]);
+    if (leaving == 0) return true; /* they rest */
+    try_to_close(run, count, slow, state);
+    for (int i = 0; i < count; i++) {
+        const struct row *row = &state->tree->rows[tree->ties[run->contacts.strikers[i].tie].first_row];
+        if (is_summed_up(run, i, slow)) left = fmax(left, fabs(row->g.x1));
+    }
+    if (left > resolved * leaving) return false;
+    return speed_between(run, run->state->tree, state->tree) <= levers * fmax(slow, levers * leaving);
+}
+
+/* The longest way that shapes have gone since the look before. */
+static double way_since(const struct run *run, const struct tree_work *before)
+{
+    const struct tree *tree = tree_of(run);
+    double way = 0;
+    for (int i = 0; i < tree->meeting_count; i++)
+        for (int k = 0; k < 2; k++) {
+            const struct contact_shape *shape = &tree->meetings[i].shape[k];
+            const struct tree_state *a = &before->links[shape->link],
+                                    *b = &run->state->tree->links[shape->link];
+            double turned = fabs(b->angle - a->angle) * shape->radius;
+            way = fmax(way, vec_norm(vec_sub(b->p, a->p)) + turned);
+        }
+    return way;
+}
+
+/* Is anything that touches deeper than what counts as touching? */
+static bool is_deep(const struct run *run)
+{
+    const struct tree *tree = tree_of(run);
+    bool deep = false;
+    for (int i = 0; i < tree->tie_count; i++) {
+        const struct tie *tie = &tree->ties[i];
+        if (tie->kind != constraint_contact || run->state->slip[tie->surface] != stick) continue;
+        deep |= run->state->tree->rows[tie->first_row].g.x <
+                -meeting_near(run->model, run->state->tree, tie->meeting);
+    }
+    return deep;
+}
+
+/* Where what sticks does not let all that touches lie on what it touches, it goes along its surface by as little: its place
+ * there is no better known. */
+static void move_along(struct run *run)
+{
+    const struct tree *tree = tree_of(run);
+    struct fbd_state *state = run->state;
+    bool *moves = run->contacts.moves;
+    for (int i = 0; i < tree->tie_count; i++) {
+        const struct tie *tie = &tree->ties[i];
+        moves[i] = tie->kind == constraint_contact && tie->pair >= 0 && state->slip[tie->surface] == stick &&
+                   state->slip[tie->pair] == stick;
+        if (moves[i]) state->slip[tie->pair] = slip_plus;
+    }
+    state_project_position(state);
+    impulse_look(state);
+    for (int i = 0; i < tree->tie_count; i++) {
+        if (!moves[i]) continue;
+        tie_rezero(run->model, state->tree, i);
+        state->slip[tree->ties[i].pair] = stick;
+    }
+}
+
+/* Move shapes onto what they touch, and their speeds with `all`. False, with the state as it was, when that takes any of
+ * them far, as what leans flat against something while the feet of both stick. */
+static bool move_a_little(struct run *run, bool all)
+{
+    struct fbd_state *state = run->state, *before = run->contacts.trial;
+    double near = 0;
+    for (int i = 0; i < tree_of(run)->meeting_count; i++)
+        near = fmax(near, meeting_near(run->model, state->tree, i));
+    state_copy(before, state);
+    impulse_look(before);
+    state_project_position(state);
+    impulse_look(state);
+    if (is_deep(run)) move_along(run);
+    if (all) state_project_velocity(state, false);
+    impulse_look(state);
+    bool little = way_since(run, before->tree) <= levers * wide * near;
+    if (!little) {
+        state_copy(state, before);
+        impulse_look(state);
+    }
+    return little;
+}
+
+/* Open what did not touch before. */
+static void open_others(struct run *run, const bool *was_touching)
+{
+    const struct tree *tree = tree_of(run);
+    struct fbd_state *state = run->state;
+    for (int i = 0; i < tree->tie_count; i++) {
+        if (was_touching[i] || state->tree->ties[i].feature == no_feature) continue;
+        state->tree->ties[i].feature = no_feature;
+        state->slip[tree->ties[i].surface] = slip_plus;
+    }
+}
+
+/* Close what touches; of meetings whose series is summed up within a share of what counts as touching. */
+static void close_within(struct run *run, double share)
+{
+    const struct tree *tree = tree_of(run);
+    const struct contacts_work *work = &run->contacts;
+    for (int i = 0; i < tree->meeting_count; i++) {
+        double near = meeting_near(run->model, run->state->tree, i);
+        contacts_find_touching(run, i, work->bounces[i].rests_from < HUGE_VAL ? share * near : near);
+    }
+    impulse_look(run->state);
+    double slow = slow_speed(run);
+    let_part(run, slow);
+    for (int i = 0; i < tree->tie_count; i++) {
+        const struct tie *tie = &tree->ties[i];
+        if (tie->kind != constraint_contact || tie->pair < 0) continue;
+        /* What comes down now holds nothing along its surface; what has stuck sticks. */
+        if (!work->touching[i]) run->state->slip[tie->pair] = slip_plus;
+        if (run->state->slip[tie->pair] == stick || !stops_at_once(run, i, slow)) continue;
+        tie_rezero(run->model, run->state->tree, i);
+        run->state->slip[tie->pair] = stick;
+    }
+}
+
+/* The potential energy of a move onto a surface goes into the work of that contact's impacts. */
+static void book_place(struct run *run, int meeting, double before)
+{
+    const struct tree *tree = tree_of(run);
+    double change = energy_of_place(run) - before;
+    run->impact_work[tree->ties[tree->meetings[meeting].first_tie].load] += change;
+    run->energy.lowered += change;
+}
+
+/* What bounces too low to be seen is put on its surface, and its speed from there taken away: what is left of
+ * the series does the same, and its impulses are those of the weight in that time. */
+int zeno_rest(struct run *run, int strikers)
+{
+    const struct tree *tree = tree_of(run);
+    struct contacts_work *work = &run->contacts;
+    bool *was_touching = work->touching;
+    double before = jointed_kinetic_energy(run->state), above = energy_of_place(run);
+    zeno_remove_separation(run, strikers);
+    for (int i = 0; i < tree->tie_count; i++)
+        was_touching[i] = run->state->tree->ties[i].feature != no_feature;
+    close_within(run, wide);
+    if (!move_a_little(run, true)) {
+        open_others(run, was_touching); /* what is farther comes down by itself, later */
+        close_within(run, 1);
+        if (!move_a_little(run, true)) state_project_velocity(run->state, false);
+    }
+    impulse_look(run->state);
+    int count = contacts_find_strikers(run), last = last_at_rest(run);
+    run->impact_work[tree->ties[tree->meetings[last].first_tie].load] +=
+        jointed_kinetic_energy(run->state) - before;
+    book_place(run, last, above);
+    for (int i = 0; i < count; i++) {
+        double *v = work->v + (ptrdiff_t)2 * i;
+        v[0] = 0;
+        v[1] = work->strikers[i].v_t;
+    }
+    return count;
+}
+
+/* Have the features that touch of what is deeper than touching, by no more than what is put down moves others. The last
+ * of these contacts, or -1. */
+static int find_deep(struct run *run)
+{
+    struct fbd_state *state = run->state;
+    const struct instant at = state_instant(state);
+    int last = -1;
+    for (int i = 0; i < tree_of(run)->meeting_count; i++) {
+        double near = meeting_near(run->model, state->tree, i), deep = meeting_depth(run->model, &at, i);
+        if (!(deep > near && deep < levers * wide * near)) continue;
+        contacts_find_touching(run, i, fmax(wide * near, 1.001 * deep));
+        last = i;
+    }
+    return last;
+}
+
+/* What is lifted out may be moved into others, which are lifted out with it. */
+bool zeno_lift_others(struct run *run)
+{
+    enum { most_rounds = 8 };
+    const struct tree *tree = tree_of(run);
+    bool *was_touching = run->contacts.touching, any = false;
+    for (int i = 0; i < tree->tie_count; i++)
+        was_touching[i] = run->state->tree->ties[i].feature != no_feature;
+    for (int round = 0; round < most_rounds; round++) {
+        int deep = find_deep(run);
+        double below = deep >= 0 ? energy_of_place(run) : 0;
+        if (deep < 0 || !move_a_little(run, false)) break;
+        book_place(run, deep, below);
+        any = true;
+    }
+    open_others(run, was_touching);
+    return any;
+}

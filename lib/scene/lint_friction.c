@@ -1,0 +1,111 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * Warnings of surfaces: of a line of which no side is up, and of one that nothing presses on, where friction is zero.
+ */
+#include "scene/reader.h"
+#include "scene/start_angle.h"
+
+/* Does a force act across a slide in the direction `along`, as far as can be told? */
+static bool acts_across(const struct scene *scene, const struct load *load, double along)
+{
+    const struct law *law = load_law(load);
+    return law->across && law->across(load, scene->gravity, along);
+}
+
+static const struct load *normal_of(const struct body *body)
+{
+    for (size_t i = 0; i < body->load_count; i++)
+        if (body->loads[i].kind == load_normal && !body->loads[i].two_sided) return &body->loads[i];
+    return NULL;
+}
+
+/* Does a slide move along the lines of all bodies that carry it? Then none of them presses on it. */
+static bool is_carried_along(const struct scene *scene, size_t b)
+{
+    const double parallel = 1e-12;
+    const struct motion *motion = &scene->bodies[b].motion;
+    double turned = 0; /* its line, from that of the carrier */
+    if (motion->kind != motion_slide) return false;
+    while (motion->parent != ground_body) {
+        turned += motion->along;
+        motion = &scene->bodies[motion->parent].motion;
+        if (motion->kind == motion_weld) continue;
+        if (motion->kind != motion_slide || fabs(sin(turned)) > parallel) return false;
+    }
+    return true;
+}
+
+/* Mark the bodies that others may press on their surface: their parent moves across it, they carry one, or they are
+ * joined. */
+static void mark_joined(const struct scene *scene, bool *joined)
+{
+    for (size_t b = 0; b < scene->body_count; b++) {
+        int parent = scene->bodies[b].motion.parent;
+        if (parent == ground_body) continue;
+        joined[parent] = true;
+        if (!is_carried_along(scene, b)) joined[b] = true;
+    }
+    for (size_t c = 0; c < scene->coupling_count; c++)
+        for (int end = 0; end < 2; end++)
+            if (scene->couplings[c].body[end] >= 0) joined[scene->couplings[c].body[end]] = true;
+    for (size_t c = 0; c < scene->constraint_count; c++)
+        for (int end = 0; end < scene->constraints[c].end_count; end++)
+            if (scene->constraints[c].body[end] >= 0) joined[scene->constraints[c].body[end]] = true;
+}
+
+/* A hint, with what a level line has as `along` where it counts from the line of a carrier that is not level, as on a lift. */
+static const char *with_carrier(struct reader *reader, size_t b, const char *hint)
+{
+    const double level = 1e-12;
+    const struct scene *scene = reader->scene;
+    int parent = scene->bodies[b].motion.parent;
+    double turned = start_angle(scene, parent);
+    if (parent == ground_body || fabs(sin(turned)) < level) return hint;
+    double degrees = turned * 180 / acos(-1);
+    return diag_hint(
+        reader->errors,
+        "%s; `along` counts from the x axis of `%s`, which is at %.6g deg: level is `along: %.6g deg`", hint,
+        scene->bodies[parent].name, degrees, -degrees);
+}
+
+/* No side of a vertical line is up. A guide needs none. */
+static void note_no_side_up(struct reader *reader, size_t b, const struct load *normal)
+{
+    const double upright = 1e-12; /* as where the side is chosen, in model/compile.c */
+    if (normal->side != side_up || fabs(vec_unit(start_angle(reader->scene, (int)b)).x) > upright) return;
+    diag_add(reader->errors, FBD_WARNING, "no-side-up", normal->at,
+             with_carrier(reader, b,
+                          "write `normal: {side: left}` or `normal: {side: right}`, as seen along +x"),
+             "no side of a vertical line is up: the surface is taken to push to the left of +x");
+}
+
+bool lint_friction_note(struct reader *reader)
+{
+    const struct scene *scene = reader->scene;
+    for (size_t b = 0; b < scene->body_count; b++) {
+        const struct body *body = &scene->bodies[b];
+        const struct load *normal = body->motion.kind == motion_slide ? normal_of(body) : NULL;
+        if (normal) note_no_side_up(reader, b, normal);
+    }
+    if (vec_norm(scene->gravity) == 0) return true; /* said on purpose */
+    bool *joined = ARENA_ARRAY(reader->arena, scene->body_count, bool);
+    if (!joined) return false;
+    mark_joined(scene, joined);
+    for (size_t b = 0; b < scene->body_count; b++) {
+        const struct body *body = &scene->bodies[b];
+        const struct load *normal = body->motion.kind == motion_slide ? normal_of(body) : NULL;
+        bool pressed = !normal || joined[b];
+        for (size_t i = 0; !pressed && i < body->load_count; i++)
+            pressed = acts_across(scene, &body->loads[i], start_angle(scene, (int)b));
+        bool weighs = false;
+        for (size_t i = 0; i < body->load_count; i++) weighs |= body->loads[i].kind == load_gravity;
+        if (!pressed)
+            diag_add(reader->errors, FBD_WARNING, "nothing-presses", normal->at,
+                     weighs
+                         ? with_carrier(reader, b, "gravity acts along this line; list what acts across it")
+                         : "list what does, as `gravity`; what is not listed does not exist",
+                     "nothing presses `%s` on its surface: `%s` is zero, and so is friction", body->name,
+                     normal->name);
+    }
+    return true;
+}

@@ -1,0 +1,178 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "study/sweep_simd.h"
+
+#include <stdlib.h>
+
+#include "base/block_alloc.h"
+#include "batch/batch.h"
+
+/* Rows that are waited for at a time: a full share. */
+enum { most_rows = 64 };
+
+/* A row of `sweep_simd_make`. */
+struct kept_row {
+    size_t start, length; /* in `pile` */
+    enum row_end end;     /* row_stopped: it is not there */
+    bool out_of_memory;
+};
+
+/* Each lane has a maker of its own: the scene of one takes the values of one run at a time. */
+struct lane {
+    struct row_maker maker;
+    struct open_row row; /* without a run where the lane is empty */
+    struct text text;
+    size_t index; /* of the row among those that are made */
+};
+
+struct sweep_simd {
+    fbd_stop *stop;
+    void *stop_context;
+    struct batch *batch;
+    struct lane lanes[batch_most_lanes];
+    struct text pile; /* rows, as they came to their ends */
+    struct kept_row rows[most_rows];
+    uint64_t first; /* run of rows[0] */
+    size_t begun, count;
+};
+
+bool sweep_simd_suits(const struct fbd_sweep *sweep)
+{
+    const struct columns *columns = &sweep->columns;
+    return !columns->ledger && columns->extreme_count == 0 && batch_suits(sweep->base);
+}
+
+struct sweep_simd *sweep_simd_new(const struct fbd_sweep *sweep, unsigned lanes, fbd_stop *stop,
+                                  void *stop_context)
+{
+    struct sweep_simd *simd = block_alloc(sizeof *simd);
+    if (!simd) return NULL;
+    simd->stop = stop;
+    simd->stop_context = stop_context;
+    simd->batch = batch_new(lanes);
+    bool made = simd->batch != NULL;
+    for (unsigned i = 0; made && i < batch_lanes(simd->batch); i++)
+        made = row_maker_init(&simd->lanes[i].maker, sweep);
+    if (made) return simd;
+    sweep_simd_free(simd);
+    return NULL;
+}
+
+unsigned sweep_simd_lanes(const struct sweep_simd *simd)
+{
+    return batch_lanes(simd->batch);
+}
+
+void sweep_simd_free(struct sweep_simd *simd)
+{
+    if (!simd) return;
+    for (int i = 0; i < batch_most_lanes; i++) {
+        struct lane *lane = &simd->lanes[i];
+        row_close(&lane->row);
+        row_maker_free(&lane->maker);
+        text_free(&lane->text);
+    }
+    batch_free(simd->batch);
+    text_free(&simd->pile);
+    free(simd);
+}
+
+/* The row of a lane is whole. */
+static void keep(struct sweep_simd *simd, struct lane *lane, enum row_end end)
+{
+    struct kept_row *row = &simd->rows[lane->index];
+    *row = (struct kept_row){.start = simd->pile.length, .length = lane->text.length, .end = end};
+    if (!lane->text.failed) text_add_bytes(&simd->pile, lane->text.data, lane->text.length);
+    row->out_of_memory = lane->text.failed || simd->pile.failed;
+    row_close(&lane->row);
+}
+
+/* Make what steps a run has to make by itself, until it can be put into its lane. False where it comes to its end before:
+ * its row is kept. */
+static bool carry(struct sweep_simd *simd, unsigned i)
+{
+    struct lane *lane = &simd->lanes[i];
+    struct ensemble *run = lane->row.run;
+    while (run->outcome == FBD_GOING) {
+        ensemble_advance(run);
+        if (run->count == 1 && batch_put(simd->batch, i, run->groups[0].run)) return true;
+    }
+    keep(simd, lane, row_put(&lane->maker, &lane->row, &lane->text));
+    return false;
+}
+
+/* Begin rows until one is in the lane. */
+static void fill(struct sweep_simd *simd, unsigned i)
+{
+    struct lane *lane = &simd->lanes[i];
+    for (bool empty = true; empty && simd->begun < simd->count;) {
+        lane->index = simd->begun++;
+        lane->text.length = 0;
+        lane->text.failed = false;
+        if (row_open(&lane->maker, simd->first + lane->index, &lane->row, &lane->text))
+            empty = !carry(simd, i);
+        else
+            keep(simd, lane, row_failed);
+    }
+}
+
+static bool is_stopped(const struct sweep_simd *simd)
+{
+    return simd->stop && simd->stop(simd->stop_context) != 0;
+}
+
+/* Runs that are under way come to nothing. */
+static void empty_lanes(struct sweep_simd *simd)
+{
+    for (unsigned i = 0; i < batch_lanes(simd->batch); i++) {
+        if (!simd->lanes[i].row.run) continue;
+        batch_take(simd->batch, i);
+        row_close(&simd->lanes[i].row);
+    }
+}
+
+static void make_rows(struct sweep_simd *simd)
+{
+    for (size_t k = 0; k < simd->count; k++) simd->rows[k] = (struct kept_row){.end = row_stopped};
+    simd->begun = simd->pile.length = 0;
+    simd->pile.failed = false;
+    for (unsigned i = 0; i < batch_lanes(simd->batch) && !is_stopped(simd); i++) fill(simd, i);
+    for (unsigned stops = 1; stops != 0 && !is_stopped(simd);) {
+        stops = batch_go(simd->batch);
+        for (unsigned i = 0; i < batch_lanes(simd->batch); i++)
+            if (stops >> i & 1 && !carry(simd, i)) fill(simd, i);
+    }
+    empty_lanes(simd);
+}
+
+/* In order, up to the first one that is not there. */
+static struct rows_made deliver(const struct sweep_simd *simd, struct text *text)
+{
+    struct rows_made rows = {0};
+    for (size_t k = 0; k < simd->count && !text->failed; k++) {
+        const struct kept_row *row = &simd->rows[k];
+        if (row->out_of_memory) text->failed = true;
+        if (row->end == row_stopped || text->failed) break;
+        const size_t before = text->length;
+        text_add_bytes(text, simd->pile.data + row->start, row->length);
+        if (text->failed) text->length = before;
+        rows.made += !text->failed;
+        rows.failed += !text->failed && row->end == row_failed;
+    }
+    return rows;
+}
+
+struct rows_made sweep_simd_make(struct sweep_simd *simd, uint64_t first, uint64_t end, struct text *text)
+{
+    struct rows_made all = {0};
+    while (first + all.made < end && !text->failed) {
+        const uint64_t left = end - first - all.made;
+        simd->first = first + all.made;
+        simd->count = left < most_rows ? (size_t)left : most_rows;
+        make_rows(simd);
+        const struct rows_made rows = deliver(simd, text);
+        all.made += rows.made;
+        all.failed += rows.failed;
+        if (rows.made < simd->count) break;
+    }
+    return all;
+}
