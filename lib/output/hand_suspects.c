@@ -87,7 +87,9 @@ struct suspect *suspects_list(const struct suspects_look *look, struct arena *ar
     for (size_t j = 0; j < look->hand->summand_count; j++) add(&listing, suspect_summand, j, 0, 0, false);
     add_letters(look, &listing);
     add_terms(look, &listing);
-    for (size_t p = 0; p < look->place_count; p++)
+    bool forces, moments;
+    find_kinds(look, &forces, &moments);
+    for (size_t p = 0; moments && p < look->place_count; p++)
         for (size_t q = 0; q < look->place_count; q++)
             if (p != q && (p == 0 || q == 0 || !look->about)) add(&listing, suspect_place, p, q, 0, false);
     *count = listing.count;

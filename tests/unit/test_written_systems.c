@@ -372,11 +372,11 @@ static bool is_named(const struct written *line, const char *verdict, size_t len
     snprintf(text, sizeof text, "%.*s", (int)(length < sizeof text ? length : sizeof text - 1), verdict);
     char *end = strstr(text, "\n  at t"); /* the state at which it is worst */
     if (end) *end = '\0';
-    const bool with_zero =
+    const bool none =
         line->slip == wrong_reaction && (strstr(text, "is missing") || strstr(text, "factor 2"));
-    const bool force =
-        line->slip == wrong_point || line->slip == wrong_reaction || strstr(text, line->culprit);
-    if (with_zero || (line->slip == wrong_factor && strstr(text, "one too many"))) return true;
+    const bool twice = line->slip == wrong_reaction || line->slip == wrong_factor;
+    const bool force = line->slip != missing_term || strstr(text, line->culprit);
+    if (none || (twice && strstr(text, "one too many"))) return true; /* one of the two forces is zero */
     return strstr(text, words[line->slip]) && force;
 }
 
