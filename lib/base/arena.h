@@ -3,7 +3,7 @@
  * Arena: memory that is handed out piece by piece and given back all at once.
  *
  * A scene and a model are built from many small objects that live exactly as long as their owner, so one call
- * frees them. Memory is block_alloc and aligned for any type. A failed allocation returns NULL and sets `failed`,
+ * frees them. Memory is zeroed and aligned for any type. A failed allocation returns NULL and sets `failed`,
  * so that a builder may check once at the end.
  */
 #ifndef FBD_BASE_ARENA_H
@@ -21,7 +21,7 @@ struct arena {
     bool much_room; /* the first chunk is as large as any: of what is made and freed again and again */
 };
 
-/* `count` block_alloc objects of `size` bytes, or NULL when memory is out or count * size overflows. */
+/* `count` zeroed objects of `size` bytes, or NULL when memory is out or count * size overflows. */
 void *arena_array(struct arena *arena, size_t count, size_t size);
 
 /* The same, cleared or not: tables that are written as a whole before they are read need not be. */

@@ -99,8 +99,8 @@ def counts(rows):
 
 def summary(rows):
     cases, met, wrong, missed, largest = counts(rows)
-    return (f"{cases} published cases: {met} met ({wrong} of them with a print that is wrong, by a derivation beside it), {missed} missed; "
-            f"largest error of those met {largest:.2g} of the uncertainty of the reference")
+    return (f"{met} of {cases} published cases agree, {missed} do not; for {wrong} the printed answer is wrong, which a separate derivation shows; "
+            f"the largest error of those that agree is {largest:.2g} of the uncertainty of the reference")
 
 
 def waiting(cases):
