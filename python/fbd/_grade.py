@@ -74,7 +74,7 @@ class Grade:
 
 
 class Key:
-    """A teacher's model that answers are held against. Keywords set parameters of the file, for all students."""
+    """A teacher's model that answers are compared with. Keywords set parameters of the file, for all students."""
 
     def __init__(self, path: Path, /, **parameters: Any):
         settings, count, kept = settings_of(parameters)
@@ -95,11 +95,15 @@ class Key:
         """What a student gets of it, as the text of a model file, with the values drawn for that name."""
         return taken(checked(lib.fbd_key_handout, self._handle, bytes_of(student, "the student")))
 
+    def solution(self, student: str) -> str:
+        """The worked solution for the values of that sheet, as the text of a model file."""
+        return taken(checked(lib.fbd_key_solution, self._handle, bytes_of(student, "the student")))
+
     def page(self, student: str, exam: bool = False) -> str:
         """The same as an HTML page to draw on; with ``exam`` nothing of the key is in it."""
         return taken(checked(lib.fbd_key_page, self._handle, bytes_of(student, "the student"), bool(exam)))
 
     def grade(self, path: Optional[Path] = None, student: Optional[str] = None, *, text: Optional[str] = None) -> Grade:
-        """Hold an answer against it, a file or its ``text``. ``student`` chooses the values that are drawn; else the
+        """Compare an answer with it, a file or its ``text``. ``student`` chooses the values that are drawn; else the
         name of the file does, without ``.yaml``."""
         return Grade(self, path, student, text=text)

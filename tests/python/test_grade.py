@@ -23,6 +23,7 @@ def test_sheets_and_findings(tmp_path):
     key, answer = fbd.Key(KEY), tmp_path / "answer.yaml"
     sheet = key.handout("anna")
     assert sheet == fbd_run("--handout", "--student", "anna", KEY)
+    assert key.solution("anna") == fbd_run("--handout", "--solution", "--student", "anna", KEY)
     answer.write_text(sheet.replace("forces:\n", "forces: " + RIGHT + "\n"))
     half = key.grade(answer, "anna")
     assert 0 < half.points < half.most and not half.passed
