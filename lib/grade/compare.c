@@ -8,7 +8,6 @@
 
 #include "dynamics/diagram.h"
 #include "dynamics/kinematics.h"
-#include "dynamics/project.h"
 #include "grade/compare.h"
 #include "grade/reactions.h"
 #include "grade/verdict.h"
@@ -87,7 +86,6 @@ static bool start_at_another_time(struct comparison *comparison)
     const struct value *until = &key->scene->simulate.until;
     if (model_is_driven(key)) return false;
     state_copy(state, comparison->fresh);
-    memcpy(state->y, comparison->path.y, (size_t)key->plan.n * sizeof *state->y);
     state->t = gsl_rng_uniform(comparison->rng) * (until->expr ? expr_value(until->expr) : 1);
     return random_admissible(state);
 }
@@ -102,8 +100,6 @@ static void next_state(struct comparison *comparison, size_t s)
     comparison->starts = s == 0;
     if (s == 0) {
         state_copy(state, comparison->fresh);
-        if (comparison->key->assembles) state_project(state, true);
-        memcpy(comparison->path.y, state->y, (size_t)comparison->key->plan.n * sizeof *state->y);
         comparison->path.known = 0;
         comparison->path.ends = false;
         found = random_admissible(state);
@@ -406,6 +402,7 @@ static bool open_comparison(struct comparison *comparison)
     comparison->state = state_new(answer);
     comparison->twins = calloc(key->body_count + 1, sizeof *comparison->twins);
     comparison->arrows = calloc((most > other ? most : other) + 1, sizeof *comparison->arrows);
+    comparison->path.start = comparison->fresh;
     comparison->path.y = calloc(random_path_room(key), sizeof *comparison->path.y);
     comparison->rng = gsl_rng_alloc(gsl_rng_mt19937);
     return comparison->fresh && comparison->key_state && comparison->state && comparison->twins &&

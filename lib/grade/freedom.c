@@ -60,15 +60,15 @@ bool lines_one_freedom(struct lines *lines)
     const fbd_model *model = lines->model;
     size_t n = (size_t)model->plan.n;
     if (!lines->pushed[0].model || !lines->pushed[1].model) return false;
-    fbd_state *state = state_new(model);
+    fbd_state *start = state_new(model), *state = start ? state_new(model) : NULL;
     double *room = calloc(2 * n + random_path_room(model), sizeof *room);
-    struct random_path path = {.y = room ? room + 2 * n : NULL};
+    struct random_path path = {.start = start, .y = room ? room + 2 * n : NULL};
     bool one = state && room, seen = false;
     if (!one) lines->grade->arena.failed = true;
-    if (one) memcpy(path.y, state->y, n * sizeof *room);
     for (int k = 0; one && k < states; k++)
         if (random_state(lines->rng, state, &path) && random_admissible(state))
             one = is_one_at(lines, state, room, &seen);
+    state_free(start);
     state_free(state);
     free(room);
     return one && seen;

@@ -8,7 +8,6 @@
 #include "base/diag.h"
 #include "dynamics/diagram.h"
 #include "dynamics/mass.h"
-#include "dynamics/project.h"
 #include "output/hand_forces.h"
 #include "output/random_state.h"
 
@@ -134,9 +133,11 @@ static void take_summands(struct hand_check *check, const struct hand *hand, dou
 
 /* Which names the equation depends on: bit k for hand slot k, hand_others for accelerations of other bodies. An identity
  * depends on none. *size grows by what these contribute to a side. */
-static unsigned depends_on(const struct hand *hand, const struct fbd_model *model,
-                           const struct hand_named *named, double t, const double *y, double *size)
+static unsigned depends_on(const struct hand *hand, const struct fbd_state *state, int b,
+                           const struct hand_named *named, const double *y, double *size)
 {
+    const struct fbd_model *model = state->model;
+    const double t = state->t;
     int first = 1 + (int)plan_size(&model->plan);
     unsigned says = 0;
     for (int k = 0; k < hand_slots + (int)model->absolute_count; k++) {
@@ -147,7 +148,9 @@ static unsigned depends_on(const struct hand *hand, const struct fbd_model *mode
         expr_eval_slot(hand->left, t, y, first + k, NULL, &left);
         expr_eval_slot(hand->right, t, y, first + k, NULL, &right);
         *size += fabs((left - right) * y[first + k - 1]);
-        if (k >= hand_slots) *size += fabs(left - right) * named->sizes[k - hand_slots];
+        if (left - right != 0)
+            *size += fabs(left - right) *
+                     (k >= hand_slots ? named->sizes[k - hand_slots] : hand_slot_size(state, b, k, named));
         if (fabs(left - right) > 1e-9 * (fabs(left) + fabs(right)))
             says |= k < hand_slots           ? 1U << k
                     : kind == absolute_force ? (unsigned)hand_named_forces
@@ -172,7 +175,7 @@ static void take_sample(struct hand_check *check, const struct hand *hand, const
     sample.right = expr_eval(hand->right, state->t, y, NULL);
     if (!isfinite(sample.left) || !isfinite(sample.right)) return;
     double added = 0;
-    const unsigned says = depends_on(hand, model, named, state->t, y, &added);
+    const unsigned says = depends_on(hand, state, check->body, named, y, &added);
     check->says |= says;
     double form[hand_unknowns];
     hand_form_at(state, check->body, check->index, named, y, form);
@@ -244,14 +247,12 @@ double hand_lack_at(const struct fbd_state *state, int b, int index, double *siz
  * of motion). */
 static bool visit_model(const fbd_model *model, gsl_rng *rng, hand_visit *visit, void *context)
 {
-    struct fbd_state *state = state_new(model);
-    size_t n = (size_t)model->plan.n, extended = hand_room(model);
+    struct fbd_state *start = state_new(model), *state = start ? state_new(model) : NULL;
+    size_t extended = hand_room(model);
     double *y = calloc(extended + random_path_room(model), sizeof *y);
-    struct random_path path = {.y = y ? y + extended : NULL};
+    struct random_path path = {.start = start, .y = y ? y + extended : NULL};
     struct arena arena = {0};
     struct hand_named named;
-    if (state && model->assembles) state_project(state, true);
-    if (y && state) memcpy(path.y, state->y, n * sizeof *y);
     bool done = state && y && hand_named_find(model, &arena, &named), first = true;
     for (int i = 0; done && i < states_of_a_draw; i++)
         for (int k = 0; k < tries_of_a_state; k++) {
@@ -261,6 +262,7 @@ static bool visit_model(const fbd_model *model, gsl_rng *rng, hand_visit *visit,
             break;
         }
     free(y);
+    state_free(start);
     state_free(state);
     arena_free(&arena);
     return done;

@@ -303,16 +303,29 @@ static struct forces_size size_of_forces(const struct fbd_state *state, int b, c
     return size;
 }
 
+/* Of an acceleration of body b. */
+static double size_of_acceleration(const struct fbd_state *state, int b, bool turns, struct forces_size size)
+{
+    struct instant at = state_instant(state);
+    const struct inertia inertia = body_inertia(&state->model->bodies[b], &at);
+    double by = turns ? inertia.I_G : inertia.mass;
+    return by > 0 ? (turns ? size.moment : size.force) / by : 0;
+}
+
 static double size_of_name(const struct fbd_state *state, const struct model_absolute *absolute,
                            struct forces_size size)
 {
-    const struct model_body *body = &state->model->bodies[absolute->body];
-    struct instant at = state_instant(state);
-    const struct inertia inertia = body_inertia(body, &at);
     if (absolute->kind == absolute_inertia) return 0;
-    bool turns = absolute->kind == absolute_alpha;
-    double by = turns ? inertia.I_G : inertia.mass;
-    return by > 0 ? (turns ? size.moment : size.force) / by : 0;
+    return size_of_acceleration(state, absolute->body, absolute->kind == absolute_alpha, size);
+}
+
+double hand_slot_size(const struct fbd_state *state, int b, int slot, const struct hand_named *named)
+{
+    const struct model_body *body = &state->model->bodies[b];
+    int part = slot - hand_acceleration;
+    if (part < 0 || part >= body->count) return 0;
+    return size_of_acceleration(state, b, state->model->scene->coordinates[body->first + part].angle,
+                                size_of_forces(state, b, named));
 }
 
 static double size_of_force(const struct hand_force *force, struct forces_size size)

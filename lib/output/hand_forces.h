@@ -72,6 +72,9 @@ bool hand_writes(enum absolute_kind kind);
 /* Write the value of each to its place, that of its absolute. */
 void hand_named_write(const struct fbd_state *state, const struct hand_named *named, double *places);
 
+/* How large the forces on body b make what a hand slot stands for, as `sizes` of names: of its accelerations, else 0. */
+double hand_slot_size(const struct fbd_state *state, int b, int slot, const struct hand_named *named);
+
 /* The rate of one that is a work or an impulse. */
 double hand_named_rate(const struct fbd_state *state, const struct hand_named *named, size_t k);
 

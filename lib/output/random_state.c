@@ -5,6 +5,7 @@
 
 #include "base/diag.h"
 #include "base/text.h"
+#include "dynamics/contact.h"
 #include "dynamics/project.h"
 #include "output/hand_forces.h"
 
@@ -44,7 +45,7 @@ enum { path_steps = 64 };
 
 size_t random_path_room(const struct fbd_model *model)
 {
-    return (path_steps + 1) * model->scene->coordinate_count + 1;
+    return (path_steps + 3) * model->scene->coordinate_count + 1;
 }
 
 static double duration_of(const struct scene *scene)
@@ -80,31 +81,60 @@ static bool follow_prescribed(struct fbd_state *state, struct random_path *path)
     return follow_to(state, t);
 }
 
+/* What touches at the start stays closed, what is apart is open; the rest on its surface, where round bodies slip as
+ * often as they roll. */
+static void draw_modes(gsl_rng *rng, struct fbd_state *state)
+{
+    const struct plan *plan = &state->model->plan;
+    for (size_t k = 0; k < plan->mode_count; k++) {
+        if (plan->modes[k].kind == mode_tangent)
+            state->slip[k] = between(rng, 0, 1) < 0.5 ? stick : slip_plus;
+        if (plan->modes[k].kind == mode_surface) state->slip[k] = stick;
+    }
+}
+
+/* Along the ways that couplings leave, in steps from each of which the nearest state that fits is on the same side of
+ * all loops; so fast that what moves by itself hardly does. `way`: by how much each coordinate would move alone. */
+static bool wander(struct fbd_state *state, const double *way)
+{
+    enum { steps = 4 };
+    const size_t n = state->model->scene->coordinate_count;
+    const double time = 1e-6 * duration_of(state->model->scene);
+    for (int k = 0; k < steps; k++) {
+        for (size_t i = 0; i < n; i++) state->y[n + i] = way[i] / time;
+        modes_drive(state);
+        if (!state_project(state, false)) return false;
+        for (size_t i = 0; i < n; i++) state->y[i] += state->y[n + i] * time / steps;
+    }
+    return true;
+}
+
 /* Where couplings close loops, most states do not fit: so the start moves by up to 0.3 rad or a tenth of a
- * metre, with random rates, and the nearest state that fits is taken. False when there is none. */
+ * metre, with random rates. False when no state fits there, or bodies would be in each other. */
 static bool draw_closed(gsl_rng *rng, struct fbd_state *state, struct random_path *path)
 {
     const struct fbd_model *model = state->model;
     size_t n = model->scene->coordinate_count;
+    double *way = path->y + (path_steps + 1) * n, *rates = way + n, depth;
     if (!model->tree || model->tree->tie_count == 0) return true;
+    memcpy(rates, state->y + n, n * sizeof *rates);
+    memcpy(path->y, path->start->y, n * sizeof *path->y);
     memcpy(state->y, path->y, n * sizeof *path->y);
     if (model_is_driven(model) && !follow_prescribed(state, path)) return false;
     for (size_t i = 0; i < n; i++)
-        state->y[i] += between(rng, -1, 1) * (model->scene->coordinates[i].angle ? 0.3 : 0.1);
+        way[i] = between(rng, -1, 1) * (model->scene->coordinates[i].angle ? 0.3 : 0.1);
+    draw_modes(rng, state);
+    if (!wander(state, way)) return false;
+    memcpy(state->y + n, rates, n * sizeof *rates);
     modes_drive(state);
-    /* On their surfaces; round bodies slip as often as they roll. */
-    for (size_t k = 0; k < model->plan.mode_count; k++) {
-        if (model->plan.modes[k].kind == mode_tangent)
-            state->slip[k] = between(rng, 0, 1) < 0.5 ? stick : slip_plus;
-        if (model->plan.modes[k].kind == mode_surface) state->slip[k] = stick;
-    }
-    return state_project(state, false);
+    return state_project(state, false) && contacts_overlap(state, &depth) < 0;
 }
 
 bool random_state(gsl_rng *rng, struct fbd_state *state, struct random_path *path)
 {
     const struct scene *scene = state->model->scene;
     size_t n = scene->coordinate_count;
+    state_copy(state, path->start);
     state->t = between(rng, 0, duration_of(scene));
     for (size_t i = 0; i < n; i++) {
         const struct coordinate *c = &scene->coordinates[i];
@@ -132,7 +162,9 @@ bool random_admissible(struct fbd_state *state)
     for (size_t i = 0; i < plan->contact_count; i++) {
         const struct contact *contact = &plan->contacts[i];
         if (-state->slots[contact->slot] < 0) return false;
-        if (contact->pair >= 0 && state->slip[contact->pair] != stick) return false;
+        if (contact->pair < 0 || state->slip[contact->pair] == stick) continue;
+        bool was_closed = state->slip_rests[contact->pair];
+        if (was_closed || plan->modes[contact->pair].kind != mode_contact) return false;
     }
     return true;
 }

@@ -83,6 +83,84 @@ static const char beam[] = "fbd: 1\n"
                            "  - rod: {name: C, between: [beam.right, ground.under_C]}\n"
                            "simulate: {until: 1 s}\n";
 
+/* A pin and a link to a point under the other end: a mirror image of it, where the link hangs, is 0.25 rad off. */
+static const char two_supports[] = "fbd: 1\n"
+                                   "parameters: {P: 300 N}\n"
+                                   "ground: {points: {A: [0, 0], under_B: [4, -0.5]}}\n"
+                                   "bodies:\n"
+                                   "  beam:\n"
+                                   "    shape: rod\n"
+                                   "    mass: 20 kg\n"
+                                   "    length: 4 m\n"
+                                   "    motion: planar\n"
+                                   "    initial: {x: 2 m}\n"
+                                   "    points: {load: [-1 m, 0]}\n"
+                                   "    forces: [gravity, {applied: {name: P, value: [0, -P], at: load}}]\n"
+                                   "%s%s"
+                                   "couplings:\n"
+                                   "  - pin: {name: A, between: [beam.left, ground.A]}\n"
+                                   "  - rod: {name: B, between: [beam.right, ground.under_B]}\n"
+                                   "simulate: {until: 1 s}\n";
+
+/* Turns about the origin, and cannot turn. */
+static const char ladder[] =
+    "fbd: 1\n"
+    "parameters: {P: 800 N, s: 3 m}\n"
+    "ground: {points: {C: [3.5, '5[m]*sin(60[deg])']}}\n"
+    "bodies:\n"
+    "  ladder:\n"
+    "    shape: rod\n"
+    "    from: [0, 0]\n"
+    "    to: [5 m, 0]\n"
+    "    mass: 20 kg\n"
+    "    points: {rung: [s, 0]}\n"
+    "    motion: {pivot: {at: [0, 0]}}\n"
+    "    initial: {theta: 60 deg}\n"
+    "    forces: [gravity, {applied: {name: person, value: [0, -P], at: rung}}]\n"
+    "%s%s"
+    "couplings: [{rod: {name: wall, between: [ladder.right, ground.C], length: 1 m}}]\n"
+    "simulate: {until: 1 s}\n";
+
+/* Above a floor; %s of the second line: what moves beside it. */
+static const char flight[] = "fbd: 1\n"
+                             "ground: {lines: {floor: {along: 0 deg}}}\n"
+                             "bodies:\n"
+                             "  ball:\n"
+                             "    mass: 0.5 kg\n"
+                             "    shape: sphere\n"
+                             "    radius: 0.1 m\n"
+                             "    motion: planar\n"
+                             "    initial: {y: 0.12 m, vx: 1 m/s}\n"
+                             "    forces: [gravity]\n"
+                             "%s"
+                             "  other:\n"
+                             "    mass: 2 kg\n"
+                             "    shape: disk\n"
+                             "    radius: 0.2 m\n"
+                             "    motion: planar\n"
+                             "    initial: {x: 0.33 m, y: 0.2 m}\n"
+                             "    forces: [gravity]\n"
+                             "%s"
+                             "contacts:\n"
+                             "  - {name: floor, between: [ball, ground.floor], restitution: 0.5}\n"
+                             "  - {name: ground, between: [other, ground.floor], restitution: 0}\n"
+                             "  - {name: blow, between: [ball, other], restitution: 0.5}\n"
+                             "simulate: {until: 1 s}\n";
+
+static const char stops[] = "fbd: 1\n"
+                            "parameters: {b: 1 m}\n"
+                            "bodies:\n"
+                            "  rod:\n"
+                            "    shape: rod\n"
+                            "    mass: 2 kg\n"
+                            "    from: [0, 0]\n"
+                            "    to: [0, -b]\n"
+                            "    motion: {pivot: {min: -0.2 rad, max: 1 rad, restitution: 0.5}}\n"
+                            "    initial: {theta: 0.9 rad}\n"
+                            "    forces: [gravity]\n"
+                            "%s%s"
+                            "simulate: {until: 1 s}\n";
+
 struct line {
     const char *scene;
     int body; /* 0 or 1 */
@@ -143,6 +221,32 @@ static const struct line lines[] = {
     {beam, 0, "A.y = (m*g + P)/3 + P/8", false}, /* is not unique, as */
     {beam, 0, "B_y = (m*g + P)/3", false},       /* this, which the least reactions have */
     {crank, 1, "piston.R_x = wrist.x", true},    /* the letter stands for the force on the bar */
+    {two_supports, 0, "A.x = 0", true},
+    {two_supports, 0, "A.y = 0", false},
+    {two_supports, 0, "m*vx_dot = 0", true},
+    {two_supports, 0, "m*vx_dot = 1e-6*P", false},
+    {two_supports, 0, "B.y*4[m] - P*1[m] - m*g*2[m] = 0", true},
+    {two_supports, 0, "B.y*4[m] - P*2[m] - m*g*2[m] = 0", false},
+    {ladder, 0, "R_x = -S", true},
+    {ladder, 0, "R_x = S", false},
+    {ladder, 0, "S*5[m]*sin(theta) + m*g*5[m]/2*cos(theta) + P*s*cos(theta) = 0", true},
+    {ladder, 0, "S*5[m]*sin(theta) + m*g*5[m]/2*cos(theta) + P*s*sin(theta) = 0", false},
+    {flight, 0, "m*vy_dot = -m*g", true},
+    {flight, 0, "m*vy_dot = m*g", false},
+    {flight, 0, "m*vx_dot = 0", true},
+    {flight, 0, "vx_dot = 1[m/s^2]", false},
+    {flight, 0, "I_G*alpha = 0", true},
+    {flight, 0, "floor.normal.y = 0", true},
+    {flight, 0, "floor.normal.y = m*g", false},
+    {flight, 0, "max(0.1[m] - y, 0[m]) = 0", true}, /* in no state in the floor */
+    {flight, 0, "max(0.3[m] - hypot(x - other.x, y - other.y), 0[m]) = 0", true},
+    {flight, 1, "y = 0.2[m]", true}, /* on the floor at the start, and there */
+    {flight, 1, "ground.normal.y = m*g", true},
+    {flight, 1, "ground.normal.y = 0", false},
+    {stops, 0, "I_O*alpha = -m*g*b/2*sin(theta)", true},
+    {stops, 0, "I_O*alpha = -m*g*b*sin(theta)", false},
+    {stops, 0, "R_y - m*g = m*a_y", true},
+    {stops, 0, "max(theta - 1, 0) = 0", true},
 };
 
 static int check(const struct line *line)

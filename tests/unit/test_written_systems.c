@@ -345,18 +345,17 @@ static const struct node *with_lines(struct arena *arena, const struct node *roo
 /* The largest share at states of this model; -1 when there is none. */
 static void look(struct page *page, const struct fbd_model *model, double *off)
 {
-    fbd_state *state = state_new(model);
+    fbd_state *start = state_new(model), *state = state_new(model);
     double *room = calloc(random_path_room(model) + 1, sizeof *room);
     assert_non_null(room);
-    struct random_path path = {.y = room};
-    if (model->assembles) state_project(state, true);
-    memcpy(path.y, state->y, model->scene->coordinate_count * sizeof *state->y);
+    struct random_path path = {.start = start, .y = room};
     for (int k = 0; k < states_looked_at; k++) {
         if (!random_state(page->rng, state, &path) || !random_admissible(state)) continue;
         for (size_t i = 0; i < page->count; i++)
             off[i] = fmax(off[i], share_off(&page->lines[i], state, page->arrows));
     }
     free(room);
+    state_free(start);
     state_free(state);
 }
 
