@@ -328,6 +328,16 @@ static bool write_open(const struct hand_check *check, struct text *text)
     return true;
 }
 
+/* In which sense does the friction of the body slip at the start? */
+static int slip_at_start(const struct hand_check *check)
+{
+    const int friction = check->model->bodies[check->body].friction;
+    fbd_state *start = friction >= 0 ? fbd_state_new(check->model) : NULL;
+    const int slip = start ? start->slip[friction] : 0;
+    fbd_state_free(start);
+    return slip;
+}
+
 static bool write_verdict(const struct hand_check *check, struct text *text)
 {
     struct tally none = tally_of(check, 0), plus = tally_of(check, 1), minus = tally_of(check, -1);
@@ -348,10 +358,13 @@ static bool write_verdict(const struct hand_check *check, struct text *text)
                     worst);
         return true;
     }
-    /* With friction an equation may claim one direction of motion: the one where it agrees everywhere. */
-    for (int slip = 1; slip >= -1; slip -= 2) {
+    /* With friction an equation without `when` may claim one direction of motion, that of the start where the body slips
+     * there: the one where it agrees everywhere. */
+    const struct hand *hand = &check->model->scene->bodies[check->body].hands[check->index];
+    const int start = hand->when ? 0 : slip_at_start(check);
+    for (int slip = 1; slip >= -1 && !hand->when; slip -= 2) {
         struct tally one = slip > 0 ? plus : minus;
-        if (one.states == 0 || one.agree != one.states || none.states > 0) continue;
+        if (slip == -start || one.states == 0 || one.agree != one.states || none.states > 0) continue;
         text_printf(
             text,
             "  agrees at %zu random states that slip toward %cx (worst difference %.1e of the terms);\n"

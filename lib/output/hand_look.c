@@ -211,7 +211,7 @@ static void vote_by_inertia(const struct suspects_look *look, const struct lette
 {
     const struct model_body *body = look_body(look);
     const int k = letter->slot - (int)plan_size(&look->model->plan) - hand_acceleration;
-    const bool own = !letter->absolute && body->place.link == 0;
+    const bool own = !letter->absolute && body->parent < 0;
     const bool alone = body->count == 1, moment = equation >= equation_moment;
     const enum absolute_kind kind = letter->absolute ? letter->absolute->kind : absolute_acceleration;
     if (letter->absolute && letter->absolute->body != look->check->body) return;

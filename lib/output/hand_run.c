@@ -392,10 +392,14 @@ static bool make_room(struct hand_run *run)
 
 bool hand_run_make(struct hand_run *run, const struct fbd_model *model, fbd_errors *errors)
 {
-    const fbd_options none = FBD_OPTIONS_DEFAULT;
+    const double coarsest = 1e-10; /* of what a coarser run explains of its terms a false line may hide */
+    fbd_options given = FBD_OPTIONS_DEFAULT;
     struct run_options options;
+    const double tolerance = model->scene->simulate.tolerance;
     *run = (struct hand_run){.model = model, .every = 1};
-    if (!options_choose(model, &none, &options, errors)) return false;
+    given.method = "auto";
+    given.tolerance = tolerance > 0 ? fmin(tolerance, coarsest) : coarsest;
+    if (!options_choose(model, &given, &options, errors)) return false;
     options.step = 0; /* steps of a size that is given have no tolerance */
     run->ensemble = ensemble_new(model, &options);
     bool done = run->ensemble && make_room(run);

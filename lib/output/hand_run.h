@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Derivations by hand of energy and momentum, held against a run.
+ * Derivations by hand of energy and momentum, compared with a run.
  *
  * Such a line is about the motion between two times: what is conserved, works and impulses since the start, velocities
- * before and after an impact. So the model is run once, as its file says, and the lines are evaluated at the ends of steps
+ * before and after an impact. So the model is run once, by `auto` at 1e-10 or less, and the lines are evaluated at the ends of steps
  * and at impacts. They may be off by what the tolerance of that run explains of the terms that a line adds up
  * (energy_explained).
  *

@@ -157,7 +157,8 @@ static bool take(struct naming *naming, const struct force_key *key)
 
 const char *symbol_of_mass(const struct fbd_model *model, int body, struct arena *arena)
 {
-    return model->body_count == 1 ? "m" : arena_printf(arena, "m_%d", body + 1);
+    bool alone = model->body_count == 1 || scene_numbers_masses(model->scene);
+    return alone ? "m" : arena_printf(arena, "m_%d", body + 1);
 }
 
 static const char *numbered(struct naming *naming, const struct force_key *key)

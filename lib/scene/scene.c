@@ -274,6 +274,16 @@ struct scene *scene_read(const char *text, size_t length, const char *file, cons
     return scene;
 }
 
+bool scene_numbers_masses(const struct scene *scene)
+{
+    for (size_t i = 0; i < scene->parameter_count; i++) {
+        const char *name = scene->parameters[i].name, *number = name && *name == 'm' ? name + 1 : "";
+        number += *number == '_';
+        if (*number >= '0' && *number <= '9') return true;
+    }
+    return false;
+}
+
 void scene_free(struct scene *scene)
 {
     if (!scene) return;
