@@ -8,12 +8,12 @@
 #include "dynamics/constraint.h"
 #include "dynamics/state.h"
 
-/* Of a tie: zero, sides, directions and turns of a rope's ends. */
-enum { numbers_of_a_tie = 9 };
+/* Of a coupling: zero, sides, directions and turns of a rope's ends. */
+enum { numbers_of_a_coupling = 9 };
 
-static size_t tie_count(const struct fbd_model *model)
+static size_t coupling_count(const struct fbd_model *model)
 {
-    return model->tree ? (size_t)model->tree->tie_count : 0;
+    return model->tree ? (size_t)model->tree->coupling_count : 0;
 }
 
 /* The branch of memory `index` among all switches, or -1 past the last one. */
@@ -36,7 +36,8 @@ static size_t memory_count(const struct plan *plan)
 
 static size_t size_of(const struct fbd_model *model)
 {
-    return 1 + plan_size(&model->plan) + memory_count(&model->plan) + numbers_of_a_tie * tie_count(model);
+    return 1 + plan_size(&model->plan) + memory_count(&model->plan) +
+           numbers_of_a_coupling * coupling_count(model);
 }
 
 struct packing {
@@ -50,14 +51,14 @@ static void put(struct packing *packing, double number)
     packing->count++;
 }
 
-static void put_tie(struct packing *packing, const struct tie_state *tie)
+static void put_coupling(struct packing *packing, const struct coupling_state *coupling)
 {
-    put(packing, tie->zero);
+    put(packing, coupling->zero);
     for (int end = 0; end < 2; end++) {
-        put(packing, tie->side[end]);
-        put(packing, tie->psi[end]);
-        put(packing, tie->turned[end]);
-        put(packing, tie->laid[end]);
+        put(packing, coupling->side[end]);
+        put(packing, coupling->psi[end]);
+        put(packing, coupling->turned[end]);
+        put(packing, coupling->laid[end]);
     }
 }
 
@@ -71,7 +72,8 @@ size_t fbd_state_pack(const fbd_state *state, double *numbers, size_t room)
     put(&packing, state->t);
     for (size_t i = 0; i < plan_size(plan); i++) put(&packing, state->y[i]);
     for (size_t i = 0; (branch = find_memory(plan, i)) >= 0; i++) put(&packing, state->branch[branch]);
-    for (size_t i = 0; i < tie_count(state->model); i++) put_tie(&packing, &state->tree->ties[i]);
+    for (size_t i = 0; i < coupling_count(state->model); i++)
+        put_coupling(&packing, &state->tree->couplings[i]);
     return packing.count;
 }
 
@@ -81,24 +83,24 @@ static bool is_sign(double number, bool or_zero)
     return number == 1 || number == -1 || (or_zero && number == 0);
 }
 
-static bool are_signs(const struct fbd_model *model, const double *memories, const double *ties)
+static bool are_signs(const struct fbd_model *model, const double *memories, const double *couplings)
 {
     size_t count = memory_count(&model->plan);
     for (size_t i = 0; i < count; i++)
         if (!is_sign(memories[i], false)) return false;
-    for (size_t i = 0; i < tie_count(model); i++, ties += numbers_of_a_tie)
-        if (!is_sign(ties[1], true) || !is_sign(ties[5], true)) return false;
+    for (size_t i = 0; i < coupling_count(model); i++, couplings += numbers_of_a_coupling)
+        if (!is_sign(couplings[1], true) || !is_sign(couplings[5], true)) return false;
     return true;
 }
 
-static void take_tie(const double *numbers, struct tie_state *tie)
+static void take_coupling(const double *numbers, struct coupling_state *coupling)
 {
-    tie->zero = numbers[0];
+    coupling->zero = numbers[0];
     for (int end = 0; end < 2; end++) {
-        tie->side[end] = (int)numbers[1 + 4 * end];
-        tie->psi[end] = numbers[2 + 4 * end];
-        tie->turned[end] = numbers[3 + 4 * end];
-        tie->laid[end] = numbers[4 + 4 * end];
+        coupling->side[end] = (int)numbers[1 + 4 * end];
+        coupling->psi[end] = numbers[2 + 4 * end];
+        coupling->turned[end] = numbers[3 + 4 * end];
+        coupling->laid[end] = numbers[4 + 4 * end];
     }
 }
 
@@ -107,17 +109,17 @@ bool fbd_state_unpack(fbd_state *state, const double *numbers, size_t count)
     if (!state || !numbers || count != size_of(state->model)) return false;
     const struct plan *plan = &state->model->plan;
     size_t size = plan_size(plan);
-    const double *memories = numbers + 1 + size, *ties = memories + memory_count(plan);
+    const double *memories = numbers + 1 + size, *couplings = memories + memory_count(plan);
     int branch;
     for (size_t i = 0; i < count; i++)
         if (!isfinite(numbers[i])) return false;
-    if (!are_signs(state->model, memories, ties)) return false;
+    if (!are_signs(state->model, memories, couplings)) return false;
     state->t = numbers[0];
     state->rest = 0;
     memcpy(state->y, numbers + 1, size * sizeof *state->y);
     for (size_t i = 0; (branch = find_memory(plan, i)) >= 0; i++) state->branch[branch] = (int)memories[i];
-    for (size_t i = 0; i < tie_count(state->model); i++)
-        take_tie(ties + numbers_of_a_tie * i, &state->tree->ties[i]);
+    for (size_t i = 0; i < coupling_count(state->model); i++)
+        take_coupling(couplings + numbers_of_a_coupling * i, &state->tree->couplings[i]);
     state->settled = false;
     return true;
 }

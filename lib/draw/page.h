@@ -46,8 +46,8 @@ void page_write_policy(struct text *text, const void *context);
 /* JSON within a script element. */
 void page_add_json(struct text *text, const struct text *json);
 
-/* Its members `links` and `ties`. */
+/* Its members `links` and `couplings`. */
 void page_links_write(struct text *text, const struct record *record);
-void page_ties_write(struct text *text, const fbd_result *result, const struct record *record);
+void page_couplings_write(struct text *text, const fbd_result *result, const struct record *record);
 
 #endif

@@ -8,7 +8,7 @@
  * data}
  * - doubles, floats, envelope: base 64, see pack.h; `doubles` begins with the times
  * - bodies: {name, motion, parent, frame: 3 columns, shapes, G, axis | line, arrows, equations, kinematics}
- * - links: springs and dampers that have another end; ties: couplings that hold (both: page_links.c)
+ * - links: springs and dampers that have another end; couplings: couplings that hold (both: page_links.c)
  * - energy: 4 columns
  * - states: those of the file's own
  * - events: {kinds, labels, times, of: index into labels, details}
@@ -485,7 +485,7 @@ bool page_data_write(struct text *text, fbd_result *result, struct record *recor
     symbolic_end(&symbolic);
     text_add(text, "],\n");
     page_links_write(text, record);
-    page_ties_write(text, result, record);
+    page_couplings_write(text, result, record);
     write_events(text, result->simulation->ensemble);
     json_columns_member(text, "energy", record->energy, 4);
     json_columns_member(text, "states", record->energy + 4, record->model->plan.own);

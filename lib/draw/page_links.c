@@ -3,7 +3,7 @@
  * What the page draws between bodies.
  *
  * - links: springs and dampers, {body, kind, point, partner, anchor}
- * - ties: couplings that hold, {kind, name, ends, length, e, side, force}, a rope cut at its pulleys (tie.h)
+ * - couplings: couplings that hold, {kind, name, ends, length, e, side, force}, a rope cut at its pulleys (coupling.h)
  *
  * An end is {body, point, radius, side, wound}; the body of the ground is -1. Points of a body are told from the
  * origin of its frame in the page, which is the axis of a pivot.
@@ -51,7 +51,7 @@ void page_links_write(struct text *text, const struct record *record)
     text_add(text, "],\n");
 }
 
-/* ---- ties */
+/* ---- couplings */
 
 static struct vec end_point(const struct fbd_model *model, const struct constraint *source, int k)
 {
@@ -61,39 +61,40 @@ static struct vec end_point(const struct fbd_model *model, const struct constrai
     return vec_sub(point->kind == point_fixed ? point->where : body->inertia.G, body->pin);
 }
 
-static void write_end(struct text *text, const struct fbd_model *model, const struct tie *tie,
-                      const struct tie_state *state, int k)
+static void write_end(struct text *text, const struct fbd_model *model, const struct coupling *coupling,
+                      const struct coupling_state *state, int k)
 {
-    const struct constraint *source = &model->scene->constraints[tie->constraint];
-    bool wound = (k == 0 && tie->wound[0] != 0) || (k + 1 == tie->end_count && tie->wound[1] != 0);
-    bool round = tie->law->strands && tie->end[k].radius > 0; /* a disc that its strands go round */
-    int which = k == 0 ? 0 : round || k + 1 == tie->end_count ? 1 : -1;
-    if (tie->law->strands && !round) which = -1;
+    const struct constraint *source = &model->scene->constraints[coupling->constraint];
+    bool wound =
+        (k == 0 && coupling->wound[0] != 0) || (k + 1 == coupling->end_count && coupling->wound[1] != 0);
+    bool round = coupling->law->strands && coupling->end[k].radius > 0; /* a disc that its strands go round */
+    int which = k == 0 ? 0 : round || k + 1 == coupling->end_count ? 1 : -1;
+    if (coupling->law->strands && !round) which = -1;
     int side = which < 0 ? 0 : state->side[which];
     json_comma(text, (size_t)k);
-    text_printf(text, "{\"body\":%d,", tie->end[k].body);
-    json_vector_member(text, "point", end_point(model, source, tie->place + k));
-    json_number_member(text, "radius", tie->end[k].radius);
+    text_printf(text, "{\"body\":%d,", coupling->end[k].body);
+    json_vector_member(text, "point", end_point(model, source, coupling->place + k));
+    json_number_member(text, "radius", coupling->end[k].radius);
     text_printf(text, "\"side\":%d,\"wound\":%d}", side, wound || round);
 }
 
 /* The first of the two columns of its force, which says whether a rope pulls; -1 when no body has it. */
-static int force_column(const struct record *record, const struct tie *tie)
+static int force_column(const struct record *record, const struct coupling *coupling)
 {
-    for (int k = 0; k < tie->end_count; k++) {
-        if (tie->end[k].body == ground_body || !tie->end[k].name[0]) continue;
-        const struct record_of_body *body = &record->bodies[tie->end[k].body];
+    for (int k = 0; k < coupling->end_count; k++) {
+        if (coupling->end[k].body == ground_body || !coupling->end[k].name[0]) continue;
+        const struct record_of_body *body = &record->bodies[coupling->end[k].body];
         for (size_t i = 0; i < body->arrow_count; i++)
-            if (strcmp(body->arrows[i].name, tie->end[k].name[0]) == 0) return body->arrows[i].arrow;
+            if (strcmp(body->arrows[i].name, coupling->end[k].name[0]) == 0) return body->arrows[i].arrow;
     }
     return -1;
 }
 
 /* The line of a slot in the frame of its body; without ends of its own, none. */
-static void write_slot(struct text *text, const struct fbd_model *model, const struct tie *tie)
+static void write_slot(struct text *text, const struct fbd_model *model, const struct coupling *coupling)
 {
     enum { segments = 240 };
-    const struct constraint *source = &model->scene->constraints[tie->constraint];
+    const struct constraint *source = &model->scene->constraints[coupling->constraint];
     struct vec from = end_point(model, source, 1), e = vec_unit(source->along);
     if (!source->curve && !(isfinite(source->from) && isfinite(source->to))) return;
     double first = source->curve ? source->curve->start : source->from;
@@ -109,20 +110,21 @@ static void write_slot(struct text *text, const struct fbd_model *model, const s
     text_add(text, "],");
 }
 
-static void write_tie(struct text *text, const struct record *record, const struct tie *tie,
-                      const struct tie_state *state)
+static void write_coupling(struct text *text, const struct record *record, const struct coupling *coupling,
+                           const struct coupling_state *state)
 {
     const struct fbd_model *model = record->model;
     text_add(text, "\n{");
-    json_text_member(text, "kind", tie->law->drawing);
-    json_text_member(text, "name", tie->name);
+    json_text_member(text, "kind", coupling->law->drawing);
+    json_text_member(text, "name", coupling->name);
     text_add(text, "\"ends\":[");
-    for (int k = 0; k < tie->end_count; k++) write_end(text, model, tie, state, k);
+    for (int k = 0; k < coupling->end_count; k++) write_end(text, model, coupling, state, k);
     text_add(text, "],");
-    if (tie->kind == constraint_slot || tie->kind == constraint_groove) write_slot(text, model, tie);
-    json_number_member(text, "length", tie->reels ? 0 : state->zero);
-    json_vector_member(text, "e", vec_unit(model->scene->constraints[tie->constraint].along));
-    text_printf(text, "\"side\":%d,\"force\":%d}", state->side[0], force_column(record, tie));
+    if (coupling->kind == constraint_slot || coupling->kind == constraint_groove)
+        write_slot(text, model, coupling);
+    json_number_member(text, "length", coupling->reels ? 0 : state->zero);
+    json_vector_member(text, "e", vec_unit(model->scene->constraints[coupling->constraint].along));
+    text_printf(text, "\"side\":%d,\"force\":%d}", state->side[0], force_column(record, coupling));
 }
 
 /* What contacts meet on the ground: {point, e, n} of a line, {corners} of a polygon. */
@@ -157,21 +159,21 @@ static void write_surfaces(struct text *text, const fbd_result *result, const st
         const struct constraint *source = &record->model->scene->constraints[meeting->constraint];
         if (!source->contact.line && !source->contact.polygon) continue;
         json_comma(text, written++);
-        write_surface(text, source, result->start->tree->ties[meeting->first_tie].side[0]);
+        write_surface(text, source, result->start->tree->couplings[meeting->first_coupling].side[0]);
     }
     text_add(text, "],\n");
 }
 
-void page_ties_write(struct text *text, const fbd_result *result, const struct record *record)
+void page_couplings_write(struct text *text, const fbd_result *result, const struct record *record)
 {
     const struct tree *tree = record->model->tree;
-    int count = tree ? tree->tie_count : 0;
+    int count = tree ? tree->coupling_count : 0;
     size_t written = 0;
-    text_add(text, "\"ties\":[");
+    text_add(text, "\"couplings\":[");
     for (int i = 0; i < count; i++) {
-        if (tree->ties[i].meeting >= 0) continue; /* its shapes and its forces are drawn */
+        if (tree->couplings[i].meeting >= 0) continue; /* its shapes and its forces are drawn */
         json_comma(text, written++);
-        write_tie(text, record, &tree->ties[i], &result->start->tree->ties[i]);
+        write_coupling(text, record, &tree->couplings[i], &result->start->tree->couplings[i]);
     }
     text_add(text, "],\n");
     write_surfaces(text, result, record);

@@ -25,17 +25,17 @@ static struct vec place_on(const struct fbd_model *model, int b, const struct po
     return point->kind == point_fixed ? point->where : model->bodies[b].inertia.G;
 }
 
-static void add_ties(struct plate *plate, const struct fbd_model *model, int b)
+static void add_couplings(struct plate *plate, const struct fbd_model *model, int b)
 {
-    for (int i = 0; model->tree && i < model->tree->tie_count; i++) {
-        const struct tie *tie = &model->tree->ties[i];
-        const struct constraint *source = &model->scene->constraints[tie->constraint];
-        for (int k = 0; k < tie->end_count; k++) {
-            if (tie->end[k].body != b) continue;
-            struct vec place = place_on(model, b, &source->point[tie->place + k]);
-            bool circle = tie->end[k].radius > 0;
-            if (circle && tie->end[k].radius > plate->wheel)
-                plate->wheel = tie->end[k].radius, plate->hub = place;
+    for (int i = 0; model->tree && i < model->tree->coupling_count; i++) {
+        const struct coupling *coupling = &model->tree->couplings[i];
+        const struct constraint *source = &model->scene->constraints[coupling->constraint];
+        for (int k = 0; k < coupling->end_count; k++) {
+            if (coupling->end[k].body != b) continue;
+            struct vec place = place_on(model, b, &source->point[coupling->place + k]);
+            bool circle = coupling->end[k].radius > 0;
+            if (circle && coupling->end[k].radius > plate->wheel)
+                plate->wheel = coupling->end[k].radius, plate->hub = place;
             if (!circle) add_point(plate, place);
         }
     }
@@ -85,7 +85,7 @@ struct plate plate_of(const struct fbd_model *model, int body)
     struct plate plate = {0};
     const struct model_body *b = &model->bodies[body];
     if (!is_shapeless(b->source) || b->kind == motion_particle || b->kind == motion_track) return plate;
-    add_ties(&plate, model, body);
+    add_couplings(&plate, model, body);
     add_joints(&plate, model, body);
     if (b->kind == motion_slide)
         plate.count = 0; /* a block, or the wedge under another one */

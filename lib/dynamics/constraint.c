@@ -18,14 +18,15 @@ bool port_turns(const struct port *port)
 
 /* ---- kinds */
 
-static void pin_along(const struct view *view, const struct tie *tie, struct row *rows)
+static void pin_along(const struct view *view, const struct coupling *coupling, struct row *rows)
 {
-    struct jet_vec A = point_of(view, &tie->end[0]), B = point_of(view, &tie->end[1]), d = jet_vec_sub(A, B);
+    struct jet_vec A = point_of(view, &coupling->end[0]), B = point_of(view, &coupling->end[1]),
+                   d = jet_vec_sub(A, B);
     struct jet_vec unit[2] = {{jet_constant(1), jet_constant(0)}, {jet_constant(0), jet_constant(1)}};
     for (int k = 0; k < 2; k++) {
         start_row(&rows[k], k == 0 ? d.x : d.y);
-        add_port(view, &rows[k], tie, 0, A, unit[k]);
-        add_port(view, &rows[k], tie, 1, B, negative(unit[k]));
+        add_port(view, &rows[k], coupling, 0, A, unit[k]);
+        add_port(view, &rows[k], coupling, 1, B, negative(unit[k]));
     }
 }
 
@@ -34,7 +35,7 @@ struct place {
     struct vec p, v, a, arm;
 };
 
-static struct place place_of(const struct view *view, const struct tie_end *end)
+static struct place place_of(const struct view *view, const struct coupling_end *end)
 {
     const struct tree_state *s = &view->work->links[end->link];
     struct vec r = vec_turn(s->turn, end->point), k_r = vec_perp(r), p = vec_add(s->p, r);
@@ -43,83 +44,84 @@ static struct place place_of(const struct view *view, const struct tie_end *end)
                           vec_sub(p, s->p)};
 }
 
-static void pin(const struct view *view, const struct tie *tie, const struct tie_state *state,
+static void pin(const struct view *view, const struct coupling *coupling, const struct coupling_state *state,
                 struct row *rows)
 {
     (void)state;
     if (view->varied) {
-        pin_along(view, tie, rows);
+        pin_along(view, coupling, rows);
         return;
     }
-    struct place A = place_of(view, &tie->end[0]), B = place_of(view, &tie->end[1]);
+    struct place A = place_of(view, &coupling->end[0]), B = place_of(view, &coupling->end[1]);
     struct vec d = vec_sub(A.p, B.p), v = vec_sub(A.v, B.v), a = vec_sub(A.a, B.a), none = {0, 0};
     start_row(&rows[0], (struct jet){.x = d.x, .x1 = v.x, .x2 = a.x});
     start_row(&rows[1], (struct jet){.x = d.y, .x1 = v.y, .x2 = a.y});
     for (int k = 0; k < 2; k++) {
         struct vec unit = {k == 0, k == 1};
         rows[k].port_count = 2;
-        rows[k].ports[0] = (struct port){tie->end[0].link, 0, A.arm, unit, none, none};
-        rows[k].ports[1] = (struct port){tie->end[1].link, 1, B.arm, vec_scale(-1, unit), none, none};
+        rows[k].ports[0] = (struct port){coupling->end[0].link, 0, A.arm, unit, none, none};
+        rows[k].ports[1] = (struct port){coupling->end[1].link, 1, B.arm, vec_scale(-1, unit), none, none};
     }
 }
 
-static void rod(const struct view *view, const struct tie *tie, const struct tie_state *state,
+static void rod(const struct view *view, const struct coupling *coupling, const struct coupling_state *state,
                 struct row *row)
 {
-    struct jet_vec A = point_of(view, &tie->end[0]), B = point_of(view, &tie->end[1]), d = jet_vec_sub(A, B);
+    struct jet_vec A = point_of(view, &coupling->end[0]), B = point_of(view, &coupling->end[1]),
+                   d = jet_vec_sub(A, B);
     struct jet length = jet_norm(d);
     struct jet_vec u = jet_vec_times(jet_inverse(length), d);
     start_row(row, jet_sub(length, jet_constant(state->zero)));
-    add_port(view, row, tie, 0, A, u);
-    add_port(view, row, tie, 1, B, negative(u));
+    add_port(view, row, coupling, 0, A, u);
+    add_port(view, row, coupling, 1, B, negative(u));
 }
 
-static void gear(const struct view *view, const struct tie *tie, const struct tie_state *state,
+static void gear(const struct view *view, const struct coupling *coupling, const struct coupling_state *state,
                  struct row *row)
 {
-    double r1 = tie->end[0].radius, r2 = tie->end[1].radius, sign = r1 + r2 < 0 ? -1 : 1;
-    struct jet_vec C1 = point_of(view, &tie->end[0]), C2 = point_of(view, &tie->end[1]),
+    double r1 = coupling->end[0].radius, r2 = coupling->end[1].radius, sign = r1 + r2 < 0 ? -1 : 1;
+    struct jet_vec C1 = point_of(view, &coupling->end[0]), C2 = point_of(view, &coupling->end[1]),
                    d = jet_vec_sub(C2, C1);
     if (sign < 0) d = negative(d);
     struct jet_vec u = jet_vec_times(jet_inverse(jet_norm(d)), d), t = jet_perp(u);
     struct jet phi = jet_angle(d);
-    struct jet g = jet_add(jet_scale(r1, jet_sub(angle_of(view, tie->end[0].link), phi)),
-                           jet_scale(r2, jet_sub(angle_of(view, tie->end[1].link), phi)));
+    struct jet g = jet_add(jet_scale(r1, jet_sub(angle_of(view, coupling->end[0].link), phi)),
+                           jet_scale(r2, jet_sub(angle_of(view, coupling->end[1].link), phi)));
     const double turn = 6.283185307179586;
     start_row(row, nearest(jet_sub(g, jet_constant(state->zero)), turn * (r1 + r2)));
     struct jet_vec Q1 = jet_vec_sub(C1, jet_vec_times(jet_constant(-r1), u));
     struct jet_vec Q2 = jet_vec_sub(C2, jet_vec_times(jet_constant(r2), u));
-    add_port(view, row, tie, 0, Q1, t);
-    add_port(view, row, tie, 1, Q2, negative(t));
+    add_port(view, row, coupling, 0, Q1, t);
+    add_port(view, row, coupling, 1, Q2, negative(t));
 }
 
-static struct at_line at_line_of(const struct tie *tie, const struct tie_state *state)
+static struct at_line at_line_of(const struct coupling *coupling, const struct coupling_state *state)
 {
-    return (struct at_line){0, tie->end[0], tie->end[1], tie->e, state->side[0]};
+    return (struct at_line){0, coupling->end[0], coupling->end[1], coupling->e, state->side[0]};
 }
 
-static void roll(const struct view *view, const struct tie *tie, const struct tie_state *state,
+static void roll(const struct view *view, const struct coupling *coupling, const struct coupling_state *state,
                  struct row *rows)
 {
-    struct at_line at = at_line_of(tie, state);
-    row_line(view, tie, &at, state->zero, &rows[0], &rows[1]);
+    struct at_line at = at_line_of(coupling, state);
+    row_line(view, coupling, &at, state->zero, &rows[0], &rows[1]);
 }
 
-static void rack(const struct view *view, const struct tie *tie, const struct tie_state *state,
+static void rack(const struct view *view, const struct coupling *coupling, const struct coupling_state *state,
                  struct row *row)
 {
-    struct at_line at = at_line_of(tie, state);
-    row_line(view, tie, &at, state->zero, NULL, row);
+    struct at_line at = at_line_of(coupling, state);
+    row_line(view, coupling, &at, state->zero, NULL, row);
 }
 
 /* On which side of its line the circle is. */
-static void side_start(const struct view *view, const struct tie *tie, struct tie_state *state,
+static void side_start(const struct view *view, const struct coupling *coupling, struct coupling_state *state,
                        struct row *rows)
 {
-    struct jet_vec d = jet_vec_sub(point_of(view, &tie->end[0]), point_of(view, &tie->end[1]));
-    struct jet_vec e = turning(view, tie->end[1].link, tie->e);
+    struct jet_vec d = jet_vec_sub(point_of(view, &coupling->end[0]), point_of(view, &coupling->end[1]));
+    struct jet_vec e = turning(view, coupling->end[1].link, coupling->e);
     if (vec_cross(jet_value(e), jet_value(d)) < 0) state->side[0] = -1;
-    zero_start(view, tie, state, rows);
+    zero_start(view, coupling, state, rows);
 }
 
 /* ---- all of them */
@@ -159,28 +161,30 @@ void constraints_evaluate(const struct fbd_model *model, const struct instant *a
     const struct tree *tree = model->tree;
     struct tree_work *work = at->tree;
     struct view view = {model, tree, work, along != NULL, at, along};
-    for (int i = 0; i < tree->tie_count; i++) {
-        const struct tie *tie = &tree->ties[i];
-        constraint_forms[tie->kind].rows(&view, tie, &work->ties[i], &work->rows[tie->first_row]);
+    for (int i = 0; i < tree->coupling_count; i++) {
+        const struct coupling *coupling = &tree->couplings[i];
+        constraint_forms[coupling->kind].rows(&view, coupling, &work->couplings[i],
+                                              &work->rows[coupling->first_row]);
     }
 }
 
-struct room tie_room(const struct fbd_model *model, const struct tree_work *work, int index, int end)
+struct room coupling_room(const struct fbd_model *model, const struct tree_work *work, int index, int end)
 {
-    const struct tie *tie = &model->tree->ties[index];
-    const struct constraint_form *form = &constraint_forms[tie->kind];
+    const struct coupling *coupling = &model->tree->couplings[index];
+    const struct constraint_form *form = &constraint_forms[coupling->kind];
     struct view view = view_of(model, work);
     if (!form->left) return (struct room){HUGE_VAL, 0, HUGE_VAL};
     /* By value: nothing of it points here. */
     /* cppcheck-suppress returnDanglingLifetime */
-    return form->left(&view, tie, &work->ties[index], end);
+    return form->left(&view, coupling, &work->couplings[index], end);
 }
 
-void zero_start(const struct view *view, const struct tie *tie, struct tie_state *state, struct row *rows)
+void zero_start(const struct view *view, const struct coupling *coupling, struct coupling_state *state,
+                struct row *rows)
 {
-    constraint_forms[tie->kind].rows(view, tie, state, rows);
-    state->zero =
-        tie->length_given ? tie->length + state->laid[0] + state->laid[1] : rows[tie->row_count - 1].g.x;
+    constraint_forms[coupling->kind].rows(view, coupling, state, rows);
+    state->zero = coupling->length_given ? coupling->length + state->laid[0] + state->laid[1]
+                                         : rows[coupling->row_count - 1].g.x;
 }
 
 void constraints_start(const struct fbd_model *model, const struct instant *at)
@@ -188,29 +192,29 @@ void constraints_start(const struct fbd_model *model, const struct instant *at)
     const struct tree *tree = model->tree;
     struct tree_work *work = at->tree;
     struct view view = {model, tree, work, false, at, NULL};
-    for (int i = 0; i < tree->tie_count; i++) {
-        const struct tie *tie = &tree->ties[i];
-        const struct constraint_form *form = &constraint_forms[tie->kind];
-        work->ties[i] = (struct tie_state){.side = {1, 1}, .feature = no_feature};
-        if (form->start) form->start(&view, tie, &work->ties[i], &work->rows[tie->first_row]);
+    for (int i = 0; i < tree->coupling_count; i++) {
+        const struct coupling *coupling = &tree->couplings[i];
+        const struct constraint_form *form = &constraint_forms[coupling->kind];
+        work->couplings[i] = (struct coupling_state){.side = {1, 1}, .feature = no_feature};
+        if (form->start) form->start(&view, coupling, &work->couplings[i], &work->rows[coupling->first_row]);
     }
-    for (int i = 0; i < tree->tie_count; i++) rope_start_wrap(tree, work, i);
+    for (int i = 0; i < tree->coupling_count; i++) rope_start_wrap(tree, work, i);
 }
 
 void constraints_follow(const struct fbd_model *model, struct tree_work *work)
 {
     struct view view = view_of(model, work);
-    for (int i = 0; i < model->tree->tie_count; i++) {
-        const struct tie *tie = &model->tree->ties[i];
-        const struct constraint_form *form = &constraint_forms[tie->kind];
-        if (form->follow) form->follow(&view, tie, &work->ties[i]);
+    for (int i = 0; i < model->tree->coupling_count; i++) {
+        const struct coupling *coupling = &model->tree->couplings[i];
+        const struct constraint_form *form = &constraint_forms[coupling->kind];
+        if (form->follow) form->follow(&view, coupling, &work->couplings[i]);
     }
 }
 
 bool couplings_go_on(const struct tree *tree)
 {
-    for (int i = 0; i < tree->tie_count; i++) {
-        enum constraint_kind kind = tree->ties[i].kind;
+    for (int i = 0; i < tree->coupling_count; i++) {
+        enum constraint_kind kind = tree->couplings[i].kind;
         if (kind != constraint_pin && kind != constraint_rod && kind != constraint_gear) return false;
     }
     return true;
@@ -218,19 +222,19 @@ bool couplings_go_on(const struct tree *tree)
 
 /* ---- bodies that roll or rub */
 
-void tie_set_feature(const struct fbd_model *model, struct tree_work *work, int index, int feature)
+void coupling_set_feature(const struct fbd_model *model, struct tree_work *work, int index, int feature)
 {
-    const struct tie *tie = &model->tree->ties[index];
+    const struct coupling *coupling = &model->tree->couplings[index];
     struct view view = view_of(model, work);
-    work->ties[index].feature = feature;
-    work->ties[index].zero = 0;
-    contact_rows(&view, tie, &work->ties[index], &work->rows[tie->first_row]);
-    work->ties[index].zero = work->rows[tie->first_row + 1].g.x;
+    work->couplings[index].feature = feature;
+    work->couplings[index].zero = 0;
+    contact_rows(&view, coupling, &work->couplings[index], &work->rows[coupling->first_row]);
+    work->couplings[index].zero = work->rows[coupling->first_row + 1].g.x;
 }
 
-static const struct row *row_along(const struct fbd_model *model, const struct tree_work *work, int tie)
+static const struct row *row_along(const struct fbd_model *model, const struct tree_work *work, int coupling)
 {
-    return &work->rows[model->tree->ties[tie].first_row + 1];
+    return &work->rows[model->tree->couplings[coupling].first_row + 1];
 }
 
 static double shortest_strand(const struct fbd_model *model, const struct instant *at, int index)
@@ -245,8 +249,8 @@ static double shortest_strand(const struct fbd_model *model, const struct instan
  * difference of places, which turns with the slot, and tells the direction of a curve. */
 static double remoteness(const struct fbd_model *model, const struct instant *at, int index, double size)
 {
-    const struct tie *tie = &model->tree->ties[index];
-    const struct curve *curve = tie->source->curve;
+    const struct coupling *coupling = &model->tree->couplings[index];
+    const struct curve *curve = coupling->source->curve;
     const struct row *row = row_along(model, at->tree, index);
     double place = 0, turns = 0;
     for (int k = 0; k < row->port_count; k++) {
@@ -254,9 +258,9 @@ static double remoteness(const struct fbd_model *model, const struct instant *at
         place = fmax(place, vec_norm(s->p));
         turns = fmax(turns, fabs(s->omega));
     }
-    if (tie->kind == constraint_capstan) return size * place / shortest_strand(model, at, index);
-    if (tie->kind != constraint_groove) return 0;
-    double bend = curve ? curve_at(curve, NULL, at->tree->ties[index].foot).bend : 0;
+    if (coupling->kind == constraint_capstan) return size * place / shortest_strand(model, at, index);
+    if (coupling->kind != constraint_groove) return 0;
+    double bend = curve ? curve_at(curve, NULL, at->tree->couplings[index].foot).bend : 0;
     return place * (turns + fabs(bend) * size);
 }
 
@@ -274,10 +278,10 @@ static double fastest(const struct tree *tree, struct tree_work *work, double ar
     return fmax(work->fastest, work->spin * arm);
 }
 
-double tie_slip_rounding(const struct fbd_model *model, const struct instant *at, int tie)
+double coupling_slip_rounding(const struct fbd_model *model, const struct instant *at, int coupling)
 {
-    const struct row *row = row_along(model, at->tree, tie);
-    bool touches = model->tree->ties[tie].meeting >= 0;
+    const struct row *row = row_along(model, at->tree, coupling);
+    bool touches = model->tree->couplings[coupling].meeting >= 0;
     double size = 0, reach = 0;
     for (int k = 0; k < row->port_count; k++) {
         const struct tree_state *s = &at->tree->links[row->ports[k].link];
@@ -289,42 +293,43 @@ double tie_slip_rounding(const struct fbd_model *model, const struct instant *at
     }
     /* What rests was brought to rest by a projection, with what moves; a contact by its impulses. */
     double moves = touches ? 0 : fastest(model->tree, at->tree, reach);
-    return 64 * DBL_EPSILON * (size + remoteness(model, at, tie, size)) + 4 * DBL_EPSILON * moves;
+    return 64 * DBL_EPSILON * (size + remoteness(model, at, coupling, size)) + 4 * DBL_EPSILON * moves;
 }
 
-double tie_slip_velocity(const struct fbd_model *model, const struct instant *at, int tie)
+double coupling_slip_velocity(const struct fbd_model *model, const struct instant *at, int coupling)
 {
-    double v = row_along(model, at->tree, tie)->g.x1;
-    return fabs(v) <= tie_slip_rounding(model, at, tie) ? 0 : v;
+    double v = row_along(model, at->tree, coupling)->g.x1;
+    return fabs(v) <= coupling_slip_rounding(model, at, coupling) ? 0 : v;
 }
 
-struct slip_rate tie_slip(const struct fbd_model *model, const struct instant *at, int index, bool varied)
+struct slip_rate coupling_slip(const struct fbd_model *model, const struct instant *at, int index,
+                               bool varied)
 {
-    const struct tie *tie = &model->tree->ties[index];
-    const struct tie_state *state = &at->tree->ties[index];
+    const struct coupling *coupling = &model->tree->couplings[index];
+    const struct coupling_state *state = &at->tree->couplings[index];
     struct view view = {model, model->tree, at->tree, varied, NULL, NULL};
-    struct at_line where = at_line_of(tie, state);
+    struct at_line where = at_line_of(coupling, state);
     struct row along;
-    row_line(&view, tie, &where, state->zero, NULL, &along);
+    row_line(&view, coupling, &where, state->zero, NULL, &along);
     return (struct slip_rate){along.g.x1, along.g.d1};
 }
 
-double tie_slip_acceleration(const struct fbd_model *model, const struct instant *at, int tie)
+double coupling_slip_acceleration(const struct fbd_model *model, const struct instant *at, int coupling)
 {
-    return row_along(model, at->tree, tie)->g.x2;
+    return row_along(model, at->tree, coupling)->g.x2;
 }
 
-void tie_rezero(const struct fbd_model *model, struct tree_work *work, int tie)
+void coupling_rezero(const struct fbd_model *model, struct tree_work *work, int coupling)
 {
-    work->ties[tie].zero += row_along(model, work, tie)->g.x;
+    work->couplings[coupling].zero += row_along(model, work, coupling)->g.x;
 }
 
 /* ---- what is one-sided */
 
-bool slot_is_open(const struct tie *tie, const int *slip)
+bool slot_is_open(const struct coupling *coupling, const int *slip)
 {
-    const bool slot = tie->kind == constraint_slot || tie->kind == constraint_groove;
-    return slot && tie->surface >= 0 && slip[tie->surface] != stick;
+    const bool slot = coupling->kind == constraint_slot || coupling->kind == constraint_groove;
+    return slot && coupling->surface >= 0 && slip[coupling->surface] != stick;
 }
 
 /* Beyond an end of its slot what flies meets nothing but that end, a point D away, with D^2 = left^2 + h^2: the curve goes
@@ -332,10 +337,10 @@ bool slot_is_open(const struct tie *tie, const int *slip)
 static void look_past_end(const struct fbd_model *model, const struct instant *at, const struct mode *hold,
                           struct one_sided *state)
 {
-    const struct tie *tie = &model->tree->ties[hold->tie];
-    const double radius = tie->end[0].radius, h = radius - state->excess;
+    const struct coupling *coupling = &model->tree->couplings[hold->coupling];
+    const double radius = coupling->end[0].radius, h = radius - state->excess;
     for (int end = 0; end < 2; end++) {
-        const struct room room = tie_room(model, at->tree, hold->tie, end);
+        const struct room room = coupling_room(model, at->tree, hold->coupling, end);
         if (!(room.left < -slot_rounding * room.size)) continue;
         const double D = hypot(room.left, h);
         state->rate = -(room.left * room.rate - h * state->rate) / D;
@@ -346,25 +351,26 @@ static void look_past_end(const struct fbd_model *model, const struct instant *a
 struct one_sided one_sided_at(const struct fbd_model *model, const struct instant *at, int pair)
 {
     const struct mode *hold = &model->plan.modes[pair];
-    const struct tie *tie = &model->tree->ties[hold->tie];
-    const struct row *row = &at->tree->rows[tie->first_row];
+    const struct coupling *coupling = &model->tree->couplings[hold->coupling];
+    const struct row *row = &at->tree->rows[coupling->first_row];
     bool rope = hold->kind == mode_rope;
-    double sign = rope ? 1 : -1, length = rope ? fabs(at->tree->ties[hold->tie].zero) : 0, reach = 0;
+    double sign = rope ? 1 : -1, length = rope ? fabs(at->tree->couplings[hold->coupling].zero) : 0,
+           reach = 0;
     double size = 0;
-    for (int j = 0; j < tie->row_count; j++) size = fmax(size, fabs(row[j].lambda));
+    for (int j = 0; j < coupling->row_count; j++) size = fmax(size, fabs(row[j].lambda));
     struct one_sided state = {.excess = sign * row->g.x,
                               .rate = sign * row->g.x1,
                               .acceleration = sign * row->g.x2,
                               .force = -sign * row->lambda};
-    if (slot_is_open(tie, at->slip)) look_past_end(model, at, hold, &state);
-    for (int k = 0; k < tie->end_count; k++) {
-        const struct tree_state *s = &at->tree->links[tie->end[k].link];
-        double arm = tie->end[k].radius + vec_norm(tie->end[k].point);
-        reach = fmax(reach, vec_norm(s->p) + tie->end[k].radius);
-        size = fmax(size, vec_norm(model->tree->links[tie->end[k].link].force));
+    if (slot_is_open(coupling, at->slip)) look_past_end(model, at, hold, &state);
+    for (int k = 0; k < coupling->end_count; k++) {
+        const struct tree_state *s = &at->tree->links[coupling->end[k].link];
+        double arm = coupling->end[k].radius + vec_norm(coupling->end[k].point);
+        reach = fmax(reach, vec_norm(s->p) + coupling->end[k].radius);
+        size = fmax(size, vec_norm(model->tree->links[coupling->end[k].link].force));
         state.turning = fmax(state.turning, fabs(s->omega));
         /* What stands still as one joint takes back what another does has the rounding of both. */
-        for (int l = tie->end[k].link; l > 0; l = model->tree->links[l].parent) {
+        for (int l = coupling->end[k].link; l > 0; l = model->tree->links[l].parent) {
             const struct tree_state *below = &at->tree->links[l];
             state.speed = fmax(state.speed, vec_norm(below->v) + fabs(below->omega) * arm);
         }

@@ -32,7 +32,7 @@
 
 /* The force of a unit multiplier on one link, at `arm` from its O, and its variation. */
 struct port {
-    int link, end; /* number of the end in its tie */
+    int link, end; /* number of the end in its coupling */
     struct vec arm, force;
     struct vec d_arm, d_force;
 };
@@ -51,9 +51,9 @@ struct row {
     struct port ports[2 * most_constraint_ends];
 };
 
-/* What a tie keeps of the start: zero of its rows, side of the line or of the way round the pulleys, and the
+/* What a coupling keeps of the start: zero of its rows, side of the line or of the way round the pulleys, and the
  * angle that others are counted from. */
-struct tie_state {
+struct coupling_state {
     double zero;
     int side[2];
     double psi[2];    /* of a rope: the directions of its first and last piece at the start */
@@ -66,12 +66,12 @@ struct tie_state {
 
 enum { no_feature = -1 };
 
-/* Set what the ties keep, from where the links are. */
+/* Set what the couplings keep, from where the links are. */
 void constraints_start(const struct fbd_model *model, const struct instant *at);
 
-/* What the ties keep of their start is that of `from`, a state of the same scene or of one that has these ties and
+/* What the couplings keep of their start is that of `from`, a state of the same scene or of one that has these couplings and
  * others. */
-void ties_keep(struct fbd_state *state, const struct fbd_state *from);
+void couplings_keep(struct fbd_state *state, const struct fbd_state *from);
 
 /* Note how far the pieces of ropes have turned, where the links are: a rope may wind itself round a pulley
  * any number of times, and an angle by itself does not tell how often. From there on they may turn by less
@@ -85,23 +85,24 @@ bool couplings_go_on(const struct tree *tree);
  * from the motion alone. */
 void slots_follow(const struct fbd_model *model, struct tree_work *work);
 
-/* Put tie `index`, of a contact, to a feature of its meeting (or to none), as the links are. */
-void tie_set_feature(const struct fbd_model *model, struct tree_work *work, int index, int feature);
+/* Put coupling `index`, of a contact, to a feature of its meeting (or to none), as the links are. */
+void coupling_set_feature(const struct fbd_model *model, struct tree_work *work, int index, int feature);
 
 /* The velocity of a rolling or rubbing body's point of contact against its line, and its acceleration; after
  * accelerations() at the instant. A velocity within rounding of zero is zero. */
-double tie_slip_velocity(const struct fbd_model *model, const struct instant *at, int tie);
+double coupling_slip_velocity(const struct fbd_model *model, const struct instant *at, int coupling);
 
 /* What of it counts as zero. */
-double tie_slip_rounding(const struct fbd_model *model, const struct instant *at, int tie);
+double coupling_slip_rounding(const struct fbd_model *model, const struct instant *at, int coupling);
 struct slip_rate {
     double value, variation;
 };
 
 /* The velocity alone, from where the links are and how they move; `varied`: and how it varies with them. */
-struct slip_rate tie_slip(const struct fbd_model *model, const struct instant *at, int index, bool varied);
+struct slip_rate coupling_slip(const struct fbd_model *model, const struct instant *at, int index,
+                               bool varied);
 
-double tie_slip_acceleration(const struct fbd_model *model, const struct instant *at, int tie);
+double coupling_slip_acceleration(const struct fbd_model *model, const struct instant *at, int coupling);
 
 /* What is one-sided: how it is, after accelerations() at the instant. The excess is that of a rope's way over
  * its length, or how far what rolls is within its line; it never is more than zero. */
@@ -133,12 +134,12 @@ int rope_shrunk_at(const struct fbd_model *model, const struct tree_work *work, 
 struct room {
     double left, rate, size;
 };
-struct room tie_room(const struct fbd_model *model, const struct tree_work *work, int index, int end);
+struct room coupling_room(const struct fbd_model *model, const struct tree_work *work, int index, int end);
 
 /* Is a slot that only presses open: does its point fly? It has passed an end where less than minus this share of the
  * slot's size is left. */
 static const double slot_rounding = 6e-12;
-bool slot_is_open(const struct tie *tie, const int *slip);
+bool slot_is_open(const struct coupling *coupling, const int *slip);
 
 /* How far the point of a slot is from the origin of its frame, and the radius of a circle as long as its curve, HUGE_VAL
  * where it is straight; 0 and HUGE_VAL of what is no slot. After constraints_evaluate(). */
@@ -166,7 +167,7 @@ void capstan_tensions(const struct fbd_model *model, const struct tree_work *wor
 struct fbd_state;
 double rope_reel_rate(const struct fbd_state *state, int index);
 
-/* Does the rope of a tie go on beyond the pulley at its end, as the next tie? */
+/* Does the rope of a coupling go on beyond the pulley at its end, as the next coupling? */
 bool rope_goes_on(const struct tree *tree, int index);
 
 /* The angle by which such a rope lies on the pulley, from where one piece reaches it to where the next leaves
@@ -174,7 +175,7 @@ bool rope_goes_on(const struct tree *tree, int index);
 double rope_wrap(const struct fbd_model *model, const struct tree_work *work, int index);
 
 /* A body that has slipped rolls, or sticks, on from where it is. */
-void tie_rezero(const struct fbd_model *model, struct tree_work *work, int tie);
+void coupling_rezero(const struct fbd_model *model, struct tree_work *work, int coupling);
 
 /* Evaluate all rows where the links are, with A their accelerations. With `along` (else NULL), along the
  * variation of the links and of the time as well. */

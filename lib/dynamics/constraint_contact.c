@@ -4,7 +4,7 @@
  */
 #include "dynamics/constraint_view.h"
 
-void row_line(const struct view *view, const struct tie *tie, const struct at_line *at, double zero,
+void row_line(const struct view *view, const struct coupling *coupling, const struct at_line *at, double zero,
               struct row *normal, struct row *along)
 {
     struct jet_vec C = point_of(view, &at->circle), d = jet_vec_sub(C, point_of(view, &at->base));
@@ -15,17 +15,17 @@ void row_line(const struct view *view, const struct tie *tie, const struct at_li
     struct jet turned = jet_sub(angle_of(view, at->circle.link), angle_of(view, at->base.link));
     struct jet g = jet_add(jet_dot(e, d), jet_scale(s * R, turned));
     start_row(along, jet_sub(g, jet_constant(zero)));
-    add_port(view, along, tie, at->k, Q, e);
-    add_port(view, along, tie, 1 - at->k, Q, negative(e));
+    add_port(view, along, coupling, at->k, Q, e);
+    add_port(view, along, coupling, 1 - at->k, Q, negative(e));
     if (!normal) return;
     start_row(normal, jet_sub(jet_dot(n, d), jet_constant(R)));
-    add_port(view, normal, tie, at->k, Q, n);
-    add_port(view, normal, tie, 1 - at->k, Q, negative(n));
+    add_port(view, normal, coupling, at->k, Q, n);
+    add_port(view, normal, coupling, 1 - at->k, Q, negative(n));
 }
 
 /* Two circles, one of which may be a point: the normal is the line of centres, from 2 to 1. */
-static void circles(const struct view *view, const struct tie *tie, const struct at_line *at, double zero,
-                    struct row *normal, struct row *along)
+static void circles(const struct view *view, const struct coupling *coupling, const struct at_line *at,
+                    double zero, struct row *normal, struct row *along)
 {
     double R1 = at->circle.radius, R2 = at->base.radius;
     const double turn = 6.283185307179586;
@@ -34,21 +34,21 @@ static void circles(const struct view *view, const struct tie *tie, const struct
     struct jet_vec u = jet_vec_times(jet_inverse(length), d), t = jet_perp(u);
     struct jet_vec Q = jet_vec_sub(C1, jet_vec_times(jet_constant(R1), u));
     start_row(normal, jet_sub(length, jet_constant(R1 + R2)));
-    add_port(view, normal, tie, at->k, Q, u);
-    add_port(view, normal, tie, 1 - at->k, Q, negative(u));
+    add_port(view, normal, coupling, at->k, Q, u);
+    add_port(view, normal, coupling, 1 - at->k, Q, negative(u));
     struct jet g = jet_add(jet_scale(R1, jet_sub(phi, angle_of(view, at->circle.link))),
                            jet_scale(R2, jet_sub(phi, angle_of(view, at->base.link))));
     start_row(along, nearest(jet_sub(g, jet_constant(zero)), turn * (R1 + R2)));
-    add_port(view, along, tie, at->k, Q, t);
-    add_port(view, along, tie, 1 - at->k, Q, negative(t));
+    add_port(view, along, coupling, at->k, Q, t);
+    add_port(view, along, coupling, 1 - at->k, Q, negative(t));
 }
 
 /* The ends of a contact in the order of its feature. */
-static struct at_line at_feature(const struct view *view, const struct tie *tie,
-                                 const struct tie_state *state, bool *are_circles)
+static struct at_line at_feature(const struct view *view, const struct coupling *coupling,
+                                 const struct coupling_state *state, bool *are_circles)
 {
     const struct tree *tree = view->tree;
-    const struct meeting *meeting = &tree->meetings[tie->meeting];
+    const struct meeting *meeting = &tree->meetings[coupling->meeting];
     struct touch touch = meeting_touch(meeting, state->feature);
     int k = touch.moving;
     *are_circles = touch.circles;
@@ -61,17 +61,18 @@ static struct at_line at_feature(const struct view *view, const struct tie *tie,
 }
 
 /* A unit moment on a link, as two forces of a couple. */
-static void add_couple(const struct view *view, struct row *row, const struct tie *tie, int k, double size)
+static void add_couple(const struct view *view, struct row *row, const struct coupling *coupling, int k,
+                       double size)
 {
     for (int side = -1; side <= 1; side += 2) {
-        struct jet_vec Q = origin_of(view, tie->end[k].link);
+        struct jet_vec Q = origin_of(view, coupling->end[k].link);
         Q.x = jet_add(Q.x, jet_constant(0.5 * side));
-        add_port(view, row, tie, k, Q, (struct jet_vec){jet_constant(0), jet_constant(size * side)});
+        add_port(view, row, coupling, k, Q, (struct jet_vec){jet_constant(0), jet_constant(size * side)});
     }
 }
 
 /* A stop of a joint: s (q - limit), and nothing along it. */
-static void stop(const struct view *view, const struct tie *tie, const struct meeting *meeting,
+static void stop(const struct view *view, const struct coupling *coupling, const struct meeting *meeting,
                  struct row *rows)
 {
     const struct tree_link *link = &view->tree->links[meeting->shape[0].link];
@@ -81,21 +82,21 @@ static void stop(const struct view *view, const struct tie *tie, const struct me
     if (link->kind == motion_pivot) {
         struct jet q = jet_sub(angle_of(view, own), angle_of(view, link->parent));
         start_row(&rows[0], jet_scale(s, jet_sub(q, jet_constant(link->along + meeting->limit))));
-        add_couple(view, &rows[0], tie, 0, s);
-        add_couple(view, &rows[0], tie, 1, -s);
+        add_couple(view, &rows[0], coupling, 0, s);
+        add_couple(view, &rows[0], coupling, 1, -s);
         return;
     }
-    struct tie_end zero = {.link = link->parent, .point = link->at};
+    struct coupling_end zero = {.link = link->parent, .point = link->at};
     struct jet_vec O = origin_of(view, own), e = turning(view, link->parent, link->e);
     struct jet q = jet_dot(e, jet_vec_sub(O, point_of(view, &zero)));
     struct jet_vec f = jet_vec_times(jet_constant(s), e);
     start_row(&rows[0], jet_scale(s, jet_sub(q, jet_constant(meeting->limit))));
-    add_port(view, &rows[0], tie, 0, O, f);
-    add_port(view, &rows[0], tie, 1, O, negative(f));
+    add_port(view, &rows[0], coupling, 0, O, f);
+    add_port(view, &rows[0], coupling, 1, O, negative(f));
 }
 
-void contact_rows(const struct view *view, const struct tie *tie, const struct tie_state *state,
-                  struct row *rows)
+void contact_rows(const struct view *view, const struct coupling *coupling,
+                  const struct coupling_state *state, struct row *rows)
 {
     bool are_circles;
     if (state->feature == no_feature) {
@@ -104,13 +105,13 @@ void contact_rows(const struct view *view, const struct tie *tie, const struct t
         start_row(&rows[1], jet_constant(0));
         return;
     }
-    if (view->tree->meetings[tie->meeting].stop != 0) {
-        stop(view, tie, &view->tree->meetings[tie->meeting], rows);
+    if (view->tree->meetings[coupling->meeting].stop != 0) {
+        stop(view, coupling, &view->tree->meetings[coupling->meeting], rows);
         return;
     }
-    struct at_line at = at_feature(view, tie, state, &are_circles);
+    struct at_line at = at_feature(view, coupling, state, &are_circles);
     if (are_circles)
-        circles(view, tie, &at, state->zero, &rows[0], &rows[1]);
+        circles(view, coupling, &at, state->zero, &rows[0], &rows[1]);
     else
-        row_line(view, tie, &at, state->zero, &rows[0], &rows[1]);
+        row_line(view, coupling, &at, state->zero, &rows[0], &rows[1]);
 }

@@ -47,7 +47,7 @@ static struct piece piece_between(struct jet_vec C1, double sR1, struct jet_vec 
 }
 
 /* How far u has turned at that end since the start, whole turns with it. */
-static struct jet turned_at(const struct tie_state *state, int end, struct jet_vec u)
+static struct jet turned_at(const struct coupling_state *state, int end, struct jet_vec u)
 {
     const double turn = 6.283185307179586;
     double c = cos(state->psi[end]), s = sin(state->psi[end]);
@@ -60,48 +60,48 @@ static struct jet turned_at(const struct tie_state *state, int end, struct jet_v
 }
 
 /* The angle from the disc at that end to where the rope leaves or reaches it. */
-static struct jet laid(const struct view *view, const struct tie *tie, const struct tie_state *state, int end,
-                       struct jet_vec u)
+static struct jet laid(const struct view *view, const struct coupling *coupling,
+                       const struct coupling_state *state, int end, struct jet_vec u)
 {
-    const struct tie_end *disc = &tie->end[end == 0 ? 0 : tie->end_count - 1];
+    const struct coupling_end *disc = &coupling->end[end == 0 ? 0 : coupling->end_count - 1];
     return jet_sub(turned_at(state, end, u), angle_of(view, disc->link));
 }
 
 /* Side times radius of what piece k of a rope leaves (end 0) or reaches (1): 0 where that is a point. */
-static double rim(const struct tie *tie, const struct tie_state *state, int k, int end)
+static double rim(const struct coupling *coupling, const struct coupling_state *state, int k, int end)
 {
-    bool outer = end == 0 ? k == 0 : k + 2 == tie->end_count;
-    return outer ? state->side[end] * tie->end[k + end].radius : 0;
+    bool outer = end == 0 ? k == 0 : k + 2 == coupling->end_count;
+    return outer ? state->side[end] * coupling->end[k + end].radius : 0;
 }
 
-static struct piece piece_of(const struct view *view, const struct tie *tie, const struct tie_state *state,
-                             int k)
+static struct piece piece_of(const struct view *view, const struct coupling *coupling,
+                             const struct coupling_state *state, int k)
 {
-    return piece_between(point_of(view, &tie->end[k]), rim(tie, state, k, 0),
-                         point_of(view, &tie->end[k + 1]), rim(tie, state, k, 1));
+    return piece_between(point_of(view, &coupling->end[k]), rim(coupling, state, k, 0),
+                         point_of(view, &coupling->end[k + 1]), rim(coupling, state, k, 1));
 }
 
 /* The first or the last. */
-static struct piece piece_at(const struct view *view, const struct tie *tie, const struct tie_state *state,
-                             int end)
+static struct piece piece_at(const struct view *view, const struct coupling *coupling,
+                             const struct coupling_state *state, int end)
 {
-    return piece_of(view, tie, state, end == 0 ? 0 : tie->end_count - 2);
+    return piece_of(view, coupling, state, end == 0 ? 0 : coupling->end_count - 2);
 }
 
 /* By how much a rope is longer than at t = 0. */
-static struct jet reeled(const struct view *view, const struct tie *tie)
+static struct jet reeled(const struct view *view, const struct coupling *coupling)
 {
     const struct instant *at = view->at;
     double rate, same, second;
-    double length = expr_eval_second(tie->reel.expr, at->t, at->y, 0, 0, formula_branches(&tie->reel, at),
-                                     &rate, &same, &second);
+    double length = expr_eval_second(coupling->reel.expr, at->t, at->y, 0, 0,
+                                     formula_branches(&coupling->reel, at), &rate, &same, &second);
     double dt = view->along ? view->along->dt : 0;
-    double jerk = dt != 0 ? formula_third(&tie->reel, at) : 0;
-    return (struct jet){length - tie->length, rate, second, rate * dt, second * dt, jerk * dt};
+    double jerk = dt != 0 ? formula_third(&coupling->reel, at) : 0;
+    return (struct jet){length - coupling->length, rate, second, rate * dt, second * dt, jerk * dt};
 }
 
 /* Is a rope slack by more than rounding? */
-static bool is_loose(double over, const struct tie_state *state)
+static bool is_loose(double over, const struct coupling_state *state)
 {
     const double taut = 1e-9; /* of its length */
     return over < -taut * state->zero;
@@ -113,38 +113,39 @@ static void refuse_direction(struct row *row)
     for (int i = 0; i < row->port_count; i++) row->ports[i].force = (struct vec){NAN, NAN};
 }
 
-void rope_row(const struct view *view, const struct tie *tie, const struct tie_state *state, struct row *row)
+void rope_row(const struct view *view, const struct coupling *coupling, const struct coupling_state *state,
+              struct row *row)
 {
-    int last = tie->end_count - 1;
+    int last = coupling->end_count - 1;
     bool shrunk = false;
     struct jet length = jet_constant(-state->zero);
     start_row(row, length);
     for (int k = 0; k < last; k++) {
-        double sR1 = rim(tie, state, k, 0), sR2 = rim(tie, state, k, 1);
-        struct piece piece = piece_of(view, tie, state, k);
+        double sR1 = rim(coupling, state, k, 0), sR2 = rim(coupling, state, k, 1);
+        struct piece piece = piece_of(view, coupling, state, k);
         length = jet_add(length, piece.t);
         shrunk |= piece.shrunk;
-        if (sR1 != 0) length = jet_add(length, jet_scale(sR1, laid(view, tie, state, 0, piece.u)));
-        if (sR2 != 0) length = jet_add(length, jet_scale(-sR2, laid(view, tie, state, 1, piece.u)));
-        add_port(view, row, tie, k, piece.Q1, negative(piece.u));
-        add_port(view, row, tie, k + 1, piece.Q2, piece.u);
+        if (sR1 != 0) length = jet_add(length, jet_scale(sR1, laid(view, coupling, state, 0, piece.u)));
+        if (sR2 != 0) length = jet_add(length, jet_scale(-sR2, laid(view, coupling, state, 1, piece.u)));
+        add_port(view, row, coupling, k, piece.Q1, negative(piece.u));
+        add_port(view, row, coupling, k + 1, piece.Q2, piece.u);
     }
-    row->g = tie->reels ? jet_sub(length, reeled(view, tie)) : length;
+    row->g = coupling->reels ? jet_sub(length, reeled(view, coupling)) : length;
     if (shrunk && !is_loose(length.x, state)) refuse_direction(row);
 }
 
 int rope_blocked_at(const struct fbd_model *model, const struct tree_work *work, int index)
 {
-    const struct tie *tie = &model->tree->ties[index];
-    const struct tie_state *state = &work->ties[index];
+    const struct coupling *coupling = &model->tree->couplings[index];
+    const struct coupling_state *state = &work->couplings[index];
     struct view view = view_of(model, work);
-    int last = tie->end_count - 1;
-    bool rubs = tie->kind == constraint_capstan;
+    int last = coupling->end_count - 1;
+    bool rubs = coupling->kind == constraint_capstan;
     for (int k = 0; k < last; k++) {
-        double sR1 = rubs ? k * tie->end[1].radius : rim(tie, state, k, 0);
-        double sR2 = rubs ? (1 - k) * tie->end[1].radius : rim(tie, state, k, 1);
-        struct vec from = jet_value(point_of(&view, &tie->end[k]));
-        struct vec to = jet_value(point_of(&view, &tie->end[k + 1]));
+        double sR1 = rubs ? k * coupling->end[1].radius : rim(coupling, state, k, 0);
+        double sR2 = rubs ? (1 - k) * coupling->end[1].radius : rim(coupling, state, k, 1);
+        struct vec from = jet_value(point_of(&view, &coupling->end[k]));
+        struct vec to = jet_value(point_of(&view, &coupling->end[k + 1]));
         bool rims = sR1 != 0 || sR2 != 0;
         if (rims && !(vec_norm(vec_sub(to, from)) > fabs(sR2 - sR1))) return k;
     }
@@ -153,12 +154,12 @@ int rope_blocked_at(const struct fbd_model *model, const struct tree_work *work,
 
 int rope_shrunk_at(const struct fbd_model *model, const struct tree_work *work, int index, struct vec *where)
 {
-    const struct tie *tie = &model->tree->ties[index];
-    const struct tie_state *state = &work->ties[index];
+    const struct coupling *coupling = &model->tree->couplings[index];
+    const struct coupling_state *state = &work->couplings[index];
     const struct view view = view_of(model, work);
-    if (tie->kind != constraint_rope || is_loose(work->rows[tie->first_row].g.x, state)) return -1;
-    for (int k = 0; k + 1 < tie->end_count; k++) {
-        const struct piece piece = piece_of(&view, tie, state, k);
+    if (coupling->kind != constraint_rope || is_loose(work->rows[coupling->first_row].g.x, state)) return -1;
+    for (int k = 0; k + 1 < coupling->end_count; k++) {
+        const struct piece piece = piece_of(&view, coupling, state, k);
         if (!piece.shrunk) continue;
         *where = jet_value(piece.Q1);
         return k;
@@ -168,28 +169,30 @@ int rope_shrunk_at(const struct fbd_model *model, const struct tree_work *work, 
 
 bool rope_goes_on(const struct tree *tree, int index)
 {
-    const struct tie *tie = &tree->ties[index];
-    if (tie->kind != constraint_rope || index + 1 >= tree->tie_count) return false;
-    return tie->end[tie->end_count - 1].radius > 0 && tie[1].constraint == tie->constraint;
+    const struct coupling *coupling = &tree->couplings[index];
+    if (coupling->kind != constraint_rope || index + 1 >= tree->coupling_count) return false;
+    return coupling->end[coupling->end_count - 1].radius > 0 &&
+           coupling[1].constraint == coupling->constraint;
 }
 
-static double turned_now(const struct view *view, const struct tie *tie, const struct tie_state *state,
-                         int end)
+static double turned_now(const struct view *view, const struct coupling *coupling,
+                         const struct coupling_state *state, int end)
 {
-    return turned_at(state, end, constraint_forms[tie->kind].piece(view, tie, state, end)).x;
+    return turned_at(state, end, constraint_forms[coupling->kind].piece(view, coupling, state, end)).x;
 }
 
-struct jet_vec rope_end_piece(const struct view *view, const struct tie *tie, const struct tie_state *state,
-                              int end)
+struct jet_vec rope_end_piece(const struct view *view, const struct coupling *coupling,
+                              const struct coupling_state *state, int end)
 {
-    return piece_at(view, tie, state, end).u;
+    return piece_at(view, coupling, state, end).u;
 }
 
 /* The directions of its first and last piece. */
-static void directions_start(const struct view *view, const struct tie *tie, struct tie_state *state)
+static void directions_start(const struct view *view, const struct coupling *coupling,
+                             struct coupling_state *state)
 {
     for (int end = 0; end < 2; end++) {
-        struct jet_vec u = constraint_forms[tie->kind].piece(view, tie, state, end);
+        struct jet_vec u = constraint_forms[coupling->kind].piece(view, coupling, state, end);
         state->psi[end] = atan2(u.y.x, u.x.x);
     }
 }
@@ -197,105 +200,107 @@ static void directions_start(const struct view *view, const struct tie *tie, str
 double rope_wrap(const struct fbd_model *model, const struct tree_work *work, int index)
 {
     struct view view = view_of(model, work);
-    const struct tie *tie = &model->tree->ties[index];
-    const struct tie_state *before = &work->ties[index], *after = before + 1;
-    double in = before->psi[1] + turned_now(&view, tie, before, 1);
-    double out = after->psi[0] + turned_now(&view, tie + 1, after, 0);
+    const struct coupling *coupling = &model->tree->couplings[index];
+    const struct coupling_state *before = &work->couplings[index], *after = before + 1;
+    double in = before->psi[1] + turned_now(&view, coupling, before, 1);
+    double out = after->psi[0] + turned_now(&view, coupling + 1, after, 0);
     return before->side[1] * (out - in);
 }
 
-void way_follow(const struct view *view, const struct tie *tie, struct tie_state *state)
+void way_follow(const struct view *view, const struct coupling *coupling, struct coupling_state *state)
 {
     for (int end = 0; end < 2; end++)
-        if (state->side[end] != 0) state->turned[end] = turned_now(view, tie, state, end);
+        if (state->side[end] != 0) state->turned[end] = turned_now(view, coupling, state, end);
 }
 
 /* ---- belts
  *
  * Strand 0 leaves disc 0 on its right, round which the belt runs counter-clockwise, and strand 1 comes back. */
 
-static struct piece strand_of(const struct view *view, const struct tie *tie, int strand)
+static struct piece strand_of(const struct view *view, const struct coupling *coupling, int strand)
 {
-    double sR[2] = {tie->end[0].radius, (tie->source->crossed ? -1 : 1) * tie->end[1].radius};
+    double sR[2] = {coupling->end[0].radius, (coupling->source->crossed ? -1 : 1) * coupling->end[1].radius};
     int from = strand, to = 1 - strand;
-    return piece_between(point_of(view, &tie->end[from]), sR[from], point_of(view, &tie->end[to]), sR[to]);
+    return piece_between(point_of(view, &coupling->end[from]), sR[from], point_of(view, &coupling->end[to]),
+                         sR[to]);
 }
 
 /* How much belt there is in a strand, counted from where the discs take it along. */
-static struct jet strand_way(const struct view *view, const struct tie *tie, const struct tie_state *state,
-                             int strand, const struct piece *piece)
+static struct jet strand_way(const struct view *view, const struct coupling *coupling,
+                             const struct coupling_state *state, int strand, const struct piece *piece)
 {
-    double sR[2] = {tie->end[0].radius, (tie->source->crossed ? -1 : 1) * tie->end[1].radius};
+    double sR[2] = {coupling->end[0].radius, (coupling->source->crossed ? -1 : 1) * coupling->end[1].radius};
     int from = strand, to = 1 - strand;
     struct jet turned = turned_at(state, strand, piece->u);
-    struct jet leaves = jet_sub(turned, angle_of(view, tie->end[from].link));
-    struct jet comes = jet_sub(angle_of(view, tie->end[to].link), turned);
+    struct jet leaves = jet_sub(turned, angle_of(view, coupling->end[from].link));
+    struct jet comes = jet_sub(angle_of(view, coupling->end[to].link), turned);
     return jet_add(piece->t, jet_add(jet_scale(sR[from], leaves), jet_scale(sR[to], comes)));
 }
 
-void belt_rows(const struct view *view, const struct tie *tie, const struct tie_state *state,
+void belt_rows(const struct view *view, const struct coupling *coupling, const struct coupling_state *state,
                struct row *rows)
 {
-    struct piece piece[2] = {strand_of(view, tie, 0), strand_of(view, tie, 1)};
+    struct piece piece[2] = {strand_of(view, coupling, 0), strand_of(view, coupling, 1)};
     struct jet way[2];
-    for (int k = 0; k < 2; k++) way[k] = strand_way(view, tie, state, k, &piece[k]);
-    for (int j = 0; j < tie->row_count; j++) {
+    for (int k = 0; k < 2; k++) way[k] = strand_way(view, coupling, state, k, &piece[k]);
+    for (int j = 0; j < coupling->row_count; j++) {
         double share[2] = {j == 0 ? 0.5 : 1, j == 0 ? -0.5 : 1};
         start_row(&rows[j], jet_add(jet_scale(share[0], way[0]), jet_scale(share[1], way[1])));
         rows[j].g.x -= state->laid[j];
         for (int k = 0; k < 2; k++) {
             struct jet_vec along = jet_vec_times(jet_constant(share[k]), piece[k].u);
-            add_port(view, &rows[j], tie, k, piece[k].Q1, negative(along));
-            add_port(view, &rows[j], tie, 1 - k, piece[k].Q2, along);
+            add_port(view, &rows[j], coupling, k, piece[k].Q1, negative(along));
+            add_port(view, &rows[j], coupling, 1 - k, piece[k].Q2, along);
         }
     }
 }
 
-struct jet_vec belt_piece(const struct view *view, const struct tie *tie, const struct tie_state *state,
-                          int strand)
+struct jet_vec belt_piece(const struct view *view, const struct coupling *coupling,
+                          const struct coupling_state *state, int strand)
 {
     (void)state;
-    return strand_of(view, tie, strand).u;
+    return strand_of(view, coupling, strand).u;
 }
 
-void belt_start(const struct view *view, const struct tie *tie, struct tie_state *state, struct row *rows)
+void belt_start(const struct view *view, const struct coupling *coupling, struct coupling_state *state,
+                struct row *rows)
 {
-    state->side[1] = tie->source->crossed ? -1 : 1;
-    directions_start(view, tie, state);
-    belt_rows(view, tie, state, rows);
-    for (int k = 0; k < tie->row_count; k++) state->laid[k] = rows[k].g.x;
+    state->side[1] = coupling->source->crossed ? -1 : 1;
+    directions_start(view, coupling, state);
+    belt_rows(view, coupling, state, rows);
+    for (int k = 0; k < coupling->row_count; k++) state->laid[k] = rows[k].g.x;
 }
 
 void belt_tensions(const struct fbd_model *model, const struct tree_work *work, int index, double tension[2])
 {
-    const struct tie *tie = &model->tree->ties[index];
-    const struct row *rows = &work->rows[tie->first_row];
-    double both = tie->source->tension - (tie->row_count > 1 ? rows[1].lambda : 0);
+    const struct coupling *coupling = &model->tree->couplings[index];
+    const struct row *rows = &work->rows[coupling->first_row];
+    double both = coupling->source->tension - (coupling->row_count > 1 ? rows[1].lambda : 0);
     tension[0] = both - rows[0].lambda / 2;
     tension[1] = both + rows[0].lambda / 2;
 }
 
 /* ---- ropes that rub on the drum that they go round */
 
-static int side_at(const struct view *view, const struct tie *tie, int k);
+static int side_at(const struct view *view, const struct coupling *coupling, int k);
 
-static struct piece reach_of(const struct view *view, const struct tie *tie, const struct tie_state *state,
-                             int strand)
+static struct piece reach_of(const struct view *view, const struct coupling *coupling,
+                             const struct coupling_state *state, int strand)
 {
-    double sR[3] = {0, state->side[0] * tie->end[1].radius, 0};
-    return piece_between(point_of(view, &tie->end[strand]), sR[strand], point_of(view, &tie->end[strand + 1]),
-                         sR[strand + 1]);
+    double sR[3] = {0, state->side[0] * coupling->end[1].radius, 0};
+    return piece_between(point_of(view, &coupling->end[strand]), sR[strand],
+                         point_of(view, &coupling->end[strand + 1]), sR[strand + 1]);
 }
 
-void capstan_rows(const struct view *view, const struct tie *tie, const struct tie_state *state,
-                  struct row *rows)
+void capstan_rows(const struct view *view, const struct coupling *coupling,
+                  const struct coupling_state *state, struct row *rows)
 {
-    double sR = state->side[0] * tie->end[1].radius;
+    double sR = state->side[0] * coupling->end[1].radius;
     struct piece piece[2];
     struct jet way[2];
     for (int k = 0; k < 2; k++) {
-        piece[k] = reach_of(view, tie, state, k);
-        struct jet round = jet_sub(turned_at(state, k, piece[k].u), angle_of(view, tie->end[1].link));
+        piece[k] = reach_of(view, coupling, state, k);
+        struct jet round = jet_sub(turned_at(state, k, piece[k].u), angle_of(view, coupling->end[1].link));
         way[k] = jet_add(piece[k].t, jet_scale(k == 0 ? -sR : sR, round));
     }
     for (int j = 0; j < 2; j++) {
@@ -304,97 +309,101 @@ void capstan_rows(const struct view *view, const struct tie *tie, const struct t
         rows[j].g.x -= j == 0 ? state->laid[0] : state->zero;
         for (int k = 0; k < 2; k++) {
             struct jet_vec along = jet_vec_times(jet_constant(share[k]), piece[k].u);
-            add_port(view, &rows[j], tie, k, piece[k].Q1, negative(along));
-            add_port(view, &rows[j], tie, k + 1, piece[k].Q2, along);
+            add_port(view, &rows[j], coupling, k, piece[k].Q1, negative(along));
+            add_port(view, &rows[j], coupling, k + 1, piece[k].Q2, along);
         }
     }
 }
 
-struct jet_vec capstan_piece(const struct view *view, const struct tie *tie, const struct tie_state *state,
-                             int strand)
+struct jet_vec capstan_piece(const struct view *view, const struct coupling *coupling,
+                             const struct coupling_state *state, int strand)
 {
-    return reach_of(view, tie, state, strand).u;
+    return reach_of(view, coupling, state, strand).u;
 }
 
-void capstan_start(const struct view *view, const struct tie *tie, struct tie_state *state, struct row *rows)
+void capstan_start(const struct view *view, const struct coupling *coupling, struct coupling_state *state,
+                   struct row *rows)
 {
     const double turn = 6.283185307179586;
-    state->side[0] = state->side[1] = side_at(view, tie, 1);
-    directions_start(view, tie, state);
+    state->side[0] = state->side[1] = side_at(view, coupling, 1);
+    directions_start(view, coupling, state);
     double wrap = state->side[0] * (state->psi[1] - state->psi[0]);
     state->psi[1] -= state->side[0] * turn * floor(wrap / turn + 0.25);
-    capstan_rows(view, tie, state, rows);
+    capstan_rows(view, coupling, state, rows);
     double round = state->side[0] * (state->psi[0] - state->psi[1]);
-    state->laid[0] = tie->length_given ? -(tie->length + tie->end[1].radius * round) / 2 : rows[0].g.x;
+    state->laid[0] =
+        coupling->length_given ? -(coupling->length + coupling->end[1].radius * round) / 2 : rows[0].g.x;
     state->zero = rows[1].g.x;
 }
 
 double capstan_wrap(const struct fbd_model *model, const struct instant *at, int index, bool varied,
                     double *variation)
 {
-    const struct tie *tie = &model->tree->ties[index];
-    const struct tie_state *state = &at->tree->ties[index];
+    const struct coupling *coupling = &model->tree->couplings[index];
+    const struct coupling_state *state = &at->tree->couplings[index];
     struct view view = {model, model->tree, at->tree, varied, at, NULL};
-    struct jet in = turned_at(state, 0, reach_of(&view, tie, state, 0).u);
-    struct jet out = turned_at(state, 1, reach_of(&view, tie, state, 1).u);
+    struct jet in = turned_at(state, 0, reach_of(&view, coupling, state, 0).u);
+    struct jet out = turned_at(state, 1, reach_of(&view, coupling, state, 1).u);
     const double turn = 6.283185307179586;
     if (variation) *variation = state->side[0] * (out.d - in.d);
-    return turn * tie->source->turns + state->side[0] * (state->psi[1] + out.x - state->psi[0] - in.x);
+    return turn * coupling->source->turns + state->side[0] * (state->psi[1] + out.x - state->psi[0] - in.x);
 }
 
 void capstan_tensions(const struct fbd_model *model, const struct tree_work *work, int index,
                       double tension[2])
 {
-    const struct row *rows = &work->rows[model->tree->ties[index].first_row];
+    const struct row *rows = &work->rows[model->tree->couplings[index].first_row];
     tension[0] = (rows[0].lambda - rows[1].lambda) / 2;
     tension[1] = (rows[0].lambda + rows[1].lambda) / 2;
 }
 
 /* ---- what is wound on a disc */
 
-struct room rope_room(const struct view *view, const struct tie *tie, const struct tie_state *state, int end)
+struct room rope_room(const struct view *view, const struct coupling *coupling,
+                      const struct coupling_state *state, int end)
 {
-    double spare = tie->wound[end] != 0 ? tie->spare[end] : HUGE_VAL;
+    double spare = coupling->wound[end] != 0 ? coupling->spare[end] : HUGE_VAL;
     if (!isfinite(spare)) return (struct room){HUGE_VAL, 0, HUGE_VAL};
-    double share = state->side[end] * tie->end[end == 0 ? 0 : tie->end_count - 1].radius;
-    struct jet angle = laid(view, tie, state, end, piece_at(view, tie, state, end).u);
+    double share = state->side[end] * coupling->end[end == 0 ? 0 : coupling->end_count - 1].radius;
+    struct jet angle = laid(view, coupling, state, end, piece_at(view, coupling, state, end).u);
     struct jet way = jet_scale(end == 0 ? share : -share, angle);
     return (struct room){spare + way.x - state->laid[end], way.x1, spare};
 }
 
 struct room rope_piece(const struct fbd_model *model, const struct tree_work *work, int index, int k)
 {
-    const struct tie *tie = &model->tree->ties[index];
-    const struct tie_state *state = &work->ties[index];
+    const struct coupling *coupling = &model->tree->couplings[index];
+    const struct coupling_state *state = &work->couplings[index];
     struct view view = view_of(model, work);
-    bool rubs = tie->kind == constraint_capstan;
-    double R = rubs ? tie->end[1].radius : fmax(fabs(rim(tie, state, k, 0)), fabs(rim(tie, state, k, 1)));
-    struct jet t = (rubs ? reach_of(&view, tie, state, k) : piece_of(&view, tie, state, k)).t;
-    return (struct room){t.x, t.x1, R > 0 ? R : tie->length};
+    bool rubs = coupling->kind == constraint_capstan;
+    double R = rubs ? coupling->end[1].radius
+                    : fmax(fabs(rim(coupling, state, k, 0)), fabs(rim(coupling, state, k, 1)));
+    struct jet t = (rubs ? reach_of(&view, coupling, state, k) : piece_of(&view, coupling, state, k)).t;
+    return (struct room){t.x, t.x1, R > 0 ? R : coupling->length};
 }
 
 double rope_reel_rate(const struct fbd_state *state, int index)
 {
     const struct instant at = state_instant(state);
     struct view view = {state->model, state->model->tree, state->tree, false, &at, NULL};
-    return reeled(&view, &state->model->tree->ties[index]).x1;
+    return reeled(&view, &state->model->tree->couplings[index]).x1;
 }
 
 /* ---- the start */
 
 /* Of the two ways round a disc the one that leaves it farther to the side that the file says; 0 where both leave it
  * there. */
-static int side_of_wound(const struct view *view, const struct tie *tie, int end)
+static int side_of_wound(const struct view *view, const struct coupling *coupling, int end)
 {
     const double little = 1e-9;
-    int k = end == 0 ? 0 : tie->end_count - 1, other = end == 0 ? 1 : k - 1;
-    double R = tie->end[k].radius;
-    struct jet_vec C = point_of(view, &tie->end[k]), P = point_of(view, &tie->end[other]);
+    int k = end == 0 ? 0 : coupling->end_count - 1, other = end == 0 ? 1 : k - 1;
+    double R = coupling->end[k].radius;
+    struct jet_vec C = point_of(view, &coupling->end[k]), P = point_of(view, &coupling->end[other]);
     double along[2];
     for (int i = 0; i < 2; i++) {
         struct vec at = jet_value(piece_between(C, i == 0 ? R : -R, P, 0).Q1), c = jet_value(C);
-        bool upright = tie->wound[end] == wound_top || tie->wound[end] == wound_bottom;
-        bool low = tie->wound[end] == wound_left || tie->wound[end] == wound_bottom;
+        bool upright = coupling->wound[end] == wound_top || coupling->wound[end] == wound_bottom;
+        bool low = coupling->wound[end] == wound_left || coupling->wound[end] == wound_bottom;
         along[i] = (upright ? at.y - c.y : at.x - c.x) * (low ? -1 : 1);
     }
     if (!(fabs(along[0] - along[1]) > little * R)) return 0;
@@ -404,34 +413,35 @@ static int side_of_wound(const struct view *view, const struct tie *tie, int end
 }
 
 /* Which way a rope runs round the pulley at place k of its way: as it turns there. */
-static int side_at(const struct view *view, const struct tie *tie, int k)
+static int side_at(const struct view *view, const struct coupling *coupling, int k)
 {
     struct vec place[3];
     for (int i = 0; i < 3; i++) {
-        struct tie_end end = tie_end_of(view->model, tie->constraint, k - 1 + i);
+        struct coupling_end end = coupling_end_of(view->model, coupling->constraint, k - 1 + i);
         place[i] = jet_value(point_of(view, &end));
     }
-    if (tie->source->radius[k] == 0) return 0;
+    if (coupling->source->radius[k] == 0) return 0;
     return vec_cross(vec_sub(place[1], place[0]), vec_sub(place[2], place[1])) > 0 ? 1 : -1;
 }
 
-void rope_start(const struct view *view, const struct tie *tie, struct tie_state *state, struct row *row)
+void rope_start(const struct view *view, const struct coupling *coupling, struct coupling_state *state,
+                struct row *row)
 {
     for (int end = 0; end < 2; end++) {
-        int k = end == 0 ? 0 : tie->end_count - 1;
-        bool pulley = tie->end[k].radius > 0;
-        state->side[end] = tie->wound[end] != 0 ? side_of_wound(view, tie, end)
-                           : pulley             ? side_at(view, tie, tie->place + k)
-                                                : 0;
+        int k = end == 0 ? 0 : coupling->end_count - 1;
+        bool pulley = coupling->end[k].radius > 0;
+        state->side[end] = coupling->wound[end] != 0 ? side_of_wound(view, coupling, end)
+                           : pulley                  ? side_at(view, coupling, coupling->place + k)
+                                                     : 0;
     }
-    directions_start(view, tie, state);
+    directions_start(view, coupling, state);
     for (int end = 0; end < 2; end++) {
-        if (tie->wound[end] == 0) continue;
-        double share = state->side[end] * tie->end[end == 0 ? 0 : tie->end_count - 1].radius;
-        struct jet_vec u = rope_end_piece(view, tie, state, end);
-        state->laid[end] = (end == 0 ? share : -share) * laid(view, tie, state, end, u).x;
+        if (coupling->wound[end] == 0) continue;
+        double share = state->side[end] * coupling->end[end == 0 ? 0 : coupling->end_count - 1].radius;
+        struct jet_vec u = rope_end_piece(view, coupling, state, end);
+        state->laid[end] = (end == 0 ? share : -share) * laid(view, coupling, state, end, u).x;
     }
-    zero_start(view, tie, state, row);
+    zero_start(view, coupling, state, row);
 }
 
 /* At the start a rope goes round its pulley by three quarters of a turn at most, and may be off it by less
@@ -440,7 +450,7 @@ void rope_start_wrap(const struct tree *tree, struct tree_work *work, int index)
 {
     const double turn = 6.283185307179586;
     if (!rope_goes_on(tree, index)) return;
-    struct tie_state *before = &work->ties[index], *after = before + 1;
+    struct coupling_state *before = &work->couplings[index], *after = before + 1;
     double wrap = before->side[1] * (after->psi[0] - before->psi[1]);
     after->psi[0] -= before->side[1] * turn * floor(wrap / turn + 0.25);
 }

@@ -20,11 +20,11 @@ struct foot {
     double bend2; /* kappa'' */
 };
 
-static struct foot foot_at(const struct tie *tie, double s, bool varied)
+static struct foot foot_at(const struct coupling *coupling, double s, bool varied)
 {
-    if (!tie->source->curve) return (struct foot){.at = {.r = {s, 0}, .e = {1, 0}}};
-    return (struct foot){curve_at(tie->source->curve, NULL, s),
-                         varied ? curve_slope_rate(tie->source->curve, NULL, s) : 0};
+    if (!coupling->source->curve) return (struct foot){.at = {.r = {s, 0}, .e = {1, 0}}};
+    return (struct foot){curve_at(coupling->source->curve, NULL, s),
+                         varied ? curve_slope_rate(coupling->source->curve, NULL, s) : 0};
 }
 
 /* The curve along s: r' = e, e' = kappa n, n' = -kappa e. */
@@ -49,12 +49,12 @@ static struct jet_vec tangent_along(const struct foot *foot, struct jet s)
 /* ---- where the foot is */
 
 /* From a guess; false where it does not get there. */
-static bool foot_near(const struct tie *tie, struct vec u, double *s)
+static bool foot_near(const struct coupling *coupling, struct vec u, double *s)
 {
     enum { most_steps = 40 };
     double last = HUGE_VAL;
     for (int i = 0; i < most_steps; i++) {
-        struct foot foot = foot_at(tie, *s, false);
+        struct foot foot = foot_at(coupling, *s, false);
         struct vec d = vec_sub(u, foot.at.r);
         double slope = 1 - foot.at.bend * vec_dot(vec_perp(foot.at.e), d);
         if (!(slope > 0.05)) return false;
@@ -70,22 +70,22 @@ static bool foot_near(const struct tie *tie, struct vec u, double *s)
 
 /* A place at a distance from u may go on to be the nearest one near by where another part of the curve has come nearer,
  * onto which what flies would fall unseen. On a curve that does not close, the ends are for others to watch. */
-static double nearest_of_all(const struct tie *tie, struct vec u, double s)
+static double nearest_of_all(const struct coupling *coupling, struct vec u, double s)
 {
-    const struct curve *curve = tie->source->curve;
-    if (tie->surface < 0 || !curve->closed) return s;
-    double other = curve_nearer(curve, u, vec_norm(vec_sub(u, foot_at(tie, s, false).at.r)));
-    return !isnan(other) && foot_near(tie, u, &other) ? other : s;
+    const struct curve *curve = coupling->source->curve;
+    if (coupling->surface < 0 || !curve->closed) return s;
+    double other = curve_nearer(curve, u, vec_norm(vec_sub(u, foot_at(coupling, s, false).at.r)));
+    return !isnan(other) && foot_near(coupling, u, &other) ? other : s;
 }
 
-static double foot_of(const struct tie *tie, struct vec u, double guess)
+static double foot_of(const struct coupling *coupling, struct vec u, double guess)
 {
     double s = guess;
-    if (!tie->source->curve) return u.x;
-    if (foot_near(tie, u, &s)) return nearest_of_all(tie, u, s);
-    s = curve_near(tie->source->curve, u);
+    if (!coupling->source->curve) return u.x;
+    if (foot_near(coupling, u, &s)) return nearest_of_all(coupling, u, s);
+    s = curve_near(coupling->source->curve, u);
     double rough = s;
-    return foot_near(tie, u, &s) ? s : rough;
+    return foot_near(coupling, u, &s) ? s : rough;
 }
 
 /* ---- jets */
@@ -95,24 +95,25 @@ struct slot_view {
     struct jet_vec P, x, y, u;
 };
 
-static struct slot_view look(const struct view *view, const struct tie *tie)
+static struct slot_view look(const struct view *view, const struct coupling *coupling)
 {
-    struct slot_view slot = {.P = point_of(view, &tie->end[0]), .x = turning(view, tie->end[1].link, tie->e)};
-    struct jet_vec d = jet_vec_sub(slot.P, point_of(view, &tie->end[1]));
+    struct slot_view slot = {.P = point_of(view, &coupling->end[0]),
+                             .x = turning(view, coupling->end[1].link, coupling->e)};
+    struct jet_vec d = jet_vec_sub(slot.P, point_of(view, &coupling->end[1]));
     slot.y = jet_perp(slot.x);
     slot.u = (struct jet_vec){jet_dot(slot.x, d), jet_dot(slot.y, d)};
     return slot;
 }
 
 /* The length along the slot, at its point. */
-static struct jet length_of(const struct tie *tie, const struct slot_view *slot, const struct foot *foot,
-                            double at)
+static struct jet length_of(const struct coupling *coupling, const struct slot_view *slot,
+                            const struct foot *foot, double at)
 {
     enum { orders = 3 };
     struct vec d = vec_sub(jet_value(slot->u), foot->at.r);
     double slope = 1 - foot->at.bend * vec_dot(vec_perp(foot->at.e), d);
     struct jet s = jet_constant(at);
-    if (!tie->source->curve) return slot->u.x;
+    if (!coupling->source->curve) return slot->u.x;
     for (int i = 0; i < orders; i++) {
         struct jet_vec off = jet_vec_sub(slot->u, place_along(foot, s));
         struct jet f = jet_dot(tangent_along(foot, s), off);
@@ -124,66 +125,72 @@ static struct jet length_of(const struct tie *tie, const struct slot_view *slot,
 
 /* Of one that rubs: g = s - s_0, which keeps it where it sticks. On the curve (h = 0) its rate is the velocity of the
  * point along it. */
-static void row_along(const struct view *view, const struct tie *tie, const struct tie_state *state,
-                      const struct slot_view *slot, const struct foot *foot, struct jet s, struct row *row)
+static void row_along(const struct view *view, const struct coupling *coupling,
+                      const struct coupling_state *state, const struct slot_view *slot,
+                      const struct foot *foot, struct jet s, struct row *row)
 {
-    const struct curve *curve = tie->source->curve;
+    const struct curve *curve = coupling->source->curve;
     const double period = curve && curve->closed ? curve->length : 0;
     struct jet_vec e = tangent_along(foot, s), along = jet_vec_times(e.x, slot->x),
                    across = jet_vec_times(e.y, slot->y);
     struct jet_vec world = {jet_add(along.x, across.x), jet_add(along.y, across.y)};
     start_row(row, nearest(jet_sub(s, jet_constant(state->zero)), period));
-    add_port(view, row, tie, 0, slot->P, world);
-    add_port(view, row, tie, 1, slot->P, negative(world));
+    add_port(view, row, coupling, 0, slot->P, world);
+    add_port(view, row, coupling, 1, slot->P, negative(world));
 }
 
-void slot_row(const struct view *view, const struct tie *tie, const struct tie_state *state, struct row *row)
+void slot_row(const struct view *view, const struct coupling *coupling, const struct coupling_state *state,
+              struct row *row)
 {
-    struct slot_view slot = look(view, tie);
-    double at = foot_of(tie, jet_value(slot.u), state->foot), sigma = tie->source->presses < 0 ? -1 : 1;
-    struct foot foot = foot_at(tie, at, view->varied);
-    struct jet s = length_of(tie, &slot, &foot, at);
+    struct slot_view slot = look(view, coupling);
+    double at = foot_of(coupling, jet_value(slot.u), state->foot),
+           sigma = coupling->source->presses < 0 ? -1 : 1;
+    struct foot foot = foot_at(coupling, at, view->varied);
+    struct jet s = length_of(coupling, &slot, &foot, at);
     struct jet_vec n = jet_vec_times(jet_constant(sigma), jet_perp(tangent_along(&foot, s)));
     struct jet_vec off = jet_vec_sub(slot.u, place_along(&foot, s));
-    struct jet g = jet_sub(jet_dot(n, off), jet_constant(tie->end[0].radius));
+    struct jet g = jet_sub(jet_dot(n, off), jet_constant(coupling->end[0].radius));
     struct jet_vec along = jet_vec_times(n.x, slot.x), across = jet_vec_times(n.y, slot.y);
     struct jet_vec world = {jet_add(along.x, across.x), jet_add(along.y, across.y)};
     start_row(row, g);
-    add_port(view, row, tie, 0, slot.P, world);
-    add_port(view, row, tie, 1, slot.P, negative(world));
-    if (tie->row_count > 1) row_along(view, tie, state, &slot, &foot, s, &row[1]);
+    add_port(view, row, coupling, 0, slot.P, world);
+    add_port(view, row, coupling, 1, slot.P, negative(world));
+    if (coupling->row_count > 1) row_along(view, coupling, state, &slot, &foot, s, &row[1]);
 }
 
 /* ---- what it keeps */
 
-void slot_start(const struct view *view, const struct tie *tie, struct tie_state *state, struct row *row)
+void slot_start(const struct view *view, const struct coupling *coupling, struct coupling_state *state,
+                struct row *row)
 {
-    struct vec u = jet_value(look(view, tie).u);
-    if (tie->source->curve) state->foot = foot_of(tie, u, curve_near(tie->source->curve, u));
-    if (tie->row_count > 1) zero_start(view, tie, state, row);
+    struct vec u = jet_value(look(view, coupling).u);
+    if (coupling->source->curve) state->foot = foot_of(coupling, u, curve_near(coupling->source->curve, u));
+    if (coupling->row_count > 1) zero_start(view, coupling, state, row);
 }
 
-void slot_follow(const struct view *view, const struct tie *tie, struct tie_state *state)
+void slot_follow(const struct view *view, const struct coupling *coupling, struct coupling_state *state)
 {
-    state->foot = foot_of(tie, jet_value(look(view, tie).u), state->foot);
+    state->foot = foot_of(coupling, jet_value(look(view, coupling).u), state->foot);
 }
 
 void slots_follow(const struct fbd_model *model, struct tree_work *work)
 {
     const struct view view = {model, model->tree, work, false, NULL, NULL};
-    for (int i = 0; i < model->tree->tie_count; i++)
-        if (model->tree->ties[i].source->curve) slot_follow(&view, &model->tree->ties[i], &work->ties[i]);
+    for (int i = 0; i < model->tree->coupling_count; i++)
+        if (model->tree->couplings[i].source->curve)
+            slot_follow(&view, &model->tree->couplings[i], &work->couplings[i]);
 }
 
 /* A slot without a size of its own has one as far as it goes. */
-struct room slot_room(const struct view *view, const struct tie *tie, const struct tie_state *state, int end)
+struct room slot_room(const struct view *view, const struct coupling *coupling,
+                      const struct coupling_state *state, int end)
 {
-    double from = tie->source->from, to = tie->source->to;
+    double from = coupling->source->from, to = coupling->source->to;
     if (!isfinite(end == 0 ? from : to)) return (struct room){HUGE_VAL, 0, HUGE_VAL};
-    struct slot_view slot = look(view, tie);
-    double at = foot_of(tie, jet_value(slot.u), state->foot);
-    struct foot foot = foot_at(tie, at, false);
-    struct jet s = length_of(tie, &slot, &foot, at);
+    struct slot_view slot = look(view, coupling);
+    double at = foot_of(coupling, jet_value(slot.u), state->foot);
+    struct foot foot = foot_at(coupling, at, false);
+    struct jet s = length_of(coupling, &slot, &foot, at);
     double size = fmax(isfinite(from) ? fabs(from) : 0, isfinite(to) ? fabs(to) : 0);
     return end == 0 ? (struct room){s.x - from, s.x1, size} : (struct room){to - s.x, -s.x1, size};
 }
@@ -192,10 +199,10 @@ struct slot_size slot_size(const struct fbd_model *model, const struct tree_work
 {
     const double pi = 3.14159265358979323846;
     const struct view view = {model, model->tree, (struct tree_work *)work, false, NULL, NULL};
-    const struct tie *tie = &model->tree->ties[index];
-    if (tie->kind != constraint_slot && tie->kind != constraint_groove)
+    const struct coupling *coupling = &model->tree->couplings[index];
+    if (coupling->kind != constraint_slot && coupling->kind != constraint_groove)
         return (struct slot_size){0, HUGE_VAL};
-    const struct curve *curve = tie->source->curve;
-    return (struct slot_size){vec_norm(jet_value(look(&view, tie).u)),
+    const struct curve *curve = coupling->source->curve;
+    return (struct slot_size){vec_norm(jet_value(look(&view, coupling).u)),
                               curve ? curve->length / (2 * pi) : HUGE_VAL};
 }

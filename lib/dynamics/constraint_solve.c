@@ -29,7 +29,7 @@
  * random trees with loops (tests/unit/test_tree.c), and of rows that say nothing new (test_couplings.c).
  *
  * D is not the diagonal of S, which vanishes with the slope of a row: then nothing would be damped just where
- * it has to be. It is what the rows of a tie could have there in other positions (tree_scales.c).
+ * it has to be. It is what the rows of a coupling could have there in other positions (tree_scales.c).
  */
 #include <float.h>
 #include <string.h>
@@ -38,7 +38,7 @@
 #include "dynamics/friction.h"
 #include "dynamics/tree_system.h"
 
-/* ---- the unknowns: rows of ties, then frictions of slides */
+/* ---- the unknowns: rows of couplings, then frictions of slides */
 
 int tree_unknowns(const struct tree *tree)
 {
@@ -51,11 +51,11 @@ static bool is_row(const struct tree *tree, int k)
 }
 
 /* A surface takes part while it is closed, and what is along it while it sticks. */
-static bool contact_takes_part(const struct tie *tie, const struct instant *at, int k)
+static bool contact_takes_part(const struct coupling *coupling, const struct instant *at, int k)
 {
-    if (at->slip[tie->surface] != stick) return false;
-    return k == tie->first_row ||
-           (tie->pair >= 0 && at->slip[tie->pair] == stick && !at->tree->settling_down);
+    if (at->slip[coupling->surface] != stick) return false;
+    return k == coupling->first_row ||
+           (coupling->pair >= 0 && at->slip[coupling->pair] == stick && !at->tree->settling_down);
 }
 
 /* Does unknown k take part in the present modes? */
@@ -65,12 +65,14 @@ bool tree_takes_part(const struct tree *tree, const struct instant *at, int k)
         int link = tree->pairs[k - tree->row_count];
         return !at->tree->projecting && at->slip[tree->links[link].pair] != stick;
     }
-    const struct tie *tie = &tree->ties[tree->tie_of_row[k]];
-    if (tie->kind == constraint_contact) return contact_takes_part(tie, at, k);
-    bool has_mode = tie->kind == constraint_rope || (tie->pair >= 0 && k == tie->first_row + 1);
-    int surface = tie->surface >= 0 ? at->slip[tie->surface] : stick;
-    bool open = surface != stick && (surface != loose || k == tie->first_row); /* what only rolls, rolls on */
-    return !open && (!has_mode || at->slip[tie->pair] == stick);
+    const struct coupling *coupling = &tree->couplings[tree->coupling_of_row[k]];
+    if (coupling->kind == constraint_contact) return contact_takes_part(coupling, at, k);
+    bool has_mode =
+        coupling->kind == constraint_rope || (coupling->pair >= 0 && k == coupling->first_row + 1);
+    int surface = coupling->surface >= 0 ? at->slip[coupling->surface] : stick;
+    bool open =
+        surface != stick && (surface != loose || k == coupling->first_row); /* what only rolls, rolls on */
+    return !open && (!has_mode || at->slip[coupling->pair] == stick);
 }
 
 /* ---- forces of an unknown on the links */
@@ -111,10 +113,10 @@ static double row_answer(const struct tree_work *work, const struct tree *tree, 
 }
 
 /* Does it slip on its surface, and rub? */
-static bool is_rubbing(const struct tie *tie, const struct instant *at)
+static bool is_rubbing(const struct coupling *coupling, const struct instant *at)
 {
-    return tie->law->surface && tie->pair >= 0 && slip_side(at->slip[tie->pair]) != 0 &&
-           (tie->surface < 0 || at->slip[tie->surface] == stick);
+    return coupling->law->surface && coupling->pair >= 0 && slip_side(at->slip[coupling->pair]) != 0 &&
+           (coupling->surface < 0 || at->slip[coupling->surface] == stick);
 }
 
 /* The friction of a body that slips on a surface, per normal force: -slip mu_k along its line; 0 when it does
@@ -122,11 +124,11 @@ static bool is_rubbing(const struct tie *tie, const struct instant *at)
  */
 double tree_rubbing_share(const struct fbd_model *model, const struct instant *at, int k)
 {
-    const struct tie *tie = &model->tree->ties[model->tree->tie_of_row[k]];
-    if (at->tree->projecting || k != tie->first_row || !is_rubbing(tie, at)) return 0;
-    const struct formula *mu = &model->plan.modes[tie->pair].mu_k;
-    return -at->slip[tie->pair] * at->pull[tie->pair] *
-           friction_coefficient(model, tie->pair, mu, at, NULL, NULL);
+    const struct coupling *coupling = &model->tree->couplings[model->tree->coupling_of_row[k]];
+    if (at->tree->projecting || k != coupling->first_row || !is_rubbing(coupling, at)) return 0;
+    const struct formula *mu = &model->plan.modes[coupling->pair].mu_k;
+    return -at->slip[coupling->pair] * at->pull[coupling->pair] *
+           friction_coefficient(model, coupling->pair, mu, at, NULL, NULL);
 }
 
 /* Is it a row by itself? What rubs has its friction in other rows. */
@@ -151,9 +153,9 @@ static int roots_of(const struct tree *tree, int k, const int **roots)
         *roots = &tree->links[tree->pairs[k - tree->row_count]].root;
         return 1;
     }
-    const struct tie *tie = &tree->ties[tree->tie_of_row[k]];
-    *roots = tie->root;
-    return tie->root_count;
+    const struct coupling *coupling = &tree->couplings[tree->coupling_of_row[k]];
+    *roots = coupling->root;
+    return coupling->root_count;
 }
 
 static void clear_range(struct tree_rhs *x, int from, int to)
@@ -190,7 +192,7 @@ static double entry(const struct fbd_model *model, const struct instant *at, int
 }
 
 /* ---- L D U in the envelope: row i from column first[i], column i from row first[i]; rows and columns are
- * places in the order of elimination (model/tie_order.c), of those unknowns that take part */
+ * places in the order of elimination (model/coupling_order.c), of those unknowns that take part */
 
 /* Number those that take part. What touches nothing and what slips costs nothing from here on. */
 static void set_places(const struct fbd_model *model, const struct instant *at)
@@ -439,9 +441,9 @@ void tree_take_multipliers(const struct fbd_model *model, const struct instant *
     const struct tree *tree = model->tree;
     struct tree_work *work = at->tree;
     for (int j = 0; j < tree->row_count; j++) work->rows[j].lambda = work->z[j];
-    for (int i = 0; i < tree->tie_count; i++) {
-        int j = tree->ties[i].first_row;
-        if (is_rubbing(&tree->ties[i], at))
+    for (int i = 0; i < tree->coupling_count; i++) {
+        int j = tree->couplings[i].first_row;
+        if (is_rubbing(&tree->couplings[i], at))
             work->rows[j + 1].lambda = tree_rubbing_share(model, at, j) * work->z[j];
     }
 }
@@ -452,13 +454,15 @@ void tree_apply_variations(const struct fbd_model *model, const struct instant *
     const struct tree *tree = model->tree;
     struct tree_work *work = at->tree;
     for (int j = 0; j < tree->row_count; j++) apply_ports_along(&work->rows[j], work->x);
-    for (int i = 0; i < tree->tie_count; i++) {
-        const struct tie *tie = &tree->ties[i];
-        if (!is_rubbing(tie, at)) continue;
+    for (int i = 0; i < tree->coupling_count; i++) {
+        const struct coupling *coupling = &tree->couplings[i];
+        if (!is_rubbing(coupling, at)) continue;
         double d_mu;
-        friction_coefficient(model, tie->pair, &model->plan.modes[tie->pair].mu_k, at, along, &d_mu);
-        row_apply(&work->rows[tie->first_row + 1],
-                  -at->slip[tie->pair] * at->pull[tie->pair] * d_mu * work->rows[tie->first_row].lambda,
+        friction_coefficient(model, coupling->pair, &model->plan.modes[coupling->pair].mu_k, at, along,
+                             &d_mu);
+        row_apply(&work->rows[coupling->first_row + 1],
+                  -at->slip[coupling->pair] * at->pull[coupling->pair] * d_mu *
+                      work->rows[coupling->first_row].lambda,
                   work->x);
     }
 }

@@ -59,7 +59,7 @@ static inline struct jet_vec origin_of(const struct view *view, int link)
     return jets(s->p, s->v, s->A.a, d->p, d->v, d->A.a);
 }
 
-static inline struct jet_vec point_of(const struct view *view, const struct tie_end *end)
+static inline struct jet_vec point_of(const struct view *view, const struct coupling_end *end)
 {
     struct jet_vec O = origin_of(view, end->link), r = turning(view, end->link, end->point);
     return (struct jet_vec){jet_add(O.x, r.x), jet_add(O.y, r.y)};
@@ -74,11 +74,11 @@ static inline struct jet angle_of(const struct view *view, int link)
 
 /* ---- ports */
 
-/* A unit multiplier means the force f at Q on the link of end k of the tie. */
-static inline void add_port(const struct view *view, struct row *row, const struct tie *tie, int k,
+/* A unit multiplier means the force f at Q on the link of end k of the coupling. */
+static inline void add_port(const struct view *view, struct row *row, const struct coupling *coupling, int k,
                             struct jet_vec Q, struct jet_vec f)
 {
-    int link = tie->end[k].link;
+    int link = coupling->end[k].link;
     struct jet_vec arm = jet_vec_sub(Q, origin_of(view, link));
     row->ports[row->port_count++] =
         (struct port){link, k, jet_value(arm), jet_value(f), jet_variation(arm), jet_variation(f)};
@@ -102,16 +102,16 @@ static inline struct jet nearest(struct jet g, double period)
     return g;
 }
 
-/* A circle at a line: end `k` of the tie carries the circle. */
+/* A circle at a line: end `k` of the coupling carries the circle. */
 struct at_line {
     int k;
-    struct tie_end circle, base;
+    struct coupling_end circle, base;
     struct vec e; /* direction of the line, in the frame of its link */
     double side;  /* the normal is side k x e */
 };
 
 /* The row along the line, and with `normal` the row across it before that. */
-void row_line(const struct view *view, const struct tie *tie, const struct at_line *at, double zero,
+void row_line(const struct view *view, const struct coupling *coupling, const struct at_line *at, double zero,
               struct row *normal, struct row *along);
 
 /* ---- kinds */
@@ -119,22 +119,23 @@ void row_line(const struct view *view, const struct tie *tie, const struct at_li
 /* What there is of a kind of constraint beside its law (scene/constraint.h); what is not there is NULL. */
 struct constraint_form {
     /* Its rows where the links are, each with the ports of its multiplier. */
-    void (*rows)(const struct view *view, const struct tie *tie, const struct tie_state *state,
+    void (*rows)(const struct view *view, const struct coupling *coupling, const struct coupling_state *state,
                  struct row *rows);
 
     /* What it keeps of the start; `rows` has room for its own. */
-    void (*start)(const struct view *view, const struct tie *tie, struct tie_state *state, struct row *rows);
+    void (*start)(const struct view *view, const struct coupling *coupling, struct coupling_state *state,
+                  struct row *rows);
 
     /* And of the way since. */
-    void (*follow)(const struct view *view, const struct tie *tie, struct tie_state *state);
+    void (*follow)(const struct view *view, const struct coupling *coupling, struct coupling_state *state);
 
     /* Has it ends to which it can come? */
-    struct room (*left)(const struct view *view, const struct tie *tie, const struct tie_state *state,
-                        int end);
+    struct room (*left)(const struct view *view, const struct coupling *coupling,
+                        const struct coupling_state *state, int end);
 
     /* A way round discs: the direction of its first (end 0) and of its last piece. */
-    struct jet_vec (*piece)(const struct view *view, const struct tie *tie, const struct tie_state *state,
-                            int end);
+    struct jet_vec (*piece)(const struct view *view, const struct coupling *coupling,
+                            const struct coupling_state *state, int end);
 
     /* The angle on which it rubs: its coefficient of friction is tanh(mu angle / 2), see constraint.h. */
     double (*wrap)(const struct fbd_model *model, const struct instant *at, int index, bool varied,
@@ -149,37 +150,46 @@ struct constraint_form {
 extern const struct constraint_form constraint_forms[constraint_kinds];
 
 /* The zero of its last row is where that is at the start, or the length that is given. */
-void zero_start(const struct view *view, const struct tie *tie, struct tie_state *state, struct row *rows);
+void zero_start(const struct view *view, const struct coupling *coupling, struct coupling_state *state,
+                struct row *rows);
 
 /* constraint_rope.c */
-void rope_row(const struct view *view, const struct tie *tie, const struct tie_state *state, struct row *row);
-void rope_start(const struct view *view, const struct tie *tie, struct tie_state *state, struct row *row);
+void rope_row(const struct view *view, const struct coupling *coupling, const struct coupling_state *state,
+              struct row *row);
+void rope_start(const struct view *view, const struct coupling *coupling, struct coupling_state *state,
+                struct row *row);
 void rope_start_wrap(const struct tree *tree, struct tree_work *work, int index); /* when all have started */
-struct jet_vec rope_end_piece(const struct view *view, const struct tie *tie, const struct tie_state *state,
-                              int end);
-struct room rope_room(const struct view *view, const struct tie *tie, const struct tie_state *state, int end);
-void way_follow(const struct view *view, const struct tie *tie, struct tie_state *state);
+struct jet_vec rope_end_piece(const struct view *view, const struct coupling *coupling,
+                              const struct coupling_state *state, int end);
+struct room rope_room(const struct view *view, const struct coupling *coupling,
+                      const struct coupling_state *state, int end);
+void way_follow(const struct view *view, const struct coupling *coupling, struct coupling_state *state);
 
-void capstan_rows(const struct view *view, const struct tie *tie, const struct tie_state *state,
-                  struct row *rows);
-void capstan_start(const struct view *view, const struct tie *tie, struct tie_state *state, struct row *rows);
-struct jet_vec capstan_piece(const struct view *view, const struct tie *tie, const struct tie_state *state,
-                             int strand);
+void capstan_rows(const struct view *view, const struct coupling *coupling,
+                  const struct coupling_state *state, struct row *rows);
+void capstan_start(const struct view *view, const struct coupling *coupling, struct coupling_state *state,
+                   struct row *rows);
+struct jet_vec capstan_piece(const struct view *view, const struct coupling *coupling,
+                             const struct coupling_state *state, int strand);
 
-void belt_rows(const struct view *view, const struct tie *tie, const struct tie_state *state,
+void belt_rows(const struct view *view, const struct coupling *coupling, const struct coupling_state *state,
                struct row *rows);
-void belt_start(const struct view *view, const struct tie *tie, struct tie_state *state, struct row *rows);
-struct jet_vec belt_piece(const struct view *view, const struct tie *tie, const struct tie_state *state,
-                          int strand);
+void belt_start(const struct view *view, const struct coupling *coupling, struct coupling_state *state,
+                struct row *rows);
+struct jet_vec belt_piece(const struct view *view, const struct coupling *coupling,
+                          const struct coupling_state *state, int strand);
 
 /* constraint_slot.c */
-void slot_row(const struct view *view, const struct tie *tie, const struct tie_state *state, struct row *row);
-void slot_start(const struct view *view, const struct tie *tie, struct tie_state *state, struct row *row);
-void slot_follow(const struct view *view, const struct tie *tie, struct tie_state *state);
-struct room slot_room(const struct view *view, const struct tie *tie, const struct tie_state *state, int end);
+void slot_row(const struct view *view, const struct coupling *coupling, const struct coupling_state *state,
+              struct row *row);
+void slot_start(const struct view *view, const struct coupling *coupling, struct coupling_state *state,
+                struct row *row);
+void slot_follow(const struct view *view, const struct coupling *coupling, struct coupling_state *state);
+struct room slot_room(const struct view *view, const struct coupling *coupling,
+                      const struct coupling_state *state, int end);
 
 /* constraint_contact.c: at its feature */
-void contact_rows(const struct view *view, const struct tie *tie, const struct tie_state *state,
-                  struct row *rows);
+void contact_rows(const struct view *view, const struct coupling *coupling,
+                  const struct coupling_state *state, struct row *rows);
 
 #endif

@@ -33,7 +33,7 @@ static struct over over_side(const struct tree_work *work, const struct meeting 
     const struct tree_state *base = &work->links[still->link];
     struct moving C = point_in_world(work, moving->link, touch->point),
                   P = point_in_world(work, still->link, touch->base);
-    double side = touch->side != 0 ? touch->side : work->ties[meeting->first_tie].side[0];
+    double side = touch->side != 0 ? touch->side : work->couplings[meeting->first_coupling].side[0];
     struct over over = {.d = vec_sub(C.p, P.p), .e = vec_turn(base->turn, touch->e)};
     over.n = vec_scale(side, vec_perp(over.e));
     over.v = vec_sub(vec_sub(C.v, P.v), vec_scale(base->omega, vec_perp(over.d)));
@@ -253,44 +253,44 @@ static struct gap separation(const struct fbd_model *model, const struct tree_wo
 
 /* ---- probes */
 
-static int closed_ties(const struct fbd_model *model, const struct instant *at, int index, int *tie)
+static int closed_couplings(const struct fbd_model *model, const struct instant *at, int index, int *coupling)
 {
     const struct meeting *meeting = &model->tree->meetings[index];
     int count = 0;
-    for (int k = 0; k < meeting->tie_count; k++) {
-        if (!tie_is_closed(model, at, meeting->first_tie + k)) continue;
-        *tie = meeting->first_tie + k;
+    for (int k = 0; k < meeting->coupling_count; k++) {
+        if (!coupling_is_closed(model, at, meeting->first_coupling + k)) continue;
+        *coupling = meeting->first_coupling + k;
         count++;
     }
     return count;
 }
 
-double contact_slack(const struct fbd_model *model, int tie)
+double contact_slack(const struct fbd_model *model, int coupling)
 {
     const double rounding = 1e-12;
     double mass = 0;
     for (int k = 0; k < 2; k++) {
-        int link = model->tree->ties[tie].end[k].link;
+        int link = model->tree->couplings[coupling].end[k].link;
         if (link > 0) mass += model->tree->links[link].mass;
     }
     return rounding * mass * vec_norm(model->scene->gravity);
 }
 
-bool tie_is_closed(const struct fbd_model *model, const struct instant *at, int tie)
+bool coupling_is_closed(const struct fbd_model *model, const struct instant *at, int coupling)
 {
-    return at->slip[model->tree->ties[tie].surface] == stick;
+    return at->slip[model->tree->couplings[coupling].surface] == stick;
 }
 
 static const struct gap nothing = {HUGE_VAL, 0, no_feature};
 
 /* Nothing closed: how far apart. One corner on a side: its neighbours come down on that side. */
 static struct gap probe_corners(const struct fbd_model *model, const struct instant *at, int index, int probe,
-                                int closed, int tie)
+                                int closed, int coupling)
 {
     const struct meeting *meeting = &model->tree->meetings[index];
     if (closed == 0) return probe == 0 ? separation(model, at->tree, index) : nothing;
     if (closed > 1 || probe == 0) return nothing;
-    struct pairing pairing = pairing_of(meeting, at->tree->ties[tie].feature);
+    struct pairing pairing = pairing_of(meeting, at->tree->couplings[coupling].feature);
     const struct contact_shape *with = &meeting->shape[pairing.moving];
     if (with->count < 2 || (with->count == 2 && probe == 2)) return nothing;
     int corner = beside(with, pairing.corner, probe == 1 ? 1 : -1);
@@ -302,18 +302,18 @@ struct gap meeting_probe(const struct fbd_model *model, const struct instant *at
 {
     const struct meeting *meeting = &model->tree->meetings[index];
     const struct contact_shape *a = &meeting->shape[0], *b = &meeting->shape[1];
-    int tie = -1, closed = closed_ties(model, at, index, &tie);
-    if (closed == meeting->tie_count) return nothing;
+    int coupling = -1, closed = closed_couplings(model, at, index, &coupling);
+    if (closed == meeting->coupling_count) return nothing;
     if (meeting->stop != 0) return feature_gap(model, at->tree, index, 0);
     if (b->kind == contact_line) {
-        if (closed > 0 && at->tree->ties[tie].feature == probe) return nothing;
+        if (closed > 0 && at->tree->couplings[coupling].feature == probe) return nothing;
         return feature_gap(model, at->tree, index, probe);
     }
     if (meeting->thin) return thin_probe(model, at, index, probe);
     if (a->kind == contact_disc && b->kind == contact_disc) return feature_gap(model, at->tree, index, 0);
     if (a->kind == contact_disc) return disc_at_corners(model, at->tree, index, b);
     if (b->kind == contact_disc) return disc_at_corners(model, at->tree, index, a);
-    return probe_corners(model, at, index, probe, closed, tie);
+    return probe_corners(model, at, index, probe, closed, coupling);
 }
 
 double meeting_depth(const struct fbd_model *model, const struct instant *at, int index)
@@ -449,7 +449,7 @@ int meeting_touching(const struct fbd_model *model, const struct tree_work *work
     }
     features[0] = found.features[0];
     features[1] = found.features[1];
-    return found.count > 1 && meeting->tie_count > 1 ? 2 : found.count > 0 ? 1 : 0;
+    return found.count > 1 && meeting->coupling_count > 1 ? 2 : found.count > 0 ? 1 : 0;
 }
 
 /* ---- where a feature ends */

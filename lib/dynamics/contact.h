@@ -72,10 +72,10 @@ struct gap feature_end(const struct fbd_model *model, const struct tree_work *wo
 
 /* A force that is nothing where two bodies touch: a rounding of their weights. What only just touches is not
  * left, and does not slip, by that. */
-double contact_slack(const struct fbd_model *model, int tie);
+double contact_slack(const struct fbd_model *model, int coupling);
 
-/* The contact of tie `tie`: is it closed? */
-bool tie_is_closed(const struct fbd_model *model, const struct instant *at, int tie);
+/* The contact of coupling `coupling`: is it closed? */
+bool coupling_is_closed(const struct fbd_model *model, const struct instant *at, int coupling);
 
 /* Where a feature is, in the world. */
 struct vec feature_place(const struct fbd_model *model, const struct tree_work *work, int index, int feature);

@@ -42,8 +42,8 @@ static void choose_side(const struct fbd_model *model, struct tree_work *work, i
     bool on = fabs(side) <= start_share * meeting_near(model, work, index);
     if (on) side = n.y >= 0 ? 1 : -1; /* a point on the line is above it */
     if (told != 0) side = told;
-    for (int k = 0; k < meeting->tie_count; k++)
-        work->ties[meeting->first_tie + k].side[0] = side < 0 ? -1 : 1;
+    for (int k = 0; k < meeting->coupling_count; k++)
+        work->couplings[meeting->first_coupling + k].side[0] = side < 0 ? -1 : 1;
 }
 
 /* What rests on each other to rounding of its speeds. */
@@ -58,9 +58,9 @@ static void open_meeting(struct fbd_state *state, int index)
 {
     const struct tree *tree = state->model->tree;
     const struct meeting *meeting = &tree->meetings[index];
-    for (int k = 0; k < meeting->tie_count; k++) {
-        state->slip[tree->ties[meeting->first_tie + k].surface] = slip_plus;
-        state->tree->ties[meeting->first_tie + k].feature = no_feature;
+    for (int k = 0; k < meeting->coupling_count; k++) {
+        state->slip[tree->couplings[meeting->first_coupling + k].surface] = slip_plus;
+        state->tree->couplings[meeting->first_coupling + k].feature = no_feature;
     }
 }
 
@@ -77,8 +77,8 @@ static void start_meeting(struct fbd_state *state, int index)
     int features[2], count = meeting_touching(model, state->tree, index, near, features);
     for (int k = 0; k < count; k++) {
         if (!rests(model, state->tree, index, features[k])) continue;
-        tie_set_feature(model, state->tree, meeting->first_tie + k, features[k]);
-        state->slip[tree->ties[meeting->first_tie + k].surface] = stick;
+        coupling_set_feature(model, state->tree, meeting->first_coupling + k, features[k]);
+        state->slip[tree->couplings[meeting->first_coupling + k].surface] = stick;
     }
 }
 
@@ -109,10 +109,10 @@ static void close_for_lifting(struct fbd_state *state, int index)
     const struct meeting *meeting = &model->tree->meetings[index];
     double near = meeting_near(model, state->tree, index);
     int features[2], count = meeting_touching(model, state->tree, index, start_share * near, features);
-    for (int k = 0; k < meeting->tie_count; k++) {
+    for (int k = 0; k < meeting->coupling_count; k++) {
         if (k >= count || feature_gap(model, state->tree, index, features[k]).x > near) continue;
-        tie_set_feature(model, state->tree, meeting->first_tie + k, features[k]);
-        state->slip[model->tree->ties[meeting->first_tie + k].surface] = stick;
+        coupling_set_feature(model, state->tree, meeting->first_coupling + k, features[k]);
+        state->slip[model->tree->couplings[meeting->first_coupling + k].surface] = stick;
     }
 }
 

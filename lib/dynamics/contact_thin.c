@@ -10,7 +10,7 @@ static const struct meeting *meeting_of(const struct fbd_model *model, int index
 
 int *thin_side_of(const struct fbd_model *model, const struct tree_work *work, int index, int probe)
 {
-    return &work->ties[meeting_of(model, index)->first_tie + probe / 2].side[probe % 2];
+    return &work->couplings[meeting_of(model, index)->first_coupling + probe / 2].side[probe % 2];
 }
 
 static struct gap gap_at(const struct fbd_model *model, const struct tree_work *work, int index, int probe,
@@ -55,10 +55,10 @@ static bool is_closed(const struct fbd_model *model, const struct instant *at, i
 {
     const struct meeting *meeting = meeting_of(model, index);
     const double near = 4 * meeting_near(model, at->tree, index);
-    for (int k = 0; k < meeting->tie_count; k++) {
-        int tie = meeting->first_tie + k;
-        if (!tie_is_closed(model, at, tie)) continue;
-        struct vec place = feature_place(model, at->tree, index, at->tree->ties[tie].feature);
+    for (int k = 0; k < meeting->coupling_count; k++) {
+        int coupling = meeting->first_coupling + k;
+        if (!coupling_is_closed(model, at, coupling)) continue;
+        struct vec place = feature_place(model, at->tree, index, at->tree->couplings[coupling].feature);
         if (vec_norm(vec_sub(place_of(model, at->tree, index, probe), place)) <= near) return true;
     }
     return false;
@@ -137,7 +137,7 @@ int thin_touching(const struct fbd_model *model, const struct tree_work *work, i
         }
     }
     if (foot[0] > foot[1]) return 0;
-    return foot[1] - foot[0] > 4 * near && meeting->tie_count > 1 ? 2 : 1;
+    return foot[1] - foot[0] > 4 * near && meeting->coupling_count > 1 ? 2 : 1;
 }
 
 double thin_crossing(const struct fbd_model *model, const struct tree_work *work, int index)
@@ -167,8 +167,8 @@ double thin_middle(const struct fbd_model *model, const struct tree_work *work, 
 static bool touches(const struct meeting *meeting, const struct tree_work *work, struct thin_corner corner,
                     int *side)
 {
-    for (int k = 0; k < meeting->tie_count; k++) {
-        int feature = work->ties[meeting->first_tie + k].feature;
+    for (int k = 0; k < meeting->coupling_count; k++) {
+        int feature = work->couplings[meeting->first_coupling + k].feature;
         if (feature == thin_feature(corner, thin_left)) *side = 1;
         if (feature == thin_feature(corner, thin_right)) *side = -1;
         if (feature >= thin_feature(corner, thin_right) && feature <= thin_feature(corner, thin_round))

@@ -119,7 +119,7 @@ static void add_kinetic_friction(const struct fbd_model *model, int pair, const 
 /* Does the pair stick, and is it a coordinate that it holds? (A rolling body is held by a row.) */
 static bool holds_coordinate(const struct plan *plan, const struct instant *at, int pair)
 {
-    return at->slip[pair] == stick && plan->modes[pair].tie < 0;
+    return at->slip[pair] == stick && plan->modes[pair].coupling < 0;
 }
 
 void body_accelerations(const struct fbd_model *model, int b, const struct instant *at, double *slots,

@@ -23,16 +23,18 @@ double friction_surface_speed(const struct mode *mode, const struct instant *at,
 double friction_coefficient(const struct fbd_model *model, int pair, const struct formula *mu,
                             const struct instant *at, const struct direction *along, double *variation)
 {
-    int tie = model->plan.modes[pair].tie;
-    if (tie < 0 && !mu->expr) { /* a number, in most scenes */
+    int coupling = model->plan.modes[pair].coupling;
+    if (coupling < 0 && !mu->expr) { /* a number, in most scenes */
         if (variation) *variation = 0;
         return mu->constant;
     }
     double d_mu = 0, d_wrap, value = along ? formula_along(mu, at, along, &d_mu) : formula_value(mu, at);
     if (variation) *variation = d_mu;
-    const struct constraint_form *form = tie < 0 ? NULL : &constraint_forms[model->tree->ties[tie].kind];
+    const struct constraint_form *form =
+        coupling < 0 ? NULL : &constraint_forms[model->tree->couplings[coupling].kind];
     if (!form || !form->wrap) return value;
-    double wrap = fmax(0, form->wrap(model, at, tie, along != NULL, &d_wrap)), share = tanh(value * wrap / 2);
+    double wrap = fmax(0, form->wrap(model, at, coupling, along != NULL, &d_wrap)),
+           share = tanh(value * wrap / 2);
     if (variation) *variation = (1 - share * share) * (d_mu * wrap + value * d_wrap) / 2;
     return share;
 }

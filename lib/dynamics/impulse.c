@@ -41,13 +41,15 @@ static void let_go(const struct fbd_model *model, const struct impulse_lines *li
 {
     for (size_t i = 0; i < model->plan.mode_count; i++) {
         const struct mode *mode = &model->plan.modes[i];
-        const struct tie *tie = mode->tie >= 0 ? &model->tree->ties[mode->tie] : NULL;
-        bool surface = tie && mode->kind == mode_surface && tie_takes_impulses(tie);
-        bool couples = tie && tie->kind == constraint_capstan;
+        const struct coupling *coupling =
+            mode->coupling >= 0 ? &model->tree->couplings[mode->coupling] : NULL;
+        bool surface = coupling && mode->kind == mode_surface && coupling_takes_impulses(coupling);
+        bool couples = coupling && coupling->kind == constraint_capstan;
         if (mode->kind == mode_rope || mode->kind == mode_contact || (mode_is_friction(mode) && !couples))
             modes[i] = slip_plus;
         else if (surface && modes[i] == stick)
-            modes[i] = tie->pair >= 0 || is_asked_for(lines, tie->first_row + 1) ? slip_plus : loose;
+            modes[i] =
+                coupling->pair >= 0 || is_asked_for(lines, coupling->first_row + 1) ? slip_plus : loose;
     }
 }
 
@@ -59,8 +61,8 @@ static int link_of(const struct fbd_model *model, int pair)
 /* The row along which friction of a slot rubs; NULL on a slide. */
 static const struct row *row_of(const struct fbd_state *state, int pair)
 {
-    int tie = state->model->plan.modes[pair].tie;
-    return tie < 0 ? NULL : &state->tree->rows[state->model->tree->ties[tie].first_row + 1];
+    int coupling = state->model->plan.modes[pair].coupling;
+    return coupling < 0 ? NULL : &state->tree->rows[state->model->tree->couplings[coupling].first_row + 1];
 }
 
 /* x for the impulse alone, and of all rows that hold what answers to it. */

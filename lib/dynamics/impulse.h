@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * What impulses do: the velocities that unit impulses along rows of one-sided ties give to all bodies,
+ * What impulses do: the velocities that unit impulses along rows of one-sided couplings give to all bodies,
  * through every joint and every coupling that holds both ways.
  *
  * Contacts, ropes and what rolls or follows a cam are no part of what holds: their impulses are what is asked about. So
@@ -12,7 +12,7 @@
 
 #include "dynamics/state.h"
 
-/* Impulses along rows of ties, and behind them along slides and slots, by the pairs of their friction. */
+/* Impulses along rows of couplings, and behind them along slides and slots, by the pairs of their friction. */
 struct impulse_lines {
     int row_count, slide_count;
     const int *rows, *slides;

@@ -54,11 +54,11 @@ double load_power_rounding(const struct fbd_model *model, size_t index, const st
 static double reach_of_couplings(const struct tree *tree)
 {
     double reach = 0;
-    for (int i = 0; tree && i < tree->tie_count; i++) {
-        const struct tie *tie = &tree->ties[i];
-        reach = fmax(reach, fabs(tie->length));
-        for (int end = 0; end < tie->end_count; end++)
-            reach = fmax(reach, vec_norm(tie->end[end].point) + tie->end[end].radius);
+    for (int i = 0; tree && i < tree->coupling_count; i++) {
+        const struct coupling *coupling = &tree->couplings[i];
+        reach = fmax(reach, fabs(coupling->length));
+        for (int end = 0; end < coupling->end_count; end++)
+            reach = fmax(reach, vec_norm(coupling->end[end].point) + coupling->end[end].radius);
     }
     return reach;
 }

@@ -28,7 +28,7 @@
 double slip_velocity(const struct fbd_model *model, int pair, const struct instant *at)
 {
     const struct mode *mode = &model->plan.modes[pair];
-    if (mode->tie >= 0) return tie_slip_velocity(model, at, mode->tie);
+    if (mode->coupling >= 0) return coupling_slip_velocity(model, at, mode->coupling);
     double v = at->y[model->plan.n + mode->coordinate], acceleration;
     double s = friction_surface_speed(mode, at, &acceleration);
     return fabs(v - s) <= 4 * DBL_EPSILON * fabs(s) ? 0 : v - s;
@@ -47,7 +47,7 @@ double settling_slack(const struct fbd_state *state, const struct decided *decid
                       const struct friction_values *now, const struct friction_values *rate)
 {
     double slack = friction_rounding_of_time(now, rate, state->t);
-    bool comes_back = decided && (mode_of(state, pair)->tie >= 0 || !state->slip_rests[pair]);
+    bool comes_back = decided && (mode_of(state, pair)->coupling >= 0 || !state->slip_rests[pair]);
     return comes_back ? fmax(slack, friction_return(now)) : slack;
 }
 
@@ -72,8 +72,8 @@ void modes_drive(struct fbd_state *state)
         state->y[plan->n + mode->coordinate] = friction_surface_speed(mode, &at, &acceleration);
     }
     const struct tree *tree = state->model->tree;
-    for (int i = 0; tree && i < tree->tie_count; i++)
-        if (tree->ties[i].reels) resolve_drive(state, &tree->ties[i].reel);
+    for (int i = 0; tree && i < tree->coupling_count; i++)
+        if (tree->couplings[i].reels) resolve_drive(state, &tree->couplings[i].reel);
 }
 
 /* Is it another number? */
@@ -95,7 +95,7 @@ static bool hold(struct fbd_state *state, bool settling)
         const struct mode *mode = &plan->modes[pair];
         if (mode->kind == mode_drive)
             moved |= put(&state->y[mode->coordinate], formula_value(&mode->position, &at));
-        if (state->slip[pair] == stick && mode->tie < 0)
+        if (state->slip[pair] == stick && mode->coupling < 0)
             moved |=
                 put(&state->y[plan->n + mode->coordinate], friction_surface_speed(mode, &at, &acceleration));
     }

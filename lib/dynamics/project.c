@@ -31,9 +31,9 @@ static struct place place_of(struct fbd_state *state, bool assemble)
         struct place){.model = state->model, .at = state_instant(state), .y = state->y, .assemble = assemble};
 }
 
-static bool has_ties(const struct fbd_model *model)
+static bool has_couplings(const struct fbd_model *model)
 {
-    return model->tree && model->tree->tie_count > 0;
+    return model->tree && model->tree->coupling_count > 0;
 }
 
 /* Where the links and rows are. */
@@ -89,7 +89,7 @@ double state_acceleration_misfit(const struct fbd_state *state, int *row)
     const struct instant at = state_instant(state);
     double worst = 0, mass = 0, force = 0, size = vec_norm(model->scene->gravity);
     *row = -1;
-    if (!has_ties(model)) return 0;
+    if (!has_couplings(model)) return 0;
     for (int i = 1; i < model->tree->count; i++) {
         mass += model->tree->links[i].mass;
         force = fmax(force, vec_norm(work->links[i].F.force));
@@ -109,7 +109,7 @@ double state_acceleration_misfit(const struct fbd_state *state, int *row)
 
 struct misfit state_misfit(struct fbd_state *state)
 {
-    if (!has_ties(state->model)) return (struct misfit){0, 0, -1, -1};
+    if (!has_couplings(state->model)) return (struct misfit){0, 0, -1, -1};
     struct place place = place_of(state, false);
     look(&place);
     return misfit_of(&place);
@@ -117,7 +117,7 @@ struct misfit state_misfit(struct fbd_state *state)
 
 void state_start_constraints(struct fbd_state *state)
 {
-    if (!has_ties(state->model)) return;
+    if (!has_couplings(state->model)) return;
     struct instant at = state_instant(state);
     tree_move(state->model, &at);
     constraints_start(state->model, &at);
@@ -250,7 +250,7 @@ static bool has_redundant_row(const struct fbd_state *state)
 int state_locked_row(const struct fbd_state *state, struct fbd_state *other)
 {
     const double T = 1e3, rounding = 1e-6;
-    if (!has_ties(state->model) || !has_redundant_row(state)) return -1;
+    if (!has_couplings(state->model) || !has_redundant_row(state)) return -1;
     const struct tree *tree = state->model->tree;
     const struct instant at = state_instant(state);
     int n = state->model->plan.n, worst = -1;
@@ -264,7 +264,7 @@ int state_locked_row(const struct fbd_state *state, struct fbd_state *other)
     double speed = speed_of(&place), most = rounding * speed * speed / arm;
     for (int j = 0; j < tree->row_count; j++) {
         double miss = fabs(other->tree->rows[j].g.x2);
-        bool touches = tree->ties[tree->tie_of_row[j]].meeting >= 0;
+        bool touches = tree->couplings[tree->coupling_of_row[j]].meeting >= 0;
         if (touches || !tree_takes_part(tree, &at, j) || miss <= most) continue;
         most = miss;
         worst = j;
@@ -276,7 +276,7 @@ bool state_is_fixed(struct fbd_state *state)
 {
     const struct plan *plan = &state->model->plan;
     const struct tree *tree = state->model->tree;
-    if (!has_ties(state->model) || plan->mode_count + (size_t)plan->own > 0 || tree->row_count < plan->n)
+    if (!has_couplings(state->model) || plan->mode_count + (size_t)plan->own > 0 || tree->row_count < plan->n)
         return false;
     int independent = 0;
     state_evaluate_unshared(state);
@@ -314,7 +314,7 @@ static double change_since(const struct place *place, const double *y, const dou
  * satisfy them all may be far from those that miss them by next to nothing. Then it slips by that. */
 bool state_project_velocity(struct fbd_state *state, bool assemble)
 {
-    if (!has_ties(state->model)) return true;
+    if (!has_couplings(state->model)) return true;
     struct place place = place_of(state, assemble);
     size_t n = (size_t)state->model->plan.n, bytes = n * sizeof *state->y;
     double *before = state_scratch(state).dy;
@@ -368,7 +368,7 @@ void state_find_ways(struct fbd_state *state, double *ways)
 static bool is_home(const struct place *place, const struct misfit *left)
 {
     const struct tree *tree = place->model->tree;
-    int meeting = left->row < 0 ? -1 : tree->ties[tree->tie_of_row[left->row]].meeting;
+    int meeting = left->row < 0 ? -1 : tree->couplings[tree->coupling_of_row[left->row]].meeting;
     double touching = meeting < 0 ? 0 : meeting_rounding(place->model, place->at.tree, meeting);
     touching = fmax(touching, 16 * DBL_EPSILON * arm_length(place));
     return left->position <= 1e3 * fmax(rounding(place), touching);
@@ -413,7 +413,7 @@ static bool settle_down(struct fbd_state *state, const struct place *place, doub
 
 bool state_project_position(struct fbd_state *state)
 {
-    if (!has_ties(state->model)) return true;
+    if (!has_couplings(state->model)) return true;
     struct place place = place_of(state, false);
     size_t n = (size_t)state->model->plan.n, bytes = n * sizeof *state->y;
     double *before = state_scratch(state).dy, *start = before + n;
@@ -428,7 +428,7 @@ bool state_project_position(struct fbd_state *state)
 
 bool state_project(struct fbd_state *state, bool assemble)
 {
-    if (!has_ties(state->model)) return true;
+    if (!has_couplings(state->model)) return true;
     struct place place = place_of(state, assemble);
     bool there = settle_down(state, &place, state_scratch(state).dy);
     return state_project_velocity(state, assemble) && there;
@@ -487,7 +487,7 @@ static void bring_back(const struct place *place)
 
 void return_to_constraints(const struct fbd_model *model, const struct instant *at, double *y)
 {
-    if (!has_ties(model) || (at->tree->is_loop && tree_loop_return(&at->tree->loop, y))) return;
+    if (!has_couplings(model) || (at->tree->is_loop && tree_loop_return(&at->tree->loop, y))) return;
     struct place place = {.model = model, .at = *at, .returning = true};
     place.at.y = place.y = y;
     bring_back(&place);

@@ -42,7 +42,7 @@ static void limit_values(const struct rest_system *system, const double *slots, 
         if (keeps_side(system, i)) next[0] = -at.pull[i] * slots[(size_t)mode->normal_slot * stride];
         if (!rest_has_limit(mode) || at.slip[i] != stick) continue;
         if (mode->kind == mode_rope) {
-            int row = system->state->model->tree->ties[mode->tie].first_row;
+            int row = system->state->model->tree->couplings[mode->coupling].first_row;
             next[0] = -(lambda ? lambda[row] : at.tree->rows[row].lambda);
             continue;
         }
@@ -83,7 +83,7 @@ struct rest_limit rest_limit_at(const struct rest_system *system, size_t index)
     if (!rest_has_limit(mode) || system->state->slip[pair] != stick) return limit;
     const struct instant at = system->at;
     if (mode->kind == mode_rope) {
-        limit.needed = -system->state->tree->rows[model->tree->ties[mode->tie].first_row].lambda;
+        limit.needed = -system->state->tree->rows[model->tree->couplings[mode->coupling].first_row].lambda;
         return limit;
     }
     struct friction_values values = friction_at(model, pair, &at, slots);
@@ -149,7 +149,7 @@ static double limit_along(const struct rest_system *system, const double *slots_
     if (i < plan->contact_count) return -slots_along[plan->contacts[i].slot];
     int pair = pair_of_limit(plan, i);
     const struct mode *mode = &plan->modes[pair];
-    if (mode->kind == mode_rope) return -lambda_along[model->tree->ties[mode->tie].first_row];
+    if (mode->kind == mode_rope) return -lambda_along[model->tree->couplings[mode->coupling].first_row];
     struct friction_values now = friction_at(model, pair, &system->at, system->forces);
     struct friction_values rate = friction_along(model, pair, &system->at, system->forces, flow, slots_along);
     if (keeps_side(system, (size_t)pair)) return system->at.pull[pair] * rate.N;

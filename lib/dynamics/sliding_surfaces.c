@@ -70,7 +70,7 @@ bool question_gather(struct question *q, const struct decided *decided)
 static bool has_couplings(const struct question *q)
 {
     const struct tree *tree = q->state->model->tree;
-    return tree && tree->tie_count > 0;
+    return tree && tree->coupling_count > 0;
 }
 
 /* In the modes as they are. False when memory is out. */

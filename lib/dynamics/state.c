@@ -16,9 +16,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-static size_t tie_bytes(const struct fbd_model *model)
+static size_t coupling_bytes(const struct fbd_model *model)
 {
-    return (size_t)model->tree->tie_count * sizeof(struct tie_state);
+    return (size_t)model->tree->coupling_count * sizeof(struct coupling_state);
 }
 
 static size_t scratch_size(const struct plan *plan)
@@ -72,8 +72,8 @@ static struct fbd_state *allocate(const struct fbd_model *model)
 static void let_slots_slip(struct fbd_state *state)
 {
     const struct tree *tree = state->model->tree;
-    for (int i = 0; tree && i < tree->tie_count; i++)
-        if (tree->ties[i].kind == constraint_groove) state->slip[tree->ties[i].pair] = slip_plus;
+    for (int i = 0; tree && i < tree->coupling_count; i++)
+        if (tree->couplings[i].kind == constraint_groove) state->slip[tree->couplings[i].pair] = slip_plus;
 }
 
 struct fbd_state *state_new(const struct fbd_model *model)
@@ -104,7 +104,7 @@ struct fbd_state *state_new_from(const struct fbd_model *model, const struct sta
         memcpy(state->branch, start->branch, (size_t)model->plan.branches * sizeof *state->branch);
     modes_drive(state);
     state_start_constraints(state);
-    if (state->tree) ties_keep(state, start->ties);
+    if (state->tree) couplings_keep(state, start->couplings);
     contacts_start(state);
     return state;
 }
@@ -125,8 +125,8 @@ void state_copy(struct fbd_state *to, const struct fbd_state *from)
     memcpy(to->y, from->y, (size_t)(from->scratch - from->y) * sizeof *to->y); /* with a and slots */
     if (modes > 0) memcpy(to->branch, from->branch, modes * sizeof *to->branch);
     if (to->sliding) sliding_copy(from->model, to->sliding, from->sliding);
-    if (to->tree && from->model->tree->tie_count > 0)
-        memcpy(to->tree->ties, from->tree->ties, tie_bytes(from->model));
+    if (to->tree && from->model->tree->coupling_count > 0)
+        memcpy(to->tree->couplings, from->tree->couplings, coupling_bytes(from->model));
 }
 
 void state_still(struct fbd_state *state, double duration)

@@ -80,12 +80,13 @@ static inline struct direction state_flow(const struct fbd_state *state, double 
 struct fbd_state *state_new(const struct fbd_model *model);
 
 /* What a motion goes on from: a time, the plan_size numbers of y, the branches of what remembers them, and what
- * the ties keep of their start, for example the length of a rope. */
+ * the couplings keep of their start, for example the length of a rope. */
 struct state_start {
     double t;
     const double *y;
     const int *branch;
-    const struct fbd_state *ties; /* a state of this scene, or of one that has its couplings and others */
+    const struct fbd_state
+        *couplings; /* a state of this scene, or of one that has its couplings and others */
 };
 
 /* The same from there: what sticks, is taut or touches follows from it as it does at the start. */

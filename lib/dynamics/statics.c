@@ -16,7 +16,7 @@
 static enum slip slip_at_rest(const struct mode *mode, const struct instant *at)
 {
     if (friction_is_never(mode)) return slip_plus;
-    if (mode->tie >= 0 || mode->kind == mode_drive) return stick;
+    if (mode->coupling >= 0 || mode->kind == mode_drive) return stick;
     double acceleration, speed = friction_surface_speed(mode, at, &acceleration);
     return speed > 0 ? slip_minus : speed < 0 ? slip_plus : stick;
 }
@@ -25,14 +25,14 @@ static enum slip one_sided_at_rest(const struct fbd_state *state, int pair)
 {
     const struct fbd_model *model = state->model;
     struct instant at = state_instant(state);
-    const int index = model->plan.modes[pair].tie;
-    const struct tie *tie = &model->tree->ties[index];
-    const bool contact = tie->kind == constraint_contact;
+    const int index = model->plan.modes[pair].coupling;
+    const struct coupling *coupling = &model->tree->couplings[index];
+    const bool contact = coupling->kind == constraint_contact;
     /* Shapes that are apart have no row, which would be at zero. */
-    if (contact && at.tree->ties[index].feature == no_feature) return slip_plus;
+    if (contact && at.tree->couplings[index].feature == no_feature) return slip_plus;
     struct one_sided now = one_sided_at(model, &at, pair);
     /* What rests at the origin is near it by the size of the scene alone. */
-    bool near = contact && fabs(now.excess) <= meeting_near(model, at.tree, tie->meeting);
+    bool near = contact && fabs(now.excess) <= meeting_near(model, at.tree, coupling->meeting);
     return now.touches || now.excess > 0 || near ? stick : slip_plus;
 }
 
@@ -73,7 +73,7 @@ int rest_holder(const struct fbd_model *model, const struct instant *at, int coo
     const struct plan *plan = &model->plan;
     for (int pair = 0; pair < (int)plan->mode_count; pair++) {
         const struct mode *mode = &plan->modes[pair];
-        bool holds = mode->tie < 0 && mode->coordinate == coordinate;
+        bool holds = mode->coupling < 0 && mode->coordinate == coordinate;
         if (holds && at->slip[pair] == stick) return pair;
     }
     return -1;
@@ -134,7 +134,7 @@ static void add_slipping(const struct fbd_model *model, const struct instant *at
     for (int pair = 0; pair < (int)plan->mode_count; pair++) {
         const struct mode *mode = &plan->modes[pair];
         int side = slip_side(at->slip[pair]);
-        if (mode->tie >= 0 || side == 0) continue;
+        if (mode->coupling >= 0 || side == 0) continue;
         double press = mode->normal_slot >= 0 ? -at->pull[pair] * slots[mode->normal_slot] : loads;
         Q[mode->coordinate] -= side * formula_value(&mode->mu_k, at) * press;
     }
@@ -157,9 +157,9 @@ static void stand_still(const struct fbd_model *model, const struct instant *at,
 /* The tension that a belt has anyway is a load. */
 static void drop_preloads(const struct tree *tree, double *slots)
 {
-    for (int i = 0; i < tree->tie_count; i++)
-        for (int k = 0; k < tree->ties[i].strands; k++)
-            slots[tree->ties[i].slack_slot[k]] += tree->ties[i].source->tension;
+    for (int i = 0; i < tree->coupling_count; i++)
+        for (int k = 0; k < tree->couplings[i].strands; k++)
+            slots[tree->couplings[i].slack_slot[k]] += tree->couplings[i].source->tension;
 }
 
 void rest_forces(const struct fbd_model *model, const struct instant *given, const double *lambda, bool loads,

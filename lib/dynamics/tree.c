@@ -29,7 +29,7 @@ size_t tree_work_size(const struct fbd_model *model)
     size_t link = sizeof(struct tree_state) + 2 * sizeof(struct tree_rhs) + sizeof(struct tree_variation) +
                   sizeof(struct tree_bare);
     return links * link + (size_t)tree->row_count * sizeof(struct row) +
-           (size_t)tree->tie_count * sizeof(struct tie_state) + doubles_of(model) * sizeof(double) +
+           (size_t)tree->coupling_count * sizeof(struct coupling_state) + doubles_of(model) * sizeof(double) +
            unknowns * sizeof(size_t) + ints * sizeof(int);
 }
 
@@ -43,8 +43,8 @@ void tree_work_init(struct tree_work *work, const struct fbd_model *model, void 
     work->variation = (struct tree_variation *)(work->sum + links);
     work->bare = (struct tree_bare *)(work->variation + links);
     work->rows = (struct row *)(work->bare + links);
-    work->ties = (struct tie_state *)(work->rows + tree->row_count);
-    work->lower = (double *)(work->ties + tree->tie_count);
+    work->couplings = (struct coupling_state *)(work->rows + tree->row_count);
+    work->lower = (double *)(work->couplings + tree->coupling_count);
     work->upper = work->lower + tree->envelope_size;
     work->diagonal = work->upper + tree->envelope_size;
     work->inverse = work->diagonal + unknowns;
@@ -111,7 +111,7 @@ static void set_strands(const struct fbd_model *model, const struct tree_work *w
 {
     double tension[2];
     belt_tensions(model, work, index, tension);
-    for (int k = 0; k < 2; k++) slots[model->tree->ties[index].slack_slot[k]] = -tension[k];
+    for (int k = 0; k < 2; k++) slots[model->tree->couplings[index].slack_slot[k]] = -tension[k];
 }
 
 void tree_slots(const struct fbd_model *model, const struct instant *at, double *slots)
@@ -127,13 +127,13 @@ void tree_slots(const struct fbd_model *model, const struct instant *at, double 
         if (link->pair < 0) continue;
         slots[model->plan.modes[link->pair].hold_slot] = slots[link->coordinate] - joint_share(link, s, s->F);
     }
-    for (int i = 0; i < tree->tie_count; i++) {
-        const struct tie *tie = &tree->ties[i];
-        if (tie->strands > 0) set_strands(model, work, i, slots);
-        if (!tie_presses(tie)) continue;
-        slots[tie->normal_slot] = -work->rows[tie->first_row].lambda;
-        if (tie->pair >= 0)
-            slots[model->plan.modes[tie->pair].hold_slot] = -work->rows[tie->first_row + 1].lambda;
+    for (int i = 0; i < tree->coupling_count; i++) {
+        const struct coupling *coupling = &tree->couplings[i];
+        if (coupling->strands > 0) set_strands(model, work, i, slots);
+        if (!coupling_presses(coupling)) continue;
+        slots[coupling->normal_slot] = -work->rows[coupling->first_row].lambda;
+        if (coupling->pair >= 0)
+            slots[model->plan.modes[coupling->pair].hold_slot] = -work->rows[coupling->first_row + 1].lambda;
     }
 }
 
@@ -183,12 +183,12 @@ static void set_joint_forces(const struct fbd_model *model, const struct instant
     }
 }
 
-/* The largest of a tie and of what it joins, for all of them. */
-static void spread_borne(const struct tree *tree, struct tree_work *work, const struct tie *tie)
+/* The largest of a coupling and of what it joins, for all of them. */
+static void spread_borne(const struct tree *tree, struct tree_work *work, const struct coupling *coupling)
 {
     double most = 0;
     for (int pass = 0; pass < 2; pass++)
-        for (int j = tie->first_row; j < tie->first_row + tie->row_count; j++) {
+        for (int j = coupling->first_row; j < coupling->first_row + coupling->row_count; j++) {
             const struct row *row = &work->rows[j];
             for (int k = 0; row->lambda != 0 && k < row->port_count; k++) {
                 const struct port *port = &row->ports[k];
@@ -206,8 +206,8 @@ static void spread_borne(const struct tree *tree, struct tree_work *work, const 
 static void set_borne(const struct tree *tree, struct tree_work *work)
 {
     for (int i = 0; i < tree->count; i++) work->borne[i] = 0;
-    for (int i = 0; i < tree->tie_count; i++) spread_borne(tree, work, &tree->ties[i]);
-    for (int i = tree->tie_count; i-- > 0;) spread_borne(tree, work, &tree->ties[i]);
+    for (int i = 0; i < tree->coupling_count; i++) spread_borne(tree, work, &tree->couplings[i]);
+    for (int i = tree->coupling_count; i-- > 0;) spread_borne(tree, work, &tree->couplings[i]);
 }
 
 /* What rests on others has accelerations of rounding. No step would be short enough for them: there is no motion that
@@ -293,12 +293,12 @@ void tree_accelerations(const struct fbd_model *model, const struct instant *at,
     }
     work->complete = work->shared = false;
     work->fastest = -1;
-    if (tree->watched_count + tree->tie_count == 0) return;
+    if (tree->watched_count + tree->coupling_count == 0) return;
     if (work->rates_only && tree->watched_count == 0)
         add_accelerations(tree, work);
     else
         tree_complete(model, work);
-    if (tree->tie_count > 0 || tree_slips(tree, at)) close_system(model, at, a);
+    if (tree->coupling_count > 0 || tree_slips(tree, at)) close_system(model, at, a);
     bool holds = false;
     for (int k = 0; k < tree->watched_count; k++) {
         const struct tree_state *s = &work->links[tree->watched[k]];

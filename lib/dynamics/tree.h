@@ -71,7 +71,7 @@ struct tree_variation {
 
 struct tree_bare;
 struct row;
-struct tie_state;
+struct coupling_state;
 
 struct tree_work {
     struct tree_state *links;                       /* tree.count; links[0] is the ground */
@@ -79,7 +79,7 @@ struct tree_work {
     struct tree_variation *variation;               /* tree.count */
     struct tree_bare *bare;                         /* tree.count, see tree_bare.h */
     struct row *rows;                               /* row_count: constraints, see constraint.h */
-    struct tie_state *ties;                         /* tie_count: what they keep of the start */
+    struct coupling_state *couplings;               /* coupling_count: what they keep of the start */
     double *lower, *upper, *diagonal, *inverse, *z; /* the system of tree_system.h */
     struct rest_memo *memo;                         /* rest_memo.h */
     double *whole;                  /* lower and upper parts of the system before it was factored */
@@ -111,7 +111,7 @@ struct tree_work {
     bool direct;        /* it was factored as it stands, and its solution needs no corrections */
     bool shared;        /* what constraints leave open is shared in them, see rest_system.h */
     double shared_size; /* then: the largest force that was there before, which has given its rounding */
-    bool kept;          /* ties_keep: on which side of a line a body is stays as it has been */
+    bool kept;          /* couplings_keep: on which side of a line a body is stays as it has been */
     bool complete;      /* A and F of the links are final, see tree_complete */
     bool rates_only;    /* nobody asks for anything but the accelerations of the joints */
     double fastest;     /* the speed of the fastest link; negative: to be found, see constraint.c; */

@@ -127,15 +127,15 @@ void tree_accelerations_along(const struct fbd_model *model, const struct instan
     tree_load_along(tree, at, along);
     vary_arms(tree, work);
     vary_joint_forces(model, at, along, slots, slots_along);
-    if (tree->tie_count > 0) {
+    if (tree->coupling_count > 0) {
         constraints_evaluate(model, at, along);
         tree_apply_variations(model, at, along);
     }
     tree_inward(tree, work, 1, tree->count);
     tree_outward(tree, work, 1, tree->count, a_along);
-    if (tree->watched_count + tree->tie_count == 0) return;
+    if (tree->watched_count + tree->coupling_count == 0) return;
     add_slots(model, at, true, slots_along);
-    if (tree->tie_count == 0 && !tree_slips(tree, at)) return;
+    if (tree->coupling_count == 0 && !tree_slips(tree, at)) return;
     for (int j = 0; j < tree->row_count; j++) work->z[j] = -(work->rows[j].g.d2 + tree_row_answer(work, j));
     for (int k = 0; k < tree->pair_count; k++)
         work->z[tree->row_count + k] = friction_along_base(model, at, along, tree->pairs[k]);
@@ -143,17 +143,17 @@ void tree_accelerations_along(const struct fbd_model *model, const struct instan
     tree_add_unit(tree, work, a_along);
     if (holds(tree, work)) tree_rest(model, at, true, a_along);
     add_slots(model, at, false, slots_along);
-    for (int i = 0; i < tree->tie_count; i++) {
-        const struct tie *tie = &tree->ties[i];
-        if (tie->strands > 0) {
-            double both = tie->row_count > 1 ? work->z[tie->first_row + 1] : 0,
-                   half = work->z[tie->first_row] / 2;
-            slots_along[tie->slack_slot[0]] = both + half;
-            slots_along[tie->slack_slot[1]] = both - half;
+    for (int i = 0; i < tree->coupling_count; i++) {
+        const struct coupling *coupling = &tree->couplings[i];
+        if (coupling->strands > 0) {
+            double both = coupling->row_count > 1 ? work->z[coupling->first_row + 1] : 0,
+                   half = work->z[coupling->first_row] / 2;
+            slots_along[coupling->slack_slot[0]] = both + half;
+            slots_along[coupling->slack_slot[1]] = both - half;
         }
-        if (!tie_presses(tie)) continue;
-        slots_along[tie->normal_slot] = -work->z[tie->first_row];
-        if (tie->pair >= 0)
-            slots_along[model->plan.modes[tie->pair].hold_slot] = -work->z[tie->first_row + 1];
+        if (!coupling_presses(coupling)) continue;
+        slots_along[coupling->normal_slot] = -work->z[coupling->first_row];
+        if (coupling->pair >= 0)
+            slots_along[model->plan.modes[coupling->pair].hold_slot] = -work->z[coupling->first_row + 1];
     }
 }

@@ -28,7 +28,7 @@ bool tree_is_in_chains(const struct tree *tree)
 bool tree_is_bare(const struct fbd_model *model)
 {
     const struct tree *tree = model->tree;
-    if (!tree || tree->loaded || tree->watched_count + tree->tie_count > 0 || model->plan.mode_count > 0)
+    if (!tree || tree->loaded || tree->watched_count + tree->coupling_count > 0 || model->plan.mode_count > 0)
         return false;
     for (int k = 0; k < tree->acting_count; k++)
         if (!acts_in_joints_alone(model, tree->acting[k])) return false;

@@ -25,7 +25,7 @@ struct tree_bare {
 /* Is it made of such chains, whatever acts on them? */
 bool tree_is_in_chains(const struct tree *tree);
 
-/* Is it one on which nothing else acts, without ties, and is there nothing in the scene beside it? */
+/* Is it one on which nothing else acts, without couplings, and is there nothing in the scene beside it? */
 bool tree_is_bare(const struct fbd_model *model);
 
 enum tree_form { tree_form_none, tree_form_pole, tree_form_two_pivots, tree_form_three_pivots };

@@ -87,7 +87,7 @@ static struct arrow opposite(struct arrow arrow, const char *name)
 
 /* ---- constraints: the multipliers as forces */
 
-/* What the row does at end k of its tie. */
+/* What the row does at end k of its coupling. */
 static struct arrow row_arrow(const struct instant *at, const struct row *row, int k, const char *name)
 {
     struct arrow arrow = {.name = name, .load = -1};
@@ -111,10 +111,10 @@ enum { most_of_an_end = 2 };
 static size_t fill_strands(const struct fbd_model *model, int index, int k, const struct instant *at,
                            struct arrow *arrows)
 {
-    const struct tie *tie = &model->tree->ties[index];
-    const struct constraint_form *form = &constraint_forms[tie->kind];
-    const struct row *row = &at->tree->rows[tie->first_row];
-    const char *const *names = tie->end[k].name;
+    const struct coupling *coupling = &model->tree->couplings[index];
+    const struct constraint_form *form = &constraint_forms[coupling->kind];
+    const struct row *row = &at->tree->rows[coupling->first_row];
+    const char *const *names = coupling->end[k].name;
     double tension[2];
     size_t count = 0;
     form->tensions(model, at->tree, index, tension);
@@ -124,56 +124,57 @@ static size_t fill_strands(const struct fbd_model *model, int index, int k, cons
         if (port->end != k) continue;
         arrows[count++] =
             (struct arrow){.name = names[1] ? names[strand] : names[0],
-                           .load = tie->law->surface ? tie->load : -1,
+                           .load = coupling->law->surface ? coupling->load : -1,
                            .point = vec_add(at->tree->links[port->link].p, port->arm),
                            .force = vec_scale(-tension[strand] / form->share[strand], port->force)};
     }
     return count;
 }
 
-/* What a tie does at its end k: one force, or for a rolling body those along and across its line. */
-static size_t fill_end(const struct tie *tie, int k, const struct instant *at, struct arrow *arrows)
+/* What a coupling does at its end k: one force, or for a rolling body those along and across its line. */
+static size_t fill_end(const struct coupling *coupling, int k, const struct instant *at, struct arrow *arrows)
 {
-    const struct row *rows = &at->tree->rows[tie->first_row];
-    arrows[0] = row_arrow(at, &rows[0], k, tie->end[k].name[0]);
-    if (tie->reels) arrows[0].load = tie->load; /* any other rope does no work in all */
-    if (tie->row_count == 1) return 1;
-    arrows[1] = row_arrow(at, &rows[1], k, tie->end[k].name[1]);
-    if (!tie->law->end_names[1]) {
+    const struct row *rows = &at->tree->rows[coupling->first_row];
+    arrows[0] = row_arrow(at, &rows[0], k, coupling->end[k].name[0]);
+    if (coupling->reels) arrows[0].load = coupling->load; /* any other rope does no work in all */
+    if (coupling->row_count == 1) return 1;
+    arrows[1] = row_arrow(at, &rows[1], k, coupling->end[k].name[1]);
+    if (!coupling->law->end_names[1]) {
         arrows[0].force = vec_add(arrows[0].force, arrows[1].force);
         return 1;
     }
-    arrows[1].load = tie->load;
+    arrows[1].load = coupling->load;
     return 2;
 }
 
-static size_t fill_tie(const struct fbd_model *model, int index, int k, const struct instant *at,
-                       struct arrow *arrows)
+static size_t fill_coupling(const struct fbd_model *model, int index, int k, const struct instant *at,
+                            struct arrow *arrows)
 {
-    const struct tie *tie = &model->tree->ties[index];
-    if (tie->law->strands) return fill_strands(model, index, k, at, arrows);
-    return fill_end(tie, k, at, arrows);
+    const struct coupling *coupling = &model->tree->couplings[index];
+    if (coupling->law->strands) return fill_strands(model, index, k, at, arrows);
+    return fill_end(coupling, k, at, arrows);
 }
 
 /* All constraint forces on body b; returns their number. */
-static size_t fill_ties(const struct fbd_model *model, int b, const struct instant *at, struct arrow *arrows)
+static size_t fill_couplings(const struct fbd_model *model, int b, const struct instant *at,
+                             struct arrow *arrows)
 {
     const struct tree *tree = model->tree;
     size_t count = 0;
-    for (int i = 0; i < tree->tie_count; i++)
-        for (int k = 0; k < tree->ties[i].end_count; k++)
-            if (tree->ties[i].end[k].body == b) count += fill_tie(model, i, k, at, arrows + count);
+    for (int i = 0; i < tree->coupling_count; i++)
+        for (int k = 0; k < tree->couplings[i].end_count; k++)
+            if (tree->couplings[i].end[k].body == b) count += fill_coupling(model, i, k, at, arrows + count);
     return count;
 }
 
 /* Names of ends belong to one end each. */
 int rope_load(const struct fbd_model *model, int b, const struct arrow *arrow)
 {
-    for (int i = 0; model->tree && i < model->tree->tie_count; i++) {
-        const struct tie *tie = &model->tree->ties[i];
-        if (tie->kind != constraint_rope) continue;
-        for (int k = 0; k < tie->end_count; k++)
-            if (tie->end[k].body == b && tie->end[k].name[0] == arrow->name) return tie->load;
+    for (int i = 0; model->tree && i < model->tree->coupling_count; i++) {
+        const struct coupling *coupling = &model->tree->couplings[i];
+        if (coupling->kind != constraint_rope) continue;
+        for (int k = 0; k < coupling->end_count; k++)
+            if (coupling->end[k].body == b && coupling->end[k].name[0] == arrow->name) return coupling->load;
     }
     return -1;
 }
@@ -243,12 +244,12 @@ static void add_needs(const struct fbd_model *model, int b, const struct instant
         if (load->body != b) arrow = opposite(arrow, arrow.name);
         add_arrow(sum, &arrow, point);
     }
-    for (int i = 0; i < model->tree->tie_count; i++)
-        for (int k = 0; k < model->tree->ties[i].end_count; k++)
-            if (model->tree->ties[i].end[k].body == b) {
-                struct arrow ties[most_of_an_end];
-                size_t count = fill_tie(model, i, k, at, ties);
-                for (size_t j = 0; j < count; j++) add_arrow(sum, &ties[j], point);
+    for (int i = 0; i < model->tree->coupling_count; i++)
+        for (int k = 0; k < model->tree->couplings[i].end_count; k++)
+            if (model->tree->couplings[i].end[k].body == b) {
+                struct arrow couplings[most_of_an_end];
+                size_t count = fill_coupling(model, i, k, at, couplings);
+                for (size_t j = 0; j < count; j++) add_arrow(sum, &couplings[j], point);
             }
     for (int c = body->child; c >= 0; c = model->bodies[c].sibling) {
         const struct tree_state *s = link_of(&model->bodies[c], at);
@@ -334,7 +335,7 @@ size_t tree_diagram_add(const struct fbd_model *model, int index, const struct i
         arrows[count++] = opposite(arrow, arrow.name);
     }
     if (body->drive >= 0) arrows[count++] = load_arrow(model, body->drive, at, slots);
-    if (model->tree->tie_count > 0) count += fill_ties(model, index, at, arrows + count);
+    if (model->tree->coupling_count > 0) count += fill_couplings(model, index, at, arrows + count);
     if (body->reaction) reaction_fill(model, index, at, slots, &arrows[count++]);
     for (int c = body->child; c >= 0; c = model->bodies[c].sibling)
         count += fill_child(model, c, at, slots, arrows + count);

@@ -18,7 +18,7 @@ double tree_hold_acceleration(const struct fbd_state *state, const struct instan
 {
     const struct mode *hold = mode_of(state, pair);
     double surface;
-    if (hold->tie >= 0) return hold_sign(hold) * hold_row(state, hold)->g.x2;
+    if (hold->coupling >= 0) return hold_sign(hold) * hold_row(state, hold)->g.x2;
     friction_surface_speed(hold, at, &surface);
     return state->a[hold->coordinate] - surface;
 }
@@ -78,7 +78,7 @@ static double velocity_along(const struct fbd_state *state, int pair, double dt)
 {
     const struct mode *hold = mode_of(state, pair);
     struct instant at = state_instant(state);
-    bool angle = hold->tie < 0 && state->model->scene->coordinates[hold->coordinate].angle;
+    bool angle = hold->coupling < 0 && state->model->scene->coordinates[hold->coordinate].angle;
     double reach = reach_of(state), arm = angle && reach > 0 ? reach : 1;
     double v = mode_is_friction(hold) ? slip_velocity(state->model, pair, &at)
                                       : hold_sign(hold) * hold_row(state, hold)->g.x1;
@@ -146,7 +146,7 @@ static bool any_sticks(const struct fbd_state *state)
 {
     for (int pair = 0; pair < (int)state->model->plan.mode_count; pair++) {
         const struct mode *mode = mode_of(state, pair);
-        bool touches = mode->tie >= 0 && state->model->tree->ties[mode->tie].meeting >= 0;
+        bool touches = mode->coupling >= 0 && state->model->tree->couplings[mode->coupling].meeting >= 0;
         if (mode_is_friction(mode) && !touches && state->slip[pair] == stick) return true;
     }
     return false;
@@ -169,10 +169,11 @@ static bool answers_wrongly(const struct fbd_state *state)
 {
     const struct tree *tree = state->model->tree;
     const struct instant at = state_instant(state);
-    for (int i = 0; i < tree->tie_count; i++) {
-        const struct tie *tie = &tree->ties[i];
-        if (!tie->law->surface || tree_rubbing_share(state->model, &at, tie->first_row) == 0) continue;
-        if (state->tree->diagonal[tie->first_row] < 0) return true;
+    for (int i = 0; i < tree->coupling_count; i++) {
+        const struct coupling *coupling = &tree->couplings[i];
+        if (!coupling->law->surface || tree_rubbing_share(state->model, &at, coupling->first_row) == 0)
+            continue;
+        if (state->tree->diagonal[coupling->first_row] < 0) return true;
     }
     return false;
 }

@@ -9,10 +9,10 @@
 #include "dynamics/constraint.h"
 #include "dynamics/modes.h"
 
-/* The row along which a hold of a tie acts. */
+/* The row along which a hold of a coupling acts. */
 static inline const struct row *hold_row(const struct fbd_state *state, const struct mode *hold)
 {
-    int first = state->model->tree->ties[hold->tie].first_row;
+    int first = state->model->tree->couplings[hold->coupling].first_row;
     return &state->tree->rows[first + (hold->kind == mode_tangent)];
 }
 

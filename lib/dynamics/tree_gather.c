@@ -17,14 +17,14 @@
 static bool is_on_surface(const struct fbd_state *state, const struct decided *decided, const int *forced,
                           const struct mode *mode)
 {
-    if (mode->tie < 0) return true;
-    int surface = state->model->tree->ties[mode->tie].surface;
+    if (mode->coupling < 0) return true;
+    int surface = state->model->tree->couplings[mode->coupling].surface;
     struct instant at = state_instant(state);
     if (surface >= 0 && (forced[surface] || (decided && decided->slips[surface])) &&
         state->slip[surface] != stick)
         return false;
     if (surface >= 0 && mode_of(state, surface)->kind == mode_contact)
-        return state->tree->ties[mode->tie].feature != no_feature;
+        return state->tree->couplings[mode->coupling].feature != no_feature;
     return surface < 0 || state->slip[surface] == stick || one_sided_at(state->model, &at, surface).touches;
 }
 
@@ -37,7 +37,7 @@ bool hold_in_question(const struct fbd_state *state, const struct decided *decid
     if (friction_is_never(hold)) return false;
     if (mode_is_friction(hold)) return is_on_surface(state, decided, forced, hold);
     if (forced[pair] || (decided && decided->slips[pair])) return false;
-    if (hold->kind == mode_contact) return state->tree->ties[hold->tie].feature != no_feature;
+    if (hold->kind == mode_contact) return state->tree->couplings[hold->coupling].feature != no_feature;
     struct one_sided now = one_sided_at(state->model, &at, pair);
     return now.touches || (state->slip[pair] == stick && (decided || !(now.parts || now.meets)));
 }
@@ -58,7 +58,7 @@ static void apply_unit(struct fbd_state *state, int pair)
 {
     const struct mode *hold = mode_of(state, pair);
     memset(state->tree->x, 0, (size_t)state->model->tree->count * sizeof *state->tree->x);
-    if (hold->tie >= 0)
+    if (hold->coupling >= 0)
         row_apply(hold_row(state, hold), hold_sign(hold), state->tree->x);
     else
         state->tree->x[link_of(state, pair)].g = 1;
@@ -74,13 +74,13 @@ static void add_answers(struct gathered *all, size_t k)
     for (size_t i = 0; i < count; i++) {
         const struct mode *hold = mode_of(state, all->pair[i]);
         all->problem.A[i * count + k] +=
-            hold->tie < 0
+            hold->coupling < 0
                 ? state->tree->unit[hold->coordinate]
                 : hold_sign(hold) *
                       tree_row_answer(state->tree, (int)(hold_row(state, hold) - state->tree->rows));
     }
     for (size_t g = 0; g < all->problem.guide_count; g++)
-        if (mode_of(state, all->guide[g])->tie < 0)
+        if (mode_of(state, all->guide[g])->coupling < 0)
             all->problem.B[g * count + k] += tree_normal_in(tree, state->tree, link_of(state, all->guide[g]));
 }
 
@@ -133,14 +133,15 @@ static bool answers_alone(struct gathered *all, size_t k)
     tree_outward(tree, work, 1, tree->count, work->unit);
     add_answers(all, k);
     double alone = fmax(all->problem.A[k * all->problem.count + k], least_answer(state, all->pair[k]));
-    if (tree->tie_count == 0) return false;
+    if (tree->coupling_count == 0) return false;
     for (int j = 0; j < tree_unknowns(tree); j++)
         work->z[j] = j < tree->row_count ? -tree_row_answer(work, j) : 0;
     tree_system_solve(state->model, &all->at, work->z);
     add_answers(all, k);
     for (size_t g = 0; g < all->problem.guide_count; g++) { /* of a slot: the multiplier of its row across */
-        const int tie = mode_of(state, all->guide[g])->tie;
-        if (tie >= 0) all->problem.B[g * all->problem.count + k] = work->z[tree->ties[tie].first_row];
+        const int coupling = mode_of(state, all->guide[g])->coupling;
+        if (coupling >= 0)
+            all->problem.B[g * all->problem.count + k] = work->z[tree->couplings[coupling].first_row];
     }
     return all->problem.A[k * all->problem.count + k] <= immovable * alone;
 }
@@ -242,7 +243,8 @@ static bool make_room_for_shares(struct gathered *all)
 /* Is what presses on a friction a guide, of a slide or of a slot that holds on both sides? */
 static bool has_guide(const struct fbd_model *model, const struct mode *mode)
 {
-    return mode->normal_slot >= 0 && (mode->tie < 0 || model->tree->ties[mode->tie].surface < 0);
+    return mode->normal_slot >= 0 &&
+           (mode->coupling < 0 || model->tree->couplings[mode->coupling].surface < 0);
 }
 
 /* What presses on friction i: a hold of the same line, or a guide, which is noted. */
@@ -253,7 +255,7 @@ static void set_press(struct gathered *all, size_t i, size_t *guides)
     hold->press = press_constant;
     if (mode->normal_slot < 0) return;
     if (!has_guide(all->state->model, mode)) {
-        int surface = all->state->model->tree->ties[mode->tie].surface;
+        int surface = all->state->model->tree->couplings[mode->coupling].surface;
         hold->press = press_hold;
         hold->presses = all->hold[surface];
         if (hold->presses >= 0) return;

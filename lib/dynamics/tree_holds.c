@@ -42,7 +42,8 @@ static bool turns_back(const struct fbd_state *state, int pair)
     const struct mode *mode = mode_of(state, pair);
     struct instant at = state_instant(state);
     double surface;
-    if (mode->tie >= 0) return state->slip[pair] * tie_slip_acceleration(state->model, &at, mode->tie) < 0;
+    if (mode->coupling >= 0)
+        return state->slip[pair] * coupling_slip_acceleration(state->model, &at, mode->coupling) < 0;
     friction_surface_speed(mode, &at, &surface);
     double a = state->a[mode->coordinate];
     double least = 8 * DBL_EPSILON * (fabs(a) + fabs(surface)) + rounding * accelerated(state, pair);
@@ -62,14 +63,14 @@ static double largest_force(const struct fbd_state *state)
 
 static bool is_on_contact(const struct fbd_state *state, const struct mode *hold)
 {
-    return hold->tie >= 0 && state->model->tree->ties[hold->tie].meeting >= 0;
+    return hold->coupling >= 0 && state->model->tree->couplings[hold->coupling].meeting >= 0;
 }
 
 /* Friction of what has just opened has nothing to hold or to slip on, whatever its mode. */
 static bool is_on_open_contact(const struct fbd_state *state, const struct mode *hold)
 {
     return mode_is_friction(hold) && is_on_contact(state, hold) &&
-           state->slip[state->model->tree->ties[hold->tie].surface] != stick;
+           state->slip[state->model->tree->couplings[hold->coupling].surface] != stick;
 }
 
 /* Does friction that sticks move all the same? Where a mechanism passes its dead centre nothing along the row moves it,
@@ -98,10 +99,10 @@ static int next_mode(const struct fbd_state *state, const struct decided *decide
     if (mode_is_one_sided(hold)) {
         struct one_sided now = one_sided_at(model, &at, pair);
         /* Where nothing pulls or pushes but the rounding of what slides on, that of forces is no measure of it. */
-        if (is_on_contact(state, hold)) now.slack = fmax(now.slack, contact_slack(model, hold->tie));
+        if (is_on_contact(state, hold)) now.slack = fmax(now.slack, contact_slack(model, hold->coupling));
         double small = rounding * largest_force(state);
         if (state->slip[pair] != stick) return now.acceleration > 0 ? stick : state->slip[pair];
-        double rate = hold_sign(hold) * state->tree->z[model->tree->ties[hold->tie].first_row];
+        double rate = hold_sign(hold) * state->tree->z[model->tree->couplings[hold->coupling].first_row];
         double least = now.force < -now.slack / 2 ? 0 : now.slack * now.turning;
         double nothing = fmax(small, slacks * now.slack); /* its event function lets it pull, too */
         *by_rate = now.force <= nothing && now.force >= -beyond * nothing && rate < -least;
@@ -112,7 +113,7 @@ static int next_mode(const struct fbd_state *state, const struct decided *decide
     struct friction_values now = friction_at(model, pair, &at, slots);
     struct friction_values rate = friction_along(model, pair, &at, slots, &flow, slots_along);
     double excess = fabs(now.hold) - now.limit;
-    if (is_on_contact(state, hold) && excess <= contact_slack(model, hold->tie)) return stick;
+    if (is_on_contact(state, hold) && excess <= contact_slack(model, hold->coupling)) return stick;
     double slack = settling_slack(state, decided, pair, &now, &rate);
     *by_rate = excess <= beyond * rounding * (fabs(now.hold) + now.limit) + slack;
     return friction_decide(&now, &rate, slack);
@@ -213,7 +214,7 @@ static enum agreement look(struct fbd_state *state, const struct decided *decide
 static int surface_under(const struct fbd_state *state, int pair)
 {
     if (pair < 0 || !is_on_contact(state, mode_of(state, pair))) return -1;
-    return state->model->tree->ties[mode_of(state, pair)->tie].surface;
+    return state->model->tree->couplings[mode_of(state, pair)->coupling].surface;
 }
 
 /* Look at what has been solved. What slips by rounding and contradicts that keeps still: beside what sticks along the same
@@ -333,7 +334,7 @@ static void turn_idle(struct fbd_state *state, const struct decided *decided)
 }
 
 /* Does friction hold what drives, surfaces or, in a dead centre, its momentum move, whatever the forces are? No friction
- * is enough for that. (Of friction along a tie in a dead centre its row tells, see moves_on.) */
+ * is enough for that. (Of friction along a coupling in a dead centre its row tells, see moves_on.) */
 static bool holds_what_is_driven(struct fbd_state *state, const struct decided *decided, int *forced)
 {
     struct gathered all;

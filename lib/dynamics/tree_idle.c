@@ -43,7 +43,8 @@ void tree_find_unpressed(struct gathered *all, const struct decided *decided, in
         const struct mode *hold = mode_of(state, pair);
         double answer = 0, N = all->problem.guides[g].free;
         for (size_t j = 0; j < count; j++) answer = fmax(answer, fabs(all->problem.B[g * count + j]));
-        if (hold->tie >= 0 || answer > little || fabs(N) > press_slack(state->model, state->tree, hold->body))
+        if (hold->coupling >= 0 || answer > little ||
+            fabs(N) > press_slack(state->model, state->tree, hold->body))
             continue;
         if (fastest < 0) tree_evaluate(state);
         for (int k = 0; k < state->model->plan.slots; k++) fastest = fmax(fastest, fabs(slots_along[k]));

@@ -91,7 +91,7 @@ static void set_order(const struct tree *tree, struct tree_loop *loop, struct tr
 /* The pin is at the end of the first chain, and on what is alone or on the ground. */
 static bool close_loop(const struct tree *tree, struct tree_loop *loop)
 {
-    const struct tie_end *end = tree->ties[0].end;
+    const struct coupling_end *end = tree->couplings[0].end;
     const struct tree_loop_link *from = &loop->links[loop->chain ? 2 : 1], *to = &loop->links[2];
     int first = loop->of[end[0].link] == from ? 0 : 1, other = 1 - first;
     if (loop->of[end[first].link] != from || loop->of[end[other].link] != (loop->chain ? NULL : to))
@@ -130,7 +130,7 @@ bool tree_loop_find(const struct fbd_model *model, struct tree_loop *loop)
     struct tree_loop_link **of = loop->of;
     double mass = 0, trace = 0;
     struct vec force = {0, 0};
-    if (!tree || tree->count != 4 || tree->tie_count != 1 || tree->ties[0].kind != constraint_pin ||
+    if (!tree || tree->count != 4 || tree->coupling_count != 1 || tree->couplings[0].kind != constraint_pin ||
         !tree_is_in_chains(tree) || !is_loaded_simply(tree) || model->plan.mode_count > 0 ||
         model->plan.n != 3 || names_others(model) ||
         (tree->links[2].parent == 0 && tree->links[3].parent == 0))

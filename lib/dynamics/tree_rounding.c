@@ -77,7 +77,7 @@ static void spread_taken(const struct tree *tree, const struct tree_work *work, 
     }
 }
 
-/* Along a train one way and the other, as ties are mostly numbered along it. */
+/* Along a train one way and the other, as couplings are mostly numbered along it. */
 static void spread(const struct tree *tree, const struct instant *at)
 {
     struct tree_work *work = at->tree;
@@ -92,7 +92,7 @@ const double *tree_rounding(const struct fbd_model *model, const struct instant 
     const struct tree *tree = model->tree;
     struct tree_work *work = at->tree;
     int n = model->plan.n;
-    for (int i = 0; i < n; i++) work->taken[i] = tree->tie_count > 0 ? fabs(work->unit[i]) : 0;
+    for (int i = 0; i < n; i++) work->taken[i] = tree->coupling_count > 0 ? fabs(work->unit[i]) : 0;
     for (int j = 0; j < tree->row_count; j++) {
         const struct row *row = &work->rows[j];
         double size = fabs(along ? work->z[j] : row->lambda);
@@ -106,7 +106,7 @@ const double *tree_rounding(const struct fbd_model *model, const struct instant 
 
 void tree_rest(const struct fbd_model *model, const struct instant *at, bool along, double *a)
 {
-    if (model->tree->tie_count == 0 || model->tree->meeting_count > 0)
+    if (model->tree->coupling_count == 0 || model->tree->meeting_count > 0)
         return; /* tree.c sees to what touches */
     const double *rounding = tree_rounding(model, at, along);
     for (int i = 0; i < model->plan.n; i++)

@@ -31,7 +31,7 @@ static double mobility(const struct tree *tree, const struct tree_work *work, in
 /* Of the masses of links: up to here two corrections make up for the shift. */
 static const double masses_near = 1e3;
 
-/* A row counts as weak against what its tie could do in other positions or directions: so a pin, turned in
+/* A row counts as weak against what its coupling could do in other positions or directions: so a pin, turned in
  * the plane, is the same pin, and a rod notices when all that it joins has come in line with it.
  *
  * What nothing can move has all of that of the order of rounding, when it sits on the axis but for rounding
@@ -44,8 +44,8 @@ void tree_set_scales(const struct tree *tree, struct tree_work *work)
     const double apart = fmax(1, tree->mass_ratio / masses_near);
     work->apart = apart > 1;
     double most = 0, lightest = DBL_MAX;
-    for (int i = 0; i < tree->tie_count; i++) {
-        int first = tree->ties[i].first_row, end = first + tree->ties[i].row_count;
+    for (int i = 0; i < tree->coupling_count; i++) {
+        int first = tree->couplings[i].first_row, end = first + tree->couplings[i].row_count;
         double scale = 0;
         for (int j = first; j < end; j++) {
             const struct row *row = &work->rows[j];

@@ -31,7 +31,7 @@ static const struct point *end_of(const struct fbd_model *model, const struct mo
 {
     size_t i = (size_t)(load - model->loads);
     if (i < model->listed_count) return end == 0 ? &load->source->point : NULL;
-    const struct coupling *coupling = &model->scene->couplings[i - model->listed_count];
+    const struct force_coupling *coupling = &model->scene->force_couplings[i - model->listed_count];
     int first = coupling->body[0] == ground_body;
     return &coupling->point[end == 0 ? first : 1 - first];
 }

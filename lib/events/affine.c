@@ -55,7 +55,7 @@ static bool find_slip_stop(const struct fbd_state *state, const struct watcher *
     const struct plan *plan = &state->model->plan;
     const struct mode *mode = &plan->modes[watcher->index];
     int slip = state->slip[watcher->index];
-    if (slip == stick || mode->tie >= 0 || mode->surface_speed.expr || may_idle(mode)) return false;
+    if (slip == stick || mode->coupling >= 0 || mode->surface_speed.expr || may_idle(mode)) return false;
     f->constant = -slip * mode->surface_speed.constant;
     return add_term(f, plan->n + mode->coordinate, slip);
 }

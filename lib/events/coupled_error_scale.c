@@ -19,7 +19,7 @@ bool coupled_scales_init(struct coupled_scales *mechanisms, const struct fbd_mod
                          struct arena *memory)
 {
     *mechanisms = (struct coupled_scales){0};
-    if (!model->tree || model->tree->tie_count == 0) return true;
+    if (!model->tree || model->tree->coupling_count == 0) return true;
     size_t links = (size_t)model->tree->count, n = (size_t)model->plan.n;
     mechanisms->of = ARENA_ARRAY(memory, links, int);
     mechanisms->members = ARENA_ARRAY(memory, links, struct mechanism);

@@ -44,7 +44,7 @@ static void add_shares(struct watchers *watchers, const struct plan *plan)
 
 static bool always_the_same(const struct plan *plan, const struct mode *mode)
 {
-    return mode->tie < 0 && plan->slot_constant[mode->coordinate] && !mode->surface_speed.expr &&
+    return mode->coupling < 0 && plan->slot_constant[mode->coordinate] && !mode->surface_speed.expr &&
            !mode->mu_s.expr && !mode->mu_k.expr &&
            (mode->normal_slot < 0 || plan->slot_constant[mode->normal_slot]);
 }
@@ -96,8 +96,8 @@ static void add_contacts(struct watchers *watchers, const struct tree *tree)
             add(&watchers->moving, (struct watcher){watch_gap, i, probe, 0});
         if (meeting->shape[0].kind != contact_corners && meeting->shape[1].kind != contact_corners) continue;
         if (meeting->shape[1].kind == contact_line) continue;
-        for (int k = 0; k < 2 * meeting->tie_count; k++)
-            add(&watchers->moving, (struct watcher){watch_edge, meeting->first_tie + k / 2, 0, k % 2});
+        for (int k = 0; k < 2 * meeting->coupling_count; k++)
+            add(&watchers->moving, (struct watcher){watch_edge, meeting->first_coupling + k / 2, 0, k % 2});
     }
 }
 
@@ -186,13 +186,13 @@ static double rounding_of(const struct watcher *watcher, const struct fbd_state 
     const struct instant at = state_instant(state);
     if (watcher->kind == watch_gap) return meeting_rounding(model, state->tree, watcher->index);
     if (watcher->kind == watch_edge)
-        return meeting_rounding(model, state->tree, tree->ties[watcher->index].meeting);
+        return meeting_rounding(model, state->tree, tree->couplings[watcher->index].meeting);
     bool of_contact =
         watcher->kind == watch_lift || watcher->kind == watch_stick_limit || watcher->kind == watch_slip_stop;
-    int tie = of_contact ? model->plan.modes[watcher->index].tie : -1;
-    if (tie < 0 || tree->ties[tie].meeting < 0) return -1;
-    if (watcher->kind == watch_slip_stop) return tie_slip_rounding(model, &at, tie);
-    return contact_slack(model, tie);
+    int coupling = of_contact ? model->plan.modes[watcher->index].coupling : -1;
+    if (coupling < 0 || tree->couplings[coupling].meeting < 0) return -1;
+    if (watcher->kind == watch_slip_stop) return coupling_slip_rounding(model, &at, coupling);
+    return contact_slack(model, coupling);
 }
 
 void watchers_set_rounding(const struct watcher_set *set, const struct fbd_state *state, double *rounding)

@@ -31,7 +31,7 @@ enum watcher_kind {
     watch_one_sided,    /* a taut rope goes slack, a slack one becomes taut; index: pair */
     watch_lift,         /* the normal force of a closed contact reaches zero; index: pair */
     watch_gap,          /* shapes meet; index: meeting, part: probe (dynamics/contact.h) */
-    watch_edge,         /* what touches comes to the end of a side; index: tie, end 0 or 1 */
+    watch_edge,         /* what touches comes to the end of a side; index: coupling, end 0 or 1 */
     watch_user,         /* a user event; index: watch */
     watch_share,        /* the share of a switch that is slid on reaches an end; index: kink, part, end */
 };

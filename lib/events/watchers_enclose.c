@@ -174,7 +174,7 @@ bool watchers_can_enclose(const struct fbd_model *model, const struct watcher *w
         return false;
     if (watcher->kind == watch_contact) return enclosure_is_known(model, plan->contacts[watcher->index].body);
     const struct mode *mode = &plan->modes[watcher->index];
-    if (mode->tie >= 0) return false;
+    if (mode->coupling >= 0) return false;
     if (watcher->kind == watch_slip_stop) return true;
     bool known = watcher->kind != watch_stick_limit || !mode->surface_speed.expr; /* its second rate */
     return known && mode->kind == mode_single && enclosure_is_known(model, mode->body);

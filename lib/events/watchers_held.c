@@ -29,8 +29,8 @@ static int held_by(const struct fbd_state *state, size_t pair, bool *stops)
     if (state->slip[pair] != stick) return -1;
     if (mode_is_joint_friction(mode)) return mode->coordinate;
     const struct tree *tree = state->model->tree;
-    if (mode->kind != mode_contact || tree->ties[mode->tie].meeting < 0) return -1;
-    const struct meeting *meeting = &tree->meetings[tree->ties[mode->tie].meeting];
+    if (mode->kind != mode_contact || tree->couplings[mode->coupling].meeting < 0) return -1;
+    const struct meeting *meeting = &tree->meetings[tree->couplings[mode->coupling].meeting];
     *stops = meeting->stop != 0;
     return *stops ? tree->links[meeting->shape[0].link].coordinate : -1;
 }

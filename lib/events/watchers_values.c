@@ -56,13 +56,13 @@ static double one_sided_value(const struct watchers *watchers, const struct watc
                               const struct view *view, double *rate)
 {
     const struct fbd_model *model = view->state->model;
-    int tie = model->plan.modes[watcher->index].tie;
+    int coupling = model->plan.modes[watcher->index].coupling;
     struct one_sided now = one_sided_at(model, &view->at, watcher->index);
     if (view->at.slip[watcher->index] != stick) {
         *rate = -now.rate;
         return now.rounding + watchers->quiet[watcher->index] - now.excess;
     }
-    double lambda_rate = view->state->tree->z[model->tree->ties[tie].first_row];
+    double lambda_rate = view->state->tree->z[model->tree->couplings[coupling].first_row];
     *rate = model->plan.modes[watcher->index].kind == mode_rope ? -lambda_rate : lambda_rate;
     return now.force + now.slack;
 }
@@ -70,8 +70,8 @@ static double one_sided_value(const struct watchers *watchers, const struct watc
 /* What rolls or touches has left its surface: nothing rubs. */
 static bool is_off_its_surface(const struct view *view, const struct mode *mode)
 {
-    if (mode->tie < 0) return false;
-    int surface = view->state->model->tree->ties[mode->tie].surface;
+    if (mode->coupling < 0) return false;
+    int surface = view->state->model->tree->couplings[mode->coupling].surface;
     return surface >= 0 && view->at.slip[surface] != stick;
 }
 
@@ -82,10 +82,10 @@ static double lift_value(const struct watcher *watcher, const struct view *view,
     const struct mode *mode = &model->plan.modes[watcher->index];
     *rate = 0;
     if (view->at.slip[watcher->index] != stick) return HUGE_VAL;
-    int slot = model->tree->ties[mode->tie].normal_slot;
+    int slot = model->tree->couplings[mode->coupling].normal_slot;
     assert(view->slots && view->slots_along);
     *rate = -view->slots_along[slot];
-    return contact_slack(model, mode->tie) - view->slots[slot];
+    return contact_slack(model, mode->coupling) - view->slots[slot];
 }
 
 /* Just after it has opened a gap is rounding, and rounding closes nothing. */
@@ -105,11 +105,11 @@ static double gap_value(const struct watchers *watchers, const struct watcher *w
 static double edge_value(const struct watcher *watcher, const struct view *view, double *rate)
 {
     const struct fbd_model *model = view->state->model;
-    int meeting = model->tree->ties[watcher->index].meeting;
+    int meeting = model->tree->couplings[watcher->index].meeting;
     struct gap gap = {HUGE_VAL, 0, no_feature};
-    if (tie_is_closed(model, &view->at, watcher->index))
-        gap = feature_end(model, view->state->tree, meeting, view->state->tree->ties[watcher->index].feature,
-                          watcher->end);
+    if (coupling_is_closed(model, &view->at, watcher->index))
+        gap = feature_end(model, view->state->tree, meeting,
+                          view->state->tree->couplings[watcher->index].feature, watcher->end);
     *rate = gap.rate;
     return gap.x < HUGE_VAL ? gap.x + 2 * meeting_near(model, view->state->tree, meeting) : HUGE_VAL;
 }
@@ -124,9 +124,10 @@ static double friction_value(const struct watchers *watchers, const struct watch
     if (is_off_its_surface(view, mode)) return HUGE_VAL;
     if (watcher->kind == watch_slip_stop) {
         if (slip == stick || friction_is_idle(model, watcher->index, &view->at, &view->flow)) return HUGE_VAL;
-        if (mode->tie >= 0) {
-            *rate = slip * tie_slip_acceleration(model, &view->at, mode->tie);
-            return slip * tie_slip_velocity(model, &view->at, mode->tie) + watchers->quiet[watcher->index];
+        if (mode->coupling >= 0) {
+            *rate = slip * coupling_slip_acceleration(model, &view->at, mode->coupling);
+            return slip * coupling_slip_velocity(model, &view->at, mode->coupling) +
+                   watchers->quiet[watcher->index];
         }
         double acceleration, speed = friction_surface_speed(mode, &view->at, &acceleration);
         int index = model->plan.n + mode->coordinate;
@@ -146,7 +147,8 @@ static double friction_value(const struct watchers *watchers, const struct watch
     *rate = (kinetic ? d->limit_kinetic : d->limit_static) - side * d->hold;
     /* A force that only just touches its limit does not break away by a rounding. */
     double slack = friction_rounding(now);
-    if (mode->tie >= 0 && model->tree->ties[mode->tie].meeting >= 0) slack += contact_slack(model, mode->tie);
+    if (mode->coupling >= 0 && model->tree->couplings[mode->coupling].meeting >= 0)
+        slack += contact_slack(model, mode->coupling);
     return now->limit - side * now->hold + slack;
 }
 

@@ -15,12 +15,12 @@ const double reaction_zero = 1e-7;
 
 /* ---- the coupling, contact or guide that exerts it */
 
-/* The direction of the force of row `row` of a tie at its end k; zero where that has none of its own. */
-static struct vec direction_of(const struct tie *tie, int k, int row, const struct instant *at)
+/* The direction of the force of row `row` of a coupling at its end k; zero where that has none of its own. */
+static struct vec direction_of(const struct coupling *coupling, int k, int row, const struct instant *at)
 {
     struct vec sum = {0, 0};
-    if (tie->row_count > 1 && !tie->law->end_names[1]) return sum; /* a pin */
-    const struct row *one = &at->tree->rows[tie->first_row + (row < tie->row_count ? row : 0)];
+    if (coupling->row_count > 1 && !coupling->law->end_names[1]) return sum; /* a pin */
+    const struct row *one = &at->tree->rows[coupling->first_row + (row < coupling->row_count ? row : 0)];
     for (int i = 0; i < one->port_count; i++)
         if (one->ports[i].end == k) sum = vec_add(sum, one->ports[i].force);
     return sum;
@@ -40,16 +40,16 @@ void reaction_describe(const fbd_model *model, int b, const struct arrow *arrow,
     if (!joint && body->place.link == 0) joint = true; /* on the ground: `pin` or `guide` */
     if (joint && guided) item->across = vec_perp(body_direction(body, at));
     item->any = joint && !guided;
-    for (int i = 0; model->tree && i < model->tree->tie_count; i++) {
-        const struct tie *tie = &model->tree->ties[i];
-        for (int k = 0; k < tie->end_count; k++)
+    for (int i = 0; model->tree && i < model->tree->coupling_count; i++) {
+        const struct coupling *coupling = &model->tree->couplings[i];
+        for (int k = 0; k < coupling->end_count; k++)
             for (int row = 0; row < 2; row++) {
-                if (tie->end[k].body != b || tie->end[k].name[row] != arrow->name) continue;
-                bool rope = tie->kind == constraint_rope || tie->law->strands;
-                item->one_sided = rope || (tie_presses(tie) && row == 0);
-                if (tie->kind == constraint_contact) item->contact = tie->constraint;
-                item->across = direction_of(tie, k, row, at);
-                item->any = tie->row_count > 1 && !tie->law->end_names[1];
+                if (coupling->end[k].body != b || coupling->end[k].name[row] != arrow->name) continue;
+                bool rope = coupling->kind == constraint_rope || coupling->law->strands;
+                item->one_sided = rope || (coupling_presses(coupling) && row == 0);
+                if (coupling->kind == constraint_contact) item->contact = coupling->constraint;
+                item->across = direction_of(coupling, k, row, at);
+                item->any = coupling->row_count > 1 && !coupling->law->end_names[1];
                 return;
             }
     }

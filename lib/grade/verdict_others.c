@@ -46,8 +46,8 @@ static bool same_constraint(const struct scene *key, const struct constraint *a,
     return true;
 }
 
-static bool same_coupling(const struct scene *key, const struct coupling *a, const struct scene *answer,
-                          const struct coupling *b)
+static bool same_coupling(const struct scene *key, const struct force_coupling *a, const struct scene *answer,
+                          const struct force_coupling *b)
 {
     for (int k = 0; k < 2; k++)
         if (strcmp(end_name(key, a->body[k]), end_name(answer, b->body[k])) != 0 ||
@@ -62,12 +62,12 @@ static bool same_coupling(const struct scene *key, const struct coupling *a, con
 
 static size_t joint_count(const struct scene *scene, bool forces)
 {
-    return forces ? scene->coupling_count : scene->constraint_count;
+    return forces ? scene->force_coupling_count : scene->constraint_count;
 }
 
 static bool same_joint(const struct scene *a, size_t i, const struct scene *b, size_t k, bool forces)
 {
-    return forces ? same_coupling(a, &a->couplings[i], b, &b->couplings[k])
+    return forces ? same_coupling(a, &a->force_couplings[i], b, &b->force_couplings[k])
                   : same_constraint(a, &a->constraints[i], b, &b->constraints[k]);
 }
 
@@ -95,14 +95,14 @@ static void compare_joints(struct fbd_grade *grade, const struct scene *key, con
     size_t changed = 0; /* of the answer's own, so many are those of the sheet as they were changed */
     for (size_t i = 0; i < joint_count(key, forces); i++) {
         if (!is_joint_more(key, i, answer, forces)) continue;
-        const char *name = forces ? key->couplings[i].load.name : key->constraints[i].name;
+        const char *name = forces ? key->force_couplings[i].load.name : key->constraints[i].name;
         changed++;
         verdict_superfluous(grade, FBD_FINDING_MOTION, "", name, nowhere, lost);
     }
     for (size_t i = 0; i < joint_count(answer, forces); i++) {
         if (!is_joint_more(answer, i, key, forces) || (changed > 0 && changed--)) continue;
-        const char *name = forces ? answer->couplings[i].load.name : answer->constraints[i].name;
-        struct pos at = forces ? answer->couplings[i].load.at : answer->constraints[i].at;
+        const char *name = forces ? answer->force_couplings[i].load.name : answer->constraints[i].name;
+        struct pos at = forces ? answer->force_couplings[i].load.at : answer->constraints[i].at;
         verdict_superfluous(grade, FBD_FINDING_SUPERFLUOUS, "", name, at, more);
     }
 }

@@ -174,13 +174,13 @@ static void add_place(struct cut_free *cut, const char *acting, struct vec world
 }
 
 /* Those of one end of a coupling or contact; one that is open has none. */
-static void add_places_of_end(struct cut_free *cut, const struct tie *tie, int end)
+static void add_places_of_end(struct cut_free *cut, const struct coupling *coupling, int end)
 {
     const struct tree_work *tree = cut->panel.at.tree;
-    const struct row *row = &tree->rows[tie->first_row];
+    const struct row *row = &tree->rows[coupling->first_row];
     for (int i = 0; i < row->port_count; i++)
         if (row->ports[i].end == end)
-            add_place(cut, tie->end[end].name[0],
+            add_place(cut, coupling->end[end].name[0],
                       vec_add(tree->links[row->ports[i].link].p, row->ports[i].arm));
 }
 
@@ -189,9 +189,9 @@ static void add_places(struct cut_free *cut)
     const struct fbd_model *model = cut->panel.model;
     const struct tree *tree = model->tree;
     int index = (int)(cut->panel.body - model->bodies);
-    for (int i = 0; tree && i < tree->tie_count; i++)
-        for (int end = 0; end < tree->ties[i].end_count; end++)
-            if (tree->ties[i].end[end].body == index) add_places_of_end(cut, &tree->ties[i], end);
+    for (int i = 0; tree && i < tree->coupling_count; i++)
+        for (int end = 0; end < tree->couplings[i].end_count; end++)
+            if (tree->couplings[i].end[end].body == index) add_places_of_end(cut, &tree->couplings[i], end);
     for (size_t b = 0; b < model->body_count; b++) { /* a slide acts on all of its surface */
         const struct model_body *other = &model->bodies[b];
         if (other->parent == index && other->kind != motion_slide)

@@ -28,8 +28,9 @@ static const char *load_at(const struct body *body, int line, int column)
 
 static const char *coupling_at(const struct scene *scene, int line, int column)
 {
-    for (size_t i = 0; i < scene->coupling_count; i++)
-        if (is_at(scene->couplings[i].load.at, line, column)) return scene->couplings[i].load.name;
+    for (size_t i = 0; i < scene->force_coupling_count; i++)
+        if (is_at(scene->force_couplings[i].load.at, line, column))
+            return scene->force_couplings[i].load.name;
     for (size_t i = 0; i < scene->constraint_count; i++)
         if (is_at(scene->constraints[i].at, line, column)) return scene->constraints[i].name;
     return NULL;

@@ -78,7 +78,7 @@ static void stop_slipping(struct run *run, int pair)
     const struct mode *mode = &run->model->plan.modes[pair];
     struct instant at = state_instant(run->state);
     double acceleration;
-    if (mode->tie >= 0) {
+    if (mode->coupling >= 0) {
         run->state->slip[pair] = stick;
         state_project_velocity(run->state, false);
         drop_rounding(run);
@@ -91,25 +91,25 @@ static void stop_slipping(struct run *run, int pair)
 static bool refuse_jerk(struct run *run, int pair)
 {
     const struct tree *tree = run->model->tree;
-    const struct tie *tie = &tree->ties[run->model->plan.modes[pair].tie];
-    if (tie->kind != constraint_capstan) return false;
+    const struct coupling *coupling = &tree->couplings[run->model->plan.modes[pair].coupling];
+    if (coupling->kind != constraint_capstan) return false;
     run_fail(
         run, FBD_BROKEN,
         "at t = %.9g the rope `%s` snaps taut round its drum: how much of the jerk friction takes is not "
         "followed. End the run before, by an event",
-        run_time(run), tie->name);
+        run_time(run), coupling->name);
     return true;
 }
 
 /* What was off its slot lands on it. A roller that strikes its end would have to go round that. */
 static bool refuse_end_of_slot(struct run *run, int pair)
 {
-    const int index = run->model->plan.modes[pair].tie;
-    const struct tie *tie = &run->model->tree->ties[index];
-    if (!slot_is_open(tie, run->state->slip)) return false;
+    const int index = run->model->plan.modes[pair].coupling;
+    const struct coupling *coupling = &run->model->tree->couplings[index];
+    if (!slot_is_open(coupling, run->state->slip)) return false;
     bool beyond = false;
     for (int end = 0; end < 2; end++) {
-        const struct room room = tie_room(run->model, run->state->tree, index, end);
+        const struct room room = coupling_room(run->model, run->state->tree, index, end);
         beyond |= room.left < -slot_rounding * room.size;
     }
     if (!beyond) return false;
@@ -117,7 +117,7 @@ static bool refuse_end_of_slot(struct run *run, int pair)
              "at t = %.9g the point of the slot `%s` strikes the end of it, or comes back behind it. Make it "
              "longer, or end "
              "the run before, by an event",
-             run_time(run), tie->name);
+             run_time(run), coupling->name);
     return true;
 }
 
@@ -449,12 +449,12 @@ static void close_up(struct run *run)
         enum mode_kind kind = plan->modes[pair].kind;
         if (kind != mode_rope && kind != mode_surface) continue;
         if (run->state->slip[pair] != stick || run->during->slip[pair] == stick) continue;
-        const int tie = plan->modes[pair].tie;
+        const int coupling = plan->modes[pair].coupling;
         struct one_sided now = one_sided_at(run->model, &at, pair);
         apart |= fabs(now.excess) > now.rounding;
         /* What has turned in the air rolls on from where it is. */
-        if (run->model->tree->ties[tie].row_count > 1 && kind == mode_surface)
-            tie_rezero(run->model, run->state->tree, tie);
+        if (run->model->tree->couplings[coupling].row_count > 1 && kind == mode_surface)
+            coupling_rezero(run->model, run->state->tree, coupling);
     }
     if (!apart) return;
     state_project_position(run->state);

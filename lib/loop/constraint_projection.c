@@ -15,9 +15,9 @@
 #include "rest/balance.h"
 #include "rest/fit.h"
 
-static bool has_ties(const struct run *run)
+static bool has_couplings(const struct run *run)
 {
-    return run->model->tree && run->model->tree->tie_count > 0;
+    return run->model->tree && run->model->tree->coupling_count > 0;
 }
 
 /* The largest change from `from` to `to`, in tolerances of the largest size that each number has had. */
@@ -47,7 +47,7 @@ static double close_at(struct run *run, double t, double *y)
 void project_within(struct run *run, double t, double *y)
 {
     const double far = 100;
-    if (!has_ties(run)) return;
+    if (!has_couplings(run)) return;
     double moved = close_at(run, t, y);
     if (moved <= far) return;
     /* The curve through a step that passes a singular position may be off by more than the step's end is: no
@@ -78,11 +78,11 @@ static struct rounding rounding_of_step(struct run *run)
         most = fmax(most, vec_norm(run->state->tree->links[i].F.force) / tree->links[i].mass);
         most = fmax(most, vec_norm(tree->links[i].force) / tree->links[i].mass);
     }
-    for (int k = 0; k < tree->tie_count; k++) { /* what couplings do, no joint passes on */
-        const struct tie *tie = &tree->ties[k];
-        for (int j = 0; j < tie->row_count * tie->end_count; j++) {
-            const struct tree_link *link = &tree->links[tie->end[j / tie->row_count].link];
-            double force = run->state->tree->rows[tie->first_row + j % tie->row_count].lambda;
+    for (int k = 0; k < tree->coupling_count; k++) { /* what couplings do, no joint passes on */
+        const struct coupling *coupling = &tree->couplings[k];
+        for (int j = 0; j < coupling->row_count * coupling->end_count; j++) {
+            const struct tree_link *link = &tree->links[coupling->end[j / coupling->row_count].link];
+            double force = run->state->tree->rows[coupling->first_row + j % coupling->row_count].lambda;
             if (link->mass > 0) most = fmax(most, fabs(force) / link->mass);
         }
     }
@@ -128,9 +128,9 @@ static double measure(struct run *run)
         reach = larger(reach, vec_norm(s->p));
         speed = larger(speed, vec_norm(s->v));
     }
-    for (int k = 0; k < tree->tie_count; k++)
-        for (int j = 0; j < tree->ties[k].end_count; j++) {
-            const struct tie_end *end = &tree->ties[k].end[j];
+    for (int k = 0; k < tree->coupling_count; k++)
+        for (int j = 0; j < tree->couplings[k].end_count; j++) {
+            const struct coupling_end *end = &tree->couplings[k].end[j];
             const struct tree_state *s = &run->state->tree->links[end->link];
             double arm = end->radius + vec_norm(end->point);
             reach = larger(reach, vec_norm(s->p) + arm);
@@ -161,10 +161,10 @@ static bool overlong_rope(struct run *run, double most)
     struct instant at = state_instant(run->state);
     for (size_t i = 0; i < plan->mode_count; i++) {
         if (plan->modes[i].kind != mode_rope || run->state->slip[i] == stick) continue;
-        int tie = plan->modes[i].tie;
+        int coupling = plan->modes[i].coupling;
         double excess = one_sided_at(run->model, &at, (int)i).excess;
         if (excess <= most) continue;
-        const char *name = run->model->tree->ties[tie].name;
+        const char *name = run->model->tree->couplings[coupling].name;
         if (isnan(excess))
             run_fail(run, FBD_FAILED,
                      "at t = %.9g the rope `%s`, which is slack, has no way: what it goes to is within a "
@@ -189,7 +189,7 @@ static struct closing bring_back(struct run *run)
     struct closing closing = state_close(run->state);
     const struct misfit *off = &closing.off, *left = &closing.left;
     if (off->row >= 0 && (!drift->worst || off->position > drift->position))
-        drift->worst = tie_row_name(run->model->tree, off->row);
+        drift->worst = coupling_row_name(run->model->tree, off->row);
     drift->position = fmax(drift->position, off->position);
     drift->velocity = fmax(drift->velocity, off->velocity);
     drift->left_position = fmax(drift->left_position, left->position);
@@ -235,8 +235,8 @@ static bool fail_by_masses(struct run *run, const struct misfit *misfit)
         "at t = %.9g the coupling `%s` cannot be closed any more (it is off by %.3g): the heaviest of the "
         "jointed bodies has %.2g times the mass of the lightest, and up to about 1e12 can be solved. Give "
         "the lightest one more mass",
-        run_time(run), tie_row_name(run->model->tree, misfit->row >= 0 ? misfit->row : 0), misfit->position,
-        ratio);
+        run_time(run), coupling_row_name(run->model->tree, misfit->row >= 0 ? misfit->row : 0),
+        misfit->position, ratio);
     return true;
 }
 
@@ -247,7 +247,7 @@ static void fail_singular(struct run *run, const struct misfit *misfit)
             run, FBD_BROKEN,
             "at t = %.9g the mechanism is at the end of its reach: what is prescribed goes on to where the "
             "coupling `%s` cannot be closed",
-            run_time(run), tie_row_name(run->model->tree, misfit->row >= 0 ? misfit->row : 0));
+            run_time(run), coupling_row_name(run->model->tree, misfit->row >= 0 ? misfit->row : 0));
     else if (!fail_by_masses(run, misfit))
         run_fail(run, FBD_FAILED,
                  "at t = %.9g the couplings pass a singular position, where the mechanism could go on in "
@@ -257,7 +257,7 @@ static void fail_singular(struct run *run, const struct misfit *misfit)
 
 void project_step(struct run *run)
 {
-    if (!has_ties(run)) return;
+    if (!has_couplings(run)) return;
     run->projected = true;
     const struct closing closing = bring_back(run);
     const struct misfit misfit = closing.off, left = closing.left;
@@ -276,7 +276,8 @@ void project_step(struct run *run)
             run, FBD_FAILED,
             "at t = %.9g the coupling `%s` is off by %.3g, far more than the error of a step: the mechanism "
             "moves too fast there for the tolerance or the step",
-            run_time(run), tie_row_name(run->model->tree, misfit.row >= 0 ? misfit.row : 0), misfit.position);
+            run_time(run), coupling_row_name(run->model->tree, misfit.row >= 0 ? misfit.row : 0),
+            misfit.position);
         return;
     }
     /* Where a mechanism can fold over to another branch (all bars in one line) a step may start to, and going
@@ -292,7 +293,8 @@ void project_step(struct run *run)
             run, FBD_FAILED,
             "at t = %.9g the coupling `%s` cannot be closed any more (it is off by %.3g): the mechanism is "
             "at the end of its reach, or the tolerance is too large",
-            run_time(run), tie_row_name(run->model->tree, misfit.row >= 0 ? misfit.row : 0), misfit.position);
+            run_time(run), coupling_row_name(run->model->tree, misfit.row >= 0 ? misfit.row : 0),
+            misfit.position);
 }
 
 /* What rounding has left of such a speed would be taken for a side that it moves to. That nothing comes of it is told by its
@@ -306,7 +308,7 @@ void rest_held(struct run *run)
     bool evaluated = false;
     for (int pair = 0; pair < (int)plan->mode_count; pair++) {
         const struct mode *mode = &plan->modes[pair];
-        if (!mode_is_joint_friction(mode) || mode->tie >= 0 || run->state->slip[pair] == stick) continue;
+        if (!mode_is_joint_friction(mode) || mode->coupling >= 0 || run->state->slip[pair] == stick) continue;
         double v = slip_velocity(run->model, pair, &at), fastest = most[mode->coordinate];
         if (v == 0 || fabs(v) > rounding * fastest) continue;
         if (!evaluated) state_evaluate_unshared(run->state);

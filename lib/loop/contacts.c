@@ -23,26 +23,26 @@ static bool has_meetings(const struct fbd_model *model)
 static size_t most_strikers(const struct tree *tree)
 {
     size_t count = 0;
-    for (int i = 0; i < tree->tie_count; i++)
-        count += tree->ties[i].kind == constraint_contact || tree->ties[i].kind == constraint_rope ||
-                 tie_takes_impulses(&tree->ties[i]);
+    for (int i = 0; i < tree->coupling_count; i++)
+        count += tree->couplings[i].kind == constraint_contact ||
+                 tree->couplings[i].kind == constraint_rope || coupling_takes_impulses(&tree->couplings[i]);
     return count;
 }
 
 static bool meetings_init(struct contacts_work *work, const struct fbd_model *model, struct arena *memory)
 {
     const struct tree *tree = model->tree;
-    size_t ties = (size_t)tree->tie_count, meetings = (size_t)tree->meeting_count;
+    size_t couplings = (size_t)tree->coupling_count, meetings = (size_t)tree->meeting_count;
     if (!has_meetings(model)) return true;
     work->bounces = ARENA_ARRAY(memory, meetings, struct bounces);
-    work->was_closed = ARENA_ARRAY(memory, 3 * ties, bool);
+    work->was_closed = ARENA_ARRAY(memory, 3 * couplings, bool);
     work->asleep = ARENA_ARRAY(memory, meetings, bool);
     work->deep = ARENA_ARRAY(memory, meetings, double);
     work->touched = ARENA_ARRAY(memory, meetings, int);
     work->trial = state_new(model);
     if (memory->failed || !work->trial) return false;
-    work->touching = work->was_closed + ties;
-    work->moves = work->touching + ties;
+    work->touching = work->was_closed + couplings;
+    work->moves = work->touching + couplings;
     for (size_t i = 0; i < meetings; i++)
         work->bounces[i] = (struct bounces){.feature = -1, .rests_from = HUGE_VAL};
     return true;
@@ -61,7 +61,7 @@ bool contacts_work_init(struct contacts_work *work, const struct fbd_model *mode
     work->slide = ARENA_ARRAY(memory, pairs, struct impacts_slide);
     size_t extended = plan_size(&model->plan) + 1; /* with the speed of approach (place_contact) */
     work->W = ARENA_ARRAY(memory, all * (all + pairs + n + 4) + pairs + extended, double);
-    work->of_ties = ARENA_ARRAY(memory, (size_t)model->tree->tie_count, struct impact_record);
+    work->of_couplings = ARENA_ARRAY(memory, (size_t)model->tree->coupling_count, struct impact_record);
     if (!meetings_init(work, model, memory) || memory->failed) return false;
     work->modes = work->rows + rows;
     work->slides = work->modes + pairs;
@@ -82,11 +82,11 @@ static const struct tree *tree_of(const struct run *run)
     return run->model->tree;
 }
 
-static void set_feature(struct run *run, int tie, int feature)
+static void set_feature(struct run *run, int coupling, int feature)
 {
     struct fbd_state *state = run->state;
-    tie_set_feature(run->model, state->tree, tie, feature);
-    state->slip[tree_of(run)->ties[tie].surface] = feature == no_feature ? slip_plus : stick;
+    coupling_set_feature(run->model, state->tree, coupling, feature);
+    state->slip[tree_of(run)->couplings[coupling].surface] = feature == no_feature ? slip_plus : stick;
 }
 
 /* A closed feature stays while it touches, within its side. */
@@ -109,28 +109,28 @@ static bool same_place(const struct run *run, int meeting, int a, int b, double 
     return vec_norm(vec_sub(p, q)) <= contacts_same * near;
 }
 
-/* Give the ties of a meeting the features that touch; those that they have stay where they can. */
+/* Give the couplings of a meeting the features that touch; those that they have stay where they can. */
 void contacts_find_touching(struct run *run, int index, double near)
 {
     const struct meeting *meeting = &tree_of(run)->meetings[index];
     meeting_turn_sides(run->model, run->state->tree, index, near);
     int found[2], count = meeting_touching(run->model, run->state->tree, index, near, found);
-    for (int k = 0; k < meeting->tie_count; k++) {
-        int tie = meeting->first_tie + k, feature = run->state->tree->ties[tie].feature;
+    for (int k = 0; k < meeting->coupling_count; k++) {
+        int coupling = meeting->first_coupling + k, feature = run->state->tree->couplings[coupling].feature;
         if (feature != no_feature && !still_touches(run, index, feature, near))
-            set_feature(run, tie, no_feature);
+            set_feature(run, coupling, no_feature);
     }
     for (int i = 0; i < count; i++) {
         bool known = false;
-        int free_tie = -1;
-        for (int k = meeting->tie_count - 1; k >= 0; k--) {
-            int feature = run->state->tree->ties[meeting->first_tie + k].feature;
+        int free_coupling = -1;
+        for (int k = meeting->coupling_count - 1; k >= 0; k--) {
+            int feature = run->state->tree->couplings[meeting->first_coupling + k].feature;
             if (feature == no_feature)
-                free_tie = meeting->first_tie + k;
+                free_coupling = meeting->first_coupling + k;
             else
                 known |= same_place(run, index, feature, found[i], near);
         }
-        if (!known && free_tie >= 0) set_feature(run, free_tie, found[i]);
+        if (!known && free_coupling >= 0) set_feature(run, free_coupling, found[i]);
     }
 }
 
@@ -148,15 +148,15 @@ static bool any_closes(const struct run *run, int count)
 bool contacts_part(const struct run *run, int i)
 {
     const struct striker *striker = &run->contacts.strikers[i];
-    const struct row *row = &run->state->tree->rows[tree_of(run)->ties[striker->tie].first_row];
+    const struct row *row = &run->state->tree->rows[tree_of(run)->couplings[striker->coupling].first_row];
     return run->contacts.v[(ptrdiff_t)2 * i] > contacts_no_speed(run, row);
 }
 
 /* The impacts of a rope, or of a landing, in the present events: one may follow another. */
-static void add_to_tie(struct contacts_work *work, const struct striker *striker, const double *v,
-                       const double *P, double taken)
+static void add_to_coupling(struct contacts_work *work, const struct striker *striker, const double *v,
+                            const double *P, double taken)
 {
-    struct impact_record *impact = &work->of_ties[striker->tie];
+    struct impact_record *impact = &work->of_couplings[striker->coupling];
     if (impact->p == 0 && impact->work == 0)
         *impact = (struct impact_record){.v_n = {striker->v_n}, .v_t = {striker->v_t}};
     impact->p += P[0];
@@ -180,10 +180,10 @@ static bool strike_alike(const struct run *run, int i, int j)
 {
     const struct contacts_work *work = &run->contacts;
     const struct striker *a = &work->strikers[i], *b = &work->strikers[j];
-    const struct tie *tie = &tree_of(run)->ties[a->tie];
+    const struct coupling *coupling = &tree_of(run)->couplings[a->coupling];
     const double *v = work->v + (ptrdiff_t)2 * i, *w = work->v + (ptrdiff_t)2 * j;
-    double same = contacts_no_speed(run, &run->state->tree->rows[tie->first_row]);
-    return is_impact(run, j) && tree_of(run)->ties[b->tie].load == tie->load &&
+    double same = contacts_no_speed(run, &run->state->tree->rows[coupling->first_row]);
+    return is_impact(run, j) && tree_of(run)->couplings[b->coupling].load == coupling->load &&
            fabs(a->v_n - b->v_n) <= same && fabs(a->v_t - b->v_t) <= same && fabs(v[0] - w[0]) <= same &&
            fabs(v[1] - w[1]) <= same;
 }
@@ -193,11 +193,11 @@ static void note_impact(struct run *run, int i, int count)
 {
     struct contacts_work *work = &run->contacts;
     const struct striker *striker = &work->strikers[i];
-    const struct tie *tie = &tree_of(run)->ties[striker->tie];
+    const struct coupling *coupling = &tree_of(run)->couplings[striker->coupling];
     const double *v = work->v + (ptrdiff_t)2 * i, *own = work->P + (ptrdiff_t)2 * i;
     double p = 0, tau = 0, taken = 0;
-    run->impact_work[tie->load] += striker_taken(striker, v, own);
-    if (!striker->contact) add_to_tie(work, striker, v, own, striker_taken(striker, v, own));
+    run->impact_work[coupling->load] += striker_taken(striker, v, own);
+    if (!striker->contact) add_to_coupling(work, striker, v, own, striker_taken(striker, v, own));
     if (!is_impact(run, i)) return;
     for (int k = 0; k < count; k++) {
         if (!strike_alike(run, i, k)) continue;
@@ -207,7 +207,7 @@ static void note_impact(struct run *run, int i, int count)
         tau += P[1];
         taken += striker_taken(&work->strikers[k], work->v + (ptrdiff_t)2 * k, P);
     }
-    struct run_event *event = log_event(run, FBD_EVENT_IMPACT, tie->end[0].body, tie->load, -1);
+    struct run_event *event = log_event(run, FBD_EVENT_IMPACT, coupling->end[0].body, coupling->load, -1);
     if (!event) return;
     event->impact = (struct impact_record){
         p,     tau,          taken, {striker->v_n, v[0]}, {striker->v_t, v[1]}, work->makes && taken > 0,
@@ -222,8 +222,8 @@ static void note_several(struct run *run, int count)
     for (int i = 1; i < count; i++)
         if (work->P[(ptrdiff_t)2 * i] > work->P[(ptrdiff_t)2 * most]) most = i;
     if (!work->several || count == 0) return;
-    const struct tie *tie = &tree_of(run)->ties[work->strikers[most].tie];
-    struct run_event *event = log_event(run, FBD_EVENT_SEVERAL, tie->end[0].body, tie->load, -1);
+    const struct coupling *coupling = &tree_of(run)->couplings[work->strikers[most].coupling];
+    struct run_event *event = log_event(run, FBD_EVENT_SEVERAL, coupling->end[0].body, coupling->load, -1);
     if (event) event->impact.several = true;
 }
 
@@ -240,18 +240,19 @@ static void let_slack(struct run *run, int pair)
     run->decided.slips[pair] = true;
 }
 
-/* What a contact does at tie `index` after it has come to the velocities of striker i. */
+/* What a contact does at coupling `index` after it has come to the velocities of striker i. */
 static void open_or_close_contact(struct run *run, int index, int i, bool leaves, double v_t)
 {
-    const struct tie *tie = &tree_of(run)->ties[index];
+    const struct coupling *coupling = &tree_of(run)->couplings[index];
     if (leaves && run->contacts.strikers[i].contact) {
         set_feature(run, index, no_feature);
         return;
     }
-    if (tie->pair < 0) return;
+    if (coupling->pair < 0) return;
     /* Friction that sticks from here on sticks at this position. */
-    if (v_t == 0 && run->state->slip[tie->pair] != stick) tie_rezero(run->model, run->state->tree, index);
-    run->state->slip[tie->pair] = v_t > 0 ? slip_plus : v_t < 0 ? slip_minus : stick;
+    if (v_t == 0 && run->state->slip[coupling->pair] != stick)
+        coupling_rezero(run->model, run->state->tree, index);
+    run->state->slip[coupling->pair] = v_t > 0 ? slip_plus : v_t < 0 ? slip_minus : stick;
 }
 
 void contacts_open_or_close(struct run *run, int count, bool struck)
@@ -259,17 +260,18 @@ void contacts_open_or_close(struct run *run, int count, bool struck)
     const struct contacts_work *work = &run->contacts;
     for (int i = 0; i < count; i++) {
         const struct striker *striker = &work->strikers[i];
-        const struct tie *tie = &tree_of(run)->ties[striker->tie];
+        const struct coupling *coupling = &tree_of(run)->couplings[striker->coupling];
         bool leaves = struck ? contacts_part(run, i) : striker->v_n > 0;
         double v_t = struck ? work->v[2 * i + 1] : striker->v_t;
         if (striker->rope || (leaves && !striker->contact)) {
-            if (leaves && !striker->stays) let_slack(run, striker->rope ? tie->pair : tie->surface);
+            if (leaves && !striker->stays) let_slack(run, striker->rope ? coupling->pair : coupling->surface);
             continue;
         }
-        if (fabs(v_t) <= contacts_no_speed(run, &run->state->tree->rows[tie->first_row])) v_t = 0;
-        open_or_close_contact(run, striker->tie, i, leaves, v_t);
+        if (fabs(v_t) <= contacts_no_speed(run, &run->state->tree->rows[coupling->first_row])) v_t = 0;
+        open_or_close_contact(run, striker->coupling, i, leaves, v_t);
         for (int k = 0; k < work->twin_count; k++)
-            if (work->twins[k].point == i) open_or_close_contact(run, work->twins[k].tie, i, leaves, v_t);
+            if (work->twins[k].point == i)
+                open_or_close_contact(run, work->twins[k].coupling, i, leaves, v_t);
     }
 }
 
@@ -316,7 +318,7 @@ static void unstick(struct run *run, double interval)
     struct instant at = state_instant(run->state);
     for (int pair = 0; pair < (int)model->plan.mode_count; pair++) {
         const struct mode *mode = &model->plan.modes[pair];
-        bool slot = mode->kind == mode_tangent && tie_is_guide(&tree_of(run)->ties[mode->tie]);
+        bool slot = mode->kind == mode_tangent && coupling_is_guide(&tree_of(run)->couplings[mode->coupling]);
         if (!(slot || mode_is_joint_friction(mode)) || run->state->slip[pair] != stick) continue;
         double v = slip_velocity(model, pair, &at),
                before = slot ? 0 : run->recent.anchor[3 * model->plan.n + mode->coordinate];
@@ -351,7 +353,7 @@ static bool refuse_low_step(struct run *run, int count)
 {
     for (int i = 0; i < count; i++) {
         const struct striker *striker = &run->contacts.strikers[i];
-        int index = tree_of(run)->ties[striker->tie].meeting;
+        int index = tree_of(run)->couplings[striker->coupling].meeting;
         if (!striker->contact || !(striker->v_n < 0)) continue;
         double height = meeting_low_step(run->model, run->state->tree, index, -striker->v_n);
         if (height == 0) continue;
@@ -393,8 +395,8 @@ static bool look_at_contacts(struct run *run)
 
 void contacts_begin_events(struct run *run)
 {
-    struct impact_record *of_ties = run->contacts.of_ties;
-    if (of_ties) memset(of_ties, 0, (size_t)tree_of(run)->tie_count * sizeof *of_ties);
+    struct impact_record *of_couplings = run->contacts.of_couplings;
+    if (of_couplings) memset(of_couplings, 0, (size_t)tree_of(run)->coupling_count * sizeof *of_couplings);
 }
 
 void run_contacts(struct run *run)
@@ -437,9 +439,9 @@ void run_strike_closed(struct run *run)
     unstick(run, zeno_rope_limit(run));
 }
 
-static bool is_closed(const struct run *run, const struct fbd_state *state, int tie)
+static bool is_closed(const struct run *run, const struct fbd_state *state, int coupling)
 {
-    return state->slip[tree_of(run)->ties[tie].surface] == stick;
+    return state->slip[tree_of(run)->couplings[coupling].surface] == stick;
 }
 
 /* What does not press is let go, and what an impact has brought to rest on it closes or parts by what rounding leaves of
@@ -450,31 +452,31 @@ static void stop_what_opens(struct run *run)
     const struct tree *tree = tree_of(run);
     struct fbd_state *state = run->state;
     bool *stops = run->contacts.moves, any = false;
-    for (int i = 0; i < tree->tie_count; i++) {
-        const struct tie *tie = &tree->ties[i];
-        const struct row *row = &state->tree->rows[tie->first_row];
-        stops[i] = tie->kind == constraint_contact && state->tree->ties[i].feature != no_feature &&
+    for (int i = 0; i < tree->coupling_count; i++) {
+        const struct coupling *coupling = &tree->couplings[i];
+        const struct row *row = &state->tree->rows[coupling->first_row];
+        stops[i] = coupling->kind == constraint_contact && state->tree->couplings[i].feature != no_feature &&
                    !is_closed(run, state, i) && row->g.x1 != 0 &&
                    fabs(row->g.x1) <= contacts_no_speed(run, row);
-        if (stops[i]) state->slip[tie->surface] = stick;
+        if (stops[i]) state->slip[coupling->surface] = stick;
         any |= stops[i];
     }
     if (!any) return;
     state_project_velocity(state, false);
-    for (int i = 0; i < tree->tie_count; i++)
-        if (stops[i]) state->slip[tree->ties[i].surface] = slip_plus;
+    for (int i = 0; i < tree->coupling_count; i++)
+        if (stops[i]) state->slip[tree->couplings[i].surface] = slip_plus;
     state_evaluate(state);
 }
 
 /* Note that a contact has closed or opened: once, at however many corners. */
 static void note_change(struct run *run, int index)
 {
-    const struct tie *ties = tree_of(run)->ties, *tie = &ties[index];
+    const struct coupling *couplings = tree_of(run)->couplings, *coupling = &couplings[index];
     const bool *changed = run->contacts.moves;
     bool now = is_closed(run, run->state, index);
     for (int k = 0; k < index; k++)
-        if (changed[k] && ties[k].load == tie->load && is_closed(run, run->state, k) == now) return;
-    log_event(run, now ? FBD_EVENT_CONTACT : FBD_EVENT_LIFT_OFF, tie->end[0].body, tie->load, -1);
+        if (changed[k] && couplings[k].load == coupling->load && is_closed(run, run->state, k) == now) return;
+    log_event(run, now ? FBD_EVENT_CONTACT : FBD_EVENT_LIFT_OFF, coupling->end[0].body, coupling->load, -1);
 }
 
 void run_release_contacts(struct run *run)
@@ -483,13 +485,13 @@ void run_release_contacts(struct run *run)
     const struct tree *tree = tree_of(run);
     bool *changed = run->contacts.moves;
     stop_what_opens(run);
-    for (int i = 0; i < tree->tie_count; i++) {
+    for (int i = 0; i < tree->coupling_count; i++) {
         changed[i] = false;
-        if (tree->ties[i].kind != constraint_contact) continue;
+        if (tree->couplings[i].kind != constraint_contact) continue;
         bool now = is_closed(run, run->state, i);
         changed[i] = now != run->contacts.was_closed[i];
         run->contacts.was_closed[i] = now;
-        if (!now) run->state->tree->ties[i].feature = no_feature;
+        if (!now) run->state->tree->couplings[i].feature = no_feature;
         if (changed[i]) note_change(run, i);
     }
     contacts_note_depths(run);

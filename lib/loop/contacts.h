@@ -38,7 +38,7 @@ struct bounces {
 
 /* What takes part in an impact: a contact, a rope, what rolls or follows a cam. */
 struct striker {
-    int tie;
+    int coupling;
     bool contact; /* it may bounce; all others are plastic */
     bool rope;
     bool rubs;       /* it has a row along its surface, too, in which there may be friction */
@@ -51,7 +51,7 @@ struct striker {
  * body share, or a corner over a joint of tiles. Both are one point of an impact, which has the coefficients of the
  * first; velocities and modes after are those of that point. */
 struct striker_twin {
-    int tie, point; /* the striker that it coincides with */
+    int coupling, point; /* the striker that it coincides with */
 };
 
 /* The work of its impulses P on the bodies, with the speeds v after. */
@@ -89,18 +89,19 @@ struct contacts_work {
     bool *asleep;            /* of each meeting: too far apart for the step */
     int *touched;            /* of each meeting: how many features touched, at the last look */
     double *deep;   /* of each meeting: how deep it was left open, at a corner that another side is next to */
-    bool *touching; /* of each tie: scratch */
+    bool *touching; /* of each coupling: scratch */
     bool *moves;    /* and: for zeno_rest.c */
-    bool *was_closed; /* of each tie, when it was looked at last */
+    bool *was_closed; /* of each coupling, when it was looked at last */
     struct fbd_state *trial;
-    double speed;                  /* the largest of the shapes that have touched so far */
-    struct impact_record *of_ties; /* of each tie that is no contact: its impacts in the present events */
-    bool due;                      /* shapes have met, or what touches has come to the end of a side */
-    bool makes;                    /* the last impacts have made energy */
-    bool several;                  /* others agree with the laws, too, and give other velocities */
-    bool in_turn; /* and are of one point after the other, where all together were asked for */
-    bool turned;  /* see run_note_sign */
-    bool plastic; /* the next ones are to be, whatever their e */
+    double speed; /* the largest of the shapes that have touched so far */
+    struct impact_record
+        *of_couplings; /* of each coupling that is no contact: its impacts in the present events */
+    bool due;          /* shapes have met, or what touches has come to the end of a side */
+    bool makes;        /* the last impacts have made energy */
+    bool several;      /* others agree with the laws, too, and give other velocities */
+    bool in_turn;      /* and are of one point after the other, where all together were asked for */
+    bool turned;       /* see run_note_sign */
+    bool plastic;      /* the next ones are to be, whatever their e */
 };
 
 /* Made of `memory`, all but `trial`; false when that is out. */
@@ -109,7 +110,7 @@ bool contacts_work_init(struct contacts_work *work, const struct fbd_model *mode
 /* Find what touches, let it have its impacts, and close what stays. To be called before the modes settle. */
 void run_contacts(struct run *run);
 
-/* Before events are applied: clear the impacts of ropes and landings (contacts_work.of_ties). */
+/* Before events are applied: clear the impacts of ropes and landings (contacts_work.of_couplings). */
 void contacts_begin_events(struct run *run);
 
 /* The first look: what a file's digits have put into each other is moved out before. False, with what is lacking,
@@ -196,7 +197,7 @@ double zeno_rope_limit(const struct run *run);
  * touch as well. */
 double contacts_reach(const struct run *run, int index);
 
-/* Give the ties of meeting `index` the features that touch within `near`. */
+/* Give the couplings of meeting `index` the features that touch within `near`. */
 void contacts_find_touching(struct run *run, int index, double near);
 
 /* All points that touch, ropes that are taut, and what presses on its surface; returns their number. */

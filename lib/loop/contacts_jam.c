@@ -31,7 +31,8 @@ static const double hint = 1e-7;
 static void free_accelerations(const struct run *run, int i, double c[2])
 {
     const struct striker *striker = &run->contacts.strikers[i];
-    const struct row *rows = &run->contacts.trial->tree->rows[tree_of(run)->ties[striker->tie].first_row];
+    const struct row *rows =
+        &run->contacts.trial->tree->rows[tree_of(run)->couplings[striker->coupling].first_row];
     c[0] = striker->rope ? -rows[0].g.x2 : rows[0].g.x2;
     c[1] = striker->rubs ? rows[1].g.x2 : 0;
 }
@@ -42,11 +43,11 @@ static void let_go(struct run *run, int count)
     state_copy(trial, run->state);
     for (int i = 0; i < count; i++) {
         const struct striker *striker = &run->contacts.strikers[i];
-        const struct tie *tie = &tree_of(run)->ties[striker->tie];
-        trial->slip[striker->rope ? tie->pair : tie->surface] = slip_plus;
+        const struct coupling *coupling = &tree_of(run)->couplings[striker->coupling];
+        trial->slip[striker->rope ? coupling->pair : coupling->surface] = slip_plus;
     }
     for (int k = 0; k < run->contacts.twin_count; k++)
-        trial->slip[tree_of(run)->ties[run->contacts.twins[k].tie].surface] = slip_plus;
+        trial->slip[tree_of(run)->couplings[run->contacts.twins[k].coupling].surface] = slip_plus;
     state_evaluate(trial);
 }
 
@@ -96,12 +97,12 @@ static void note_jam(struct run *run, int i, bool jams)
 {
     const struct contacts_work *work = &run->contacts;
     const struct striker *striker = &work->strikers[i];
-    const struct tie *tie = &tree_of(run)->ties[striker->tie];
+    const struct coupling *coupling = &tree_of(run)->couplings[striker->coupling];
     const double *v = work->v + (ptrdiff_t)2 * i, *P = work->P + (ptrdiff_t)2 * i;
     double taken = striker_taken(striker, v, P);
-    run->impact_work[tie->load] += taken;
+    run->impact_work[coupling->load] += taken;
     if (striker->rope || !jams) return;
-    struct run_event *event = log_event(run, FBD_EVENT_JAM, tie->end[0].body, tie->load, -1);
+    struct run_event *event = log_event(run, FBD_EVENT_JAM, coupling->end[0].body, coupling->load, -1);
     if (!event) return;
     event->impact = (struct impact_record){
         .p = P[0], .tau = P[1], .work = taken, .v_n = {striker->v_n, v[0]}, .v_t = {striker->v_t, v[1]}};
@@ -154,11 +155,11 @@ bool run_jam(struct run *run)
     impulse_look(run->state);
     contacts_open_or_close(run, count, true);
     for (int i = 0; i < count; i++) {
-        int pair = tree_of(run)->ties[work->strikers[i].tie].pair;
+        int pair = tree_of(run)->couplings[work->strikers[i].coupling].pair;
         if (pair >= 0) run->decided.slips[pair] = false;
     }
     for (int k = 0; k < work->twin_count; k++) {
-        int pair = tree_of(run)->ties[work->twins[k].tie].pair;
+        int pair = tree_of(run)->couplings[work->twins[k].coupling].pair;
         if (pair >= 0) run->decided.slips[pair] = false;
     }
     return true;
@@ -171,10 +172,11 @@ static int pressed_most(const struct run *run)
     const struct instant at = state_instant(run->state);
     double most = -1;
     int found = -1;
-    for (int i = 0; i < tree->tie_count; i++) {
-        const struct tie *tie = &tree->ties[i];
-        double N = fabs(run->state->tree->rows[tie->first_row].lambda);
-        if (tie->kind != constraint_contact || tree_rubbing_share(run->model, &at, tie->first_row) == 0)
+    for (int i = 0; i < tree->coupling_count; i++) {
+        const struct coupling *coupling = &tree->couplings[i];
+        double N = fabs(run->state->tree->rows[coupling->first_row].lambda);
+        if (coupling->kind != constraint_contact ||
+            tree_rubbing_share(run->model, &at, coupling->first_row) == 0)
             continue;
         if (N <= most) continue;
         most = N;
@@ -212,11 +214,12 @@ void run_check_jam(struct run *run, bool evaluated)
     if (!evaluated) state_evaluate_unshared(run->state);
     int worst = has_turned(run->state) != run->contacts.turned ? pressed_most(run) : -1;
     if (worst < 0) return;
-    const struct tie *tie = &model->tree->ties[worst];
+    const struct coupling *coupling = &model->tree->couplings[worst];
     run_fail(run, FBD_FAILED,
              "at t = %.9g a step has gone over an instant at which the normal force of `%s` on `%s` is "
              "infinite: as it slips "
              "its friction has come to press it on (Painleve's paradox). Less friction, or end the run "
              "before by an event",
-             run_time(run), model->loads[tie->load].source->name, model->bodies[tie->end[0].body].name);
+             run_time(run), model->loads[coupling->load].source->name,
+             model->bodies[coupling->end[0].body].name);
 }

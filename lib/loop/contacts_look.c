@@ -259,8 +259,8 @@ static int count_closed(const struct run *run, int index)
     const struct meeting *meeting = &tree_of(run)->meetings[index];
     const struct instant at = state_instant(run->state);
     int closed = 0;
-    for (int k = 0; k < meeting->tie_count; k++)
-        closed += tie_is_closed(run->model, &at, meeting->first_tie + k);
+    for (int k = 0; k < meeting->coupling_count; k++)
+        closed += coupling_is_closed(run->model, &at, meeting->first_coupling + k);
     return closed;
 }
 

@@ -30,17 +30,17 @@ double contacts_no_speed(const struct run *run, const struct row *row)
 
 static double normal_rate(const struct run *run, const struct striker *striker)
 {
-    double rate = run->state->tree->rows[tree_of(run)->ties[striker->tie].first_row].g.x1;
+    double rate = run->state->tree->rows[tree_of(run)->couplings[striker->coupling].first_row].g.x1;
     return striker->rope ? -rate : rate;
 }
 
 /* Does it take part in its present mode? */
 static bool is_striker(const struct run *run, int i)
 {
-    const struct tie *tie = &tree_of(run)->ties[i];
-    if (tie->kind == constraint_contact) return run->state->tree->ties[i].feature != no_feature;
-    if (tie->kind == constraint_rope) return run->state->slip[tie->pair] == stick;
-    return tie_takes_impulses(tie) && run->state->slip[tie->surface] == stick;
+    const struct coupling *coupling = &tree_of(run)->couplings[i];
+    if (coupling->kind == constraint_contact) return run->state->tree->couplings[i].feature != no_feature;
+    if (coupling->kind == constraint_rope) return run->state->slip[coupling->pair] == stick;
+    return coupling_takes_impulses(coupling) && run->state->slip[coupling->surface] == stick;
 }
 
 /* ---- coinciding points */
@@ -57,27 +57,27 @@ static const struct port *port_on(const struct row *row, int link)
 static bool coincide(const struct run *run, int a, int b)
 {
     const double direction = 1e-9;
-    const struct tie *ties = tree_of(run)->ties;
+    const struct coupling *couplings = tree_of(run)->couplings;
     const struct tree_work *work = run->state->tree;
-    int first = ties[a].end[0].link, second = ties[a].end[1].link, index = ties[a].meeting;
-    bool same = ties[b].end[0].link == first && ties[b].end[1].link == second;
-    bool swapped = ties[b].end[0].link == second && ties[b].end[1].link == first;
+    int first = couplings[a].end[0].link, second = couplings[a].end[1].link, index = couplings[a].meeting;
+    bool same = couplings[b].end[0].link == first && couplings[b].end[1].link == second;
+    bool swapped = couplings[b].end[0].link == second && couplings[b].end[1].link == first;
     if (!same && !swapped) return false;
-    if (tree_of(run)->meetings[index].stop != 0 || tree_of(run)->meetings[ties[b].meeting].stop != 0)
+    if (tree_of(run)->meetings[index].stop != 0 || tree_of(run)->meetings[couplings[b].meeting].stop != 0)
         return false;
     int link = first > 0 ? first : second;
-    const struct port *p = port_on(&work->rows[ties[a].first_row], link),
-                      *q = port_on(&work->rows[ties[b].first_row], link);
+    const struct port *p = port_on(&work->rows[couplings[a].first_row], link),
+                      *q = port_on(&work->rows[couplings[b].first_row], link);
     return p && q && vec_norm(vec_sub(p->force, q->force)) <= direction &&
            vec_norm(vec_sub(p->arm, q->arm)) <= contacts_same * meeting_near(run->model, work, index);
 }
 
-/* The striker among the first `count` at whose point the contact of tie i is; -1 without one. */
+/* The striker among the first `count` at whose point the contact of coupling i is; -1 without one. */
 static int coinciding(const struct run *run, int i, int count)
 {
     const struct striker *strikers = run->contacts.strikers;
     for (int k = 0; k < count; k++)
-        if (strikers[k].contact && coincide(run, strikers[k].tie, i)) return k;
+        if (strikers[k].contact && coincide(run, strikers[k].coupling, i)) return k;
     return -1;
 }
 
@@ -85,16 +85,16 @@ static int coinciding(const struct run *run, int i, int count)
 
 static void set_striker(struct run *run, int i, struct striker *striker)
 {
-    const struct tie *tie = &tree_of(run)->ties[i];
-    bool rope = tie->kind == constraint_rope, contact = tie->meeting >= 0;
-    *striker = (struct striker){.tie = i,
+    const struct coupling *coupling = &tree_of(run)->couplings[i];
+    bool rope = coupling->kind == constraint_rope, contact = coupling->meeting >= 0;
+    *striker = (struct striker){.coupling = i,
                                 .contact = contact,
                                 .rope = rope,
-                                .rubs = contact || (!rope && tie->pair >= 0)};
-    if (tie->reels) striker->reel = rope_reel_rate(run->state, i);
-    const struct row *rows = &run->state->tree->rows[tie->first_row];
+                                .rubs = contact || (!rope && coupling->pair >= 0)};
+    if (coupling->reels) striker->reel = rope_reel_rate(run->state, i);
+    const struct row *rows = &run->state->tree->rows[coupling->first_row];
     striker->v_n = normal_rate(run, striker);
-    striker->v_t = tie->row_count > 1 && !rope ? rows[1].g.x1 : 0;
+    striker->v_t = coupling->row_count > 1 && !rope ? rows[1].g.x1 : 0;
     run->contacts.speed = fmax(run->contacts.speed, speed_at(run, rows));
 }
 
@@ -102,7 +102,7 @@ static void set_striker(struct run *run, int i, struct striker *striker)
 static void drop_no_speeds(const struct run *run, struct striker *striker)
 {
     double least =
-        contacts_no_speed(run, &run->state->tree->rows[tree_of(run)->ties[striker->tie].first_row]);
+        contacts_no_speed(run, &run->state->tree->rows[tree_of(run)->couplings[striker->coupling].first_row]);
     if (fabs(striker->v_n) <= least) striker->v_n = 0;
     if (fabs(striker->v_t) <= least) striker->v_t = 0;
     striker->rubs |=
@@ -114,9 +114,9 @@ int contacts_find_strikers(struct run *run)
     struct contacts_work *work = &run->contacts;
     int count = 0;
     work->twin_count = 0;
-    for (int i = 0; i < tree_of(run)->tie_count; i++) {
+    for (int i = 0; i < tree_of(run)->coupling_count; i++) {
         if (!is_striker(run, i)) continue;
-        int point = tree_of(run)->ties[i].meeting >= 0 ? coinciding(run, i, count) : -1;
+        int point = tree_of(run)->couplings[i].meeting >= 0 ? coinciding(run, i, count) : -1;
         if (point >= 0)
             work->twins[work->twin_count++] = (struct striker_twin){i, point};
         else

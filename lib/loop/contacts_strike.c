@@ -41,15 +41,16 @@ static bool set_point(struct run *run, int i)
     const double no_limit = 1e6; /* so that what rolls without one stops to slip at once */
     struct contacts_work *work = &run->contacts;
     const struct striker *striker = &work->strikers[i];
-    const struct tie *tie = &tree_of(run)->ties[striker->tie];
+    const struct coupling *coupling = &tree_of(run)->couplings[striker->coupling];
     struct instant at = state_instant(run->state);
     work->points[i] = (struct impacts_point){.law = impact_stronge};
     if (striker->rope) return true;
-    if (tie->pair >= 0) work->points[i].mu = formula_value(&run->model->plan.modes[tie->pair].mu_k, &at);
-    if (tie->pair < 0 && !striker->contact && striker->rubs) work->points[i].mu = no_limit;
+    if (coupling->pair >= 0)
+        work->points[i].mu = formula_value(&run->model->plan.modes[coupling->pair].mu_k, &at);
+    if (coupling->pair < 0 && !striker->contact && striker->rubs) work->points[i].mu = no_limit;
     if (work->plastic || !striker->contact) return true;
-    work->points[i].law = (enum impact_law)run->model->scene->constraints[tie->constraint].contact.law;
-    work->points[i].e = contacts_restitution(run, tie->meeting, fmax(0, -striker->v_n));
+    work->points[i].law = (enum impact_law)run->model->scene->constraints[coupling->constraint].contact.law;
+    work->points[i].e = contacts_restitution(run, coupling->meeting, fmax(0, -striker->v_n));
     return work->points[i].e >= 0;
 }
 
@@ -63,7 +64,7 @@ static void find_slides(struct run *run)
     work->slide_count = 0;
     for (int pair = 0; pair < (int)plan->mode_count && !work->plastic; pair++) {
         const struct mode *mode = &plan->modes[pair];
-        bool guided = mode->kind == mode_tangent ? tie_is_guide(&tree_of(run)->ties[mode->tie])
+        bool guided = mode->kind == mode_tangent ? coupling_is_guide(&tree_of(run)->couplings[mode->coupling])
                                                  : mode->kind == mode_joint && mode->normal_slot >= 0;
         if (guided && friction_rubs(mode)) work->slides[work->slide_count++] = pair;
     }
@@ -143,7 +144,7 @@ static void set_answers(struct run *run, int count)
     struct contacts_work *work = &run->contacts;
     int rows = 2 * count;
     for (int i = 0; i < count; i++) {
-        int first = tree_of(run)->ties[work->strikers[i].tie].first_row;
+        int first = tree_of(run)->couplings[work->strikers[i].coupling].first_row;
         int *row = work->rows + (ptrdiff_t)2 * i;
         row[0] = first;
         row[1] = work->strikers[i].rubs ? first + 1 : first;
@@ -256,15 +257,15 @@ static void note_drives(struct run *run, int count, double change, double rubbed
 static void refuse_rubbing(struct run *run)
 {
     const struct tree *tree = tree_of(run);
-    for (int i = 0; i < tree->tie_count; i++) {
-        const struct tie *tie = &tree->ties[i];
-        bool closed = tie->surface < 0 || run->state->slip[tie->surface] == stick;
-        if (tie->kind != constraint_capstan || !closed) continue;
+    for (int i = 0; i < tree->coupling_count; i++) {
+        const struct coupling *coupling = &tree->couplings[i];
+        bool closed = coupling->surface < 0 || run->state->slip[coupling->surface] == stick;
+        if (coupling->kind != constraint_capstan || !closed) continue;
         run_fail(run, FBD_BROKEN,
                  "at t = %.9g an impact occurs while the rope `%s` is taut round its drum: how much of the "
                  "impulse "
                  "friction takes is not followed. End the run before, by an event",
-                 run_time(run), tie->name);
+                 run_time(run), coupling->name);
     }
 }
 
@@ -330,14 +331,14 @@ static double end_slips(struct run *run, int rows)
     for (int i = 0; i < work->slide_count; i++) {
         int pair = work->slides[i];
         const struct mode *mode = &plan->modes[pair];
-        double ignored, surface = mode->tie < 0 ? friction_surface_speed(mode, &at, &ignored) : 0;
+        double ignored, surface = mode->coupling < 0 ? friction_surface_speed(mode, &at, &ignored) : 0;
         double v = work->v[rows + i], P = work->P[rows + i];
         double done = P * ((work->slide_before[i] + v) / 2 + surface);
         run->impact_work[mode->load] += done;
         all += done;
-        if (v == 0 && mode->tie < 0) run->state->y[plan->n + mode->coordinate] = surface;
-        if (v == 0 && mode->tie >= 0 && run->state->slip[pair] != stick)
-            tie_rezero(run->model, run->state->tree, mode->tie);
+        if (v == 0 && mode->coupling < 0) run->state->y[plan->n + mode->coordinate] = surface;
+        if (v == 0 && mode->coupling >= 0 && run->state->slip[pair] != stick)
+            coupling_rezero(run->model, run->state->tree, mode->coupling);
         run->state->slip[pair] = v > 0 ? slip_plus : v < 0 ? slip_minus : stick;
     }
     return all;

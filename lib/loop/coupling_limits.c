@@ -16,13 +16,13 @@
 
 struct end {
     struct run *run;
-    int tie, end;
+    int coupling, end;
     bool piece; /* not an end but the straight piece after place `end` */
 };
 
-static const struct tie *tie_of(const struct end *end)
+static const struct coupling *coupling_of(const struct end *end)
 {
-    return &end->run->model->tree->ties[end->tie];
+    return &end->run->model->tree->couplings[end->coupling];
 }
 
 static void look(struct run *run, double t, const double *y)
@@ -37,8 +37,8 @@ static void look(struct run *run, double t, const double *y)
 static struct room room_of(const struct end *end)
 {
     const struct tree_work *work = end->run->during->tree;
-    return end->piece ? rope_piece(end->run->model, work, end->tie, end->end)
-                      : tie_room(end->run->model, work, end->tie, end->end);
+    return end->piece ? rope_piece(end->run->model, work, end->coupling, end->end)
+                      : coupling_room(end->run->model, work, end->coupling, end->end);
 }
 
 /* The same within the last step; NAN where that is not known. */
@@ -85,34 +85,34 @@ static double empty_time(const struct end *end, double some, double none)
 }
 
 /* What is no rope always is, whatever it rubs, but for a point that is off its slot. */
-static bool is_taut(const struct fbd_state *state, const struct tie *tie)
+static bool is_taut(const struct fbd_state *state, const struct coupling *coupling)
 {
-    if (slot_is_open(tie, state->slip)) return false;
-    return tie->kind != constraint_rope || tie->pair < 0 || state->slip[tie->pair] == stick;
+    if (slot_is_open(coupling, state->slip)) return false;
+    return coupling->kind != constraint_rope || coupling->pair < 0 || state->slip[coupling->pair] == stick;
 }
 
-static const char *name_of(const struct run *run, const struct tie *tie, int k)
+static const char *name_of(const struct run *run, const struct coupling *coupling, int k)
 {
-    return tie->end[k].body < 0 ? "the ground" : run->model->bodies[tie->end[k].body].name;
+    return coupling->end[k].body < 0 ? "the ground" : run->model->bodies[coupling->end[k].body].name;
 }
 
 static void fail_at_end(const struct end *end, double t, bool gets_taut)
 {
     struct run *run = end->run;
-    const struct tie *tie = tie_of(end);
-    if (tie->kind == constraint_slot || tie->kind == constraint_groove)
+    const struct coupling *coupling = coupling_of(end);
+    if (coupling->kind == constraint_slot || coupling->kind == constraint_groove)
         run_fail(
             run, FBD_BROKEN,
             "at t = %.9g the point in the slot `%s` comes to the end of it. Make it longer, or end the run "
             "before, by an event",
-            t, tie->name);
+            t, coupling->name);
     else
         run_fail(
             run, FBD_BROKEN,
             "at t = %.9g the rope `%s` %s all unwound from `%s`. End the run before, by an event, or wind "
             "more on it (`length` of `wound`)",
-            t, tie->name, gets_taut ? "gets taut where it is" : "is",
-            name_of(run, tie, end->end == 0 ? 0 : tie->end_count - 1));
+            t, coupling->name, gets_taut ? "gets taut where it is" : "is",
+            name_of(run, coupling, end->end == 0 ? 0 : coupling->end_count - 1));
 }
 
 /* Is there plenty left in a part of a step, as the interpolant tells? Where the rate turns, what is left is above its
@@ -177,9 +177,9 @@ static double shortest_at(const struct end *piece, double little, double to)
 static void watch_piece(const struct end *piece, struct time_dd *t)
 {
     struct run *run = piece->run;
-    const struct tie *tie = tie_of(piece);
-    const bool at_rim = tie->end[piece->end].radius > 0 || tie->end[piece->end + 1].radius > 0;
-    const double little = tie->reels ? 1e-3 : at_rim ? 1e-6 : 1e-9;
+    const struct coupling *coupling = coupling_of(piece);
+    const bool at_rim = coupling->end[piece->end].radius > 0 || coupling->end[piece->end + 1].radius > 0;
+    const double little = coupling->reels ? 1e-3 : at_rim ? 1e-6 : 1e-9;
     double when = shortest_at(piece, little, t->t);
     struct room room = room_at(piece, when);
     if (room.left > little * room.size || room.rate > 0) { /* a number that is none has gone beyond */
@@ -191,7 +191,7 @@ static void watch_piece(const struct end *piece, struct time_dd *t)
         run, FBD_BROKEN,
         "at t = %.9g the rope `%s` is at an end of its way: there is nothing left between `%s` and `%s`. End "
         "the run before, by an event",
-        t->t, tie->name, name_of(run, tie, piece->end), name_of(run, tie, piece->end + 1));
+        t->t, coupling->name, name_of(run, coupling, piece->end), name_of(run, coupling, piece->end + 1));
 }
 
 /* Pieces between points of a taut rope of constant length: one becomes shorter as another becomes longer. The ends of the
@@ -199,11 +199,11 @@ static void watch_piece(const struct end *piece, struct time_dd *t)
  * other end passes the point of tangency, and the motion goes on. */
 static void watch_shortening(struct run *run, int index, struct time_dd *t)
 {
-    const struct tie *tie = &run->model->tree->ties[index];
+    const struct coupling *coupling = &run->model->tree->couplings[index];
     const double length = t->t - run->step.from;
-    for (int k = 0; k + 1 < tie->end_count && run->end.outcome == FBD_GOING; k++) {
+    for (int k = 0; k + 1 < coupling->end_count && run->end.outcome == FBD_GOING; k++) {
         const struct end piece = {run, index, k, true};
-        if (tie->end[k].radius > 0 || tie->end[k + 1].radius > 0) continue;
+        if (coupling->end[k].radius > 0 || coupling->end[k + 1].radius > 0) continue;
         look(run, run->step.from, run->state->y);
         const struct room before = room_of(&piece);
         look(run, t->t, run->work.y);
@@ -214,7 +214,7 @@ static void watch_shortening(struct run *run, int index, struct time_dd *t)
 /* A rope that rubs has become straight, and comes off its drum. */
 static void watch_wrap(struct run *run, int index, struct time_dd t)
 {
-    const struct tie *tie = &run->model->tree->ties[index];
+    const struct coupling *coupling = &run->model->tree->couplings[index];
     look(run, t.t, run->work.y);
     const struct instant at = state_instant(run->during);
     if (capstan_wrap(run->model, &at, index, false, NULL) >= 0) return;
@@ -222,21 +222,22 @@ static void watch_wrap(struct run *run, int index, struct time_dd t)
              "by t = %.9g the rope `%s` has come off its drum: its two sides have become one straight line. "
              "End the "
              "run before, by an event",
-             t.t, tie->name);
+             t.t, coupling->name);
 }
 
-static void watch_tie(struct run *run, int i, struct time_dd *t)
+static void watch_coupling(struct run *run, int i, struct time_dd *t)
 {
-    const struct tie *tie = &run->model->tree->ties[i];
+    const struct coupling *coupling = &run->model->tree->couplings[i];
     const struct fbd_state *state = run->during;
-    bool rubs = tie->kind == constraint_capstan && state->slip[tie->surface] == stick;
-    bool winds = tie->wound[0] != 0 || tie->wound[1] != 0;
-    bool hauls = tie->kind == constraint_rope && (winds || tie->reels) && is_taut(state, tie);
-    for (int end = 0; end < 2 && is_taut(state, tie); end++) watch_end(&(struct end){run, i, end, false}, t);
+    bool rubs = coupling->kind == constraint_capstan && state->slip[coupling->surface] == stick;
+    bool winds = coupling->wound[0] != 0 || coupling->wound[1] != 0;
+    bool hauls = coupling->kind == constraint_rope && (winds || coupling->reels) && is_taut(state, coupling);
+    for (int end = 0; end < 2 && is_taut(state, coupling); end++)
+        watch_end(&(struct end){run, i, end, false}, t);
     if (rubs) watch_wrap(run, i, *t);
-    for (int k = 0; (rubs || hauls) && k + 1 < tie->end_count; k++)
+    for (int k = 0; (rubs || hauls) && k + 1 < coupling->end_count; k++)
         watch_piece(&(struct end){run, i, k, true}, t);
-    if (tie->kind == constraint_rope && !hauls && is_taut(state, tie)) watch_shortening(run, i, t);
+    if (coupling->kind == constraint_rope && !hauls && is_taut(state, coupling)) watch_shortening(run, i, t);
 }
 
 /* ---- a point that is off its slot passes an end of it */
@@ -284,7 +285,7 @@ static void watch_passing(const struct end *end, struct time_dd *t)
     enum { parts = 8 };
     struct run *run = end->run;
     const double from = run->step.from, length = (t->t - from) / parts;
-    const struct row *row = &run->during->tree->rows[tie_of(end)->first_row];
+    const struct row *row = &run->during->tree->rows[coupling_of(end)->first_row];
     double passed = NAN;
     if (is_far(end, from, length, parts)) return;
     const int side = way_at(end, from).left < 0 ? -1 : 1;
@@ -298,7 +299,7 @@ static void watch_passing(const struct end *end, struct time_dd *t)
                 run, FBD_BROKEN,
                 "at t = %.9g the point of the slot `%s` comes back behind it. Make it longer, or end the run "
                 "before, by an event",
-                t->t, tie_of(end)->name);
+                t->t, coupling_of(end)->name);
     }
     switcher_partial(run->stepper, *t, run->work.y, run->work.f);
 }
@@ -306,11 +307,11 @@ static void watch_passing(const struct end *end, struct time_dd *t)
 void run_watch_slots(struct run *run, struct time_dd *t)
 {
     const struct tree *tree = run->model->tree;
-    for (int i = 0; tree && i < tree->tie_count; i++) {
-        if (!slot_is_open(&tree->ties[i], run->during->slip)) continue;
+    for (int i = 0; tree && i < tree->coupling_count; i++) {
+        if (!slot_is_open(&tree->couplings[i], run->during->slip)) continue;
         for (int k = 0; k < 2 && run->end.outcome == FBD_GOING; k++) {
             const struct end end = {run, i, k, false};
-            if (isfinite(tie_room(run->model, run->during->tree, i, k).size)) watch_passing(&end, t);
+            if (isfinite(coupling_room(run->model, run->during->tree, i, k).size)) watch_passing(&end, t);
         }
     }
 }
@@ -323,24 +324,24 @@ struct flight {
     double apart, speed, longest;
 };
 
-static bool is_slack(const struct fbd_state *state, const struct tie *tie)
+static bool is_slack(const struct fbd_state *state, const struct coupling *coupling)
 {
-    return tie->kind == constraint_rope && tie->pair >= 0 && state->slip[tie->pair] != stick;
+    return coupling->kind == constraint_rope && coupling->pair >= 0 && state->slip[coupling->pair] != stick;
 }
 
 /* Within the last step. */
 static bool flight_at(struct run *run, int index, double t, struct flight *flight)
 {
-    const struct tie *tie = &run->model->tree->ties[index];
+    const struct coupling *coupling = &run->model->tree->couplings[index];
     if (switcher_dense(run->stepper, time_dd_at(t), run->work.aside) != 0) return false;
     look(run, t, run->work.aside);
     const struct instant at = state_instant(run->during);
     struct one_sided now =
-        one_sided_at(run->model, &at, is_slack(run->during, tie) ? tie->pair : tie->surface);
+        one_sided_at(run->model, &at, is_slack(run->during, coupling) ? coupling->pair : coupling->surface);
     struct slot_size size = slot_size(run->model, run->during->tree, index);
     flight->apart = -now.excess;
     flight->speed =
-        2 * (tie->end_count > 1 ? tie->end_count - 1 : 1) * (now.speed + now.turning * size.reach);
+        2 * (coupling->end_count > 1 ? coupling->end_count - 1 : 1) * (now.speed + now.turning * size.reach);
     flight->longest = fmin(1 / now.turning, size.radius / (4 * flight->speed));
     return true;
 }
@@ -364,9 +365,9 @@ static double until_near(struct run *run, int index, double from, double to)
 double run_flights(struct run *run, double from, double to)
 {
     const struct tree *tree = run->model->tree;
-    for (int i = 0; tree && i < tree->tie_count; i++) {
-        const struct tie *tie = &tree->ties[i];
-        if (slot_is_open(tie, run->during->slip) || is_slack(run->during, tie))
+    for (int i = 0; tree && i < tree->coupling_count; i++) {
+        const struct coupling *coupling = &tree->couplings[i];
+        if (slot_is_open(coupling, run->during->slip) || is_slack(run->during, coupling))
             to = until_near(run, i, from, to);
     }
     return to;
@@ -377,14 +378,15 @@ double run_flights(struct run *run, double from, double to)
 void run_watch_ends(struct run *run, struct time_dd *t)
 {
     const struct tree *tree = run->model->tree;
-    for (int i = 0; tree && i < tree->tie_count && run->end.outcome == FBD_GOING; i++) watch_tie(run, i, t);
+    for (int i = 0; tree && i < tree->coupling_count && run->end.outcome == FBD_GOING; i++)
+        watch_coupling(run, i, t);
 }
 
 void run_check_ends(struct run *run)
 {
     const struct tree *tree = run->model->tree;
-    for (int i = 0; tree && i < tree->tie_count && run->end.outcome == FBD_GOING; i++) {
-        if (tree->ties[i].kind != constraint_rope || !is_taut(run->state, &tree->ties[i])) continue;
+    for (int i = 0; tree && i < tree->coupling_count && run->end.outcome == FBD_GOING; i++) {
+        if (tree->couplings[i].kind != constraint_rope || !is_taut(run->state, &tree->couplings[i])) continue;
         for (int k = 0; k < 2; k++) {
             struct end end = {run, i, k, false};
             if (!isfinite(room_of(&end).size)) continue;

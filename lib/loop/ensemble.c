@@ -94,7 +94,7 @@ static void map_branches(struct ensemble *ensemble)
 }
 
 /* Where the branches, friction pairs and loads of the groups stand in the whole. The whole lists each in the
- * same order as the groups do (loads of bodies, couplings, named ties, drives; switches of loads first and
+ * same order as the groups do (loads of bodies, couplings, named couplings, drives; switches of loads first and
  * those of user events last), so what is of a group comes in its order. */
 static bool make_maps(struct ensemble *ensemble)
 {
@@ -350,7 +350,8 @@ static void scatter_modes(const struct group *group, const struct fbd_state *par
         state->slip[pair] = part->slip[i];
         state->pull[pair] = part->pull[i];
         if (plan->modes[i].kind == mode_contact) /* at which feature it is */
-            state->tree->ties[state->model->plan.modes[pair].tie] = part->tree->ties[plan->modes[i].tie];
+            state->tree->couplings[state->model->plan.modes[pair].coupling] =
+                part->tree->couplings[plan->modes[i].coupling];
     }
 }
 

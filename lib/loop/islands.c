@@ -90,8 +90,8 @@ static void join_all(const struct scene *scene, int *parent, struct islands *div
         read = join_read(scene, parent, scene->events[i].right, read);
         division->group_of_event[i] = read < 0 ? 0 : read;
     }
-    for (size_t i = 0; i < scene->coupling_count; i++) {
-        const int *body = scene->couplings[i].body;
+    for (size_t i = 0; i < scene->force_coupling_count; i++) {
+        const int *body = scene->force_couplings[i].body;
         division->group_of_coupling[i] = body[0] != ground_body ? body[0] : body[1];
         if (body[0] != ground_body && body[1] != ground_body) join(parent, body[0], body[1]);
     }
@@ -114,7 +114,7 @@ static size_t number_groups(const struct scene *scene, int *parent, struct islan
     }
     for (size_t i = 0; i < scene->event_count; i++)
         division->group_of_event[i] = division->group_of_body[division->group_of_event[i]];
-    for (size_t i = 0; i < scene->coupling_count; i++)
+    for (size_t i = 0; i < scene->force_coupling_count; i++)
         division->group_of_coupling[i] = division->group_of_body[division->group_of_coupling[i]];
     for (size_t i = 0; i < scene->constraint_count; i++)
         division->group_of_constraint[i] = division->group_of_body[division->group_of_constraint[i]];
@@ -143,7 +143,7 @@ static struct list events_of(struct selection *selection)
 
 static struct list couplings_of(struct selection *selection)
 {
-    return (struct list){&selection->couplings, &selection->coupling_count};
+    return (struct list){&selection->force_couplings, &selection->force_coupling_count};
 }
 
 static struct list constraints_of(struct selection *selection)
@@ -197,7 +197,7 @@ static void renumber(const struct scene *scene, struct selection *selection, int
 /* One block for all lists; `sorted` and what follows it behind those of the division. */
 static bool allocate(struct islands *division, const struct scene *scene, int **sorted)
 {
-    size_t bodies = scene->body_count, events = scene->event_count, couplings = scene->coupling_count,
+    size_t bodies = scene->body_count, events = scene->event_count, couplings = scene->force_coupling_count,
            constraints = scene->constraint_count, absolutes = scene->absolute_count;
     size_t slots = 1 + scene_size(scene) + hand_slots + absolutes;
     size_t things = bodies + events + couplings + constraints + absolutes;
@@ -215,7 +215,7 @@ static bool allocate(struct islands *division, const struct scene *scene, int **
 bool islands_make(struct islands *division, const struct fbd_model *model)
 {
     const struct scene *scene = model->scene;
-    size_t bodies = scene->body_count, events = scene->event_count, couplings = scene->coupling_count;
+    size_t bodies = scene->body_count, events = scene->event_count, couplings = scene->force_coupling_count;
     int *sorted;
     *division = (struct islands){0};
     if (!allocate(division, scene, &sorted)) return false;

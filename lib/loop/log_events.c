@@ -39,7 +39,7 @@ static void note_one_sided(struct run *run, const struct change *change)
 {
     const struct mode *mode = &run->model->plan.modes[change->pair];
     run->watchers.quiet[change->pair] = left_beyond(run, change->pair);
-    bool rope = run->model->tree->ties[mode->tie].law->way;
+    bool rope = run->model->tree->couplings[mode->coupling].law->way;
     if (change->before == stick && change->after != stick)
         log_event(run, rope ? FBD_EVENT_ROPE_SLACK : FBD_EVENT_LIFT_OFF, mode->body, mode->load, -1);
     bool snapped = run->snap.pair == change->pair;
@@ -50,14 +50,14 @@ static void note_one_sided(struct run *run, const struct change *change)
     if (snapped && !isfinite(run->snap.work)) {
         run_fail(run, FBD_FAILED,
                  "at t = %.9g the impact at which `%s` becomes taut takes more work than numbers can tell",
-                 run_time(run), run->model->tree->ties[mode->tie].name);
+                 run_time(run), run->model->tree->couplings[mode->coupling].name);
         return;
     }
     struct run_event *event =
         log_event(run, rope ? FBD_EVENT_ROPE_TAUT : FBD_EVENT_LANDING, mode->body, mode->load, -1);
     if (!event) return;
     event->force = snapped ? -run->snap.work : 0;
-    event->impact = run->contacts.of_ties[mode->tie];
+    event->impact = run->contacts.of_couplings[mode->coupling];
 }
 
 void log_lifts_at_start(struct run *run)
@@ -65,7 +65,7 @@ void log_lifts_at_start(struct run *run)
     const struct instant at = state_instant(run->state);
     for (int pair = 0; pair < (int)run->model->plan.mode_count; pair++) {
         const struct mode *mode = &run->model->plan.modes[pair];
-        if (mode->kind != mode_surface || run->model->tree->ties[mode->tie].meeting >= 0) continue;
+        if (mode->kind != mode_surface || run->model->tree->couplings[mode->coupling].meeting >= 0) continue;
         if (run->state->slip[pair] != stick && one_sided_at(run->model, &at, pair).touches)
             log_event(run, FBD_EVENT_LIFT_OFF, mode->body, mode->load, -1);
     }
@@ -74,9 +74,10 @@ void log_lifts_at_start(struct run *run)
 /* Friction of a contact that has just closed or opened has no event of its own. */
 static bool rubbed_throughout(const struct run *run, const struct mode *mode)
 {
-    const struct tie *tie = mode->tie < 0 ? NULL : &run->model->tree->ties[mode->tie];
-    if (!tie || tie->meeting < 0) return true;
-    return run->during->slip[tie->surface] == stick && run->state->slip[tie->surface] == stick;
+    const struct coupling *coupling =
+        mode->coupling < 0 ? NULL : &run->model->tree->couplings[mode->coupling];
+    if (!coupling || coupling->meeting < 0) return true;
+    return run->during->slip[coupling->surface] == stick && run->state->slip[coupling->surface] == stick;
 }
 
 static void note_rubbing(struct run *run, const struct change *change)
@@ -89,7 +90,7 @@ static void note_rubbing(struct run *run, const struct change *change)
         log_friction(run, FBD_EVENT_BREAKAWAY, pair);
     }
     if (before != stick && after == stick) {
-        if (mode->tie >= 0) tie_rezero(run->model, run->state->tree, mode->tie);
+        if (mode->coupling >= 0) coupling_rezero(run->model, run->state->tree, mode->coupling);
         if (run->zeno_switches.now)
             run->zeno_switches.sticks[pair] = true; /* at the end of the series */
         else

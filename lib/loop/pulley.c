@@ -12,13 +12,13 @@
 #include "dynamics/project.h"
 #include "loop/run.h"
 
-/* The angle at pulley `tie` at y. */
-static double wrap_at(struct run *run, int tie, const double *y)
+/* The angle at pulley `coupling` at y. */
+static double wrap_at(struct run *run, int coupling, const double *y)
 {
     struct fbd_state *state = run->during;
     memcpy(state->y, y, plan_size(&run->model->plan) * sizeof *state->y);
     state_misfit(state); /* puts the links in their places */
-    return rope_wrap(run->model, state->tree, tie);
+    return rope_wrap(run->model, state->tree, coupling);
 }
 
 /* Off its pulley by more than rounding. */
@@ -28,20 +28,20 @@ static bool is_off(double wrap)
     return wrap < -rounding;
 }
 
-static bool is_taut(const struct fbd_state *state, const struct tie *tie)
+static bool is_taut(const struct fbd_state *state, const struct coupling *coupling)
 {
-    return state->slip[tie->pair] == stick;
+    return state->slip[coupling->pair] == stick;
 }
 
 /* Cut the step back to where the rope is just still on its pulley: halved as long as numbers can tell. */
-static bool cut_step(struct run *run, int tie, struct time_dd *t)
+static bool cut_step(struct run *run, int coupling, struct time_dd *t)
 {
     double on = run->step.from, off = t->t;
     for (;;) {
         double middle = on + (off - on) / 2;
         if (!(middle > on && middle < off)) break;
         if (switcher_partial(run->stepper, time_dd_at(middle), run->work.y, run->work.f) != 0) return false;
-        if (is_off(wrap_at(run, tie, run->work.y)))
+        if (is_off(wrap_at(run, coupling, run->work.y)))
             off = middle;
         else
             on = middle;
@@ -50,38 +50,40 @@ static bool cut_step(struct run *run, int tie, struct time_dd *t)
     return switcher_partial(run->stepper, *t, run->work.y, run->work.f) == 0;
 }
 
-static const char *pulley_of(const struct run *run, int tie)
+static const char *pulley_of(const struct run *run, int coupling)
 {
-    const struct tie *rope = &run->model->tree->ties[tie];
+    const struct coupling *rope = &run->model->tree->couplings[coupling];
     return run->model->bodies[rope->end[rope->end_count - 1].body].name;
 }
 
 void run_watch_pulleys(struct run *run, struct time_dd *t)
 {
     const struct tree *tree = run->model->tree;
-    for (int i = 0; tree && i + 1 < tree->tie_count; i++) {
-        const struct tie *tie = &tree->ties[i];
-        if (!rope_goes_on(tree, i) || !is_taut(run->during, tie) || !is_taut(run->during, tie + 1)) continue;
+    for (int i = 0; tree && i + 1 < tree->coupling_count; i++) {
+        const struct coupling *coupling = &tree->couplings[i];
+        if (!rope_goes_on(tree, i) || !is_taut(run->during, coupling) || !is_taut(run->during, coupling + 1))
+            continue;
         if (!is_off(wrap_at(run, i, run->work.y)) || !cut_step(run, i, t)) continue;
         run_fail(
             run, FBD_BROKEN,
             "at t = %.9g the rope `%s` comes off its pulley `%s`: its two sides are one straight line there. "
             "End the run before, by an event, or let the rope run past the pulley",
-            t->t, tie->name, pulley_of(run, i));
+            t->t, coupling->name, pulley_of(run, i));
     }
 }
 
 void run_check_pulleys(struct run *run)
 {
     const struct tree *tree = run->model->tree;
-    for (int i = 0; tree && i + 1 < tree->tie_count && run->end.outcome == FBD_GOING; i++) {
-        const struct tie *tie = &tree->ties[i];
-        if (!rope_goes_on(tree, i) || !is_taut(run->state, tie) || !is_taut(run->state, tie + 1)) continue;
+    for (int i = 0; tree && i + 1 < tree->coupling_count && run->end.outcome == FBD_GOING; i++) {
+        const struct coupling *coupling = &tree->couplings[i];
+        if (!rope_goes_on(tree, i) || !is_taut(run->state, coupling) || !is_taut(run->state, coupling + 1))
+            continue;
         if (!is_off(wrap_at(run, i, run->state->y))) continue;
         run_fail(run, FBD_BROKEN,
                  "at t = %.9g the rope `%s` is taut beside its pulley `%s`, which it came off while it was "
                  "slack. End the run before, by an event, or let the rope run past the pulley",
-                 run_time(run), tie->name, pulley_of(run, i));
+                 run_time(run), coupling->name, pulley_of(run, i));
     }
 }
 
@@ -90,12 +92,12 @@ bool close_taut_ropes(struct run *run)
     bool any = false;
     const struct tree *tree = run->model->tree;
     const struct instant at = state_instant(run->state);
-    for (int i = 0; i < tree->tie_count; i++) {
-        const struct tie *tie = &tree->ties[i];
-        if (tie->kind != constraint_rope || run->state->slip[tie->pair] == stick) continue;
-        struct one_sided rope = one_sided_at(run->model, &at, tie->pair);
+    for (int i = 0; i < tree->coupling_count; i++) {
+        const struct coupling *coupling = &tree->couplings[i];
+        if (coupling->kind != constraint_rope || run->state->slip[coupling->pair] == stick) continue;
+        struct one_sided rope = one_sided_at(run->model, &at, coupling->pair);
         if (!(rope.excess >= -rope.rounding)) continue;
-        run->state->slip[tie->pair] = stick;
+        run->state->slip[coupling->pair] = stick;
         any = true;
     }
     return any;

@@ -114,7 +114,7 @@ static bool make_run(struct run *run, const struct state_start *begin)
     run->decided.slips = run->decided.branches + plan->branches;
     run->decided.pulls = run->decided.slips + plan->mode_count;
     const struct tree *tree = run->model->tree;
-    bool meets = tree && tree->meeting_count > 0, couples = tree && tree->tie_count > 0;
+    bool meets = tree && tree->meeting_count > 0, couples = tree && tree->coupling_count > 0;
     run->lazy = !meets && !asks_forces(run);
     bool quiet =
         run->lazy && plan->mode_count == 0 && run->watchers.timed.count + run->watchers.moving.count == 0;

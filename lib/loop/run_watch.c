@@ -25,7 +25,7 @@ static int sample_timed(void *context, double t, double *values, double *rate)
 static bool leads(const struct run *run, size_t pair)
 {
     const struct mode *mode = &run->model->plan.modes[pair];
-    return mode->surface_speed.expr && mode->tie < 0 && run->during->slip[pair] == stick;
+    return mode->surface_speed.expr && mode->coupling < 0 && run->during->slip[pair] == stick;
 }
 
 static bool any_leads(const struct run *run)
@@ -165,7 +165,7 @@ static void set_noise(struct run *run)
         size_t i = (size_t)run->trajectory.component[k];
         if (i < own) run->trajectory.noise[k] = fmax(error, DBL_EPSILON) * run->roundoff.nothing[i];
     }
-    if (!run->model->tree || run->model->tree->tie_count == 0) return;
+    if (!run->model->tree || run->model->tree->coupling_count == 0) return;
     double speed, reach = measure(run, &speed);
     for (size_t k = 0; k < run->trajectory.count && reach > 0; k++) {
         size_t i = (size_t)run->trajectory.component[k];

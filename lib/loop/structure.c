@@ -82,7 +82,7 @@ static bool has_centrifugal_term(const struct model_body *body)
     return body->kind == motion_planar && (body->arm.x != 0 || body->arm.y != 0);
 }
 
-/* Does a body move on another one, or is it tied to one or to the ground? Then there are Coriolis forces, and
+/* Does a body move on another one, or is it coupled to one or to the ground? Then there are Coriolis forces, and
  * a mass matrix that varies. */
 static bool has_joints(const struct fbd_model *model)
 {

@@ -25,26 +25,26 @@ static const struct tree *tree_of(const struct run *run)
 /* The gap's acceleration where only the surfaces that stay closed act: neither those that the impact just now has given a
  * speed away - a box that falls flat bounces on all its corners, and one of a row may leave the next as well - nor its own;
  * by a trial of the modes as they are. */
-static double acceleration_of(struct run *run, int tie, int feature)
+static double acceleration_of(struct run *run, int coupling, int feature)
 {
     const struct contacts_work *work = &run->contacts;
     struct fbd_state *state = work->trial;
     const struct tree *tree = tree_of(run);
     state_copy(state, run->state);
-    tie_set_feature(run->model, state->tree, tie, feature);
-    state->slip[tree->ties[tie].surface] = slip_plus;
+    coupling_set_feature(run->model, state->tree, coupling, feature);
+    state->slip[tree->couplings[coupling].surface] = slip_plus;
     for (int i = 0; i < work->struck; i++) {
         const struct striker *striker = &work->strikers[i];
         bool leaves = striker->contact && contacts_part(run, i);
-        if (leaves) state->slip[tree->ties[striker->tie].surface] = slip_plus;
+        if (leaves) state->slip[tree->couplings[striker->coupling].surface] = slip_plus;
     }
     for (int k = 0; k < work->twin_count; k++) {
-        int own = work->twins[k].tie, point = work->twins[k].point;
-        bool leaves = work->strikers[point].tie == tie || contacts_part(run, point);
-        if (leaves) state->slip[tree->ties[own].surface] = slip_plus;
+        int own = work->twins[k].coupling, point = work->twins[k].point;
+        bool leaves = work->strikers[point].coupling == coupling || contacts_part(run, point);
+        if (leaves) state->slip[tree->couplings[own].surface] = slip_plus;
     }
     state_evaluate(state);
-    return state->tree->rows[tree_of(run)->ties[tie].first_row].g.x2;
+    return state->tree->rows[tree_of(run)->couplings[coupling].first_row].g.x2;
 }
 
 /* Is the restitution of a meeting the same at all speeds? */
@@ -134,7 +134,8 @@ static double leaving_speed(const struct run *run, int meeting, int count)
     const double *v = run->contacts.v;
     double most = 0;
     for (int i = 0; i < count; i++, v += 2)
-        if (tree_of(run)->ties[run->contacts.strikers[i].tie].meeting == meeting) most = fmax(most, *v);
+        if (tree_of(run)->couplings[run->contacts.strikers[i].coupling].meeting == meeting)
+            most = fmax(most, *v);
     return most;
 }
 
@@ -219,9 +220,10 @@ static bool any_hops(struct run *run, int count)
         const struct striker *striker = &work->strikers[i];
         if (!striker->contact || !contacts_part(run, i)) continue;
         double v = work->v[(ptrdiff_t)2 * i],
-               a = -acceleration_of(run, striker->tie, run->state->tree->ties[striker->tie].feature),
-               unseen = contacts_low *
-                        meeting_near(run->model, run->state->tree, tree_of(run)->ties[striker->tie].meeting);
+               a = -acceleration_of(run, striker->coupling,
+                                    run->state->tree->couplings[striker->coupling].feature),
+               unseen = contacts_low * meeting_near(run->model, run->state->tree,
+                                                    tree_of(run)->couplings[striker->coupling].meeting);
         if (a > 0 && v * v <= 2 * a * unseen) return true;
     }
     return false;
@@ -232,8 +234,8 @@ static double end_of_series(struct run *run, int i, int count)
 {
     const struct contacts_work *work = &run->contacts;
     const struct striker *striker = &work->strikers[i];
-    int index = tree_of(run)->ties[striker->tie].meeting,
-        feature = run->state->tree->ties[striker->tie].feature;
+    int index = tree_of(run)->couplings[striker->coupling].meeting,
+        feature = run->state->tree->couplings[striker->coupling].feature;
     struct bounces *bounces = &run->contacts.bounces[index];
     double v = work->v[(ptrdiff_t)2 * i], leaving = leaving_speed(run, index, count),
            unseen = contacts_low * meeting_near(run->model, run->state->tree, index);
@@ -244,7 +246,7 @@ static double end_of_series(struct run *run, int i, int count)
     bool stops = bounces->is_closed || leaving <= -leaving_rounding * striker->v_n;
     bool crowd = is_crowd(bounces, stops ? -striker->v_n : leaving, unseen);
     if (bounces->is_closed && !crowd) return end_of_tugs(run, bounces, unseen, count);
-    double a = -acceleration_of(run, striker->tie, feature), left = HUGE_VAL;
+    double a = -acceleration_of(run, striker->coupling, feature), left = HUGE_VAL;
     bool low = a > 0 && leaving * leaving <= 2 * a * unseen;
     bounces->slow = a > 0 ? sqrt(2 * a * unseen) : leaving;
     if (bounces->is_closed) return run->state->t; /* in a crowd */
@@ -273,7 +275,7 @@ bool zeno_end_bounces(struct run *run, int count)
     for (int i = 0; i < count; i++) {
         const struct striker *striker = &run->contacts.strikers[i];
         if (!striker->contact || striker->v_n >= 0) continue;
-        int index = tree_of(run)->ties[striker->tie].meeting;
+        int index = tree_of(run)->couplings[striker->coupling].meeting;
         const struct bounces *bounces = &run->contacts.bounces[index];
         if (bounces->count > 0 && bounces->t[0] == run->state->t)
             continue; /* another corner of the same shapes */
@@ -286,7 +288,7 @@ bool zeno_end_bounces(struct run *run, int count)
     for (int i = 0; i < count; i++) {
         const struct striker *striker = &run->contacts.strikers[i];
         if (striker->contact && striker->v_n < 0)
-            run->contacts.bounces[tree_of(run)->ties[striker->tie].meeting].rests_from = HUGE_VAL;
+            run->contacts.bounces[tree_of(run)->couplings[striker->coupling].meeting].rests_from = HUGE_VAL;
     }
     return false;
 }
@@ -304,7 +306,7 @@ static bool leaves_for_the_last_time(const struct run *run, int i)
     const struct contacts_work *work = &run->contacts;
     if (!work->strikers[i].contact) return work->strikers[i].stays; /* also with those that are not let go */
     if (!(work->v[(ptrdiff_t)2 * i] > 0)) return false;
-    return work->bounces[tree_of(run)->ties[work->strikers[i].tie].meeting].rests_from < HUGE_VAL;
+    return work->bounces[tree_of(run)->couplings[work->strikers[i].coupling].meeting].rests_from < HUGE_VAL;
 }
 
 void zeno_remove_separation(struct run *run, int count)
@@ -340,8 +342,8 @@ static double unseen_of(const struct run *run, const struct striker *striker)
 {
     const double nobody_sees = 1e-9; /* of a rope */
     const struct instant at = state_instant(run->state);
-    if (striker->rope) return nobody_sees * run->state->tree->ties[striker->tie].zero;
-    return one_sided_at(run->model, &at, tree_of(run)->ties[striker->tie].surface).near;
+    if (striker->rope) return nobody_sees * run->state->tree->couplings[striker->coupling].zero;
+    return one_sided_at(run->model, &at, tree_of(run)->couplings[striker->coupling].surface).near;
 }
 
 /* Do ropes get taut ever faster, in turn? Compared over two of them, as intervals alternate. */
@@ -367,7 +369,7 @@ void zeno_end_rope_impacts(struct run *run, int count)
     double before = jointed_kinetic_energy(run->state);
     for (int i = 0; i < count; i++) work->strikers[i].stays = !work->strikers[i].contact;
     zeno_remove_separation(run, count);
-    run->impact_work[tree_of(run)->ties[work->strikers[0].tie].load] +=
+    run->impact_work[tree_of(run)->couplings[work->strikers[0].coupling].load] +=
         jointed_kinetic_energy(run->state) - before;
 }
 
@@ -394,8 +396,8 @@ void log_rests(struct run *run)
     for (int i = 0; i < count; i++) {
         struct bounces *bounces = &run->contacts.bounces[i];
         if (bounces->rests_from > run->state->t) continue;
-        const struct tie *tie = &tree->ties[tree->meetings[i].first_tie];
-        struct run_event *event = log_event(run, FBD_EVENT_REST, tie->end[0].body, tie->load, -1);
+        const struct coupling *coupling = &tree->couplings[tree->meetings[i].first_coupling];
+        struct run_event *event = log_event(run, FBD_EVENT_REST, coupling->end[0].body, coupling->load, -1);
         if (event) event->limit = bounces->count;
         bounces->count = bounces->unseen = 0;
         bounces->feature = -1;

@@ -46,23 +46,23 @@ static void let_part(struct run *run, double slow)
 {
     const struct tree *tree = tree_of(run);
     struct fbd_state *state = run->state;
-    for (int i = 0; i < tree->tie_count; i++) {
-        const struct tie *tie = &tree->ties[i];
-        if (tie->kind != constraint_contact || state->tree->ties[i].feature == no_feature) continue;
-        if (state->tree->rows[tie->first_row].g.x1 <= slow) continue;
-        state->tree->ties[i].feature = no_feature;
-        state->slip[tie->surface] = slip_plus;
+    for (int i = 0; i < tree->coupling_count; i++) {
+        const struct coupling *coupling = &tree->couplings[i];
+        if (coupling->kind != constraint_contact || state->tree->couplings[i].feature == no_feature) continue;
+        if (state->tree->rows[coupling->first_row].g.x1 <= slow) continue;
+        state->tree->couplings[i].feature = no_feature;
+        state->slip[coupling->surface] = slip_plus;
     }
 }
 
 /* A slip that friction ends within what counts as the same place, as the impacts that are left would. */
 static bool stops_at_once(const struct run *run, int index, double slow)
 {
-    const struct tie *tie = &tree_of(run)->ties[index];
+    const struct coupling *coupling = &tree_of(run)->couplings[index];
     const struct instant at = state_instant(run->state);
-    if (run->state->tree->ties[index].feature == no_feature) return false;
-    double mu = formula_value(&run->model->plan.modes[tie->pair].mu_k, &at);
-    double v_t = run->state->tree->rows[tie->first_row + 1].g.x1;
+    if (run->state->tree->couplings[index].feature == no_feature) return false;
+    double mu = formula_value(&run->model->plan.modes[coupling->pair].mu_k, &at);
+    double v_t = run->state->tree->rows[coupling->first_row + 1].g.x1;
     return v_t * v_t <= fmin(mu, 1) * slow * slow;
 }
 
@@ -88,7 +88,7 @@ static bool is_summed_up(const struct run *run, int i, double slow)
     const struct contacts_work *work = &run->contacts;
     const struct striker *striker = &work->strikers[i];
     return striker->contact &&
-           work->bounces[tree_of(run)->ties[striker->tie].meeting].rests_from < HUGE_VAL &&
+           work->bounces[tree_of(run)->couplings[striker->coupling].meeting].rests_from < HUGE_VAL &&
            work->v[(ptrdiff_t)2 * i] <= slow;
 }
 
@@ -100,14 +100,14 @@ static void try_to_close(struct run *run, int count, double slow, struct fbd_sta
     state_copy(state, run->state);
     for (int i = 0; i < count; i++) {
         const struct striker *striker = &work->strikers[i];
-        const struct tie *tie = &tree->ties[striker->tie];
+        const struct coupling *coupling = &tree->couplings[striker->coupling];
         bool parts = contacts_part(run, i) && !striker->stays && !is_summed_up(run, i, slow);
-        if (parts) state->slip[striker->rope ? tie->pair : tie->surface] = slip_plus;
-        if (striker->contact && tie->pair >= 0) state->slip[tie->pair] = slip_plus;
+        if (parts) state->slip[striker->rope ? coupling->pair : coupling->surface] = slip_plus;
+        if (striker->contact && coupling->pair >= 0) state->slip[coupling->pair] = slip_plus;
     }
     for (int k = 0; k < work->twin_count; k++) {
-        const struct tie *own = &tree->ties[work->twins[k].tie],
-                         *point = &tree->ties[work->strikers[work->twins[k].point].tie];
+        const struct coupling *own = &tree->couplings[work->twins[k].coupling],
+                              *point = &tree->couplings[work->strikers[work->twins[k].point].coupling];
         state->slip[own->surface] = state->slip[point->surface];
         if (own->pair >= 0) state->slip[own->pair] = slip_plus;
     }
@@ -128,7 +128,8 @@ bool zeno_rest_is_harmless(struct run *run, int count)
     if (leaving == 0) return true; /* they rest */
     try_to_close(run, count, slow, state);
     for (int i = 0; i < count; i++) {
-        const struct row *row = &state->tree->rows[tree->ties[run->contacts.strikers[i].tie].first_row];
+        const struct row *row =
+            &state->tree->rows[tree->couplings[run->contacts.strikers[i].coupling].first_row];
         if (is_summed_up(run, i, slow)) left = fmax(left, fabs(row->g.x1));
     }
     if (left > resolved * leaving) return false;
@@ -156,11 +157,11 @@ static bool is_deep(const struct run *run)
 {
     const struct tree *tree = tree_of(run);
     bool deep = false;
-    for (int i = 0; i < tree->tie_count; i++) {
-        const struct tie *tie = &tree->ties[i];
-        if (tie->kind != constraint_contact || run->state->slip[tie->surface] != stick) continue;
-        deep |= run->state->tree->rows[tie->first_row].g.x <
-                -meeting_near(run->model, run->state->tree, tie->meeting);
+    for (int i = 0; i < tree->coupling_count; i++) {
+        const struct coupling *coupling = &tree->couplings[i];
+        if (coupling->kind != constraint_contact || run->state->slip[coupling->surface] != stick) continue;
+        deep |= run->state->tree->rows[coupling->first_row].g.x <
+                -meeting_near(run->model, run->state->tree, coupling->meeting);
     }
     return deep;
 }
@@ -172,18 +173,18 @@ static void move_along(struct run *run)
     const struct tree *tree = tree_of(run);
     struct fbd_state *state = run->state;
     bool *moves = run->contacts.moves;
-    for (int i = 0; i < tree->tie_count; i++) {
-        const struct tie *tie = &tree->ties[i];
-        moves[i] = tie->kind == constraint_contact && tie->pair >= 0 && state->slip[tie->surface] == stick &&
-                   state->slip[tie->pair] == stick;
-        if (moves[i]) state->slip[tie->pair] = slip_plus;
+    for (int i = 0; i < tree->coupling_count; i++) {
+        const struct coupling *coupling = &tree->couplings[i];
+        moves[i] = coupling->kind == constraint_contact && coupling->pair >= 0 &&
+                   state->slip[coupling->surface] == stick && state->slip[coupling->pair] == stick;
+        if (moves[i]) state->slip[coupling->pair] = slip_plus;
     }
     state_project_position(state);
     impulse_look(state);
-    for (int i = 0; i < tree->tie_count; i++) {
+    for (int i = 0; i < tree->coupling_count; i++) {
         if (!moves[i]) continue;
-        tie_rezero(run->model, state->tree, i);
-        state->slip[tree->ties[i].pair] = stick;
+        coupling_rezero(run->model, state->tree, i);
+        state->slip[tree->couplings[i].pair] = stick;
     }
 }
 
@@ -215,10 +216,10 @@ static void open_others(struct run *run, const bool *was_touching)
 {
     const struct tree *tree = tree_of(run);
     struct fbd_state *state = run->state;
-    for (int i = 0; i < tree->tie_count; i++) {
-        if (was_touching[i] || state->tree->ties[i].feature == no_feature) continue;
-        state->tree->ties[i].feature = no_feature;
-        state->slip[tree->ties[i].surface] = slip_plus;
+    for (int i = 0; i < tree->coupling_count; i++) {
+        if (was_touching[i] || state->tree->couplings[i].feature == no_feature) continue;
+        state->tree->couplings[i].feature = no_feature;
+        state->slip[tree->couplings[i].surface] = slip_plus;
     }
 }
 
@@ -234,14 +235,14 @@ static void close_within(struct run *run, double share)
     impulse_look(run->state);
     double slow = slow_speed(run);
     let_part(run, slow);
-    for (int i = 0; i < tree->tie_count; i++) {
-        const struct tie *tie = &tree->ties[i];
-        if (tie->kind != constraint_contact || tie->pair < 0) continue;
+    for (int i = 0; i < tree->coupling_count; i++) {
+        const struct coupling *coupling = &tree->couplings[i];
+        if (coupling->kind != constraint_contact || coupling->pair < 0) continue;
         /* What comes down now holds nothing along its surface; what has stuck sticks. */
-        if (!work->touching[i]) run->state->slip[tie->pair] = slip_plus;
-        if (run->state->slip[tie->pair] == stick || !stops_at_once(run, i, slow)) continue;
-        tie_rezero(run->model, run->state->tree, i);
-        run->state->slip[tie->pair] = stick;
+        if (!work->touching[i]) run->state->slip[coupling->pair] = slip_plus;
+        if (run->state->slip[coupling->pair] == stick || !stops_at_once(run, i, slow)) continue;
+        coupling_rezero(run->model, run->state->tree, i);
+        run->state->slip[coupling->pair] = stick;
     }
 }
 
@@ -250,7 +251,7 @@ static void book_place(struct run *run, int meeting, double before)
 {
     const struct tree *tree = tree_of(run);
     double change = energy_of_place(run) - before;
-    run->impact_work[tree->ties[tree->meetings[meeting].first_tie].load] += change;
+    run->impact_work[tree->couplings[tree->meetings[meeting].first_coupling].load] += change;
     run->energy.lowered += change;
 }
 
@@ -263,8 +264,8 @@ int zeno_rest(struct run *run, int strikers)
     bool *was_touching = work->touching;
     double before = jointed_kinetic_energy(run->state), above = energy_of_place(run);
     zeno_remove_separation(run, strikers);
-    for (int i = 0; i < tree->tie_count; i++)
-        was_touching[i] = run->state->tree->ties[i].feature != no_feature;
+    for (int i = 0; i < tree->coupling_count; i++)
+        was_touching[i] = run->state->tree->couplings[i].feature != no_feature;
     close_within(run, wide);
     if (!move_a_little(run, true)) {
         open_others(run, was_touching); /* what is farther comes down by itself, later */
@@ -273,7 +274,7 @@ int zeno_rest(struct run *run, int strikers)
     }
     impulse_look(run->state);
     int count = contacts_find_strikers(run), last = last_at_rest(run);
-    run->impact_work[tree->ties[tree->meetings[last].first_tie].load] +=
+    run->impact_work[tree->couplings[tree->meetings[last].first_coupling].load] +=
         jointed_kinetic_energy(run->state) - before;
     book_place(run, last, above);
     for (int i = 0; i < count; i++) {
@@ -306,8 +307,8 @@ bool zeno_lift_others(struct run *run)
     enum { most_rounds = 8 };
     const struct tree *tree = tree_of(run);
     bool *was_touching = run->contacts.touching, any = false;
-    for (int i = 0; i < tree->tie_count; i++)
-        was_touching[i] = run->state->tree->ties[i].feature != no_feature;
+    for (int i = 0; i < tree->coupling_count; i++)
+        was_touching[i] = run->state->tree->couplings[i].feature != no_feature;
     for (int round = 0; round < most_rounds; round++) {
         int deep = find_deep(run);
         double below = deep >= 0 ? energy_of_place(run) : 0;

@@ -3,7 +3,7 @@
  * One name each: the arrows of a diagram are columns and keys of the output.
  *
  * What a file lists has names that differ. What follows from it has not: a rope that meets a body twice, or a
- * pulley between two points of the ground; a tie called as a body that moves on its other body,
+ * pulley between two points of the ground; a coupling called as a body that moves on its other body,
  * `b1.friction`. All but the first get a number.
  */
 #include <stdlib.h>
@@ -70,10 +70,10 @@ static void collect(struct fbd_model *model, struct arrow_names *names)
         add(names, load->body, load->source->name, NULL);
         if (load->partner >= 0) add(names, load->partner, load->source->name, NULL);
     }
-    for (int i = 0; i < tree->tie_count; i++)
-        for (int k = 0; k < tree->ties[i].end_count; k++)
+    for (int i = 0; i < tree->coupling_count; i++)
+        for (int k = 0; k < tree->couplings[i].end_count; k++)
             for (int row = 0; row < 2; row++)
-                add_made(names, tree->ties[i].end[k].body, &tree->ties[i].end[k].name[row]);
+                add_made(names, tree->couplings[i].end[k].body, &tree->couplings[i].end[k].name[row]);
     for (int i = 0; i < tree->body_count; i++) {
         struct model_body *body = &model->bodies[tree->bodies[i]];
         add_made(names, tree->bodies[i], &body->reaction);

@@ -33,8 +33,8 @@ unsigned formula_depends(const struct model_body *body, const struct formula *fo
 /* Put one load of a body into the plan's lists. */
 void plan_load(struct builder *builder, struct model_body *body, int index);
 
-/* Add the modes of couplings and of prescribed motion (plan_ties.c). */
-void plan_ties(struct builder *builder);
+/* Add the modes of couplings and of prescribed motion (plan_couplings.c). */
+void plan_couplings(struct builder *builder);
 
 /* Put all loads of a body into the lists and note which part of them is its own; when all bodies are in and
  * the terms by slot are packed, finish. */
@@ -51,7 +51,7 @@ bool slips_find(struct fbd_model *model);
 /* Refuse gears on fixed axes whose pitch circles do not touch, wheels that do not touch their racks, and belts whose
  * tension nothing tells or two things do; put the tension of those between axes that keep their distance
  * (gear_check.c). */
-void ties_check(struct builder *builder);
+void couplings_check(struct builder *builder);
 
 /* Refuse contacts of points with points that do not move on one line (contact_points.c). */
 void contacts_check(struct builder *builder);

@@ -169,8 +169,8 @@ static void set_loads(struct builder *builder)
 static void set_couplings(struct builder *builder)
 {
     struct fbd_model *model = builder->model;
-    for (size_t c = 0; c < model->scene->coupling_count; c++) {
-        const struct coupling *coupling = &model->scene->couplings[c];
+    for (size_t c = 0; c < model->scene->force_coupling_count; c++) {
+        const struct force_coupling *coupling = &model->scene->force_couplings[c];
         struct model_load *load = &model->loads[model->listed_count + c];
         int first = coupling->body[0] == ground_body, other = coupling->body[1 - first];
         set_load(builder, load, &coupling->load, coupling->body[first]);
@@ -184,7 +184,7 @@ static void set_couplings(struct builder *builder)
 }
 
 /* The force along the line of a rolling body, and a rope, by name: for events and their work. */
-static bool set_named_ties(struct builder *builder)
+static bool set_named_couplings(struct builder *builder)
 {
     struct fbd_model *model = builder->model;
     size_t next = model->coupled_count;
@@ -280,7 +280,7 @@ static bool allocate(struct fbd_model *model)
     const struct scene *scene = model->scene;
     model->body_count = scene->body_count;
     for (size_t b = 0; b < scene->body_count; b++) model->listed_count += scene->bodies[b].load_count;
-    model->coupled_count = model->listed_count + scene->coupling_count;
+    model->coupled_count = model->listed_count + scene->force_coupling_count;
     model->load_count = model->coupled_count;
     for (size_t c = 0; c < scene->constraint_count; c++)
         model->load_count += constraint_has_load(&scene->constraints[c]);
@@ -350,7 +350,7 @@ static struct fbd_model *compile(struct scene *scene, bool labels, const struct 
         for (size_t b = 0; b < scene->body_count; b++) model->assembles |= scene->bodies[b].assemble;
         set_loads(&builder);
         set_couplings(&builder);
-        done = set_labels(model, labels, like) && set_named_ties(&builder) && set_drives(&builder) &&
+        done = set_labels(model, labels, like) && set_named_couplings(&builder) && set_drives(&builder) &&
                set_carried(&builder) && set_absolutes(model) && set_output_points(model) &&
                tree_number(model) && tracks_set(&builder) && tree_name_reactions(model) &&
                arrows_name(model) && plan_build(&builder) && classify_loads(&builder);

@@ -207,7 +207,7 @@ static bool set_shape(struct fbd_model *model, const struct constraint *source, 
 
 /* ---- meetings */
 
-static int ties_of(const struct meeting *meeting)
+static int couplings_of(const struct meeting *meeting)
 {
     const struct contact_shape *a = &meeting->shape[0], *b = &meeting->shape[1];
     if (a->kind != contact_corners || b->kind == contact_disc) return 1;
@@ -278,7 +278,7 @@ static bool set_meeting(struct fbd_model *model, int index, int i, struct meetin
     const struct constraint *source = &model->scene->constraints[index];
     int count = shapes_of(model, source, 1);
     *meeting = (struct meeting){.constraint = index,
-                                .first_tie = model->tree->tie_count,
+                                .first_coupling = model->tree->coupling_count,
                                 .stop = source->contact.stop,
                                 .limit = source->contact.limit};
     if (!set_shape(model, source, 0, i / count, &meeting->shape[0]) ||
@@ -288,7 +288,7 @@ static bool set_meeting(struct fbd_model *model, int index, int i, struct meetin
     meeting->thin = is_thin(meeting);
     meeting->size = meeting->shape[0].radius + meeting->shape[1].radius;
     meeting->reach = reach_of(model, meeting);
-    meeting->tie_count = ties_of(meeting);
+    meeting->coupling_count = couplings_of(meeting);
     meeting->probes = probes_of(meeting);
     return true;
 }
@@ -305,7 +305,8 @@ bool meetings_add(struct fbd_model *model, int index)
         /* Points of bodies that also have shapes have no contact with each other. */
         if (!points && meeting_is_of_points(meeting)) continue;
         tree->meeting_count++;
-        for (int k = 0; k < meeting->tie_count; k++) tie_of_contact(model, index, tree->meeting_count - 1);
+        for (int k = 0; k < meeting->coupling_count; k++)
+            coupling_of_contact(model, index, tree->meeting_count - 1);
     }
     return true;
 }

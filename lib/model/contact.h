@@ -5,8 +5,8 @@
  * A contact of the file is one meeting or several, each of two shapes: a line of the ground, a disc, or
  * corners. Corners are those of a convex polygon, counter-clockwise, the two ends of a bar, or one point. Two
  * shapes touch in features: a corner or circle on a side (or line), or two circles, of which one may be a
- * corner. A meeting has as many ties as features can last at a time: two where corners are on a line or on
- * each other, else one. Which feature a tie has at present is part of the state (dynamics/contact.h).
+ * corner. A meeting has as many couplings as features can last at a time: two where corners are on a line or on
+ * each other, else one. Which feature a coupling has at present is part of the state (dynamics/contact.h).
  */
 #ifndef FBD_MODEL_CONTACT_H
 #define FBD_MODEL_CONTACT_H
@@ -43,7 +43,7 @@ struct contact_shape {
 enum contact_inner { inner_begin = 1, inner_end = 2, inner_flat = 4 };
 
 struct meeting {
-    int constraint, first_tie, tie_count;
+    int constraint, first_coupling, coupling_count;
     struct contact_shape shape[2];
     double size,
         reach; /* of the shapes; with the places where bodies start: what distances are measured against */
@@ -89,7 +89,7 @@ struct thin_corner thin_corner_at(int feature);
 /* How many sides: none of a point, two of a bar. */
 int shape_sides(const struct contact_shape *shape);
 
-/* Build the meetings of constraint `index` of the scene with their ties. False when memory is out. */
+/* Build the meetings of constraint `index` of the scene with their couplings. False when memory is out. */
 bool meetings_add(struct fbd_model *model, int index);
 
 /* Two points: make the second the line across the one line on which both move. False where there is none. */
@@ -101,7 +101,7 @@ bool meeting_is_of_points(const struct meeting *meeting);
 /* Level the surfaces of all contact pairs (contact_level.c). False when memory is out. */
 bool meetings_level(struct fbd_model *model);
 
-/* At most how many meetings and ties the contact will have. */
+/* At most how many meetings and couplings the contact will have. */
 int meetings_most(const struct fbd_model *model, int index);
 
 #endif

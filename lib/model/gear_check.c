@@ -16,7 +16,7 @@ struct centre {
     struct vec point;
 };
 
-static struct centre centre_of(const struct tree *tree, const struct tie_end *end, double close)
+static struct centre centre_of(const struct tree *tree, const struct coupling_end *end, double close)
 {
     const struct tree_link *link = &tree->links[end->link];
     bool turns = end->link > 0 && link->kind == motion_pivot && vec_norm(end->point) <= close;
@@ -25,10 +25,10 @@ static struct centre centre_of(const struct tree *tree, const struct tie_end *en
 
 /* The distance of two axes that keeps as the bodies move; negative where it does not. Both rest on the same body, or one
  * on an arm about the axis of the other. */
-static double axes_apart(const struct tree *tree, const struct tie *tie, double close)
+static double axes_apart(const struct tree *tree, const struct coupling *coupling, double close)
 {
     struct centre centre[2];
-    for (int k = 0; k < 2; k++) centre[k] = centre_of(tree, &tie->end[k], close);
+    for (int k = 0; k < 2; k++) centre[k] = centre_of(tree, &coupling->end[k], close);
     if (centre[0].link == centre[1].link) return vec_norm(vec_sub(centre[0].point, centre[1].point));
     for (int k = 0; k < 2; k++) {
         const struct tree_link *arm = &tree->links[centre[k].link];
@@ -59,81 +59,83 @@ static bool climb(const struct tree *tree, struct seen *seen)
 
 /* The distance of a wheel's axis from the line of a rack that keeps as the bodies move; negative where it
  * does not: slides along the line are all that lies between them. */
-static double line_apart(const struct tree *tree, const struct tie *tie, double close)
+static double line_apart(const struct tree *tree, const struct coupling *coupling, double close)
 {
-    const struct tree_link *wheel = &tree->links[tie->end[0].link];
-    struct seen line = {tie->end[1].link, tie->end[1].point, tie->e},
+    const struct tree_link *wheel = &tree->links[coupling->end[0].link];
+    struct seen line = {coupling->end[1].link, coupling->end[1].point, coupling->e},
                 axis = {wheel->parent, wheel->at, {0, 0}};
-    if (wheel->kind != motion_pivot || vec_norm(tie->end[0].point) > close) return -1;
+    if (wheel->kind != motion_pivot || vec_norm(coupling->end[0].point) > close) return -1;
     while (line.link != axis.link) /* the link below has the smaller number */
         if (!climb(tree, line.link > axis.link ? &line : &axis)) return -1;
     if (fabs(vec_cross(line.e, axis.e)) > digits) return -1;
     return fabs(vec_cross(line.e, vec_sub(axis.point, line.point)));
 }
 
-static void check_rack(struct builder *builder, const struct tie *tie)
+static void check_rack(struct builder *builder, const struct coupling *coupling)
 {
     const struct fbd_model *model = builder->model;
-    double R = tie->end[0].radius, apart = line_apart(model->tree, tie, digits * R);
+    double R = coupling->end[0].radius, apart = line_apart(model->tree, coupling, digits * R);
     if (apart < 0 || fabs(apart - R) <= digits * R) return;
-    diag_add(builder->errors, FBD_ERROR, "gear-distance", model->scene->constraints[tie->constraint].at,
+    diag_add(builder->errors, FBD_ERROR, "gear-distance", model->scene->constraints[coupling->constraint].at,
              "move the axis or the slide, change `radius`, or name a point of the rack's line, `body.P`",
              "the axis of `%s` is %.6g from the line of `%s`, where its radius is %.6g",
-             model->bodies[tie->end[0].body].name, apart, model->bodies[tie->end[1].body].name, R);
+             model->bodies[coupling->end[0].body].name, apart, model->bodies[coupling->end[1].body].name, R);
 }
 
-static void check_gear(struct builder *builder, const struct tie *tie)
+static void check_gear(struct builder *builder, const struct coupling *coupling)
 {
     const struct fbd_model *model = builder->model;
-    double r1 = tie->end[0].radius, r2 = tie->end[1].radius, size = r1 + fabs(r2);
-    double apart = axes_apart(model->tree, tie, digits * size), needed = fabs(r1 + r2);
+    double r1 = coupling->end[0].radius, r2 = coupling->end[1].radius, size = r1 + fabs(r2);
+    double apart = axes_apart(model->tree, coupling, digits * size), needed = fabs(r1 + r2);
     if (apart < 0 || fabs(apart - needed) <= digits * size) return;
-    diag_add(builder->errors, FBD_ERROR, "gear-distance", model->scene->constraints[tie->constraint].at,
+    diag_add(builder->errors, FBD_ERROR, "gear-distance", model->scene->constraints[coupling->constraint].at,
              r2 < 0 ? "move an axis, or change `radii`"
                     : "move an axis, or change `radii`; of a wheel inside a ring say `inside: true`",
              "the axes of `%s` and `%s` are %.6g apart, where the radii %.6g and %.6g %s %.6g",
-             model->bodies[tie->end[0].body].name, model->bodies[tie->end[1].body].name, apart, r1, fabs(r2),
-             r2 < 0 ? "differ by" : "add up to", needed);
+             model->bodies[coupling->end[0].body].name, model->bodies[coupling->end[1].body].name, apart, r1,
+             fabs(r2), r2 < 0 ? "differ by" : "add up to", needed);
 }
 
 /* Both strands pull with 2 T cos(gamma) along the line of centres, whatever the belt drives: sin(gamma) = (R_1 -+ R_2) /
  * d. A spring of the length d has that force for ever. */
-static void preload(struct tree *tree, const struct tie *tie, double apart)
+static void preload(struct tree *tree, const struct coupling *coupling, double apart)
 {
-    double rho = tie->end[0].radius + (tie->source->crossed ? 1 : -1) * tie->end[1].radius;
+    double rho = coupling->end[0].radius + (coupling->source->crossed ? 1 : -1) * coupling->end[1].radius;
     double along = sqrt(fmax(0, apart * apart - rho * rho)) / apart;
     tree->springs[tree->spring_count++] =
-        (struct tree_spring){.link = {tie->end[0].link, tie->end[1].link},
-                             .point = {tie->end[0].point, tie->end[1].point},
-                             .stiffness = 2 * tie->source->tension * along / apart};
+        (struct tree_spring){.link = {coupling->end[0].link, coupling->end[1].link},
+                             .point = {coupling->end[0].point, coupling->end[1].point},
+                             .stiffness = 2 * coupling->source->tension * along / apart};
 }
 
-static void check_belt(struct builder *builder, const struct tie *tie)
+static void check_belt(struct builder *builder, const struct coupling *coupling)
 {
     const struct fbd_model *model = builder->model;
-    double size = tie->end[0].radius + tie->end[1].radius,
-           apart = axes_apart(model->tree, tie, digits * size);
-    struct pos at = model->scene->constraints[tie->constraint].at;
-    if (apart >= 0 && tie->source->tension == 0)
+    double size = coupling->end[0].radius + coupling->end[1].radius,
+           apart = axes_apart(model->tree, coupling, digits * size);
+    struct pos at = model->scene->constraints[coupling->constraint].at;
+    if (apart >= 0 && coupling->source->tension == 0)
         diag_add(builder->errors, FBD_ERROR, "missing-key", at,
                  "give it a `tension`, that of both strands at rest",
                  "the axes of `%s` and `%s` keep their distance, so that no motion tells the tension of the "
                  "belt `%s`",
-                 model->bodies[tie->end[0].body].name, model->bodies[tie->end[1].body].name, tie->name);
-    if (apart < 0 && tie->source->tension > 0)
+                 model->bodies[coupling->end[0].body].name, model->bodies[coupling->end[1].body].name,
+                 coupling->name);
+    if (apart < 0 && coupling->source->tension > 0)
         diag_add(builder->errors, FBD_ERROR, "conflicting-keys", at,
                  "leave `tension` out: it follows from what pulls the axes apart",
                  "the axes of `%s` and `%s` move against each other, and the belt `%s` keeps its length",
-                 model->bodies[tie->end[0].body].name, model->bodies[tie->end[1].body].name, tie->name);
-    if (apart > 0 && tie->source->tension > 0) preload(model->tree, tie, apart);
+                 model->bodies[coupling->end[0].body].name, model->bodies[coupling->end[1].body].name,
+                 coupling->name);
+    if (apart > 0 && coupling->source->tension > 0) preload(model->tree, coupling, apart);
 }
 
-static void (*const checks[constraint_kinds])(struct builder *builder, const struct tie *tie) = {
+static void (*const checks[constraint_kinds])(struct builder *builder, const struct coupling *coupling) = {
     [constraint_gear] = check_gear, [constraint_rack] = check_rack, [constraint_belt] = check_belt};
 
-void ties_check(struct builder *builder)
+void couplings_check(struct builder *builder)
 {
     const struct tree *tree = builder->model->tree;
-    for (int i = 0; tree && i < tree->tie_count; i++)
-        if (checks[tree->ties[i].kind]) checks[tree->ties[i].kind](builder, &tree->ties[i]);
+    for (int i = 0; tree && i < tree->coupling_count; i++)
+        if (checks[tree->couplings[i].kind]) checks[tree->couplings[i].kind](builder, &tree->couplings[i]);
 }

@@ -60,9 +60,9 @@ static void copy_event(const struct copy *copy, const struct user_event *from)
     renumber(copy, &event->right);
 }
 
-static void copy_coupling(const struct copy *copy, const struct coupling *from)
+static void copy_coupling(const struct copy *copy, const struct force_coupling *from)
 {
-    struct coupling *coupling = &copy->to->couplings[copy->to->coupling_count++];
+    struct force_coupling *coupling = &copy->to->force_couplings[copy->to->force_coupling_count++];
     *coupling = *from;
     for (int end = 0; end < 2; end++)
         if (from->body[end] != ground_body) coupling->body[end] = copy->selection->local[from->body[end]];
@@ -96,13 +96,13 @@ static void prepare(const struct copy *copy)
     size_t coordinates = 0;
     to->arena = (struct arena){0};
     to->body_count = to->event_count = to->coordinate_count = 0;
-    to->coupling_count = to->constraint_count = to->absolute_count = 0;
+    to->force_coupling_count = to->constraint_count = to->absolute_count = 0;
     for (size_t i = 0; i < selection->body_count; i++)
         coordinates += (size_t)copy->from->bodies[selection->bodies[i]].count;
     to->bodies = ARENA_ARRAY(&to->arena, selection->body_count, struct body);
     to->coordinates = ARENA_ARRAY(&to->arena, coordinates, struct coordinate);
     to->events = ARENA_ARRAY(&to->arena, selection->event_count, struct user_event);
-    to->couplings = ARENA_ARRAY(&to->arena, selection->coupling_count, struct coupling);
+    to->force_couplings = ARENA_ARRAY(&to->arena, selection->force_coupling_count, struct force_coupling);
     to->constraints = ARENA_ARRAY(&to->arena, selection->constraint_count, struct constraint);
     to->absolutes = ARENA_ARRAY(&to->arena, selection->absolute_count, struct absolute);
 }
@@ -121,8 +121,8 @@ static struct scene *copy_scene(const struct scene *from, const struct selection
         copy_body(&copy, &from->bodies[selection->bodies[i]]);
     for (size_t i = 0; !to->arena.failed && i < selection->event_count; i++)
         copy_event(&copy, &from->events[selection->events[i]]);
-    for (size_t i = 0; !to->arena.failed && i < selection->coupling_count; i++)
-        copy_coupling(&copy, &from->couplings[selection->couplings[i]]);
+    for (size_t i = 0; !to->arena.failed && i < selection->force_coupling_count; i++)
+        copy_coupling(&copy, &from->force_couplings[selection->force_couplings[i]]);
     for (size_t i = 0; !to->arena.failed && i < selection->constraint_count; i++)
         copy_constraint(&copy, &from->constraints[selection->constraints[i]]);
     for (size_t i = 0; !to->arena.failed && i < selection->absolute_count; i++)

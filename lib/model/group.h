@@ -13,8 +13,8 @@
 /* What of a scene a group consists of, as indices in their order; and for all of the scene, how things are
  * renumbered in the group that they belong to: slot s of expressions is moved[s], body b is local[b]. */
 struct selection {
-    const int *bodies, *events, *couplings, *constraints, *absolutes;
-    size_t body_count, event_count, coupling_count, constraint_count, absolute_count;
+    const int *bodies, *events, *force_couplings, *constraints, *absolutes;
+    size_t body_count, event_count, force_coupling_count, constraint_count, absolute_count;
     const int *moved, *local;
 };
 

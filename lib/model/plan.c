@@ -278,7 +278,7 @@ static void add_friction(struct builder *builder, struct model_body *body, int i
                                    : bearing ? body->I_O
                                              : body->inertia.mass,
                         .hold_slot = jointed ? plan->slots++ : body->first,
-                        .tie = -1};
+                        .coupling = -1};
     for (int i = 0; i < body->load_count; i++) {
         const struct load *other = builder->model->loads[body->first_load + i].source;
         if (other->kind == load_normal && other->two_sided) mode.two_sided = true;
@@ -363,8 +363,8 @@ static bool allocate(struct builder *builder)
     struct arena *arena = &model->arena;
     size_t loads = model->load_count, most_slots = model->scene->coordinate_count +
                                                    2 * (model->body_count + model->scene->constraint_count);
-    size_t ties = model->tree ? (size_t)model->tree->tie_count : 0;
-    most_slots += 2 * ties;
+    size_t couplings = model->tree ? (size_t)model->tree->coupling_count : 0;
+    most_slots += 2 * couplings;
     plan->n = (int)model->scene->coordinate_count;
     plan->slots = plan->n;
     plan->own = (int)model->scene->own_count;
@@ -378,9 +378,9 @@ static bool allocate(struct builder *builder)
     plan->links = ARENA_ARRAY(arena, loads, struct link_term);
     plan->drags = ARENA_ARRAY(arena, loads, struct drag_term);
     plan->forces = ARENA_ARRAY(arena, 2 * loads, struct force_term);
-    plan->modes = ARENA_ARRAY(arena, loads + 8 * model->scene->constraint_count + 2 * ties, struct mode);
-    plan->contacts =
-        ARENA_ARRAY(arena, model->body_count + model->scene->constraint_count + 2 * ties, struct contact);
+    plan->modes = ARENA_ARRAY(arena, loads + 8 * model->scene->constraint_count + 2 * couplings, struct mode);
+    plan->contacts = ARENA_ARRAY(arena, model->body_count + model->scene->constraint_count + 2 * couplings,
+                                 struct contact);
     plan->offsets = ARENA_ARRAY(arena, model->body_count, struct offset_body);
     plan->bodies = ARENA_ARRAY(arena, model->body_count, struct body_terms);
     plan->slot_constant = ARENA_ARRAY(arena, most_slots, bool);
@@ -440,10 +440,11 @@ static void mark_body_slots(struct fbd_model *model, int b)
 
 static void mark_strands(struct fbd_model *model)
 {
-    for (int i = 0; model->tree && i < model->tree->tie_count; i++) {
-        const struct tie *tie = &model->tree->ties[i];
-        if (tie_presses(tie)) model->plan.slot_constant[tie->normal_slot] = false;
-        for (int k = 0; k < tie->strands; k++) model->plan.slot_constant[tie->slack_slot[k]] = false;
+    for (int i = 0; model->tree && i < model->tree->coupling_count; i++) {
+        const struct coupling *coupling = &model->tree->couplings[i];
+        if (coupling_presses(coupling)) model->plan.slot_constant[coupling->normal_slot] = false;
+        for (int k = 0; k < coupling->strands; k++)
+            model->plan.slot_constant[coupling->slack_slot[k]] = false;
     }
 }
 
@@ -456,12 +457,12 @@ bool plan_build(struct builder *builder)
     plan_inertias(model);
     for (size_t b = 0; b < model->body_count; b++) body_terms_add(builder, (int)b);
     for (size_t i = model->listed_count; i < model->coupled_count; i++) tree_add_load(builder, (int)i);
-    plan_ties(builder);
+    plan_couplings(builder);
     pack(builder);
     for (size_t b = 0; b < model->body_count; b++)
         if (model->bodies[b].place.link > 0) mark_body_slots(model, (int)b);
     mark_strands(model);
-    ties_check(builder);
+    couplings_check(builder);
     contacts_check(builder);
     if (model->tree && !tree_finish(model)) return false;
     body_terms_finish(builder);

@@ -89,8 +89,8 @@ struct force_term {
 enum mode_kind {
     mode_single,  /* dry friction along the coordinate of a body that nothing joins: decided by itself */
     mode_joint,   /* dry friction along a coordinate between links: decided with all that rests there */
-    mode_tangent, /* dry friction along the tangent of a tie: what rolls, touches or is wound */
-    mode_rope,    /* one-sided: taut or slack; see tie.h */
+    mode_tangent, /* dry friction along the tangent of a coupling: what rolls, touches or is wound */
+    mode_rope,    /* one-sided: taut or slack; see coupling.h */
     mode_surface, /* one-sided: what rolls presses on its line or has left it */
     mode_contact, /* one-sided: shapes touch or are apart; see contact.h */
     mode_drive,   /* always sticks, and `position` says where */
@@ -107,7 +107,7 @@ struct mode {
     bool moving;             /* the surface moves */
     double inertia;          /* of what is single: m or I_O */
     int hold_slot;           /* the force needed to hold is inertia times acceleration minus this slot */
-    int tie;                 /* index into tree.ties; -1 for what acts along `coordinate` */
+    int coupling;            /* index into tree.couplings; -1 for what acts along `coordinate` */
     struct formula position; /* of a drive */
 };
 

@@ -34,8 +34,8 @@ static bool ends_at_rest(const struct formula *law, double *y, size_t component)
 static int pair_of(const struct fbd_model *model, const struct absolute *slip)
 {
     if (slip->roll == 0) return model->bodies[slip->body].friction;
-    for (int i = 0; i < model->tree->tie_count; i++)
-        if (model->tree->ties[i].constraint == slip->roll - 1) return model->tree->ties[i].pair;
+    for (int i = 0; i < model->tree->coupling_count; i++)
+        if (model->tree->couplings[i].constraint == slip->roll - 1) return model->tree->couplings[i].pair;
     return -1;
 }
 

@@ -41,8 +41,9 @@ static bool resists_turning(const struct fbd_model *model, int index)
     const struct tree_link *link = &tree->links[index];
     bool resists = link->I_O > 0 || vec_norm(link->moment) > 0;
     for (int i = 1; i < tree->count; i++) resists |= tree->links[i].parent == index;
-    for (int i = 0; i < tree->tie_count; i++)
-        for (int k = 0; k < tree->ties[i].end_count; k++) resists |= tree->ties[i].end[k].link == index;
+    for (int i = 0; i < tree->coupling_count; i++)
+        for (int k = 0; k < tree->couplings[i].end_count; k++)
+            resists |= tree->couplings[i].end[k].link == index;
     return resists;
 }
 

@@ -25,9 +25,10 @@ static void mark_jointed(const struct fbd_model *model, bool *jointed)
         jointed[b] = true;
         jointed[parent] = true;
     }
-    for (size_t c = 0; c < scene->coupling_count; c++)
+    for (size_t c = 0; c < scene->force_coupling_count; c++)
         for (int end = 0; end < 2; end++)
-            if (scene->couplings[c].body[end] != ground_body) jointed[scene->couplings[c].body[end]] = true;
+            if (scene->force_couplings[c].body[end] != ground_body)
+                jointed[scene->force_couplings[c].body[end]] = true;
     for (size_t c = 0; c < scene->constraint_count; c++)
         for (int end = 0; end < scene->constraints[c].end_count; end++)
             if (scene->constraints[c].body[end] != ground_body)
@@ -179,7 +180,7 @@ bool tree_number(struct fbd_model *model)
         if (parent->end < link->end) parent->end = link->end;
     }
     model->tree = tree;
-    return ties_build(model);
+    return couplings_build(model);
 }
 
 /* ---- loads */
@@ -479,7 +480,7 @@ bool tree_finish(struct fbd_model *model)
         tree->links[i].normal_slot = model->bodies[tree->links[i].body].normal_slot;
     for (int p = 0; p < (int)plan->mode_count; p++) {
         const struct mode *mode = &plan->modes[p];
-        if (mode->kind == mode_single || mode->tie >= 0) continue;
+        if (mode->kind == mode_single || mode->coupling >= 0) continue;
         int link = model->bodies[mode->body].place.link;
         tree->links[link].pair = p;
         if (mode->normal_slot >= 0) tree->pairs[tree->pair_count++] = link;
@@ -496,5 +497,5 @@ bool tree_finish(struct fbd_model *model)
         if (tree->links[i].kind != motion_pivot) tree->pivots_only = false;
         if (tree->links[i].track) tree->curved = true;
     }
-    return ties_order(model);
+    return couplings_order(model);
 }

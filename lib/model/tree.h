@@ -14,8 +14,8 @@
 #define FBD_MODEL_TREE_H
 
 #include "model/contact.h"
+#include "model/coupling.h"
 #include "model/plan.h"
-#include "model/tie.h"
 #include "scene/scene.h"
 
 /* Where the frame of a jointed body lies in its link: a point p of the body is shift + R(turn) p. */
@@ -111,25 +111,25 @@ struct tree {
     struct tree_spring *springs;
     struct tree_drag *drags;
     struct tree_bulk *bulks;
-    int acting_count;         /* bodies whose own terms count: not jointed, or with forces in the joint */
-    int *acting;              /* their numbers */
-    bool loaded;              /* something of the lists above acts on links */
-    bool curved;              /* there are tracks */
-    bool pivots_only;         /* every joint is a pivot, and none has dry friction */
-    double mass_ratio;        /* of the heaviest link and the lightest */
-    int pair_count;           /* links whose dry friction goes with a normal force */
-    int *pairs;               /* their numbers */
-    int watched_count;        /* links whose joint has a normal force or dry friction */
-    int *watched;             /* their numbers */
-    int tie_count, row_count; /* see tie.h */
-    struct tie *ties;
+    int acting_count;  /* bodies whose own terms count: not jointed, or with forces in the joint */
+    int *acting;       /* their numbers */
+    bool loaded;       /* something of the lists above acts on links */
+    bool curved;       /* there are tracks */
+    bool pivots_only;  /* every joint is a pivot, and none has dry friction */
+    double mass_ratio; /* of the heaviest link and the lightest */
+    int pair_count;    /* links whose dry friction goes with a normal force */
+    int *pairs;        /* their numbers */
+    int watched_count; /* links whose joint has a normal force or dry friction */
+    int *watched;      /* their numbers */
+    int coupling_count, row_count; /* see coupling.h */
+    struct coupling *couplings;
     int meeting_count; /* see contact.h */
     struct meeting *meetings;
     /* of the unknowns of dynamics/tree_system.h, the rows and then the pairs: */
-    int *tie_of_row;    /* rows alone */
-    int *unknown_at;    /* the unknown that is eliminated at a place */
-    int *first, *reach; /* of a place: the first that it meets, and behind the last */
-    size_t *envelope;   /* where the entries from first[p] to p begin */
+    int *coupling_of_row; /* rows alone */
+    int *unknown_at;      /* the unknown that is eliminated at a place */
+    int *first, *reach;   /* of a place: the first that it meets, and behind the last */
+    size_t *envelope;     /* where the entries from first[p] to p begin */
     size_t envelope_size;
     int body_count; /* jointed bodies */
     int *bodies;    /* each after the one that it moves on */

@@ -31,7 +31,7 @@ size_t fbd_redundant(fbd_state *state, const char **names, size_t room)
     struct instant at = state_instant(state);
     for (int j = 0; j < row_count(model); j++) {
         if (!tree_takes_part(model->tree, &at, j) || !state->tree->rows[j].redundant) continue;
-        if (count < room) names[count] = tie_row_name(model->tree, j);
+        if (count < room) names[count] = coupling_row_name(model->tree, j);
         count++;
     }
     return count;
@@ -86,11 +86,11 @@ static void write_slack(struct text *text, fbd_state *state)
     state_ready(state);
     const struct instant at = state_instant(state);
     int count = 0;
-    for (int i = 0; i < tree->tie_count; i++) {
-        const struct tie *tie = &tree->ties[i];
-        if (tie->kind != constraint_rope || tree_takes_part(tree, &at, tie->first_row)) continue;
+    for (int i = 0; i < tree->coupling_count; i++) {
+        const struct coupling *coupling = &tree->couplings[i];
+        if (coupling->kind != constraint_rope || tree_takes_part(tree, &at, coupling->first_row)) continue;
         if (count++ < most_named)
-            text_printf(text, "%s`%s`", count > 1 ? ", " : "; slack at the start: ", tie->name);
+            text_printf(text, "%s`%s`", count > 1 ? ", " : "; slack at the start: ", coupling->name);
     }
     if (count > most_named) text_printf(text, " and %d more", count - most_named);
 }
@@ -101,15 +101,15 @@ static void write_kind(struct text *text, const struct fbd_model *model, size_t 
     const struct tree *tree = model->tree;
     size_t named = 0, rows = 0;
     int last = -1;
-    for (int i = 0; i < tree->tie_count; i++)
-        if (tree->ties[i].kind == kind) rows += (size_t)tree->ties[i].row_count;
+    for (int i = 0; i < tree->coupling_count; i++)
+        if (tree->couplings[i].kind == kind) rows += (size_t)tree->couplings[i].row_count;
     if (rows == 0 || !constraint_laws[kind].words) return;
     text_printf(text, "  %s (%zu row%s)\n      ", constraint_laws[kind].words, rows, rows == 1 ? "" : "s");
-    for (int i = 0; i < tree->tie_count; i++) {
-        const struct tie *tie = &tree->ties[i];
-        if (tie->kind != kind || tie->constraint == last) continue; /* the pieces of a rope */
-        last = tie->constraint;
-        if (named++ < most_named) text_printf(text, "%s%s", named > 1 ? ", " : "", tie->name);
+    for (int i = 0; i < tree->coupling_count; i++) {
+        const struct coupling *coupling = &tree->couplings[i];
+        if (coupling->kind != kind || coupling->constraint == last) continue; /* the pieces of a rope */
+        last = coupling->constraint;
+        if (named++ < most_named) text_printf(text, "%s%s", named > 1 ? ", " : "", coupling->name);
     }
     if (named > most_named) text_printf(text, " and %zu more", named - most_named);
     text_add(text, "\n");

@@ -15,29 +15,29 @@ static const struct model_load *load_of(const struct fbd_model *model, const str
 }
 
 /* Rows are about what a surface does across it and along it. */
-static bool is_surface(const struct tie *tie)
+static bool is_surface(const struct coupling *coupling)
 {
-    return tie->law->surface || tie->kind == constraint_slot;
+    return coupling->law->surface || coupling->kind == constraint_slot;
 }
 
-/* Has the force of a tie a direction of its own there? A rope that goes round a point of the body has none. */
-static bool tie_has_size(const struct tie *tie, int end)
+/* Has the force of a coupling a direction of its own there? A rope that goes round a point of the body has none. */
+static bool coupling_has_size(const struct coupling *coupling, int end)
 {
-    bool corner = tie->law->way && !tie->law->strands && end > 0 && end + 1 < tie->end_count;
-    return tie->law->strands || (tie->law->length && !corner) || is_surface(tie);
+    bool corner = coupling->law->way && !coupling->law->strands && end > 0 && end + 1 < coupling->end_count;
+    return coupling->law->strands || (coupling->law->length && !corner) || is_surface(coupling);
 }
 
-static double tie_size(const struct fbd_model *model, const struct tie_place *place, const struct instant *at,
-                       const struct arrow *arrow)
+static double coupling_size(const struct fbd_model *model, const struct coupling_place *place,
+                            const struct instant *at, const struct arrow *arrow)
 {
-    const struct tie *tie = &model->tree->ties[place->tie];
-    const struct row *row = &at->tree->rows[tie->first_row];
-    if (tie->law->strands) {
+    const struct coupling *coupling = &model->tree->couplings[place->coupling];
+    const struct row *row = &at->tree->rows[coupling->first_row];
+    if (coupling->law->strands) {
         double tension[2];
-        constraint_forms[tie->kind].tensions(model, at->tree, place->tie, tension);
+        constraint_forms[coupling->kind].tensions(model, at->tree, place->coupling, tension);
         return tension[place->strand];
     }
-    if (tie->law->length) return -row->lambda;
+    if (coupling->law->length) return -row->lambda;
     struct vec normal = {0, 0};
     for (int i = 0; i < row->port_count; i++)
         if (row->ports[i].end == place->end) normal = vec_add(normal, row->ports[i].force);
@@ -65,11 +65,11 @@ static bool acts_along(const struct fbd_model *model, int body)
 static bool has_size(const struct fbd_model *model, const struct arrow *arrow,
                      const struct force_symbol *symbol, int body)
 {
-    struct tie_place place;
+    struct coupling_place place;
     const struct model_load *load = load_of(model, arrow);
     if (symbol->moment) return true;
-    if (tie_of_force(model, body, arrow->name, &place))
-        return tie_has_size(&model->tree->ties[place.tie], place.end);
+    if (coupling_of_force(model, body, arrow->name, &place))
+        return coupling_has_size(&model->tree->couplings[place.coupling], place.end);
     if (!load) return acts_along(model, symbol->joint);
     return load->linked || acts_along(model, load->body);
 }
@@ -77,12 +77,13 @@ static bool has_size(const struct fbd_model *model, const struct arrow *arrow,
 static double size_of(const struct fbd_model *model, const struct hand_force *force, const struct instant *at,
                       const struct arrow *arrow)
 {
-    struct tie_place place;
+    struct coupling_place place;
     const struct model_load *load = load_of(model, arrow);
     const double sign = force->symbol->opposite ? -1 : 1;
     const bool rubs = load && (load->source->kind == load_friction || load->source->kind == moment_friction);
     if (force->symbol->moment) return (rubs ? -sign : sign) * arrow->couple;
-    if (tie_of_force(model, force->name.body, arrow->name, &place)) return tie_size(model, &place, at, arrow);
+    if (coupling_of_force(model, force->name.body, arrow->name, &place))
+        return coupling_size(model, &place, at, arrow);
     if (force->symbol->joint >= 0)
         return sign * vec_dot(arrow->force, surface_normal(model, &model->bodies[force->symbol->joint], at));
     if (!load) return 0; /* has no size */

@@ -75,11 +75,11 @@ static bool is_of_one_body(const struct fbd_model *model, int load)
     if ((size_t)load < model->coupled_count)
         return model->loads[load].in_joint ? model->bodies[model->loads[load].body].parent < 0
                                            : model->loads[load].partner < 0;
-    for (int i = 0; model->tree && i < model->tree->tie_count; i++) {
-        const struct tie *tie = &model->tree->ties[i];
+    for (int i = 0; model->tree && i < model->tree->coupling_count; i++) {
+        const struct coupling *coupling = &model->tree->couplings[i];
         int moving = 0;
-        for (int end = 0; end < tie->end_count; end++) moving += tie->end[end].body != ground_body;
-        if (tie->load == load) return moving == 1;
+        for (int end = 0; end < coupling->end_count; end++) moving += coupling->end[end].body != ground_body;
+        if (coupling->load == load) return moving == 1;
     }
     return false;
 }
@@ -109,12 +109,12 @@ static size_t count_arrows(struct hand_run *run, int body, int load)
  * that of others as well. */
 static int load_of(struct hand_run *run, const struct hand_sum *sum, size_t i)
 {
-    struct tie_place place;
+    struct coupling_place place;
     const struct hand_force *force = sum->forces[i];
     const struct arrow *arrow = arrow_of(run, force);
     const int load = arrow->load;
-    const bool of_tie = tie_of_force(run->model, force->name.body, arrow->name, &place);
-    const int of_all = load < 0 && of_tie ? run->model->tree->ties[place.tie].load : load;
+    const bool of_coupling = coupling_of_force(run->model, force->name.body, arrow->name, &place);
+    const int of_all = load < 0 && of_coupling ? run->model->tree->couplings[place.coupling].load : load;
     size_t own = 0, before = 0;
     for (size_t k = 0; of_all >= 0 && k < sum->count; k++) {
         const bool same = arrow_of(run, sum->forces[k])->load == of_all;

@@ -223,11 +223,13 @@ static bool comes_from_outside(const struct judge *judge, const struct run_shot 
     const struct fbd_model *model = judge->run->model;
     const struct ensemble *ensemble = judge->run->ensemble;
     for (size_t i = shot->event; i < ensemble->event_count && ensemble->events[i].t == shot->t; i++)
-        for (int k = 0; model->tree && k < model->tree->tie_count; k++) {
-            const struct tie *tie = &model->tree->ties[k];
-            if (!run_event_is_impact(&ensemble->events[i]) || tie->load != ensemble->events[i].load) continue;
-            for (int end = 0; end < tie->end_count; end++)
-                if (tie->end[end].body == ground_body || !judge->bodies[tie->end[end].body]) return true;
+        for (int k = 0; model->tree && k < model->tree->coupling_count; k++) {
+            const struct coupling *coupling = &model->tree->couplings[k];
+            if (!run_event_is_impact(&ensemble->events[i]) || coupling->load != ensemble->events[i].load)
+                continue;
+            for (int end = 0; end < coupling->end_count; end++)
+                if (coupling->end[end].body == ground_body || !judge->bodies[coupling->end[end].body])
+                    return true;
         }
     return false;
 }

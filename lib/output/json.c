@@ -190,13 +190,13 @@ static void write_events(struct text *text, const fbd_simulation *simulation)
 }
 
 /* The friction of a rolling body or of a slot, whose arrow is called `name`; NULL when it is something else. */
-static const struct tie *rolling_friction(const struct fbd_model *model, int body, const char *name)
+static const struct coupling *rolling_friction(const struct fbd_model *model, int body, const char *name)
 {
-    for (int i = 0; model->tree && i < model->tree->tie_count; i++) {
-        const struct tie *tie = &model->tree->ties[i];
-        const bool rubs = tie->kind == constraint_roll || tie->kind == constraint_groove;
-        for (int k = 0; rubs && k < tie->end_count; k++)
-            if (tie->end[k].body == body && tie->end[k].name[1] == name) return tie;
+    for (int i = 0; model->tree && i < model->tree->coupling_count; i++) {
+        const struct coupling *coupling = &model->tree->couplings[i];
+        const bool rubs = coupling->kind == constraint_roll || coupling->kind == constraint_groove;
+        for (int k = 0; rubs && k < coupling->end_count; k++)
+            if (coupling->end[k].body == body && coupling->end[k].name[1] == name) return coupling;
     }
     return NULL;
 }
@@ -205,10 +205,10 @@ static const struct tie *rolling_friction(const struct fbd_model *model, int bod
 static void write_friction(struct text *text, struct fbd_state *state, int body, const struct arrow *arrow)
 {
     const struct fbd_model *model = state->model;
-    const struct tie *tie = rolling_friction(model, body, arrow->name);
-    int own = model->bodies[body].friction, pair = tie ? tie->pair : own;
-    if (tie && pair < 0) text_add(text, ", \"mode\": \"stick\""); /* it never slips */
-    if (pair < 0 || (!tie && arrow->load != model->plan.modes[own].load)) return;
+    const struct coupling *coupling = rolling_friction(model, body, arrow->name);
+    int own = model->bodies[body].friction, pair = coupling ? coupling->pair : own;
+    if (coupling && pair < 0) text_add(text, ", \"mode\": \"stick\""); /* it never slips */
+    if (pair < 0 || (!coupling && arrow->load != model->plan.modes[own].load)) return;
     struct instant at = state_instant(state);
     state_balance_of(state, body, state->scratch);
     struct friction_values values = friction_at(model, pair, &at, state->scratch);

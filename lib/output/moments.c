@@ -65,13 +65,13 @@ static const char *length_name(struct formulas *formulas, double length)
 
 bool ground_line_of_force(const struct fbd_model *model, int b, const char *name, struct vec *e)
 {
-    struct tie_place place;
-    if (!tie_of_force(model, b, name, &place)) return false;
-    const struct tie *tie = &model->tree->ties[place.tie];
-    if (tie->kind == constraint_roll && tie->end[1].link == 0) *e = tie->e;
-    if (tie->kind == constraint_roll) return tie->end[1].link == 0;
-    if (tie->kind != constraint_contact || tie->meeting < 0) return false;
-    const struct meeting *meeting = &model->tree->meetings[tie->meeting];
+    struct coupling_place place;
+    if (!coupling_of_force(model, b, name, &place)) return false;
+    const struct coupling *coupling = &model->tree->couplings[place.coupling];
+    if (coupling->kind == constraint_roll && coupling->end[1].link == 0) *e = coupling->e;
+    if (coupling->kind == constraint_roll) return coupling->end[1].link == 0;
+    if (coupling->kind != constraint_contact || coupling->meeting < 0) return false;
+    const struct meeting *meeting = &model->tree->meetings[coupling->meeting];
     for (int k = 0; k < 2; k++) {
         const struct contact_shape *shape = &meeting->shape[k];
         if (shape->kind != contact_line || shape->link != 0) continue;

@@ -194,13 +194,13 @@ static void write_members(struct text *text, const struct fbd_statics *statics)
 {
     const struct tree *tree = statics->model->tree;
     bool any = false;
-    for (int i = 0; tree && i < tree->tie_count; i++) {
+    for (int i = 0; tree && i < tree->coupling_count; i++) {
         double tension = rest_tension(statics, i);
         if (isnan(tension)) continue;
         tension = without_rounding(statics, tension, 1);
         text_add(text, any ? "" : "\nRods and ropes\n");
         any = true;
-        text_printf(text, "  %s", tree->ties[i].name);
+        text_printf(text, "  %s", tree->couplings[i].name);
         text_pad(text, 27);
         text_number(text, fabs(tension), digits);
         text_printf(text, " %s %s\n", force_unit(statics->model),

@@ -12,7 +12,7 @@
 /* One force of the scene, whichever diagram it stands in. */
 struct force_key {
     const char *letter;
-    enum key_of { of_load, of_tie, of_corner, of_joint } of;
+    enum key_of { of_load, of_coupling, of_corner, of_joint } of;
     int index;
     int owner;   /* the body on which it acts as its symbol says; no_body: at each end */
     bool moment; /* at all times */
@@ -30,66 +30,67 @@ struct naming {
 /* ---- which force it is */
 
 /* The strand that part `part` of end k is of: a drum between two strands has a part of each, their far ends are of one. */
-static int strand_of(const struct tie *tie, int k, int part)
+static int strand_of(const struct coupling *coupling, int k, int part)
 {
-    return !tie->law->strands ? 0 : tie->end[k].name[1] ? part : k / 2;
+    return !coupling->law->strands ? 0 : coupling->end[k].name[1] ? part : k / 2;
 }
 
 /* The pulls of a rope at its ends are not opposite where it turns corners. */
-static int owner_of_tie(const struct tie *tie, int strand)
+static int owner_of_coupling(const struct coupling *coupling, int strand)
 {
     int owner = no_body;
-    if (tie->law->way && !tie->law->strands && tie->end_count > 2) return no_body;
-    for (int k = 0; k < tie->end_count; k++)
+    if (coupling->law->way && !coupling->law->strands && coupling->end_count > 2) return no_body;
+    for (int k = 0; k < coupling->end_count; k++)
         for (int part = 0; part < 2; part++) {
-            const int body = tie->end[k].body;
-            if (body < 0 || !tie->end[k].name[part] || strand_of(tie, k, part) != strand) continue;
+            const int body = coupling->end[k].body;
+            if (body < 0 || !coupling->end[k].name[part] || strand_of(coupling, k, part) != strand) continue;
             if (owner == no_body || body < owner) owner = body;
         }
     return owner;
 }
 
 /* Where a rope goes round a point of the body: its force there is the sum of two pulls. */
-static bool is_corner(const struct tie *tie, int k)
+static bool is_corner(const struct coupling *coupling, int k)
 {
-    return tie->law->way && !tie->law->strands && k > 0 && k + 1 < tie->end_count;
+    return coupling->law->way && !coupling->law->strands && k > 0 && k + 1 < coupling->end_count;
 }
 
 /* The stop of a pivot. */
-static bool stops_turning(const struct fbd_model *model, const struct tie *tie)
+static bool stops_turning(const struct fbd_model *model, const struct coupling *coupling)
 {
-    return tie->kind == constraint_contact && tie->source->contact.stop != 0 &&
-           model->bodies[tie->end[0].body].kind == motion_pivot;
+    return coupling->kind == constraint_contact && coupling->source->contact.stop != 0 &&
+           model->bodies[coupling->end[0].body].kind == motion_pivot;
 }
 
-bool tie_of_force(const struct fbd_model *model, int b, const char *name, struct tie_place *place)
+bool coupling_of_force(const struct fbd_model *model, int b, const char *name, struct coupling_place *place)
 {
-    for (int i = 0; model->tree && i < model->tree->tie_count; i++) {
-        const struct tie *tie = &model->tree->ties[i];
-        for (int k = 0; k < tie->end_count; k++)
+    for (int i = 0; model->tree && i < model->tree->coupling_count; i++) {
+        const struct coupling *coupling = &model->tree->couplings[i];
+        for (int k = 0; k < coupling->end_count; k++)
             for (int part = 0; part < 2; part++) {
-                const char *own = tie->end[k].name[part];
-                if (tie->end[k].body != b || !own || strcmp(own, name) != 0) continue;
-                *place = (struct tie_place){i, k, part, strand_of(tie, k, part)};
+                const char *own = coupling->end[k].name[part];
+                if (coupling->end[k].body != b || !own || strcmp(own, name) != 0) continue;
+                *place = (struct coupling_place){i, k, part, strand_of(coupling, k, part)};
                 return true;
             }
     }
     return false;
 }
 
-static bool key_of_tie(const struct fbd_model *model, int b, const char *name, struct force_key *key)
+static bool key_of_coupling(const struct fbd_model *model, int b, const char *name, struct force_key *key)
 {
-    struct tie_place place;
-    if (!tie_of_force(model, b, name, &place)) return false;
-    const struct tie *tie = &model->tree->ties[place.tie];
-    const bool moment = stops_turning(model, tie);
-    if (is_corner(tie, place.end))
-        *key = (struct force_key){"F", of_corner, most_constraint_ends * place.tie + place.end, b, false};
+    struct coupling_place place;
+    if (!coupling_of_force(model, b, name, &place)) return false;
+    const struct coupling *coupling = &model->tree->couplings[place.coupling];
+    const bool moment = stops_turning(model, coupling);
+    if (is_corner(coupling, place.end))
+        *key =
+            (struct force_key){"F", of_corner, most_constraint_ends * place.coupling + place.end, b, false};
     else
-        *key = (struct force_key){.letter = moment ? "M" : tie->law->letters[place.part],
-                                  .of = of_tie,
-                                  .index = 2 * place.tie + place.strand,
-                                  .owner = owner_of_tie(tie, place.strand),
+        *key = (struct force_key){.letter = moment ? "M" : coupling->law->letters[place.part],
+                                  .of = of_coupling,
+                                  .index = 2 * place.coupling + place.strand,
+                                  .owner = owner_of_coupling(coupling, place.strand),
                                   .moment = moment};
     return true;
 }
@@ -137,7 +138,7 @@ static struct force_key key_of_joint(const struct fbd_model *model, int b, const
 static struct force_key key_of(const struct fbd_model *model, int b, const struct arrow *arrow)
 {
     struct force_key key;
-    if (key_of_tie(model, b, arrow->name, &key)) return key;
+    if (key_of_coupling(model, b, arrow->name, &key)) return key;
     return arrow->load < 0 ? key_of_joint(model, b, arrow->name) : key_of_load(model, arrow->load);
 }
 

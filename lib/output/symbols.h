@@ -27,11 +27,11 @@ struct force_symbol {
     int joint;            /* the body in whose joint it acts, or -1 */
 };
 
-/* The tie whose force on body b is called so: its index, its end there, and which of two forces it is; false for none. */
-struct tie_place {
-    int tie, end, part, strand;
+/* The coupling whose force on body b is called so: its index, its end there, and which of two forces it is; false for none. */
+struct coupling_place {
+    int coupling, end, part, strand;
 };
-bool tie_of_force(const struct fbd_model *model, int b, const char *name, struct tie_place *place);
+bool coupling_of_force(const struct fbd_model *model, int b, const char *name, struct coupling_place *place);
 
 /* The symbols of each body's arrows, in the order of diagram_fill: symbols[body][arrow]. NULL when memory is out. */
 const struct force_symbol *const *symbols_of_forces(const struct fbd_state *state, struct arena *arena);

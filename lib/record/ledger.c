@@ -22,8 +22,8 @@ static void count_works(struct ledger *ledger)
     const struct fbd_model *model = ledger->model;
     for (size_t i = 0; i < model->load_count; i++)
         ledger->integrated[i] = ledger->counted[i] = model->loads[i].potential_kind == potential_none;
-    for (int i = 0; model->tree && i < model->tree->tie_count; i++) {
-        int load = model->tree->ties[i].load;
+    for (int i = 0; model->tree && i < model->tree->coupling_count; i++) {
+        int load = model->tree->couplings[i].load;
         if (load >= 0 && model->loads[load].potential_kind == potential_workless)
             ledger->counted[load] = true;
     }

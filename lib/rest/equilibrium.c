@@ -438,16 +438,17 @@ static int balance_new(struct resting *balance, struct fbd_state *state)
 {
     size_t n = (size_t)state->model->plan.n, size = plan_size(&state->model->plan),
            unknowns = plan_rates(&state->model->plan);
-    bool tied = state->model->tree && state->model->tree->tie_count > 0;
+    bool coupled = state->model->tree && state->model->tree->coupling_count > 0;
     size_t slots = (size_t)state->model->plan.slots;
-    size_t rows = tied ? (size_t)state->model->tree->row_count : 0;
+    size_t rows = coupled ? (size_t)state->model->tree->row_count : 0;
     *balance = (struct resting){.state = state,
                                 .work = calloc(size * size + size + 1, sizeof(double)),
-                                .share = tied ? calloc(n * n + 1, sizeof(double)) : NULL,
+                                .share = coupled ? calloc(n * n + 1, sizeof(double)) : NULL,
                                 .start = calloc(2 * unknowns + n + slots + rows + 1, sizeof(double)),
                                 .slip = calloc(state->model->plan.mode_count + 1, sizeof(int)),
                                 .arrows = calloc(diagram_most_arrows(state->model), sizeof *balance->arrows)};
-    if (!balance->work || !balance->start || !balance->slip || !balance->arrows || (tied && !balance->share))
+    if (!balance->work || !balance->start || !balance->slip || !balance->arrows ||
+        (coupled && !balance->share))
         return -1;
     balance->scale = balance->start + unknowns;
     balance->Q = balance->scale + unknowns;

@@ -41,7 +41,7 @@ static bool list_changes(struct text *text, const struct fbd_state *from, const 
 /* Of the coupling that a row is of. */
 static struct pos place_of(const struct fbd_model *model, int row)
 {
-    return model->scene->constraints[model->tree->ties[model->tree->tie_of_row[row]].constraint].at;
+    return model->scene->constraints[model->tree->couplings[model->tree->coupling_of_row[row]].constraint].at;
 }
 
 /* A row that is off by more than it may be. */
@@ -58,13 +58,13 @@ static void note_miss(struct miss *miss, int row, double off, double most, doubl
     *miss = (struct miss){row, off, isnan(share) ? HUGE_VAL : share, length};
 }
 
-/* How large, and how fast, the trees are that a tie joins: from the first link on, wherever in the world. */
+/* How large, and how fast, the trees are that a coupling joins: from the first link on, wherever in the world. */
 struct size {
-    const struct tie *tie;
+    const struct coupling *coupling;
     double extent, place, speed;
 };
 
-static bool joins_the_same(const struct tie *a, const struct tie *b)
+static bool joins_the_same(const struct coupling *a, const struct coupling *b)
 {
     if (!a || a->root_count != b->root_count) return false;
     for (int k = 0; k < a->root_count; k++)
@@ -72,16 +72,16 @@ static bool joins_the_same(const struct tie *a, const struct tie *b)
     return true;
 }
 
-/* Ties that follow each other often join the same trees. */
-static void find_size(const struct fbd_state *state, const struct tie *tie, struct size *size)
+/* Couplings that follow each other often join the same trees. */
+static void find_size(const struct fbd_state *state, const struct coupling *coupling, struct size *size)
 {
     const struct tree *tree = state->model->tree;
-    if (joins_the_same(size->tie, tie)) return;
-    *size = (struct size){tie, 0, 0, 0};
-    for (int k = 0; k < tie->root_count; k++)
-        for (int i = tie->root[k]; i < tree->links[tie->root[k]].end; i++) {
+    if (joins_the_same(size->coupling, coupling)) return;
+    *size = (struct size){coupling, 0, 0, 0};
+    for (int k = 0; k < coupling->root_count; k++)
+        for (int i = coupling->root[k]; i < tree->links[coupling->root[k]].end; i++) {
             const struct tree_state *s = &state->tree->links[i];
-            struct vec from = state->tree->links[tie->root[0]].p;
+            struct vec from = state->tree->links[coupling->root[0]].p;
             size->extent = fmax(size->extent, vec_norm(vec_sub(s->p, from)));
             size->place = fmax(size->place, vec_norm(s->p));
             size->speed = fmax(size->speed, fmax(vec_norm(s->v), fabs(s->omega)));
@@ -91,16 +91,18 @@ static void find_size(const struct fbd_state *state, const struct tie *tie, stru
 /* What position row j is measured against: the trees, the arms at which they are joined, the length of a rod
  * or rope. Points alone that are to be one have no size; the digits of their places are all there is, and where they touch
  * what the contact is measured against. */
-static double length_of(const struct fbd_state *state, const struct tie *tie, int j, const struct size *size)
+static double length_of(const struct fbd_state *state, const struct coupling *coupling, int j,
+                        const struct size *size)
 {
     const struct row *row = &state->tree->rows[j];
     double length = size->extent;
     for (int k = 0; k < row->port_count; k++)
         if (row->ports[k].link > 0) length = fmax(length, vec_norm(row->ports[k].arm));
-    if (tie->law->length) length = fmax(length, fabs(state->tree->ties[tie - state->model->tree->ties].zero));
+    if (coupling->law->length)
+        length = fmax(length, fabs(state->tree->couplings[coupling - state->model->tree->couplings].zero));
     if (length > 0) return length;
-    return tie->meeting >= 0 ? fmax(size->place, state->model->tree->meetings[tie->meeting].reach)
-                             : size->place;
+    return coupling->meeting >= 0 ? fmax(size->place, state->model->tree->meetings[coupling->meeting].reach)
+                                  : size->place;
 }
 
 /* The rows that are off the most, in position and in velocity. A slack rope may be too short, not too long.
@@ -115,14 +117,15 @@ static void find_misses(struct fbd_state *state, struct miss *position, struct m
     *position = *velocity = (struct miss){-1, 0, 0, 0};
     state_misfit(state); /* evaluates the rows */
     for (int j = 0; j < tree->row_count; j++) {
-        const struct tie *tie = &tree->ties[tree->tie_of_row[j]];
+        const struct coupling *coupling = &tree->couplings[tree->coupling_of_row[j]];
         const struct jet g = state->tree->rows[j].g;
         bool held = tree_takes_part(tree, &at, j);
-        bool rubs = tie->kind == constraint_capstan && j == tie->first_row; /* slack, or too long */
-        bool on_line = tie->kind == constraint_roll && j == tie->first_row; /* at the start, open or not */
-        if (!held && tie->kind != constraint_rope && !on_line && !rubs) continue;
-        find_size(state, tie, &size);
-        double length = length_of(state, tie, j, &size), most = digits * length + rounding * size.place;
+        bool rubs = coupling->kind == constraint_capstan && j == coupling->first_row; /* slack, or too long */
+        bool on_line =
+            coupling->kind == constraint_roll && j == coupling->first_row; /* at the start, open or not */
+        if (!held && coupling->kind != constraint_rope && !on_line && !rubs) continue;
+        find_size(state, coupling, &size);
+        double length = length_of(state, coupling, j, &size), most = digits * length + rounding * size.place;
         note_miss(position, j, held || on_line ? fabs(g.x) : fmax(0, rubs ? -g.x : g.x), most, length);
         if (held) note_miss(velocity, j, fabs(g.x1), digits * size.speed, length);
     }
@@ -135,7 +138,7 @@ static void pull_taut(struct fbd_state *state)
     for (size_t i = 0; i < plan->mode_count; i++) {
         const struct mode *hold = &plan->modes[i];
         if (!mode_is_one_sided(hold)) continue;
-        double g = state->tree->rows[state->model->tree->ties[hold->tie].first_row].g.x;
+        double g = state->tree->rows[state->model->tree->couplings[hold->coupling].first_row].g.x;
         if (hold->kind == mode_surface || g > 0) state->slip[i] = stick;
     }
 }
@@ -149,7 +152,7 @@ static void add_miss(const struct fbd_model *model, const char *name, double off
 }
 
 /* Two pins of one point. The distance of their other ends is the difference of their rows, wherever the point is. */
-static bool pins_one_point(const struct fbd_state *state, const struct tie *a, const struct tie *b,
+static bool pins_one_point(const struct fbd_state *state, const struct coupling *a, const struct coupling *b,
                            double *apart)
 {
     const struct row *rows = state->tree->rows;
@@ -173,17 +176,17 @@ static void list_excluded(struct fbd_state *state, double length, struct text *l
     enum { most_listed = 4 };
     const double digits = 2e-6;
     const struct tree *tree = state->model->tree;
-    const struct tie *off[most_listed];
+    const struct coupling *off[most_listed];
     int count = 0;
     double apart;
     state_misfit(state); /* evaluates the rows */
     const struct instant at = state_instant(state);
-    for (int i = 0; i < tree->tie_count && count < most_listed; i++) {
-        const struct tie *tie = &tree->ties[i];
+    for (int i = 0; i < tree->coupling_count && count < most_listed; i++) {
+        const struct coupling *coupling = &tree->couplings[i];
         bool misses = false;
-        for (int j = tie->first_row; j < tie->first_row + tie->row_count; j++)
+        for (int j = coupling->first_row; j < coupling->first_row + coupling->row_count; j++)
             misses |= tree_takes_part(tree, &at, j) && fabs(state->tree->rows[j].g.x) > digits * length;
-        if (misses) off[count++] = tie;
+        if (misses) off[count++] = coupling;
     }
     if (count < 2) return;
     text_add(lack, ": ");
@@ -225,22 +228,22 @@ static bool tell(const struct fbd_state *state, struct fbd_state *other, const c
 }
 
 /* What stands at place k of a rope's way. */
-static const char *name_at(const struct fbd_model *model, const struct tie *tie, int k)
+static const char *name_at(const struct fbd_model *model, const struct coupling *coupling, int k)
 {
-    return tie->end[k].body < 0 ? "the ground" : model->bodies[tie->end[k].body].name;
+    return coupling->end[k].body < 0 ? "the ground" : model->bodies[coupling->end[k].body].name;
 }
 
 /* Both ways round a disc leave it equally far to the side that the file names. */
 static bool unclear_side(const struct fbd_state *state, int index, struct pos *at, struct text *lack)
 {
     const struct fbd_model *model = state->model;
-    const struct tie *tie = &model->tree->ties[index];
+    const struct coupling *coupling = &model->tree->couplings[index];
     for (int end = 0; end < 2; end++) {
-        if (tie->wound[end] == 0 || state->tree->ties[index].side[end] != 0) continue;
-        bool upright = tie->wound[end] == wound_top || tie->wound[end] == wound_bottom;
-        if (at) *at = model->scene->constraints[tie->constraint].at;
+        if (coupling->wound[end] == 0 || state->tree->couplings[index].side[end] != 0) continue;
+        bool upright = coupling->wound[end] == wound_top || coupling->wound[end] == wound_bottom;
+        if (at) *at = model->scene->constraints[coupling->constraint].at;
         text_printf(lack, "both ways of `%s` round `%s` leave it equally far to that `side`. Say %s",
-                    tie->name, name_at(model, tie, end == 0 ? 0 : tie->end_count - 1),
+                    coupling->name, name_at(model, coupling, end == 0 ? 0 : coupling->end_count - 1),
                     upright ? "`left` or `right`" : "`top` or `bottom`");
         return true;
     }
@@ -251,12 +254,13 @@ static bool unclear_side(const struct fbd_state *state, int index, struct pos *a
 static bool beyond_end(const struct fbd_state *state, int index, struct pos *at, struct text *lack)
 {
     const double digits = 1e-6;
-    const struct tie *tie = &state->model->tree->ties[index];
-    for (int end = 0; end < 2 && !slot_is_open(tie, state->slip); end++) {
-        struct room room = tie_room(state->model, state->tree, index, end);
+    const struct coupling *coupling = &state->model->tree->couplings[index];
+    for (int end = 0; end < 2 && !slot_is_open(coupling, state->slip); end++) {
+        struct room room = coupling_room(state->model, state->tree, index, end);
         if (room.left >= -digits * room.size) continue;
-        if (at) *at = tie->source->at;
-        text_printf(lack, "the point of `%s` is beyond the end of its slot, by %.6g", tie->name, -room.left);
+        if (at) *at = coupling->source->at;
+        text_printf(lack, "the point of `%s` is beyond the end of its slot, by %.6g", coupling->name,
+                    -room.left);
         return true;
     }
     return false;
@@ -266,13 +270,13 @@ static bool beyond_end(const struct fbd_state *state, int index, struct pos *at,
 static bool shrunk_rope(const struct fbd_state *state, int index, struct pos *at, struct text *lack)
 {
     const struct fbd_model *model = state->model;
-    const struct tie *tie = &model->tree->ties[index];
+    const struct coupling *coupling = &model->tree->couplings[index];
     struct vec where;
     int k = rope_shrunk_at(model, state->tree, index, &where);
     if (k < 0) return false;
-    if (at) *at = model->scene->constraints[tie->constraint].at;
-    text_printf(lack, "`%s` has no length between `%s` and `%s`: both are at (", tie->name,
-                name_at(model, tie, k), name_at(model, tie, k + 1));
+    if (at) *at = model->scene->constraints[coupling->constraint].at;
+    text_printf(lack, "`%s` has no length between `%s` and `%s`: both are at (", coupling->name,
+                name_at(model, coupling, k), name_at(model, coupling, k + 1));
     text_number(lack, where.x, 6);
     text_add(lack, ", ");
     text_number(lack, where.y, 6);
@@ -284,20 +288,20 @@ bool fit_blocked(struct fbd_state *state, struct pos *at, struct text *lack)
 {
     const struct fbd_model *model = state->model;
     const struct tree *tree = model->tree;
-    if (!tree || tree->tie_count == 0) return false;
+    if (!tree || tree->coupling_count == 0) return false;
     state_misfit(state); /* puts the links in their places */
-    for (int i = 0; i < tree->tie_count; i++) {
-        const struct tie *tie = &tree->ties[i];
+    for (int i = 0; i < tree->coupling_count; i++) {
+        const struct coupling *coupling = &tree->couplings[i];
         if (beyond_end(state, i, at, lack)) return true;
-        if (!tie->law->way) continue;
+        if (!coupling->law->way) continue;
         if (unclear_side(state, i, at, lack) || shrunk_rope(state, i, at, lack)) return true;
         int k = rope_blocked_at(model, state->tree, i);
         if (k < 0) continue;
-        if (at) *at = model->scene->constraints[tie->constraint].at;
+        if (at) *at = model->scene->constraints[coupling->constraint].at;
         text_printf(lack,
                     "`%s` has no way from `%s` to `%s`: they are nearer to each other than the rim of the "
                     "pulley. Move them apart",
-                    tie->name, name_at(model, tie, k), name_at(model, tie, k + 1));
+                    coupling->name, name_at(model, coupling, k), name_at(model, coupling, k + 1));
         return true;
     }
     return false;
@@ -306,12 +310,12 @@ bool fit_blocked(struct fbd_state *state, struct pos *at, struct text *lack)
 bool fit_lack(struct fbd_state *state, struct fbd_state *other, struct pos *at, struct text *lack)
 {
     const struct tree *tree = state->model->tree;
-    if (!tree || tree->tie_count == 0) return false;
+    if (!tree || tree->coupling_count == 0) return false;
     struct miss position, velocity;
     find_misses(state, &position, &velocity);
     const struct miss *miss = position.row >= 0 ? &position : &velocity;
     if (miss->row < 0) return false;
-    const char *name = tree->ties[tree->tie_of_row[miss->row]].name;
+    const char *name = tree->couplings[tree->coupling_of_row[miss->row]].name;
     if (at) *at = place_of(state->model, miss->row);
     if (isfinite(miss->off)) return tell(state, other, name, miss, miss == &velocity, lack);
     text_printf(lack, "`%s` joins points that are at one place: it has no direction. Move them apart", name);
@@ -322,13 +326,13 @@ bool fit_unsolved(struct fbd_state *state, bool *masses, struct pos *at, struct 
 {
     const double digits = 1e-6;
     int row;
-    if (!state->model->tree || state->model->tree->tie_count == 0) return false;
+    if (!state->model->tree || state->model->tree->coupling_count == 0) return false;
     state_evaluate(state);
     const double miss = state_acceleration_misfit(state, &row), ratio = state->model->tree->mass_ratio;
     if (miss <= digits || row < 0) return false;
     *masses = ratio > masses_far_apart;
     if (at) *at = place_of(state->model, row);
-    const char *name = tie_row_name(state->model->tree, row);
+    const char *name = coupling_row_name(state->model->tree, row);
     if (*masses)
         text_printf(
             lack,
@@ -355,6 +359,6 @@ bool fit_locked(const struct fbd_state *state, struct fbd_state *other, struct p
                 "it is at rest in a singular position: what `%s` joins is in line, so that the coupling does "
                 "not resist at once, and cannot be moved on either. No finite forces hold it there, or it "
                 "could go on in two ways. Start a little beside, or give it a speed",
-                tie_row_name(state->model->tree, row));
+                coupling_row_name(state->model->tree, row));
     return true;
 }

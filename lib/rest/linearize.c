@@ -18,9 +18,9 @@
 
 /* ---- the whole */
 
-static bool is_tied(const struct fbd_model *model)
+static bool is_coupled(const struct fbd_model *model)
 {
-    return model->tree && model->tree->tie_count > 0;
+    return model->tree && model->tree->coupling_count > 0;
 }
 
 /* Are coordinates dependent, by couplings or as prescribed? */
@@ -28,7 +28,7 @@ static bool is_reduced(const struct fbd_model *model)
 {
     bool driven = false;
     for (size_t i = 0; i < (size_t)model->plan.n; i++) driven |= coordinate_is_driven(model, i);
-    return driven || is_tied(model);
+    return driven || is_coupled(model);
 }
 
 /* With a prescribed motion there is no state of rest, unless it is a place. */
@@ -86,7 +86,7 @@ static bool refuse_limits(struct fbd_state *state, fbd_errors *errors)
     const double nothing = 1e-9;
     const struct fbd_model *model = state->model;
     const struct plan *plan = &model->plan;
-    if (!is_tied(model) || plan->mode_count == 0) return false;
+    if (!is_coupled(model) || plan->mode_count == 0) return false;
     int *before = calloc(plan->mode_count, sizeof *before), at_limit = -1;
     if (!before) {
         diag_out_of_memory(errors);
@@ -104,13 +104,14 @@ static bool refuse_limits(struct fbd_state *state, fbd_errors *errors)
     free(before);
     if (at_limit < 0) return false;
     const struct mode *hold = &plan->modes[at_limit];
-    struct pos at = hold->tie >= 0 ? model->scene->constraints[model->tree->ties[hold->tie].constraint].at
-                                   : model->bodies[hold->body].source->at;
+    struct pos at = hold->coupling >= 0
+                        ? model->scene->constraints[model->tree->couplings[hold->coupling].constraint].at
+                        : model->bodies[hold->body].source->at;
     diag_add(
         errors, FBD_ERROR, "at-limit", at, "start nearer to the equilibrium, or load it so that it holds",
         "at the equilibrium `%s` is at the limit between holding and giving way: to one side the motion is "
         "another than to the other",
-        hold->tie >= 0 ? model->tree->ties[hold->tie].name : model->bodies[hold->body].name);
+        hold->coupling >= 0 ? model->tree->couplings[hold->coupling].name : model->bodies[hold->body].name);
     return true;
 }
 
@@ -240,14 +241,14 @@ static void drop_dying_slopes(const struct looking *looking, fbd_errors *errors)
 
 static void refuse_singular(const struct fbd_model *model, fbd_errors *errors)
 {
-    if (!is_tied(model)) return; /* prescribed coordinates alone are never in one */
-    const struct tie *tie = &model->tree->ties[0];
+    if (!is_coupled(model)) return; /* prescribed coordinates alone are never in one */
+    const struct coupling *coupling = &model->tree->couplings[0];
     diag_add(
-        errors, FBD_ERROR, "not-independent", model->scene->constraints[tie->constraint].at,
+        errors, FBD_ERROR, "not-independent", model->scene->constraints[coupling->constraint].at,
         "simulate it, from a start near the equilibrium",
         "at the equilibrium the couplings, `%s` among them, are in a singular position: they leave no clear "
         "number of degrees of freedom",
-        tie->name);
+        coupling->name);
 }
 
 /* Which coordinates are independent at the equilibrium, where the state is. */
@@ -262,13 +263,13 @@ static bool choose_coordinates(struct looking *looking, fbd_errors *errors)
         return false;
     }
     if (independent->count == 0) {
-        const bool tied = is_tied(linear->model);
-        struct pos at = tied ? linear->model->scene->constraints[tree->ties[0].constraint].at
-                             : linear->model->bodies[0].source->motion.at;
+        const bool coupled = is_coupled(linear->model);
+        struct pos at = coupled ? linear->model->scene->constraints[tree->couplings[0].constraint].at
+                                : linear->model->bodies[0].source->motion.at;
         diag_add(errors, FBD_ERROR, "sticks", at, "leave out what holds it, to see it move",
                  "nothing can move: %s`%s` among them, leave no freedom",
-                 tied ? "the couplings, " : "prescribed motions, that of ",
-                 tied ? tree->ties[0].name : linear->model->bodies[0].name);
+                 coupled ? "the couplings, " : "prescribed motions, that of ",
+                 coupled ? tree->couplings[0].name : linear->model->bodies[0].name);
         return false;
     }
     linear->count = independent->count;
@@ -413,7 +414,7 @@ static fbd_linearization *linearize(fbd_state *state, fbd_errors *errors)
     const struct fbd_model *model = state->model;
     diag_in_file(errors, model->scene->file);
     size_t n = (size_t)model->plan.n;
-    if (model->plan.mode_count > 0 || is_tied(model)) /* modes of rest */
+    if (model->plan.mode_count > 0 || is_coupled(model)) /* modes of rest */
         memset(state->y + n, 0, n * sizeof *state->y);
     bool settled = modes_settle(state, NULL);
     if (!start_question(state, settled, "the start", errors) || refuse_driven(state, errors) ||

@@ -70,12 +70,12 @@ bool statics_refuse_states(const struct fbd_state *state, fbd_errors *errors)
 
 bool equilibrium_refuse_reels(const struct fbd_model *model, fbd_errors *errors)
 {
-    for (int i = 0; model->tree && i < model->tree->tie_count; i++) {
-        const struct tie *tie = &model->tree->ties[i];
-        if (!tie->reels) continue;
-        diag_add(errors, FBD_ERROR, "not-independent", model->scene->constraints[tie->constraint].reel.at,
-                 "give it a constant `length`",
-                 "the length of the rope `%s` goes with the time: it is never at rest", tie->name);
+    for (int i = 0; model->tree && i < model->tree->coupling_count; i++) {
+        const struct coupling *coupling = &model->tree->couplings[i];
+        if (!coupling->reels) continue;
+        diag_add(errors, FBD_ERROR, "not-independent",
+                 model->scene->constraints[coupling->constraint].reel.at, "give it a constant `length`",
+                 "the length of the rope `%s` goes with the time: it is never at rest", coupling->name);
         return true;
     }
     return false;
@@ -88,7 +88,7 @@ static bool refuse(const struct fbd_state *state, fbd_errors *errors)
     const struct fbd_model *model = state->model;
     for (size_t pair = 0; pair < model->plan.mode_count; pair++) {
         const struct mode *mode = &model->plan.modes[pair];
-        if (mode->tie >= 0) continue;
+        if (mode->coupling >= 0) continue;
         const struct expr *drive = model->bodies[mode->body].source->motion.prescribed.expr;
         if (mode->kind == mode_drive && !expr_uses_time(drive)) continue;
         diag_add(errors, FBD_ERROR, mode->kind == mode_drive ? "not-independent" : "sticks",

@@ -87,11 +87,11 @@ static void contradiction_words(const struct fbd_model *model, int pair, const c
 {
     const struct mode *hold = &model->plan.modes[pair];
     bool couples = hold->kind == mode_surface || hold->kind == mode_rope;
-    const struct tie *tie = couples && model->tree ? &model->tree->ties[hold->tie] : NULL;
-    const char *name = tie               ? model->scene->constraints[tie->constraint].name
+    const struct coupling *coupling = couples && model->tree ? &model->tree->couplings[hold->coupling] : NULL;
+    const char *name = coupling          ? model->scene->constraints[coupling->constraint].name
                        : hold->load >= 0 ? model->loads[hold->load].source->name
                                          : "a hold";
-    bool unlimited = hold->kind == mode_surface && tie && tie->pair < 0;
+    bool unlimited = hold->kind == mode_surface && coupling && coupling->pair < 0;
     text_printf(
         text,
         "%s neither way agrees with the forces for `%s` of `%s`: while it holds it would have to give, "
@@ -237,9 +237,9 @@ static bool is_balanced(struct fbd_state *state, struct lack *lack)
 void negative_friction_words(const struct fbd_model *model, int pair, double mu, double t, struct text *text)
 {
     const struct mode *mode = &model->plan.modes[pair];
-    const char *name = mode->load >= 0
-                           ? model->loads[mode->load].source->name
-                           : model->scene->constraints[model->tree->ties[mode->tie].constraint].name;
+    const char *name =
+        mode->load >= 0 ? model->loads[mode->load].source->name
+                        : model->scene->constraints[model->tree->couplings[mode->coupling].constraint].name;
     text_add(text, "at t = ");
     text_number(text, t, 9);
     text_printf(text, " a coefficient of `%s` is ", name);

@@ -51,30 +51,32 @@ static bool put_to_rest(struct fbd_state *state, fbd_errors *errors)
 /* ---- what is said about the solution */
 
 /* The feature of shapes that touch whose force is limited; NULL when it is something else. */
-static const struct tie *touching_tie(const struct fbd_model *model, const struct rest_limit *limit)
+static const struct coupling *touching_coupling(const struct fbd_model *model, const struct rest_limit *limit)
 {
     const struct plan *plan = &model->plan;
     int pair = limit->kind == limit_normal ? plan->contacts[limit->index].pair : limit->index;
-    int tie = pair >= 0 ? plan->modes[pair].tie : -1;
-    return tie >= 0 && model->tree->ties[tie].kind == constraint_contact ? &model->tree->ties[tie] : NULL;
+    int coupling = pair >= 0 ? plan->modes[pair].coupling : -1;
+    return coupling >= 0 && model->tree->couplings[coupling].kind == constraint_contact
+               ? &model->tree->couplings[coupling]
+               : NULL;
 }
 
 static const char *limit_name(struct fbd_statics *statics, const struct rest_limit *limit)
 {
     const struct fbd_model *model = statics->model;
     const struct plan *plan = &model->plan;
-    if (limit->kind == limit_rope) return model->tree->ties[plan->modes[limit->index].tie].name;
-    const struct tie *touching = touching_tie(model, limit);
+    if (limit->kind == limit_rope) return model->tree->couplings[plan->modes[limit->index].coupling].name;
+    const struct coupling *touching = touching_coupling(model, limit);
     if (touching) return touching->end[0].name[limit->kind == limit_normal ? 0 : 1];
     int load =
         limit->kind == limit_normal ? plan->contacts[limit->index].load : plan->modes[limit->index].load;
     const char *name = model->loads[load].source->name;
-    for (int i = 0; model->tree && i < model->tree->tie_count; i++) { /* of a rolling body */
-        const struct tie *tie = &model->tree->ties[i];
-        if (tie->strands > 0 && tie->load == load)
-            return tie->end[0].name[plan->contacts[limit->index].slot == tie->slack_slot[1]];
-        if (tie_presses(tie) && tie->load == load)
-            return tie_force_name(model->tree, tie->first_row + (limit->kind != limit_normal));
+    for (int i = 0; model->tree && i < model->tree->coupling_count; i++) { /* of a rolling body */
+        const struct coupling *coupling = &model->tree->couplings[i];
+        if (coupling->strands > 0 && coupling->load == load)
+            return coupling->end[0].name[plan->contacts[limit->index].slot == coupling->slack_slot[1]];
+        if (coupling_presses(coupling) && coupling->load == load)
+            return coupling_force_name(model->tree, coupling->first_row + (limit->kind != limit_normal));
     }
     return arena_printf(&statics->arena, "%s.%s", model->bodies[model->loads[load].body].name, name);
 }

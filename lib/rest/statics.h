@@ -50,9 +50,9 @@ static inline bool rest_turns(const struct model_body *body)
 }
 
 /* The tension of a rod or a rope; NAN for another coupling, 0 for a slack rope. */
-static inline double rest_tension(const struct fbd_statics *statics, int tie)
+static inline double rest_tension(const struct fbd_statics *statics, int coupling)
 {
-    const struct tie *of = &statics->model->tree->ties[tie];
+    const struct coupling *of = &statics->model->tree->couplings[coupling];
     if (!of->law->length) return NAN;
     return -statics->state->tree->rows[of->first_row].lambda;
 }

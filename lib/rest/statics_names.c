@@ -71,20 +71,20 @@ static void name_joint(struct fbd_statics *statics, const struct rest_system *sy
         add_name(statics, body->name, body->reaction, " (couple)");
 }
 
-static void name_tie(struct fbd_statics *statics, const struct rest_system *system, size_t j)
+static void name_coupling(struct fbd_statics *statics, const struct rest_system *system, size_t j)
 {
     const struct tree *tree = statics->model->tree;
     int row = system->rows[j];
-    const struct tie *tie = &tree->ties[tree->tie_of_row[row]];
+    const struct coupling *coupling = &tree->couplings[tree->coupling_of_row[row]];
     bool one = varies(system, rest_entry_of_row(system, j));
-    if (tie->kind != constraint_pin) {
-        if (one) add_name(statics, "", tie_force_name(tree, row), "");
+    if (coupling->kind != constraint_pin) {
+        if (one) add_name(statics, "", coupling_force_name(tree, row), "");
         return;
     }
-    if (row > tie->first_row) return; /* with the first */
+    if (row > coupling->first_row) return; /* with the first */
     bool other = varies(system, rest_entry_of_row(system, j + 1));
-    if (one && other) add_name(statics, "", tie->name, "");
-    if (one != other) add_name(statics, "", tie_row_name(tree, one ? row : row + 1), "");
+    if (one && other) add_name(statics, "", coupling->name, "");
+    if (one != other) add_name(statics, "", coupling_row_name(tree, one ? row : row + 1), "");
 }
 
 bool rest_name_undetermined(struct fbd_statics *statics, const struct rest_system *system)
@@ -95,7 +95,7 @@ bool rest_name_undetermined(struct fbd_statics *statics, const struct rest_syste
     statics->undetermined = ARENA_ARRAY(&statics->arena, system->reactions + 1, const char *);
     if (!statics->undetermined) return false;
     for (int i = 1; i < tree->count; i++) name_joint(statics, system, i);
-    for (size_t j = 0; j < system->m; j++) name_tie(statics, system, j);
+    for (size_t j = 0; j < system->m; j++) name_coupling(statics, system, j);
     return !statics->arena.failed;
 }
 

@@ -4,7 +4,7 @@
  *
  * A kind is a row of `constraint_laws` (language_couplings.c): how it is read, what it is called, which rows it has
  * and which forces they are. The rows g(q) = 0 themselves are by the same kinds in dynamics/constraint.c, what opens
- * and closes them in model/plan_ties.c. Springs and dampers between bodies are no constraints: they are loads.
+ * and closes them in model/plan_couplings.c. Springs and dampers between bodies are no constraints: they are loads.
  */
 #ifndef FBD_SCENE_CONSTRAINT_H
 #define FBD_SCENE_CONSTRAINT_H

@@ -45,9 +45,9 @@ static void mark_joined(const struct scene *scene, bool *joined)
         joined[parent] = true;
         if (!is_carried_along(scene, b)) joined[b] = true;
     }
-    for (size_t c = 0; c < scene->coupling_count; c++)
+    for (size_t c = 0; c < scene->force_coupling_count; c++)
         for (int end = 0; end < 2; end++)
-            if (scene->couplings[c].body[end] >= 0) joined[scene->couplings[c].body[end]] = true;
+            if (scene->force_couplings[c].body[end] >= 0) joined[scene->force_couplings[c].body[end]] = true;
     for (size_t c = 0; c < scene->constraint_count; c++)
         for (int end = 0; end < scene->constraints[c].end_count; end++)
             if (scene->constraints[c].body[end] >= 0) joined[scene->constraints[c].body[end]] = true;

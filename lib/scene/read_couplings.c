@@ -47,7 +47,7 @@ bool coupling_end_read(struct reader *reader, const struct node *node, const cha
     return ground_point_read(reader, name, what, &point->where);
 }
 
-static bool read_between(struct reader *reader, const struct node *list, struct coupling *coupling)
+static bool read_between(struct reader *reader, const struct node *list, struct force_coupling *coupling)
 {
     if (!list) return false; /* noted */
     if (list->count != 2) {
@@ -265,7 +265,7 @@ static bool read_coupling(struct reader *reader, const struct node *node, bool c
         name->body[1] = constraint->body[constraint->end_count - 1];
         return true;
     }
-    struct coupling *coupling = &scene->couplings[scene->coupling_count++];
+    struct force_coupling *coupling = &scene->force_couplings[scene->force_coupling_count++];
     coupling->load = (struct load){.kind = (enum load_kind)chosen.kind->value,
                                    .at = chosen.at,
                                    .stiffness = keys.stiffness,
@@ -291,17 +291,17 @@ bool couplings_read(struct reader *reader, const struct node *couplings, const s
     size_t first = couplings ? couplings->count : 0, count = first + (contacts ? contacts->count : 0);
     size_t stops = stops_count(reader), load = 0, constraint = 0;
     count += stops;
-    scene->couplings = ARENA_ARRAY(reader->arena, count, struct coupling);
+    scene->force_couplings = ARENA_ARRAY(reader->arena, count, struct force_coupling);
     scene->constraints = ARENA_ARRAY(reader->arena, count, struct constraint);
     struct coupling_name *names = ARENA_ARRAY(reader->arena, count, struct coupling_name);
-    if (!scene->couplings || !scene->constraints || !names) return false;
+    if (!scene->force_couplings || !scene->constraints || !names) return false;
     bool fine = read_list(reader, couplings, false, names);
     if (!read_list(reader, contacts, true, names + first)) fine = false;
     if (!stops_read(reader, names + count - stops)) fine = false;
     if (!fine || !couplings_name(reader, names, count)) return false;
     for (size_t i = 0; i < count; i++) {
         bool force = names[i].kind->value < coupling_constraint;
-        *(force ? &scene->couplings[load++].load.name : &scene->constraints[constraint++].name) =
+        *(force ? &scene->force_couplings[load++].load.name : &scene->constraints[constraint++].name) =
             names[i].name;
     }
     return true;

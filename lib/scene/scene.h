@@ -28,7 +28,7 @@ struct hand_summand {
 };
 
 /* A spring or damper between a point of a body and a point of another one, or of the ground. */
-struct coupling {
+struct force_coupling {
     struct load load; /* load_spring or load_damper: name, position, law */
     int body[2];      /* ground_body for the ground; not both */
     struct point point[2];
@@ -242,12 +242,12 @@ struct scene {
     enum unit_system units;
     struct vec gravity; /* acceleration, straight down by default */
     double datum;       /* height y at which the potential energy of gravity is zero */
-    size_t parameter_count, table_count, body_count, event_count, coupling_count, constraint_count;
+    size_t parameter_count, table_count, body_count, event_count, force_coupling_count, constraint_count;
     struct parameter *parameters; /* of `parameters`, then of `inputs` */
     struct scene_table *tables;
     struct body *bodies;
     struct user_event *events;
-    struct coupling *couplings;
+    struct force_coupling *force_couplings;
     struct constraint *constraints;
     struct simulate simulate;
     struct grading grading;

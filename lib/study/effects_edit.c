@@ -105,9 +105,9 @@ static void leave_out(struct scene *scene, int b, int index)
 
 static void uncouple(struct scene *scene, int index)
 {
-    scene->coupling_count--;
-    for (size_t i = (size_t)index; i < scene->coupling_count; i++)
-        scene->couplings[i] = scene->couplings[i + 1];
+    scene->force_coupling_count--;
+    for (size_t i = (size_t)index; i < scene->force_coupling_count; i++)
+        scene->force_couplings[i] = scene->force_couplings[i + 1];
 }
 
 static void leave_out_part(struct body *body, int index)

@@ -254,7 +254,7 @@ static bool add_linear_scene(struct fbd_effects *effects)
     if (!jointed) return true;
     struct edit edit = {.kind = edit_linear_scene};
     if (!find_equilibrium(effects, true, &edit.about)) return false;
-    if (effects->model->tree->tie_count > 0)
+    if (effects->model->tree->coupling_count > 0)
         edit.refusal = "couplings close loops: its coordinates are not independent";
     else if (any_uses_time(scene))
         edit.refusal = "forces depend on time: there is no place of rest";
@@ -286,8 +286,8 @@ static void add_inertia(struct fbd_effects *effects, int b)
 static void add_couplings(struct fbd_effects *effects)
 {
     const struct scene *scene = effects->model->scene;
-    for (int i = 0; i < (int)scene->coupling_count; i++) {
-        const struct coupling *coupling = &scene->couplings[i];
+    for (int i = 0; i < (int)scene->force_coupling_count; i++) {
+        const struct force_coupling *coupling = &scene->force_couplings[i];
         int body = coupling->body[coupling->body[0] == ground_body];
         add(effects, (struct edit){.kind = edit_uncouple, .body = body, .index = i}, coupling->load.name,
             "left out");
@@ -300,7 +300,7 @@ bool effects_list(struct fbd_effects *effects)
 {
     const struct scene *scene = effects->model->scene;
     enum { kinds_of_a_load = 4 };
-    size_t room = 2 + scene->coupling_count;
+    size_t room = 2 + scene->force_coupling_count;
     for (size_t b = 0; b < scene->body_count; b++)
         room += kinds_of_a_load * scene->bodies[b].load_count + scene->bodies[b].part_count + 1;
     effects->effects = ARENA_ARRAY(&effects->arena, room, fbd_effect);

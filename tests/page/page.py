@@ -237,14 +237,14 @@ def check_couplings(browser, folder):
         changed = browser.run("""
             for (const id of ['show-forces', 'show-names', 'show-axes', 'show-trace']) document.getElementById(id).checked = false;
             fbd.seek(run.end * 0.2);
-            const all = run.ties, picture = () => {
+            const all = run.couplings, picture = () => {
               drawStill(); refresh(); return pen.getImageData(0, 0, canvas.width, canvas.height).data; };
             const whole = picture();
-            return all.map((tie) => {
-              run.ties = all.filter((other) => other !== tie);
+            return all.map((coupling) => {
+              run.couplings = all.filter((other) => other !== coupling);
               const without = picture();
-              run.ties = all;
-              return [tie.name, whole.reduce((sum, value, i) => sum + (value !== without[i]), 0)]; });""")
+              run.couplings = all;
+              return [coupling.name, whole.reduce((sum, value, i) => sum + (value !== without[i]), 0)]; });""")
         if not changed or any(pixels < 20 for _, pixels in changed):
             unseen[model.stem] = changed
         browser.log("browser")  # Chromium's advice for who reads pixels often
@@ -254,7 +254,7 @@ def check_couplings(browser, folder):
         assert not loud, loud
     with claim("a rope touches its pulley where it leaves it: Atwood's hangs straight down from both sides"):
         browser.open(folder / "atwood.html")
-        ends = browser.run("fbd.seek(0.5); return run.ties.map((tie) => tie.reached);")
+        ends = browser.run("fbd.seek(0.5); return run.couplings.map((coupling) => coupling.reached);")
         for got, want in zip(ends[0], (-0.1, 0)):
             close(got, want, 1e-9)
         assert abs(ends[1][0] - 0.1) < 1e-9, ends
@@ -262,7 +262,7 @@ def check_couplings(browser, folder):
         browser.open(folder / "rope_pendulum.html")
         slack = browser.run("""const [loose, taut] = run.events.times;
             return [0, loose / 2, loose + 1e-6, (loose + taut) / 2, taut - 1e-6, taut + 1e-6, run.end].map(
-              (t) => isSlack(run.ties[0], t, rowAt(t)));""")
+              (t) => isSlack(run.couplings[0], t, rowAt(t)));""")
         assert slack == [False, False, True, True, True, False, False], slack
 
 

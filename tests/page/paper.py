@@ -157,7 +157,7 @@ def check_zero(browser, folder):
     browser.open(page_of(ROPE, folder))
     with claim("the force of a slack rope is shown as zero, at every time of the slack"):
         texts = browser.run("""const [from, to] = run.events.times, found = new Set();
-            const tie = run.ties[0].force, column = run.bodies.flatMap((body) => body.arrows).find((arrow) => arrow.arrow[0] === tie).force;
+            const coupling = run.couplings[0].force, column = run.bodies.flatMap((body) => body.arrows).find((arrow) => arrow.arrow[0] === coupling).force;
             for (let i = 1; i < 50; i++) { const t = from + (to - from) * i / 50; for (const c of column) found.add(show(readAt(c, t, rowAt(t)))); }
             return [...found];""")
         assert texts == ["0"], texts

@@ -3,7 +3,7 @@
 // Couplings that hold: pins, massless rods, ropes over pulleys, gears, racks, lines that circles roll on; and bodies
 // that the file gives no shape, drawn by the points where others take hold of them.
 
-function tieEnd(end, frameOf) {
+function couplingEnd(end, frameOf) {
   return end.body < 0 ? end.point : place(frameOf(end.body), ...end.point);
 }
 
@@ -20,38 +20,38 @@ function inFrame(frame, [x, y]) {
 // ---- once, from the motion of the whole run
 
 // Which stretch of the line the circle comes over, in the line's frame; the rack's line touches the circle.
-function prepareLine(tie) {
-  const [circle, line] = tie.ends, [ex, ey] = tie.e;
-  tie.n = [-ey * tie.side, ex * tie.side];
-  tie.span = [Infinity, -Infinity];
-  tie.lift = 0;
+function prepareLine(coupling) {
+  const [circle, line] = coupling.ends, [ex, ey] = coupling.e;
+  coupling.n = [-ey * coupling.side, ex * coupling.side];
+  coupling.span = [Infinity, -Infinity];
+  coupling.lift = 0;
   survey.forEach((t, i) => {
-    const row = rowAt(t), frameOf = (b) => frameAt(run.bodies[b], t, row), center = tieEnd(circle, frameOf);
+    const row = rowAt(t), frameOf = (b) => frameAt(run.bodies[b], t, row), center = couplingEnd(circle, frameOf);
     const [x, y] = line.body < 0 ? center : inFrame(frameOf(line.body), center), dx = x - line.point[0], dy = y - line.point[1];
     const along = dx * ex + dy * ey;
-    if (tie.kind === "rack" && i === 0) tie.lift = dx * tie.n[0] + dy * tie.n[1] - circle.radius;
-    tie.span = [Math.min(tie.span[0], along - circle.radius), Math.max(tie.span[1], along + circle.radius)];
+    if (coupling.kind === "rack" && i === 0) coupling.lift = dx * coupling.n[0] + dy * coupling.n[1] - circle.radius;
+    coupling.span = [Math.min(coupling.span[0], along - circle.radius), Math.max(coupling.span[1], along + circle.radius)];
   });
   if (line.body >= 0) run.bodies[line.body].board = true;
 }
 
 // A slot without ends is as long as its point goes, and a little more.
-function prepareSlot(tie) {
-  const [x, y] = tie.ends[1].point, [ex, ey] = tie.e, board = tie.ends[1].body >= 0 && run.bodies[tie.ends[1].body].board;
-  prepareLine(tie);
-  if (tie.ends[1].body >= 0) run.bodies[tie.ends[1].body].board = board;
-  const pad = 0.15 * (tie.span[1] - tie.span[0]);
-  tie.points = [tie.span[0] - pad, tie.span[1] + pad].map((s) => [x + s * ex, y + s * ey]);
-  tie.span = null;
+function prepareSlot(coupling) {
+  const [x, y] = coupling.ends[1].point, [ex, ey] = coupling.e, board = coupling.ends[1].body >= 0 && run.bodies[coupling.ends[1].body].board;
+  prepareLine(coupling);
+  if (coupling.ends[1].body >= 0) run.bodies[coupling.ends[1].body].board = board;
+  const pad = 0.15 * (coupling.span[1] - coupling.span[0]);
+  coupling.points = [coupling.span[0] - pad, coupling.span[1] + pad].map((s) => [x + s * ex, y + s * ey]);
+  coupling.span = null;
 }
 
 // Both wheels have teeth of one pitch, and mesh at the start.
-function prepareGear(tie) {
+function prepareGear(coupling) {
   const row = rowAt(run.start), frameOf = (b) => frameAt(run.bodies[b], run.start, row);
-  const [a, b] = tie.ends.map((end) => tieEnd(end, frameOf)), centres = Math.atan2(b[1] - a[1], b[0] - a[0]);
-  const least = Math.min(...tie.ends.map((end) => Math.abs(end.radius)));
-  tie.ends.forEach((end, k) => {
-    const contact = k === 1 || tie.ends[1].radius < 0 ? centres + Math.PI : centres, frame = frameOf(end.body);
+  const [a, b] = coupling.ends.map((end) => couplingEnd(end, frameOf)), centres = Math.atan2(b[1] - a[1], b[0] - a[0]);
+  const least = Math.min(...coupling.ends.map((end) => Math.abs(end.radius)));
+  coupling.ends.forEach((end, k) => {
+    const contact = k === 1 || coupling.ends[1].radius < 0 ? centres + Math.PI : centres, frame = frameOf(end.body);
     end.teeth = Math.round(12 * Math.abs(end.radius) / least);
     end.phase = contact - Math.atan2(frame.s, frame.c) + (k === 1 ? Math.PI / end.teeth : 0);
     if (end.radius > 0) run.bodies[end.body].wheel = end;
@@ -69,7 +69,7 @@ function jointsOf(index) {
     const child = frameAt(body, run.start, row);
     if (body.joint && body.parent === index) add(inFrame(frame, [child.x, child.y]));
   }
-  for (const tie of run.ties) for (const end of tie.ends) if (end.body === index && end.radius === 0) add(end.point);
+  for (const coupling of run.couplings) for (const end of coupling.ends) if (end.body === index && end.radius === 0) add(end.point);
   for (const link of run.links) {
     if (link.body === index) add(link.point);
     if (link.partner === index) add(link.anchor);
@@ -80,10 +80,10 @@ function jointsOf(index) {
 
 function prepareTies() {
   prepareWedges();
-  for (const tie of run.ties) {
-    if (tie.kind === "roll" || tie.kind === "rack") prepareLine(tie);
-    if (tie.kind === "slot" && !tie.points) prepareSlot(tie);
-    if (tie.kind === "gear") prepareGear(tie);
+  for (const coupling of run.couplings) {
+    if (coupling.kind === "roll" || coupling.kind === "rack") prepareLine(coupling);
+    if (coupling.kind === "slot" && !coupling.points) prepareSlot(coupling);
+    if (coupling.kind === "gear") prepareGear(coupling);
   }
   run.bodies.forEach((body, index) => {
     const shapeless = body.motion !== "slide" && body.motion !== "particle" && body.shapes.every((shape) => shape.kind === "unknown");
@@ -92,9 +92,9 @@ function prepareTies() {
 }
 
 // The ends of a rack or of a board that a circle rolls on, in the frame of the line.
-function lineEnds(tie) {
-  const [x, y] = tie.ends[1].point, [ex, ey] = tie.e, [nx, ny] = tie.n;
-  return tie.span.map((s) => [x + s * ex + tie.lift * nx, y + s * ey + tie.lift * ny]);
+function lineEnds(coupling) {
+  const [x, y] = coupling.ends[1].point, [ex, ey] = coupling.e, [nx, ny] = coupling.n;
+  return coupling.span.map((s) => [x + s * ex + coupling.lift * nx, y + s * ey + coupling.lift * ny]);
 }
 
 // A body without a shape that another one slides on: which stretch of the line it needs.
@@ -128,13 +128,13 @@ function wedgeReach(body) {
 // Points that the picture has to hold at some instant.
 function tiePoints(frameOf) {
   const points = [];
-  for (const tie of run.ties) {
-    for (const end of tie.ends) {
-      const [x, y] = tieEnd(end, frameOf), r = Math.abs(end.radius);
-      if (tie.kind !== "roll" || end.body >= 0) points.push([x - r, y - r], [x + r, y + r]);
+  for (const coupling of run.couplings) {
+    for (const end of coupling.ends) {
+      const [x, y] = couplingEnd(end, frameOf), r = Math.abs(end.radius);
+      if (coupling.kind !== "roll" || end.body >= 0) points.push([x - r, y - r], [x + r, y + r]);
     }
-    if (tie.points) points.push(...tie.points.map((p) => tie.ends[1].body < 0 ? p : place(frameOf(tie.ends[1].body), ...p)));
-    if (tie.span && tie.ends[1].body >= 0) points.push(...lineEnds(tie).map((p) => place(frameOf(tie.ends[1].body), ...p)));
+    if (coupling.points) points.push(...coupling.points.map((p) => coupling.ends[1].body < 0 ? p : place(frameOf(coupling.ends[1].body), ...p)));
+    if (coupling.span && coupling.ends[1].body >= 0) points.push(...lineEnds(coupling).map((p) => place(frameOf(coupling.ends[1].body), ...p)));
   }
   for (const { corners } of run.surfaces) if (corners) points.push(...corners);
   run.bodies.forEach((body, i) => {
@@ -155,14 +155,14 @@ function drawStillTies() {
     path(corners.map((corner) => toScreen(corner)), true);
     strokeWith(view.colour.line, 1.2);
   }
-  for (const tie of run.ties) {
-    if (tie.kind === "roll" && tie.ends[1].body < 0) drawSurface(tie.ends[1].point, tie.e, tie.n, 0);
-    tie.ends.forEach((end, k) => {
-      const [x, y] = toScreen(end.point), last = k === 0 || k + 1 === tie.ends.length;
-      if (end.body >= 0 || tie.kind === "roll" || tie.kind === "slot") return;
+  for (const coupling of run.couplings) {
+    if (coupling.kind === "roll" && coupling.ends[1].body < 0) drawSurface(coupling.ends[1].point, coupling.e, coupling.n, 0);
+    coupling.ends.forEach((end, k) => {
+      const [x, y] = toScreen(end.point), last = k === 0 || k + 1 === coupling.ends.length;
+      if (end.body >= 0 || coupling.kind === "roll" || coupling.kind === "slot") return;
       if (end.wound) drawDrum(x, y, end.radius);
-      else if (tie.kind === "rope" && last) hatch([x - 16, y], [x + 16, y], 0, -1);
-      if (tie.kind === "rope" && !end.wound) dot(x, y, 3.5, view.colour.soft);
+      else if (coupling.kind === "rope" && last) hatch([x - 16, y], [x + 16, y], 0, -1);
+      if (coupling.kind === "rope" && !end.wound) dot(x, y, 3.5, view.colour.soft);
       else if (!end.wound) drawBearing(x, y, 1);
     });
   }
@@ -178,14 +178,14 @@ function drawDrum(x, y, radius) {
 
 // ---- under the bodies
 
-function drawBoard(tie, frame) {
-  const [a, b] = lineEnds(tie).map((point) => toScreen(place(frame, ...point)));
+function drawBoard(coupling, frame) {
+  const [a, b] = lineEnds(coupling).map((point) => toScreen(place(frame, ...point)));
   const length = Math.hypot(b[0] - a[0], b[1] - a[1]) || 1, ux = (b[0] - a[0]) / length, uy = (b[1] - a[1]) / length;
-  const way = -tie.side, thick = Math.max(6, 0.25 * tie.ends[0].radius * view.scale);
+  const way = -coupling.side, thick = Math.max(6, 0.25 * coupling.ends[0].radius * view.scale);
   const down = ([x, y], d) => [x + way * uy * d, y - way * ux * d];
   drawPlate([a, b, down(b, thick), down(a, thick)]);
-  if (tie.kind !== "rack") return;
-  const pitch = 2 * Math.PI * tie.ends[0].radius * view.scale / 12;
+  if (coupling.kind !== "rack") return;
+  const pitch = 2 * Math.PI * coupling.ends[0].radius * view.scale / 12;
   pen.beginPath();
   for (let s = pitch / 2; s < length; s += pitch) {
     const p = [a[0] + s * ux, a[1] + s * uy], low = down(p, 4), high = down(p, -3);
@@ -196,7 +196,7 @@ function drawBoard(tie, frame) {
 }
 
 function drawTiesUnder(frames) {
-  for (const tie of run.ties) if (tie.span && tie.ends[1].body >= 0) drawBoard(tie, frames[tie.ends[1].body]);
+  for (const coupling of run.couplings) if (coupling.span && coupling.ends[1].body >= 0) drawBoard(coupling, frames[coupling.ends[1].body]);
 }
 
 function drawPlate(points) {
@@ -253,8 +253,8 @@ function hangLoose([from, to], length) {
 }
 
 // No tension, but for what seven digits of a sum leave of it.
-function isSlack(tie, t, row) {
-  return tie.force >= 0 && Math.hypot(valueAt(tie.force, t, row), valueAt(tie.force + 1, t, row)) < 1e-5 * view.force;
+function isSlack(coupling, t, row) {
+  return coupling.force >= 0 && Math.hypot(valueAt(coupling.force, t, row), valueAt(coupling.force + 1, t, row)) < 1e-5 * view.force;
 }
 
 // What is wound on a disc: all round it.
@@ -265,39 +265,39 @@ function drawCoil([x, y], radius) {
 }
 
 // One piece of a rope from pulley to pulley, and its way round the pulley where the piece before it ends.
-function drawRope(tie, before, frames, t, row) {
-  const places = tie.ends.map((end) => tieEnd(end, (b) => frames[b])), ways = tie.ends.map((end) => end.side * end.radius);
-  const slack = isSlack(tie, t, row), dash = slack ? [5, 4] : [], points = [];
+function drawRope(coupling, before, frames, t, row) {
+  const places = coupling.ends.map((end) => couplingEnd(end, (b) => frames[b])), ways = coupling.ends.map((end) => end.side * end.radius);
+  const slack = isSlack(coupling, t, row), dash = slack ? [5, 4] : [], points = [];
   for (let k = 0; k + 1 < places.length; k++) points.push(...straightPiece(places[k], places[k + 1], ways[k], ways[k + 1]));
-  if (slack && points.length === 2 && !ways[0] && !ways[1]) hangLoose(points, tie.length);
+  if (slack && points.length === 2 && !ways[0] && !ways[1]) hangLoose(points, coupling.length);
   else path(points.map(toScreen));
   strokeWith(view.colour.rope, 1.8, dash);
-  const first = tie.ends[0];
-  if (first.radius > 0 && before && before.name === tie.name) {
+  const first = coupling.ends[0];
+  if (first.radius > 0 && before && before.name === coupling.name) {
     const angle = ([x, y]) => -Math.atan2(y - places[0][1], x - places[0][0]);
     pen.beginPath();
     pen.arc(...toScreen(places[0]), first.radius * view.scale, angle(before.reached), angle(points[0]), first.side > 0);
     strokeWith(view.colour.rope, 1.8, dash);
   }
-  tie.ends.forEach((end, k) => {
+  coupling.ends.forEach((end, k) => {
     if (end.wound) drawCoil(toScreen(places[k]), end.radius);
   });
-  tie.reached = points[points.length - 1];
+  coupling.reached = points[points.length - 1];
 }
 
 // Both strands, and the belt all round its discs.
-function drawBelt(tie, frames) {
-  const [a, b] = tie.ends.map((end) => tieEnd(end, (body) => frames[body])), [sA, sB] = tie.ends.map((end) => end.side * end.radius);
+function drawBelt(coupling, frames) {
+  const [a, b] = coupling.ends.map((end) => couplingEnd(end, (body) => frames[body])), [sA, sB] = coupling.ends.map((end) => end.side * end.radius);
   path(straightPiece(a, b, sA, sB).map(toScreen));
   strokeWith(view.colour.rope, 2.4);
   path(straightPiece(b, a, sB, sA).map(toScreen));
   strokeWith(view.colour.rope, 2.4);
-  tie.ends.forEach((end, k) => drawCoil(toScreen(k ? b : a), end.radius));
+  coupling.ends.forEach((end, k) => drawCoil(toScreen(k ? b : a), end.radius));
 }
 
 // Pitch circles are drawn as on an engineer's sheet, dot and dash.
-function drawGear(tie, frames) {
-  for (const end of tie.ends) {
+function drawGear(coupling, frames) {
+  for (const end of coupling.ends) {
     const frame = frames[end.body], [x, y] = toScreen(place(frame, ...end.point)), r = Math.abs(end.radius) * view.scale;
     pen.beginPath();
     pen.arc(x, y, r, 0, 2 * Math.PI);
@@ -313,11 +313,11 @@ function drawGear(tie, frames) {
 }
 
 // The groove, or the face of a cam, and its pin or roller.
-function drawSlot(tie, frames) {
-  const frame = (end) => end.body < 0 ? null : frames[end.body], [pin, slot] = tie.ends, on = frame(slot);
-  path(tie.points.map((point) => toScreen(on ? place(on, ...point) : point)));
+function drawSlot(coupling, frames) {
+  const frame = (end) => end.body < 0 ? null : frames[end.body], [pin, slot] = coupling.ends, on = frame(slot);
+  path(coupling.points.map((point) => toScreen(on ? place(on, ...point) : point)));
   strokeWith(view.colour.edge, 2);
-  const [x, y] = toScreen(tieEnd(pin, (b) => frames[b]));
+  const [x, y] = toScreen(couplingEnd(pin, (b) => frames[b]));
   pen.beginPath();
   pen.arc(x, y, Math.max(pin.radius * view.scale, 3.5), 0, 2 * Math.PI);
   pen.fillStyle = view.colour.paper;
@@ -331,14 +331,14 @@ function drawPin([x, y]) {
 }
 
 function drawTiesOver(frames, t, row) {
-  run.ties.forEach((tie, i) => {
-    const places = () => tie.ends.map((end) => toScreen(tieEnd(end, (b) => frames[b])));
-    if (tie.kind === "rope") drawRope(tie, run.ties[i - 1], frames, t, row);
-    if (tie.kind === "gear") drawGear(tie, frames);
-    if (tie.kind === "belt") drawBelt(tie, frames);
-    if (tie.kind === "pin") drawPin(places()[0]);
-    if (tie.kind === "slot") drawSlot(tie, frames);
-    if (tie.kind === "rod") {
+  run.couplings.forEach((coupling, i) => {
+    const places = () => coupling.ends.map((end) => toScreen(couplingEnd(end, (b) => frames[b])));
+    if (coupling.kind === "rope") drawRope(coupling, run.couplings[i - 1], frames, t, row);
+    if (coupling.kind === "gear") drawGear(coupling, frames);
+    if (coupling.kind === "belt") drawBelt(coupling, frames);
+    if (coupling.kind === "pin") drawPin(places()[0]);
+    if (coupling.kind === "slot") drawSlot(coupling, frames);
+    if (coupling.kind === "rod") {
       path(places());
       strokeWith(view.colour.edge, 2.4);
       places().forEach(drawPin);

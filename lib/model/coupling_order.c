@@ -2,7 +2,7 @@
  *
  * In which order the unknowns of dynamics/tree_system.h are eliminated, fixed when the model is compiled.
  *
- * Two unknowns meet when they join a common tree: rows of ties, and frictions of slides, which belong to one
+ * Two unknowns meet when they join a common tree: rows of couplings, and frictions of slides, which belong to one
  * tree each. What is kept of a row and column reaches from the first unknown that it meets to the diagonal,
  * so that a chain of loops takes time in proportion to its length when its unknowns are numbered along it. A
  * file may list couplings and bodies in any order; so they are numbered anew from one end of each connected
@@ -14,7 +14,7 @@
 
 #include "model/model.h"
 
-/* Unknowns that stay together: the rows of a tie, or the friction of a slide. */
+/* Unknowns that stay together: the rows of a coupling, or the friction of a slide. */
 struct group {
     int first, count;
     const int *roots;
@@ -33,12 +33,13 @@ struct graph {
 static void set_groups(struct graph *graph)
 {
     const struct tree *tree = graph->tree;
-    for (int i = 0; i < tree->tie_count; i++) {
-        const struct tie *tie = &tree->ties[i];
-        graph->groups[i] = (struct group){tie->first_row, tie->row_count, tie->root, tie->root_count};
+    for (int i = 0; i < tree->coupling_count; i++) {
+        const struct coupling *coupling = &tree->couplings[i];
+        graph->groups[i] =
+            (struct group){coupling->first_row, coupling->row_count, coupling->root, coupling->root_count};
     }
     for (int k = 0; k < tree->pair_count; k++)
-        graph->groups[tree->tie_count + k] =
+        graph->groups[tree->coupling_count + k] =
             (struct group){tree->row_count + k, 1, &tree->links[tree->pairs[k]].root, 1};
 }
 
@@ -59,7 +60,7 @@ static void set_members(struct graph *graph)
 
 static bool make_graph(struct graph *graph, const struct tree *tree, struct arena *arena)
 {
-    size_t links = (size_t)tree->count, groups = (size_t)tree->tie_count + (size_t)tree->pair_count;
+    size_t links = (size_t)tree->count, groups = (size_t)tree->coupling_count + (size_t)tree->pair_count;
     size_t members = 0;
     *graph = (struct graph){.tree = tree, .group_count = (int)groups};
     graph->unknowns = tree->row_count + tree->pair_count;
@@ -166,7 +167,7 @@ static void set_envelope(struct graph *graph, struct tree *tree, int *group_of, 
 
 static bool allocate(struct tree *tree, struct arena *arena, size_t m)
 {
-    tree->tie_of_row = ARENA_ARRAY(arena, (size_t)tree->row_count, int);
+    tree->coupling_of_row = ARENA_ARRAY(arena, (size_t)tree->row_count, int);
     tree->unknown_at = ARENA_ARRAY(arena, m, int);
     tree->first = ARENA_ARRAY(arena, m, int);
     tree->reach = ARENA_ARRAY(arena, m, int);
@@ -174,7 +175,7 @@ static bool allocate(struct tree *tree, struct arena *arena, size_t m)
     return !arena->failed;
 }
 
-bool ties_order(struct fbd_model *model)
+bool couplings_order(struct fbd_model *model)
 {
     struct tree *tree = model->tree;
     struct arena *arena = &model->arena;
@@ -185,8 +186,9 @@ bool ties_order(struct fbd_model *model)
     lowest = ARENA_ARRAY(arena, (size_t)tree->count, int);
     highest = ARENA_ARRAY(arena, (size_t)tree->count, int);
     if (arena->failed) return false;
-    for (int i = 0; i < tree->tie_count; i++)
-        for (int k = 0; k < tree->ties[i].row_count; k++) tree->tie_of_row[tree->ties[i].first_row + k] = i;
+    for (int i = 0; i < tree->coupling_count; i++)
+        for (int k = 0; k < tree->couplings[i].row_count; k++)
+            tree->coupling_of_row[tree->couplings[i].first_row + k] = i;
     for (int k = 0; k < m; k++) tree->unknown_at[k] = k;
     set_envelope(&graph, tree, group_of, lowest, highest);
     size_t of_the_file = tree->envelope_size;

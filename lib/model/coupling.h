@@ -1,19 +1,19 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Ties: the constraints of a scene as rows of equations between links, g(q) = 0.
+ * Couplings: the constraints of a scene as rows of equations between links, g(q) = 0.
  *
- * A tie has one or two rows. A pin has its two components; a rope has a tie for each piece between places
+ * A coupling has one or two rows. A pin has its two components; a rope has a coupling for each piece between places
  * that hold it (its ends and the pulleys that it takes along); a rolling body has one row that keeps it on
  * its line and one that keeps it from slipping. The force of a row is its multiplier times the gradient of g.
  */
-#ifndef FBD_MODEL_TIE_H
-#define FBD_MODEL_TIE_H
+#ifndef FBD_MODEL_COUPLING_H
+#define FBD_MODEL_COUPLING_H
 
 #include "expr/expr.h"
 #include "model/plan.h"
 #include "scene/scene.h"
 
-struct tie_end {
+struct coupling_end {
     int body, link; /* body: -1, and link: 0 for the ground */
     struct vec point;
     double radius;       /* of the circle there, else 0 */
@@ -21,7 +21,7 @@ struct tie_end {
     const char *name[2]; /* of its force in the diagram of the body; roll: across and along the line */
 };
 
-struct tie {
+struct coupling {
     enum constraint_kind kind;
     const struct constraint_law *law;
     int constraint;                  /* index into scene.constraints, */
@@ -31,7 +31,7 @@ struct tie {
     int first_row, row_count;
     int place; /* rope: where the piece starts on its way */
     int end_count;
-    struct tie_end end[most_constraint_ends];
+    struct coupling_end end[most_constraint_ends];
     struct vec e;      /* roll, rack: the line in the frame of the link of end 1 */
     double turn;       /* roll, rack: the angle of the line there */
     bool length_given; /* rod, rope */
@@ -55,14 +55,14 @@ struct fbd_model;
 struct tree;
 
 /* The name of row `row` of the tree. */
-const char *tie_row_name(const struct tree *tree, int row);
+const char *coupling_row_name(const struct tree *tree, int row);
 
 /* The name of its force: what is along a surface and across it is called as in the diagram of its first body, where
  * names differ. */
-const char *tie_force_name(const struct tree *tree, int row);
+const char *coupling_force_name(const struct tree *tree, int row);
 
 /* Place `k` of constraint `index` of the scene. */
-struct tie_end tie_end_of(const struct fbd_model *model, int index, int k);
+struct coupling_end coupling_end_of(const struct fbd_model *model, int index, int k);
 
 /* Does anything move by a law of the time: a joint, or the length of a rope? */
 bool model_is_driven(const struct fbd_model *model);
@@ -72,31 +72,31 @@ bool model_is_driven(const struct fbd_model *model);
 bool model_has_speeds_given(const struct fbd_model *model);
 
 /* Is the force of its first row known by itself: of what presses, and cannot pull, or rubs? */
-static inline bool tie_presses(const struct tie *tie)
+static inline bool coupling_presses(const struct coupling *coupling)
 {
-    return tie->law->surface || tie->source->presses != 0;
+    return coupling->law->surface || coupling->source->presses != 0;
 }
 
 /* Is it a surface whose impulses are found with those of contacts and ropes? What rolls is, and a follower on its cam. */
-static inline bool tie_takes_impulses(const struct tie *tie)
+static inline bool coupling_takes_impulses(const struct coupling *coupling)
 {
-    return tie->surface >= 0 && tie->meeting < 0 && tie->kind != constraint_capstan;
+    return coupling->surface >= 0 && coupling->meeting < 0 && coupling->kind != constraint_capstan;
 }
 
 /* A slot that rubs and holds on both sides is a guide. */
-static inline bool tie_is_guide(const struct tie *tie)
+static inline bool coupling_is_guide(const struct coupling *coupling)
 {
-    return tie->kind == constraint_groove && tie->surface < 0;
+    return coupling->kind == constraint_groove && coupling->surface < 0;
 }
 
-/* Add a tie of contact `index` of the scene for one feature of the meeting. */
-void tie_of_contact(struct fbd_model *model, int index, int meeting);
+/* Add a coupling of contact `index` of the scene for one feature of the meeting. */
+void coupling_of_contact(struct fbd_model *model, int index, int meeting);
 
 /* Compile the constraints of the scene; places of the bodies are known. False when memory is out. */
-bool ties_build(struct fbd_model *model);
+bool couplings_build(struct fbd_model *model);
 
 /* The order in which the system's unknowns are eliminated, and which of them meet; the tree is finished by
- * then (tie_order.c). False when memory is out. */
-bool ties_order(struct fbd_model *model);
+ * then (coupling_order.c). False when memory is out. */
+bool couplings_order(struct fbd_model *model);
 
 #endif

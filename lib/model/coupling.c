@@ -1,0 +1,203 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "model/coupling.h"
+
+#include "model/model.h"
+
+struct coupling_end coupling_end_of(const struct fbd_model *model, int index, int k)
+{
+    const struct constraint *source = &model->scene->constraints[index];
+    struct coupling_end end = {.body = source->body[k], .radius = source->radius[k], .side = source->side[k]};
+    const struct point *point = &source->point[k];
+    end.point = point->where;
+    if (end.body == ground_body) return end;
+    const struct model_body *body = &model->bodies[end.body];
+    struct vec own = point->kind == point_fixed ? point->where : body->inertia.G;
+    end.link = body->place.link;
+    end.point = placement_point(&body->place, own);
+    return end;
+}
+
+static void add_roots(const struct tree *tree, struct coupling *coupling)
+{
+    for (int k = 0; k < coupling->end_count; k++) {
+        int root = tree->links[coupling->end[k].link].root;
+        bool known = root == 0;
+        for (int i = 0; i < coupling->root_count; i++) known |= coupling->root[i] == root;
+        if (!known) coupling->root[coupling->root_count++] = root;
+    }
+}
+
+static struct coupling *add_coupling(struct fbd_model *model, int index, int from, int to)
+{
+    struct tree *tree = model->tree;
+    const struct constraint *source = &model->scene->constraints[index];
+    const struct constraint_law *law = &constraint_laws[source->kind];
+    struct coupling *coupling = &tree->couplings[tree->coupling_count++];
+    *coupling = (struct coupling){.kind = source->kind,
+                                  .law = law,
+                                  .constraint = index,
+                                  .source = source,
+                                  .name = source->name,
+                                  .first_row = tree->row_count,
+                                  .row_count = law->rows - (source->tension > 0),
+                                  .length_given = source->length_given,
+                                  .length = source->length,
+                                  .place = from,
+                                  .pair = -1,
+                                  .surface = -1,
+                                  .meeting = -1};
+    tree->row_count += coupling->row_count;
+    for (int k = from; k <= to; k++) coupling->end[coupling->end_count++] = coupling_end_of(model, index, k);
+    add_roots(tree, coupling);
+    return coupling;
+}
+
+bool model_has_speeds_given(const struct fbd_model *model)
+{
+    if (model_is_driven(model)) return true;
+    for (size_t i = 0; i < model->plan.mode_count && model->tree && model->tree->coupling_count > 0; i++)
+        if (model->plan.modes[i].surface_speed.expr) return true;
+    return false;
+}
+
+bool model_is_driven(const struct fbd_model *model)
+{
+    for (size_t i = 0; i < model->plan.mode_count; i++) {
+        const struct mode *hold = &model->plan.modes[i];
+        if (hold->kind == mode_drive ||
+            (hold->kind == mode_rope && model->tree->couplings[hold->coupling].reels))
+            return true;
+    }
+    return false;
+}
+
+void coupling_of_contact(struct fbd_model *model, int index, int meeting)
+{
+    add_coupling(model, index, 0, 1)->meeting = meeting;
+}
+
+static void wind(const struct constraint *source, int end, struct coupling *coupling)
+{
+    coupling->wound[end] = source->wound[end];
+    coupling->spare[end] = source->spare[end];
+}
+
+/* A rope is cut at the pulleys that it takes along; each piece is a coupling. */
+static void add_rope(struct fbd_model *model, int index)
+{
+    const struct constraint *source = &model->scene->constraints[index];
+    int from = 0;
+    for (int k = 1; k < source->end_count; k++) {
+        bool held = k + 1 == source->end_count || source->radius[k] > 0;
+        if (!held) continue;
+        struct coupling *coupling = add_coupling(model, index, from, k);
+        if (from == 0) wind(source, 0, coupling);
+        if (k + 1 == source->end_count) wind(source, 1, coupling);
+        coupling->reels = from == 0 && source->reel.expr;
+        /* A length in the file is that of the whole rope; pieces keep theirs of the start. */
+        if (from > 0 || k + 1 < source->end_count) coupling->length_given = false;
+        from = k;
+    }
+}
+
+static void set_line(const struct fbd_model *model, struct coupling *coupling)
+{
+    const struct constraint *source = coupling->source;
+    struct vec e = vec_unit(source->along);
+    coupling->turn = source->along;
+    coupling->e = e;
+    if (source->body[1] == ground_body) return;
+    const struct placement *place = &model->bodies[source->body[1]].place;
+    coupling->e = vec_turn(place->turn, e);
+    coupling->turn += place->angle;
+}
+
+static const char *body_name(const struct fbd_model *model, int body)
+{
+    return body == ground_body ? "ground" : model->bodies[body].name;
+}
+
+/* The drum has both strands of a rope that rubs on it. */
+static void name_strands(struct fbd_model *model, struct coupling *coupling, int k)
+{
+    struct coupling_end *end = &coupling->end[k];
+    model->bodies[end->body].arrow_count += k == 1 ? 2 : 1;
+    end->name[0] = coupling->name;
+    for (int strand = 0; k == 1 && strand < 2; strand++)
+        end->name[strand] = arena_printf(&model->arena, "%s.%s", coupling->name,
+                                         body_name(model, coupling->end[2 * (size_t)strand].body));
+}
+
+/* A rope's forces on a pulley are named after what hangs on the other side; all others after the coupling. */
+static void name_end(struct fbd_model *model, struct coupling *coupling, int k)
+{
+    struct arena *arena = &model->arena;
+    struct coupling_end *end = &coupling->end[k];
+    const char *const *parts = coupling->law->end_names;
+    if (end->body == ground_body) return;
+    if (coupling->kind == constraint_capstan) {
+        name_strands(model, coupling, k);
+        return;
+    }
+    model->bodies[end->body].arrow_count += parts[1] ? 2 : 1;
+    end->name[0] = coupling->name;
+    for (int part = 0; parts[1] && part < 2; part++)
+        end->name[part] = arena_printf(arena, "%s%s", coupling->name, parts[part]);
+    if (coupling->kind == constraint_rope && end->radius > 0 && coupling->wound[k > 0] == 0)
+        end->name[0] = arena_printf(arena, "%s.%s", coupling->name,
+                                    body_name(model, coupling->end[k == 0 ? 1 : k - 1].body));
+}
+
+static void name_rows(struct arena *arena, struct coupling *coupling)
+{
+    for (int k = 0; k < coupling->row_count; k++) {
+        const char *before = coupling->law->row_names[k].before, *behind = coupling->law->row_names[k].behind;
+        coupling->row_name[k] =
+            before ? arena_printf(arena, "%s%s%s", before, coupling->name, behind) : coupling->name;
+    }
+}
+
+const char *coupling_row_name(const struct tree *tree, int row)
+{
+    const struct coupling *coupling = &tree->couplings[tree->coupling_of_row[row]];
+    return coupling->row_name[row - coupling->first_row];
+}
+
+const char *coupling_force_name(const struct tree *tree, int row)
+{
+    const struct coupling *coupling = &tree->couplings[tree->coupling_of_row[row]];
+    bool parts = coupling->law->surface && coupling->end[0].name[1];
+    return parts ? coupling->end[0].name[row - coupling->first_row] : coupling_row_name(tree, row);
+}
+
+bool couplings_build(struct fbd_model *model)
+{
+    const struct scene *scene = model->scene;
+    struct tree *tree = model->tree;
+    if (scene->constraint_count == 0) return true;
+    size_t most = 0, meetings = 0;
+    for (size_t c = 0; c < scene->constraint_count; c++) {
+        bool contact = scene->constraints[c].kind == constraint_contact;
+        size_t here = contact ? (size_t)meetings_most(model, (int)c) : 0;
+        most += contact ? 2 * here : (size_t)scene->constraints[c].end_count;
+        meetings += here;
+    }
+    tree->couplings = ARENA_ARRAY(&model->arena, most, struct coupling);
+    tree->meetings = ARENA_ARRAY(&model->arena, meetings, struct meeting);
+    if (!tree->couplings || !tree->meetings) return false;
+    for (size_t c = 0; c < scene->constraint_count; c++) {
+        const struct constraint *source = &scene->constraints[c];
+        if (source->kind == constraint_contact) {
+            if (!meetings_add(model, (int)c)) return false;
+        } else if (source->kind == constraint_rope)
+            add_rope(model, (int)c);
+        else
+            set_line(model, add_coupling(model, (int)c, 0, source->end_count - 1));
+    }
+    if (!meetings_level(model)) return false;
+    for (int i = 0; i < tree->coupling_count; i++) {
+        name_rows(&model->arena, &tree->couplings[i]);
+        for (int k = 0; k < tree->couplings[i].end_count; k++) name_end(model, &tree->couplings[i], k);
+    }
+    return !model->arena.failed;
+}

@@ -1,0 +1,121 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * The modes of couplings: rolling bodies that stick or slip, ropes that are taut or slack, prescribed joints.
+ * They stand with the pairs of dry friction, so that one list of modes serves all.
+ */
+#include "model/builder.h"
+
+/* A mode of a coupling, without a normal force; returns its index among them. */
+static int add_mode(struct builder *builder, const struct coupling *coupling, enum mode_kind kind, int body)
+{
+    struct plan *plan = &builder->model->plan;
+    int coupling_index = (int)(coupling - builder->model->tree->couplings);
+    plan->modes[plan->mode_count] = (struct mode){
+        .kind = kind, .body = body, .load = coupling->load, .normal_slot = -1, .coupling = coupling_index};
+    return (int)plan->mode_count++;
+}
+
+/* Dry friction along the surface of a coupling. */
+static void add_rubbing(struct builder *builder, struct coupling *coupling)
+{
+    struct plan *plan = &builder->model->plan;
+    int body = constraint_first_body(coupling->source);
+    coupling->pair = add_mode(builder, coupling, mode_tangent, body);
+    struct mode *mode = &plan->modes[coupling->pair];
+    mode->normal_slot = coupling->normal_slot;
+    mode->hold_slot = plan->slots++;
+    mode->mu_s = builder_formula(builder, &coupling->source->mu_s, body, coupling->load);
+    mode->mu_k = builder_formula(builder, &coupling->source->mu_k, body, coupling->load);
+}
+
+/* A surface, or what lies on one side of its slot, is pressed on or left, and rubs while it is closed, where it has coefficients. */
+static void plan_surface(struct builder *builder, struct coupling *coupling)
+{
+    struct plan *plan = &builder->model->plan;
+    int body = constraint_first_body(coupling->source);
+    coupling->normal_slot = plan->slots++;
+    coupling->surface =
+        add_mode(builder, coupling, coupling->meeting < 0 ? mode_surface : mode_contact, body);
+    plan->contacts[plan->contact_count++] =
+        (struct contact){body, coupling->load, coupling->normal_slot, coupling->surface};
+    if (coupling->source->mu_s.expr) add_rubbing(builder, coupling);
+}
+
+/* A rope is taut or slack. */
+static void plan_rope(struct builder *builder, struct coupling *coupling)
+{
+    int first = 0;
+    while (coupling->end[first].body < 0) first++; /* a piece begins or ends at a body */
+    coupling->pair = add_mode(builder, coupling, mode_rope, coupling->end[first].body);
+    if (!coupling->reels) return;
+    coupling->reel =
+        builder_formula(builder, &coupling->source->reel, coupling->end[first].body, coupling->load);
+    coupling->length = expr_eval(coupling->reel.expr, 0, NULL, NULL);
+}
+
+/* No strand of a belt pushes. What does not move with the axes is a pull between them that is known, of a spring that
+ * keeps its length (gear_check.c). */
+static void plan_belt(struct builder *builder, struct coupling *coupling)
+{
+    struct plan *plan = &builder->model->plan;
+    coupling->strands = 2;
+    for (int k = 0; k < coupling->strands; k++) {
+        coupling->slack_slot[k] = plan->slots++;
+        plan->contacts[plan->contact_count++] =
+            (struct contact){coupling->end[0].body, coupling->load, coupling->slack_slot[k], -1};
+    }
+}
+
+/* A slot that holds on both sides rubs on the one that presses, by mu |N|; on one side it is a surface. */
+static void plan_groove(struct builder *builder, struct coupling *coupling)
+{
+    if (coupling->source->presses != 0) {
+        plan_surface(builder, coupling);
+        return;
+    }
+    coupling->normal_slot = builder->model->plan.slots++;
+    add_rubbing(builder, coupling);
+    builder->model->plan.modes[coupling->pair].two_sided = true;
+}
+
+/* A prescribed motion is a joint that sticks to a surface which moves so. */
+static void plan_drive(struct builder *builder, struct model_body *body)
+{
+    struct plan *plan = &builder->model->plan;
+    int b = (int)(body - builder->model->bodies);
+    if (body->drive < 0) return;
+    body->drive_pair = (int)plan->mode_count;
+    plan->modes[plan->mode_count++] =
+        (struct mode){.kind = mode_drive,
+                      .body = b,
+                      .load = body->drive,
+                      .coordinate = body->first,
+                      .normal_slot = -1,
+                      .hold_slot = plan->slots++,
+                      .coupling = -1,
+                      .position = builder_formula(builder, &body->source->motion.prescribed, b, body->drive)};
+}
+
+/* What opens, closes, sticks or must not pull, by kind. */
+static void (*const plans[constraint_kinds])(struct builder *builder, struct coupling *coupling) = {
+    [constraint_roll] = plan_surface,    [constraint_slot] = plan_surface,
+    [constraint_groove] = plan_groove,   [constraint_belt] = plan_belt,
+    [constraint_capstan] = plan_surface, [constraint_rope] = plan_rope,
+    [constraint_contact] = plan_surface,
+};
+
+void plan_couplings(struct builder *builder)
+{
+    struct fbd_model *model = builder->model;
+    int load = (int)model->coupled_count - 1, last = -1;
+    for (int i = 0; model->tree && i < model->tree->coupling_count; i++) {
+        struct coupling *coupling = &model->tree->couplings[i];
+        if (!constraint_has_load(coupling->source)) continue;
+        if (coupling->constraint != last)
+            load++; /* the pieces of a rope share one, and the features of a contact */
+        last = coupling->constraint;
+        coupling->load = load;
+        plans[coupling->kind](builder, coupling);
+    }
+    for (size_t b = 0; b < model->body_count; b++) plan_drive(builder, &model->bodies[b]);
+}
