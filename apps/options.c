@@ -315,7 +315,8 @@ static bool runs_or_draws(const struct options *options)
            isfinite(options->run.until) || options->run.error_bars || options->settle ||
            options->fmu_version || options->svg || options->html || options->plot || options->plot_of ||
            options->gnuplot || options->ledger || options->every > 0 || options->latex ||
-           shapes_drawing(options, false, false) || options->without_count || options->full || options->degrees;
+           shapes_drawing(options, false, false) || options->without_count || options->full ||
+           options->degrees;
 }
 
 /* What is written again and again has to be a file, and what is read again too. */

@@ -364,18 +364,16 @@ void state_find_ways(struct fbd_state *state, double *ways)
     state_evaluate(state);
 }
 
-/* Is what is left a rounding? What touches near the origin has that of the size of its contact, and what turns about the
- * origin that of its arms. */
+/* Is the misfit a rounding: of the places, at least of the arms, or of the size of a contact? */
 static bool is_home(const struct place *place, const struct misfit *left)
 {
     const struct tree *tree = place->model->tree;
     int meeting = left->row < 0 ? -1 : tree->ties[tree->tie_of_row[left->row]].meeting;
     double touching = meeting < 0 ? 0 : meeting_rounding(place->model, place->at.tree, meeting);
-    double least = fmax(rounding(place), 16 * DBL_EPSILON * arm_length(place));
-    return left->position <= 1e3 * fmax(least, touching);
+    touching = fmax(touching, 16 * DBL_EPSILON * arm_length(place));
+    return left->position <= 1e3 * fmax(rounding(place), touching);
 }
 
-/* `before`: room for n. */
 static bool bring_home(struct fbd_state *state, const struct place *place, double *before)
 {
     size_t bytes = (size_t)state->model->plan.n * sizeof *state->y;

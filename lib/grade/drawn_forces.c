@@ -15,7 +15,8 @@ static const struct hand_force *find(const struct hand_forces *forces, int body,
 {
     for (size_t i = 0; i < forces->count; i++) {
         const struct force_name *one = &forces->list[i].name;
-        if (name && one->body == body && !one->letter && strcmp(one->name, name) == 0) return &forces->list[i];
+        if (name && one->body == body && !one->letter && strcmp(one->name, name) == 0)
+            return &forces->list[i];
     }
     return NULL;
 }

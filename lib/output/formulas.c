@@ -266,8 +266,8 @@ static const char *term_of(struct formulas *formulas, const struct equation *equ
     const struct force_symbol *symbol = symbol_of_arrow(formulas, equation->body, term->name);
     if (!symbol) return arena_printf(&formulas->arena, "(%s)", term->name);
     if (symbol->moment && !is_of_moments(equation) && !turns_along(formulas, equation)) return "";
-    const struct acts acts =
-        acts_of(&formulas->samples, equation->body, term->name, equation->public.inertia_name[2] == 'O');
+    const struct acts acts = acts_of(&formulas->samples, equation->body, term->name,
+                                     strncmp(equation->public.inertia_name, "I_O", 3) == 0);
     if (acts.count == 0) return "";
     const struct letter letter = letter_of(formulas, symbol, &acts);
     return is_of_moments(equation) ? moment_by_arm(formulas, equation, &acts, symbol->moment, &letter)

@@ -332,17 +332,16 @@ static bool write_open(const struct hand_check *check, struct text *text)
 static int slip_at_start(const struct hand_check *check)
 {
     const int friction = check->model->bodies[check->body].friction;
-    fbd_state *start = friction >= 0 ? fbd_state_new(check->model) : NULL;
-    const int slip = start ? start->slip[friction] : 0;
-    fbd_state_free(start);
+    struct fbd_state *start = friction >= 0 ? state_new(check->model) : NULL;
+    const int slip = start && modes_settle(start, NULL) ? start->slip[friction] : 0;
+    state_free(start);
     return slip;
 }
 
 static bool write_verdict(const struct hand_check *check, struct text *text)
 {
     struct tally none = tally_of(check, 0), plus = tally_of(check, 1), minus = tally_of(check, -1);
-    size_t states = none.states + plus.states + minus.states;
-    size_t agree = none.agree + plus.agree + minus.agree;
+    size_t states = none.states + plus.states + minus.states, agree = none.agree + plus.agree + minus.agree;
     double worst = fmax(none.worst, fmax(plus.worst, minus.worst));
     if (states == 0) {
         text_add(text, "  not checked: no admissible state was found where it claims to hold\n");
@@ -358,11 +357,10 @@ static bool write_verdict(const struct hand_check *check, struct text *text)
                     worst);
         return true;
     }
-    /* With friction an equation without `when` may claim one direction of motion, that of the start where the body slips
-     * there: the one where it agrees everywhere. */
-    const struct hand *hand = &check->model->scene->bodies[check->body].hands[check->index];
-    const int start = hand->when ? 0 : slip_at_start(check);
-    for (int slip = 1; slip >= -1 && !hand->when; slip -= 2) {
+    /* With friction an equation without `when` may claim one direction of motion, that of the start if it slips there. */
+    const bool any = !check->model->scene->bodies[check->body].hands[check->index].when;
+    const int start = any ? slip_at_start(check) : 0;
+    for (int slip = 1; slip >= -1 && any; slip -= 2) {
         struct tally one = slip > 0 ? plus : minus;
         if (slip == -start || one.states == 0 || one.agree != one.states || none.states > 0) continue;
         text_printf(

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "output/symbols.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -157,8 +158,10 @@ static bool take(struct naming *naming, const struct force_key *key)
 
 const char *symbol_of_mass(const struct fbd_model *model, int body, struct arena *arena)
 {
-    bool alone = model->body_count == 1 || scene_numbers_masses(model->scene);
-    return alone ? "m" : arena_printf(arena, "m_%d", body + 1);
+    const struct parameter *given = scene_mass_parameter(model->scene, body + 1);
+    const double mass = model->bodies[body].inertia.mass;
+    const bool of_another = given && fabs(given->value - mass) > 1e-12 * fabs(mass);
+    return model->body_count == 1 || of_another ? "m" : arena_printf(arena, "m_%d", body + 1);
 }
 
 static const char *numbered(struct naming *naming, const struct force_key *key)

@@ -287,7 +287,8 @@ struct symbol hand_numbered_symbol(const struct names *names, const char *name)
         char *end;
         const unsigned long number = strtoul(name + length, &end, 10);
         if (*end || number > count) continue;
-        if (i == 0) return scene_numbers_masses(names->reader->scene) ? unknown : mass_symbol(names, (int)number - 1, "m");
+        if (i == 0 && scene_mass_parameter(names->reader->scene, (int)number)) return unknown;
+        if (i == 0) return mass_symbol(names, (int)number - 1, "m");
         return (int)number != names->body + 1 ? unknown
                                               : hand_symbol(names, i == 1   ? "L"
                                                                    : i == 2 ? "I_O"

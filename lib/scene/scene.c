@@ -274,14 +274,16 @@ struct scene *scene_read(const char *text, size_t length, const char *file, cons
     return scene;
 }
 
-bool scene_numbers_masses(const struct scene *scene)
+const struct parameter *scene_mass_parameter(const struct scene *scene, int number)
 {
     for (size_t i = 0; i < scene->parameter_count; i++) {
-        const char *name = scene->parameters[i].name, *number = name && *name == 'm' ? name + 1 : "";
-        number += *number == '_';
-        if (*number >= '0' && *number <= '9') return true;
+        const char *name = scene->parameters[i].name, *digits = name && *name == 'm' ? name + 1 : "";
+        digits += *digits == '_';
+        char *end = NULL;
+        if (*digits >= '1' && *digits <= '9' && strtol(digits, &end, 10) == number && !*end)
+            return &scene->parameters[i];
     }
-    return false;
+    return NULL;
 }
 
 void scene_free(struct scene *scene)

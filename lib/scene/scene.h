@@ -336,8 +336,8 @@ struct scene *scene_make(const struct document *document, const struct override 
 struct scene *scene_read(const char *text, size_t length, const char *file, const struct override *overrides,
                          size_t override_count, const struct scene *like, fbd_errors *errors);
 
-/* Does the file number its masses itself, by parameters m1 or m_1? They need not be in the order of its bodies. */
-bool scene_numbers_masses(const struct scene *scene);
+/* The parameter m2 or m_2, for number 2, which a file may have for the mass of any of its bodies; NULL. */
+const struct parameter *scene_mass_parameter(const struct scene *scene, int number);
 
 void scene_free(struct scene *scene);
 

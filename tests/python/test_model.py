@@ -111,7 +111,7 @@ def test_derivations_agree_or_say_why_not(tmp_path):
         fbd.assert_derivation(slip)
     assert fbd.Model(slip).check_hand() == 1
     with pytest.raises(AssertionError, match="no body carries"):
-        fbd.assert_derivation(MODELS / "contact/bouncing_ball.yaml")
+        fbd.assert_derivation(MODELS / "contact/dominoes.yaml")
     with pytest.raises(fbd.Error):
         fbd.assert_derivation(SOURCE / "tests/bad/mass_is_zero.yaml")
 
