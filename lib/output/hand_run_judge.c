@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * What is said of derivations that are held against a run.
+ * Verdicts on derivations that are compared with a run.
  */
 #include "output/hand_run_judge.h"
 
@@ -67,7 +67,7 @@ struct judged judge_evaluate(const struct judge *judge, const struct run_shot *s
     return judged;
 }
 
-/* Does it name what has moved since the start, is moving, or jumps? */
+/* Does it name a quantity that has moved since the start, is moving, or jumps? */
 static bool names_motion(const struct judge *judge, const struct expr *expr)
 {
     const struct fbd_model *model = judge->run->model;
@@ -175,7 +175,7 @@ static void say_failure(struct judge *judge, struct text *text)
     judge_diagnose(judge, text);
 }
 
-/* What may have any factor. */
+/* Summands whose factor the run does not determine. */
 static void say_constant(const struct judge *judge, struct text *text)
 {
     const struct hand *hand = judge->hand;
