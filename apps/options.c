@@ -186,7 +186,7 @@ static bool take_fmu_version(int *version)
 
 static const double tiny = 1e-300; /* above 0 */
 
-/* What a drawing, a sheet or a grade shows, and how. */
+/* Options of drawings, sheets and grades. */
 static bool take_drawing(struct options *options, int option)
 {
     switch (option) {
@@ -307,7 +307,7 @@ static bool shapes_drawing(const struct options *options, bool components, bool 
            (drawing->symbols && !symbols) || options->scale || drawing->worksheet;
 }
 
-/* What no answer or sheet has to do with; of drawings --solution is one of a sheet. */
+/* Options that contradict a sheet or a grade. Of those of drawings a sheet takes --solution. */
 static bool runs_or_draws(const struct options *options)
 {
     return options->watch || options->at_count || options->run.method || options->run.tolerance > 0 ||

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * What `fbd-run --help` prints.
+ * The text of `fbd-run --help`.
  */
 #include "options_help.h"
 

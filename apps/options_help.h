@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * The help of fbd-run: options of a run, and of what is done instead.
+ * The text of `fbd-run --help`, in two parts: options of a run, and of the other tasks.
  */
 #ifndef FBD_APPS_OPTIONS_HELP_H
 #define FBD_APPS_OPTIONS_HELP_H

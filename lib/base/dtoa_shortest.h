@@ -13,11 +13,11 @@
 
 enum { dtoa_size = 32 };
 
-/* Write what %.15g, %.16g or %.17g writes in the C locale, the first of them that reads back as `value`. Returns its
+/* Write `value` as %.15g, %.16g or %.17g in the C locale, the first of them that reads back as `value`. Returns its
  * length, or -1 for a number that is left to others. */
 int dtoa_shortest(char buffer[dtoa_size], double value);
 
-/* Write what %.*g with so many digits writes in the C locale. Returns its length, or -1 as above. */
+/* Write `value` as %.*g with so many digits in the C locale. Returns its length, or -1 as above. */
 int dtoa_rounded(char buffer[dtoa_size], double value, int digits);
 
 #endif

@@ -4,7 +4,7 @@
  * processor.
  *
  * What a run does in a step in which nothing happens is done here by the same operations in the same order: one attempt of
- * all lanes at a time (nystrom.c, pair8.c), its error against what is allowed (error_norm.c), the size of the next one
+ * all lanes at a time (nystrom.c, pair8.c), its error relative to the tolerance (error_norm.c), the size of the next one
  * (stepper.c), and whether the rounding of accelerations counts (roundoff.c). There is no branch for a lane. One in which
  * anything else is due keeps what it had before that step, and the run itself makes it.
  *

@@ -40,7 +40,7 @@ char *page_make(fbd_result *result, size_t most_bytes, const struct page_part *p
 /* A template with the assets that are compiled in and those parts. */
 void page_fill(struct text *text, const struct page_asset *template, const struct page_part *parts);
 
-/* What every page may do: nothing but run its own scripts. A part with mark POLICY. */
+/* The content policy of every page: only its own scripts. A part with mark POLICY. */
 void page_write_policy(struct text *text, const void *context);
 
 /* JSON within a script element. */

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Reactions that an answer has drawn, as its derivations name them: a T that is the tension of the rope stands for that, at all
- * states, and not for what it is at the start.
+ * Reactions that an answer has drawn, as its derivations name them: T for the tension of a rope stands for that reaction
+ * at all states, not for its value at the start.
  */
 #include <string.h>
 

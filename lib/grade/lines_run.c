@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Lines of energy and momentum: held against a run of the key's model.
+ * Lines of energy and momentum, compared with a run of the key's model.
  *
- * Two of them say the same where left less right changes with the velocities alike, but for one factor at all times: energies
- * are told from momenta, and a balance of works from none at all, whatever it was multiplied by.
+ * Two lines are equivalent when the derivatives of left - right by the velocities are proportional at all times, with one
+ * factor. That distinguishes energy from momentum, and a balance from an identity, independently of a common factor.
  */
 #include <math.h>
 

@@ -8,7 +8,7 @@
 #include "base/text.h"
 #include "dynamics/state.h"
 
-/* The bodies of a sheet in an evaluated state as a JSON array (drawing_body.c says what is in it), and their pictures as
+/* The bodies of a sheet in an evaluated state as a JSON array (its members are listed in drawing_body.c), and their pictures as
  * elements of SVG in HTML. A sheet has nothing of its key, and so have these. False when memory is out. */
 bool drawing_add_bodies(struct text *text, struct text *pictures, const struct fbd_state *state);
 

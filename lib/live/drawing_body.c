@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * What the drawing page has of each body, with lengths on paper in millimetres, y down:
+ * The data of each body for the drawing page, with lengths on paper in millimetres, y down:
  *
  * - name, box: [left, top, width, height] of its picture
- * - points: what a force may be snapped to, {name, paper: [x, y], at}, `at` as the file says it, "" for the usual place
+ * - points: to which a force may be snapped, {name, paper: [x, y], at}, `at` as the file says it, "" for the usual place
  * - directions: {name, degrees, angle, body}, `angle` as the file says it, `body`: it turns with the body
- * - frame, which places beside the points are told in: {paper: [x, y] of its origin, degrees, millimetres per length}, or
+ * - frame of places beside the points: {paper: [x, y] of its origin, degrees, millimetres per length}, or
  *   null where the body has no size
  */
 #include "live/drawing.h"

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
  * The sheet of a student as one HTML file to draw on: lib/live/drawing, with the key and the library itself where the
- * page is to grade what is drawn.
+ * page grades the drawing.
  */
 #include <stdlib.h>
 #include <string.h>
@@ -22,7 +22,7 @@ struct drawing_page {
     const char *student;
     fbd_model *sheet;
     struct text source, pictures, data,
-        engine; /* the open sheet; what the page shows; the key and the library */
+        engine; /* the open sheet; the data of the page; the key and the library */
 };
 
 /* ---- the sheet */
@@ -176,7 +176,7 @@ static char *fill(const struct drawing_page *page, bool grades, fbd_errors *erro
                                 {"LIVE-PARTS", live_write_parts, &page->engine},
                                 {"LIVE-ENGINE", write_engine, "engine.js"},
                                 {0}};
-    if (!grades) parts[5] = (struct page_part){0}; /* and what is behind it */
+    if (!grades) parts[5] = (struct page_part){0}; /* no list behind it either */
     struct text text = {0};
     page_fill(&text, page_asset_find("drawing.html"), parts);
     if (!text.failed && !page->data.failed && !page->engine.failed) return text.data;

@@ -9,7 +9,7 @@
  * time by Newton; apply all events of that instant; settle the modes; start the stepper anew. Between events
  * everything is smooth, so every method keeps its order.
  *
- * Searches run over doubles. What they find is pinned down to a moment (base/time_dd.h) where it is applied:
+ * Searches run over doubles. A root is refined to a time_dd (base/time_dd.h) where it is applied:
  * within a rounding of the time every function is linear, so that its value and rate at a double next to the
  * event tell the rest.
  */
@@ -110,7 +110,7 @@ struct event_search {
     bool wakes; /* there are levels of what wakes up with the motion (expr_switch_is_silent) */
 };
 
-/* What is known of the rounding of accelerations: see roundoff.c. */
+/* Round-off levels of accelerations: see roundoff.c. */
 struct roundoff {
     double *accelerations; /* plan_rates: what they, and rates of states, are known to */
     double *largest;       /* plan_rates: the largest for which that has been found */

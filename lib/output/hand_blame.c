@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * By which slip of the pen a line of a derivation differs.
+ * The likely mistake in a false line of a derivation.
  *
- * At states like those at which it was found false, each suspect (hand_suspects.h) is compared with what the line lacks. The
- * first of those that explain it at all of them is named: a wrong sign, a term that is missing, a reaction in the place of
+ * Each suspect (hand_suspects.h) is compared with the residual of the line at random states. The first one that explains
+ * the residual at all of them is named: a wrong sign, a term that is missing, a reaction in the place of
  * another, moments about another point, a factor.
  */
 #include <math.h>
@@ -11,7 +11,7 @@
 
 #include "output/hand_suspects.h"
 
-static const double tolerance = 1e-6; /* of what is added up */
+static const double tolerance = 1e-6; /* of the sum of the magnitudes of the terms */
 
 struct inquiry {
     const struct hand_check *check;
@@ -172,7 +172,7 @@ static const struct suspect *first_suspect(const struct inquiry *inquiry)
     return NULL;
 }
 
-/* ---- what is said of it */
+/* ---- the message */
 
 static const char *point_name(const struct body *body, const struct point *point)
 {
@@ -342,7 +342,7 @@ bool hand_blame(const struct hand_check *check, int slip, struct text *text)
                               .slip = slip,
                               .look = {.check = check},
                               .other = {.check = check}};
-    gsl_rng *rng = gsl_rng_clone(check->rng); /* what is drawn later stays */
+    gsl_rng *rng = gsl_rng_clone(check->rng); /* later draws stay the same */
     bool done = rng && hand_each_state(check, rng, visit, &inquiry);
     const struct suspect *found = done && inquiry.list ? first_suspect(&inquiry) : NULL;
     if (found) say(&inquiry, found, text);

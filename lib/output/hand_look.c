@@ -62,7 +62,7 @@ static void find_places(struct suspects_look *look)
 
 /* ---- names in the line */
 
-/* What a slot of an expression stands for; false for what moves with the state alone. */
+/* The quantity of a slot of an expression; false for coordinates and rates. */
 static bool letter_of(const struct fbd_model *model, int slot, struct letter *letter)
 {
     const int own = slot - (int)plan_size(&model->plan), absolute = own - hand_slots;
@@ -161,7 +161,7 @@ bool look_is_place(const struct hand_force *force)
     return force->part == hand_force_at_x || force->part == hand_force_at_y;
 }
 
-/* What the coefficient of a letter is in an equation. */
+/* The coefficient of a letter in an equation. */
 double look_coefficient(const struct suspects_look *look, const struct hand_force *force, double value,
                         int equation)
 {
@@ -176,7 +176,7 @@ double look_coefficient(const struct suspects_look *look, const struct hand_forc
     }
 }
 
-/* ---- by what a line has been multiplied */
+/* ---- the common factor of a line */
 
 struct votes {
     double of[2 * most_letters];

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * What a state gives of a line of a derivation, for the suspects (hand_suspects.h).
+ * A line of a derivation evaluated at one state, for the suspects (hand_suspects.h).
  */
 #ifndef FBD_OUTPUT_HAND_LOOK_H
 #define FBD_OUTPUT_HAND_LOOK_H
@@ -24,7 +24,7 @@ double look_part(const struct suspects_look *look, struct vec F, struct vec poin
                  int equation);
 double look_term(const struct suspects_look *look, const struct arrow *arrow, int equation);
 
-/* What the coefficient of a force of this value is in an equation. */
+/* The coefficient of a force of this value in an equation. */
 double look_coefficient(const struct suspects_look *look, const struct hand_force *force, double value,
                         int equation);
 

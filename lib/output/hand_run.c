@@ -11,7 +11,7 @@
 
 enum { most_steps = 400, most_shots = most_steps + most_run_impacts };
 
-/* ---- what is to be kept */
+/* ---- the bodies and forces of which data are recorded */
 
 void hand_run_mark(const struct fbd_model *model, const struct expr *expr, bool *bodies)
 {
@@ -176,7 +176,7 @@ static bool integrate(struct hand_run *run, double from, double to)
     return true;
 }
 
-/* What an impact of a body does by a coupling or joint alone is not known. */
+/* The work and impulse of a single coupling or joint in an impact are not known. */
 static void lose_integrals(struct hand_run *run, const double *before, const double *after)
 {
     const struct fbd_model *model = run->model;
@@ -253,7 +253,7 @@ static void thin_out(struct hand_run *run)
     run->every *= 2;
 }
 
-/* What impacts had done before those of now. */
+/* Works and impulses of impacts before the present ones. */
 static const double *struck_before(struct hand_run *run)
 {
     double *struck = run->struck + run->model->load_count;
@@ -299,8 +299,7 @@ static bool jumps(struct hand_run *run)
     return memcmp(run->state->y + n, after, n * sizeof *after) != 0;
 }
 
-/* Into how many parts the last step is divided, at whose ends the lines are judged: what the integrals need, and few steps
- * of a run are long ones. */
+/* The number of parts of the last step, at whose ends the lines are judged: as many as the integrals need. */
 static int parts_of_step(const struct hand_run *run)
 {
     enum { parts_of_run = 50 };
@@ -392,7 +391,7 @@ static bool make_room(struct hand_run *run)
 
 bool hand_run_make(struct hand_run *run, const struct fbd_model *model, fbd_errors *errors)
 {
-    const double coarsest = 1e-10; /* of what a coarser run explains of its terms a false line may hide */
+    const double coarsest = 1e-10; /* a false line may be within the error of a coarser run */
     fbd_options given = FBD_OPTIONS_DEFAULT;
     struct run_options options;
     const double tolerance = model->scene->simulate.tolerance;

@@ -2,13 +2,13 @@
  *
  * Derivations by hand of energy and momentum, compared with a run.
  *
- * Such a line is about the motion between two times: what is conserved, works and impulses since the start, velocities
- * before and after an impact. So the model is run once, by `auto` at 1e-10 or less, and the lines are evaluated at the ends of steps
- * and at impacts. They may be off by what the tolerance of that run explains of the terms that a line adds up
- * (energy_explained).
+ * Such a line relates two times of a motion: conserved quantities, works and impulses since the start, velocities before
+ * and after an impact. The model is therefore run once, by `auto` at a tolerance of at most 1e-10, and the lines are
+ * evaluated at the ends of steps and at impacts. The allowed residual is that of the energy balance for the terms of the
+ * line (energy_explained).
  *
- * The work of a force that acts on one body alone is that of the ledger, impacts included. That of a coupling or joint on
- * one of its bodies, and impulses, are integrated here; what these do in an impact is not known.
+ * The work of a force that acts on one body alone is taken from the ledger, impacts included. Impulses, and the work of a
+ * coupling or joint on one of its bodies, are integrated here; in an impact these are not known.
  */
 #ifndef FBD_OUTPUT_HAND_RUN_H
 #define FBD_OUTPUT_HAND_RUN_H

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Which summand of a line is wrong that is held against a run, or which force it lacks.
+ * The likely mistake in a false line of energy or momentum.
  *
- * Where the line has the factor s on a summand and all else right, the lack is a multiple of that summand at every time; where
- * a force is missing it is the work of that, or its impulse.
+ * If one summand has a wrong factor, the residual is the same multiple of that summand at every time; if a force is missing,
+ * the residual is its work or impulse.
  */
 #include <math.h>
 
@@ -171,7 +171,7 @@ static void say_agents(const struct judge *judge, unsigned which, struct text *t
     }
 }
 
-/* What each force does that a line of this dimension may lack. */
+/* The work or impulse of each force that a line of this dimension may lack. */
 static bool counts(const struct judge *judge, int part)
 {
     const struct hand *hand = judge->hand;
@@ -217,7 +217,7 @@ void judge_say_impact(const struct judge *judge, const struct run_shot *shot, st
     }
 }
 
-/* Does what strikes at a shot act on something that the line does not name, or on the ground? */
+/* Do impacts at a shot act on a body that the line does not name, or on the ground? */
 static bool comes_from_outside(const struct judge *judge, const struct run_shot *shot)
 {
     const struct fbd_model *model = judge->run->model;

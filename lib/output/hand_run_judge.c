@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * What is said of derivations that are held against a run.
+ * Verdicts on derivations that are compared with a run.
  */
 #include "output/hand_run_judge.h"
 
@@ -67,7 +67,7 @@ struct judged judge_evaluate(const struct judge *judge, const struct run_shot *s
     return judged;
 }
 
-/* Does it name what has moved since the start, is moving, or jumps? */
+/* Does it name a quantity that has moved since the start, is moving, or jumps? */
 static bool names_motion(const struct judge *judge, const struct expr *expr)
 {
     const struct fbd_model *model = judge->run->model;
@@ -125,8 +125,8 @@ static void judge_shot(struct judge *judge, const struct run_shot *shot)
     put(judge, shot, false);
     if (hand->when && expr_eval(hand->when, shot->t, judge->y, NULL) == 0) return;
     bool moves = names_motion(judge, hand->left) || names_motion(judge, hand->right);
-    if (impacts && !moves) return;
-    judge->moves |= moves;
+    if (impacts && !moves && !hand->impact) return;
+    judge->moves |= moves || hand->impact;
     struct judged judged = judge_evaluate(judge, shot, false);
     judge->known &= isfinite(judged.size);
     judge->list[judge->count++] = judged;
@@ -175,7 +175,7 @@ static void say_failure(struct judge *judge, struct text *text)
     judge_diagnose(judge, text);
 }
 
-/* What may have any factor. */
+/* Summands whose factor the run does not determine. */
 static void say_constant(const struct judge *judge, struct text *text)
 {
     const struct hand *hand = judge->hand;
@@ -192,12 +192,35 @@ static void say_constant(const struct judge *judge, struct text *text)
         text_printf(text, "`: %s throughout\n", hand->kind == hand_conserved ? "constant" : "zero");
 }
 
+/* No impact is of the contact or rope that the line names: say which there are. */
+static void say_no_impact(const struct judge *judge, struct text *text)
+{
+    const struct ensemble *ensemble = judge->run->ensemble;
+    const char *said[8];
+    size_t count = 0;
+    text_printf(text, "  not checked: no impact of the run is called `%s`", judge->hand->impact);
+    for (size_t i = 0; i < ensemble->event_count && count < sizeof said / sizeof *said; i++) {
+        if (ensemble->events[i].kind != FBD_EVENT_IMPACT) continue;
+        const char *name = event_name(judge->run->model, &ensemble->events[i]);
+        size_t k = 0;
+        while (k < count && strcmp(said[k], name) != 0) k++;
+        if (k < count) continue;
+        text_printf(text, "%s `%s`", count ? "," : "; there is", name);
+        said[count++] = name;
+    }
+    text_add(text, "\n");
+}
+
 static bool say_verdict(struct judge *judge, struct text *text)
 {
     const struct ensemble *ensemble = judge->run->ensemble;
     double worst = 0;
     if (ensemble->outcome == FBD_FAILED) {
         text_printf(text, "  not checked: the run ends at t = %.6g: %s\n", ensemble->t, ensemble->reason);
+        return false;
+    }
+    if (judge->count == 0 && judge->hand->impact) {
+        say_no_impact(judge, text);
         return false;
     }
     if (judge->count == 0 || !judge->moves) {
@@ -208,8 +231,8 @@ static bool say_verdict(struct judge *judge, struct text *text)
         return false;
     }
     if (!judge->known) {
-        text_add(text, "  not checked: what a force in it does alone in an impact is not known, or a number "
-                       "is not finite\n");
+        text_add(text, "  not checked: the impulse or work of one force of several that act in an impact is "
+                       "not known, or a number is not finite\n");
         return false;
     }
     if (judge->failed > 0) {

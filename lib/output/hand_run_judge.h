@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * A line that is held against a run, between its judgement and the search for what it lacks.
+ * The data of a line that is compared with a run, shared by the verdict and the search for the mistake.
  *
- * All of it stands on one side: lack = left - right, or of what is conserved its value less that at the start.
+ * All of it is on one side: lack = left - right; for a conserved quantity its value less that at the start.
  */
 #ifndef FBD_OUTPUT_HAND_RUN_JUDGE_H
 #define FBD_OUTPUT_HAND_RUN_JUDGE_H
@@ -15,7 +15,7 @@ enum { most_agents = 12 };
 struct judged {
     const struct run_shot *shot;
     double left, right, size;
-    double summands[most_summands]; /* what the lack grows by with the factor of each */
+    double summands[most_summands]; /* the derivative of the lack by the factor of each */
 };
 
 struct judge {
@@ -31,9 +31,9 @@ struct judge {
     bool moves;   /* something that it names */
     bool known;   /* all works and impulses are */
     bool varies[most_summands];
-    size_t agents[most_agents]; /* of those of the run: what may be lacking, */
+    size_t agents[most_agents]; /* of those of the run: the names of those that may be missing, */
     size_t agent_count;
-    int part; /* and of what each does */
+    int part; /* and the work or impulse of each */
 };
 
 static inline double lack_of(const struct judged *judged)
@@ -57,10 +57,10 @@ static inline bool run_event_is_impact(const struct run_event *event)
 /* Evaluate a line at a shot, or just before its impact. */
 struct judged judge_evaluate(const struct judge *judge, const struct run_shot *shot, bool before);
 
-/* Say what a line lacks that fails (hand_run_blame.c). */
+/* Name the likely mistake (hand_run_blame.c). */
 void judge_diagnose(struct judge *judge, struct text *text);
 
-/* The names of what strikes at a shot. */
+/* The names of the impacts at a shot. */
 void judge_say_impact(const struct judge *judge, const struct run_shot *shot, struct text *text);
 
 #endif

@@ -46,7 +46,7 @@ static void add_letters(const struct suspects_look *look, struct listing *listin
     }
 }
 
-/* What the dimension of a line leaves: sums of forces, of moments, or both where it was multiplied by something. */
+/* The equations that the dimension of a line allows: of forces, of moments, or both where it has another dimension. */
 static void find_kinds(const struct suspects_look *look, bool *forces, bool *moments)
 {
     const struct dim force = DIM_INIT(1, 1, -2), moment = DIM_INIT(1, 2, -2),
@@ -98,7 +98,7 @@ struct suspect *suspects_list(const struct suspects_look *look, struct arena *ar
 
 /* ---- values */
 
-/* What the line changes by with another value in the place of a letter. */
+/* The change of the line when a letter gets another value. */
 static double change_by(const struct suspects_look *look, size_t n, double value)
 {
     double *slot = &look->y[look->letters[n].slot];
@@ -136,8 +136,8 @@ static double change_of_point(const struct suspects_look *look, const struct sus
     return change;
 }
 
-/* By what the line was multiplied as an equation of this kind: 1 where no name tells anything of any kind, NAN where none
- * does of this one. */
+/* The common factor of the line as an equation of this kind: 1 where the names determine none of any kind, NAN where they
+ * determine none of this one. */
 static double factor_as(const struct suspects_look *look, double factor)
 {
     bool any = false;

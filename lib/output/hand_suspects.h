@@ -1,19 +1,19 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Slips of the pen that a line of a derivation may have, as numbers at a state.
+ * Possible mistakes in a line of a derivation, as numbers at a state.
  *
- * A line that is false lacks something: left less right. Each suspect has a value V at a state such that the lack is k V
- * with the same k at every state, when the line has that slip and no other:
+ * The lack of a line is left - right. Each suspect has a value V at a state such that the lack is k V with the same k at
+ * every state when the line has that mistake and no other:
  *
  *     a summand of the line            its value: k = -2 with the wrong sign, -1 where it is one too many
- *     a name in the line               what the line changes by in all with it: k = 2 with the wrong sign
- *     a name in the place of another   what the line changes by when the other one is put there: k = 1
- *     a term of the body's equation    the component or moment of an arrow of its diagram, times what the line has been
- *                                      multiplied by: k = -1 where it is missing, -2 with the wrong sign
+ *     a name in the line               the total contribution of the name to the line: k = 2 with the wrong sign
+ *     a name in the place of another   the change of the line with the other one in its place: k = 1
+ *     a term of the body's equation    the component or moment of an arrow of its diagram, times the common factor
+ *                                      of the line: k = -1 where it is missing, -2 with the wrong sign
  *     a term in the place of another   the difference of the two: k = 1
  *     moments about another point      (P - Q) x m a_G: k = 1 when the arms are from P, and the inertia is about Q
  *
- * By what a line has been multiplied, the coefficients of the names in it tell: most of them.
+ * The common factor of a line follows from the coefficients of its names; the factor that most of them give is taken.
  */
 #ifndef FBD_OUTPUT_HAND_SUSPECTS_H
 #define FBD_OUTPUT_HAND_SUSPECTS_H
@@ -44,7 +44,7 @@ struct place_of {
 struct letter {
     int slot;
     enum letter_kind { letter_force, letter_acceleration, letter_inertia } kind;
-    const struct absolute *absolute; /* NULL of what has a slot of its own (enum hand_slot) */
+    const struct absolute *absolute; /* NULL for a name with a slot of its own (enum hand_slot) */
 };
 
 struct suspect {
@@ -60,7 +60,7 @@ struct suspect {
         suspect_place,
     } kind;
     size_t which; /* summand, letter, arrow, or place of the arms */
-    size_t other; /* what is in its place; the place of the inertia */
+    size_t other; /* the one in its place; the place of the inertia */
     int equation; /* of a term */
     bool upright; /* of a part: the moment of the component along y */
     bool dead;
@@ -68,7 +68,7 @@ struct suspect {
     double k; /* NAN before it is known */
 };
 
-/* What a state gives. */
+/* Values at a state. */
 struct suspects_look {
     const struct hand_check *check;
     struct arena arena;            /* of one model */
@@ -88,7 +88,7 @@ struct suspects_look {
     double lack, size;
     double slope[most_letters]; /* of left less right by each letter */
     double factor[equation_moment +
-                  most_places]; /* by what the line has been multiplied, as an equation of that kind; */
+                  most_places];         /* the common factor of the line, as an equation of that kind; */
     double factor_of_arms[most_places]; /* by the forces alone. 0: nothing tells */
     struct vec m_a;
 };

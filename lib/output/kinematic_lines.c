@@ -7,7 +7,7 @@
 #include "dynamics/kinematics.h"
 #include "output/moments.h"
 
-/* What body b has of that name, in the lines of body `of`. */
+/* A name of body b as it is written in the lines of body `of`. */
 static const char *name_of(struct formulas *formulas, int b, int of, const char *name)
 {
     return b == of ? name

@@ -14,8 +14,8 @@
 
 enum { most_kinematic_lines = 4 };
 
-/* The lines of body b; their number, 0 where it has none: what a_G is there is no more than a name, or more than a line. A line is NULL
- * when memory is out. */
+/* The lines of body b. Returns their number, 0 where a_G is a coordinate's acceleration or has no such line. A line is
+ * NULL when memory is out. */
 int kinematic_lines(struct formulas *formulas, int b, const char *lines[static most_kinematic_lines]);
 
 #endif

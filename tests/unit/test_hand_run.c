@@ -113,6 +113,27 @@ static const char crate[] =
     "contacts: [{name: floor, between: [crate, ground.floor], static: 0.3, kinetic: 0.3}]\n"
     "simulate: {until: 3 s}\n";
 
+/* A run of the file is far less accurate than the lines are judged. */
+static const char coarse[] = "fbd: 1\n"
+                             "parameters: {k: 20 N/m}\n"
+                             "bodies:\n"
+                             "  mass: {mass: 2 kg, motion: slide, initial: {x: 1 m}, forces: [{applied: "
+                             "{name: spring, value: -k*x}},\n"
+                             "         {drag: {name: air, linear: 0.5 N*s/m}}],\n"
+                             "         hand: [%s]}\n"
+                             "simulate: {until: 2 s, tolerance: 1e-3, method: rkf45}\n";
+
+/* The file numbers its masses in another order than its bodies. */
+static const char swapped[] =
+    "fbd: 1\n"
+    "parameters: {m1: 2 kg, m2: 3 kg}\n"
+    "bodies:\n"
+    "  a: {shape: disk, radius: 0.1 m, mass: m2, motion: slide, initial: {v: 4 m/s},\n"
+    "      hand: [%s]}\n"
+    "  b: {shape: disk, radius: 0.1 m, mass: m1, motion: slide, initial: {x: 1 m, v: 1 m/s}}\n"
+    "contacts: [{name: blow, between: [a, b], restitution: 0.5}]\n"
+    "simulate: {until: 1 s}\n";
+
 #define KINETIC "m*(G.vx^2 + G.vy^2)/2 + I_G*angle_dot^2/2"
 
 struct line {
@@ -192,6 +213,21 @@ static const struct line lines[] = {
     {hoist, "2.5[kg]*v^2 - 2.5[kg]*v0^2 = weight.m*g*(weight.x - weight.x0) + work(friction)", true, NULL},
     {hoist, "{conserved: (m + weight.m)*v^2/2 - weight.m*g*weight.x}", false,
      "it changes by the work of `friction`"},
+    {push, "m*a = F*cos(w*t) - mu*m*g", true, "slip toward +x"},
+    {push, "m*a = F*cos(w*t) + mu*m*g", false, "`friction` has the wrong sign"},
+    {push, "{equation: m*a = F*cos(w*t) - mu*m*g, when: x > 0}", false, "`friction` has the wrong sign"},
+    {push, "{equation: m*a = F*cos(w*t) - mu*m*g, when: v > 0}", true, NULL},
+    {hoist, "m*a = -f", false, "of `cord` is missing"},
+    {hoist, "m*a + f = 0", false, "of `cord` is missing"},
+    {coarse, "m*v^2/2 - m*v0^2/2 = work(spring) + work(air)", true, NULL},
+    {coarse, "m*v^2/2 - m*v0^2/2 = work(spring) + 1.001*work(air)", false, "with the factor 0.999001"},
+    {coarse, "{conserved: m*v^2/2 + k*x^2/2}", false, "by the work of `air`"},
+    {swapped, "m_2*after(v) + m_1*after(b.v) = m_2*before(v) + m_1*before(b.v)", true, NULL},
+    {swapped, "m_1*after(v) + m_2*after(b.v) = m_1*before(v) + m_2*before(b.v)", false, NULL},
+    {bounce, "{equation: after(vx) = before(vx), impact: flor}", false,
+     "no impact of the run is called `flor`; there is `floor`"},
+    {blow, "{equation: after(v) = before(v), impact: wall}", true, "holds at 1 impact"},
+    {blow, "{equation: after(v) = e*before(v), impact: wall}", false, NULL},
 };
 
 static char *verdict_of(const char *scene, const char *line, size_t *differing)
