@@ -371,7 +371,7 @@ static bool write_verdict(const struct hand_check *check, struct text *text)
         return true;
     }
     text_printf(text, "  differs at %zu of %zu random states\n", states - agree, states);
-    hand_diagnose(check, none.states > 0 ? 0 : plus.states > 0 ? 1 : -1, text);
+    hand_diagnose(check, none.agree < none.states ? 0 : plus.agree < plus.states ? 1 : -1, text);
     return false;
 }
 
