@@ -64,7 +64,9 @@ void glyph_refuse(fbd_errors *errors, const char *id, struct pos at, const char 
     }
     bool blank = size == 2 && memcmp(text, "\xC2\xA0", 2) == 0;
     const char *plain = glyph_plain(text, size);
+    const bool sum = size > 1 && (strncmp(text, "Σ", size) == 0 || strncmp(text, "∑", size) == 0);
     const char *hint = plain   ? diag_hint(errors, "write `%s`", plain)
+                       : sum   ? "write the sum out, and an equation behind it: `ΣF_x = F - f = m*a`"
                        : blank ? "this is a no-break space: write an ordinary blank"
                                : NULL;
     diag_add(errors, FBD_ERROR, id, at, hint, "`%.*s` cannot be used here", (int)size, text);

@@ -174,7 +174,7 @@ static bool refuse_command(struct writing *w, size_t length)
     } const known[] = {{"pm", "write one equation for each sign"},
                        {"mp", "write one equation for each sign"},
                        {"vec", "write one equation for each component"},
-                       {"sum", "write the sum out, term by term"},
+                       {"sum", "write the sum out, and an equation behind it: `\\sum F_x = F - f = m a`"},
                        {"int", "an equation of motion has no integral: differentiate it"},
                        {"approx", "write `=`"},
                        {"ne", "a comparison is written `<`, `>` or `=`"}};

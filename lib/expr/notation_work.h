@@ -58,6 +58,7 @@ struct writing {
     struct arena *arena;
     const char *text;
     size_t length, offset;
+    size_t start; /* behind a heading */
     struct pos at;
     const struct scope *scope;
     fbd_errors *errors;

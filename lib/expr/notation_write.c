@@ -473,9 +473,10 @@ static void write_all(struct writer *writer)
 
 const char *writing_make(struct writing *w, const struct notation_stretch **stretches)
 {
-    struct writer writer = {.w = w};
+    struct writer writer = {.w = w, .behind = w->start};
     const char *made = NULL;
-    w->offset = w->count = w->room = 0;
+    w->offset = w->start;
+    w->count = w->room = 0;
     w->gap = w->foreign = false;
     if (writing_read_items(w)) {
         writer.item = w->items;
