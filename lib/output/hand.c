@@ -355,6 +355,7 @@ static bool write_verdict(const struct hand_check *check, struct text *text)
     if (agree == states) {
         text_printf(text, "  agrees at %zu random states (worst difference %.1e of the terms)\n", states,
                     worst);
+        hand_say_zeros(check, text);
         return true;
     }
     /* With friction an equation without `when` may claim one direction of motion, that of the start if it slips there. */
