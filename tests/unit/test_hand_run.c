@@ -224,7 +224,7 @@ static const struct line lines[] = {
     {coarse, "{conserved: m*v^2/2 + k*x^2/2}", false, "by the work of `air`"},
     {swapped, "m_2*after(v) + m_1*after(b.v) = m_2*before(v) + m_1*before(b.v)", true, NULL},
     {swapped, "m_1*after(v) + m_2*after(b.v) = m_1*before(v) + m_2*before(b.v)", false, NULL},
-    {swapped, "m_2*a + m_1*b.a = 0", true, "tell nothing of the factors and signs of `m_2*a`, `m_1*b.a`"},
+    {swapped, "m_2*a + m_1*b.a = 0", true, "tell nothing of the factors and signs of `m2*a`, `m1*b.a`"},
     {bounce, "{equation: after(vx) = before(vx), impact: flor}", false,
      "no impact of the run is called `flor`; there is `floor`"},
     {blow, "{equation: after(v) = before(v), impact: wall}", true, "holds at 1 impact"},
