@@ -134,6 +134,38 @@ static const char swapped[] =
     "contacts: [{name: blow, between: [a, b], restitution: 0.5}]\n"
     "simulate: {until: 1 s}\n";
 
+/* A disc that spins, on a rough floor; two that meet off centre; a block that lands on two corners; a rope that becomes taut. */
+static const char spinning[] =
+    "fbd: 1\n"
+    "ground: {lines: {floor: {through: [0, 0], along: 0}}}\n"
+    "bodies:\n"
+    "  ball: {shape: sphere, mass: 2 kg, radius: 0.1 m, motion: planar, forces: [gravity],\n"
+    "         initial: {y: 1 m, vx: 2 m/s, omega: 5 rad/s}, hand: [%s]}\n"
+    "contacts: [{name: floor, between: [ball, ground.floor], restitution: 0.6, static: 0.3, kinetic: 0.3}]\n"
+    "simulate: {until: 1.5 s}\n";
+static const char oblique[] =
+    "fbd: 1\n"
+    "bodies:\n"
+    "  a: {shape: disk, mass: 2 kg, radius: 0.1 m, motion: planar, initial: {vx: 3 m/s, omega: 4 rad/s},\n"
+    "      hand: [%s]}\n"
+    "  b: {shape: disk, mass: 3 kg, radius: 0.1 m, motion: planar, initial: {x: 1 m, y: 0.08 m}}\n"
+    "contacts: [{name: blow, between: [a, b], restitution: 0.7, static: 0.2, kinetic: 0.2}]\n"
+    "simulate: {until: 0.5 s}\n";
+static const char landing[] =
+    "fbd: 1\n"
+    "ground: {lines: {floor: {through: [0, 0], along: 0}}}\n"
+    "bodies:\n"
+    "  crate: {shape: prism, a: 0.4 m, b: 0.2 m, mass: 2 kg, motion: planar, forces: [gravity],\n"
+    "          initial: {y: 0.5 m}, hand: [%s]}\n"
+    "contacts: [{name: floor, between: [crate, ground.floor]}]\n"
+    "simulate: {until: 0.5 s}\n";
+static const char tow[] = "fbd: 1\n"
+                          "bodies:\n"
+                          "  a: {mass: 2 kg, motion: slide, initial: {x: 0.5 m, v: 4 m/s}, hand: [%s]}\n"
+                          "  b: {mass: 3 kg, motion: slide, initial: {v: 1 m/s}}\n"
+                          "couplings: [{rope: {name: tow, through: [a.G, b.G], length: 1 m}}]\n"
+                          "simulate: {until: 1 s}\n";
+
 #define KINETIC "m*(G.vx^2 + G.vy^2)/2 + I_G*angle_dot^2/2"
 
 struct line {
@@ -227,6 +259,27 @@ static const struct line lines[] = {
     {swapped, "m_2*a + m_1*b.a = 0", true, "tell nothing of the factors and signs of `m2*a`, `m1*b.a`"},
     {bounce, "{equation: after(vx) = before(vx), impact: flor}", false,
      "no impact of the run is called `flor`; there is `floor`"},
+    {spinning, "m*after(vy) - m*before(vy) = impulse(N)", true, "holds at 4 impacts"},
+    {spinning, "m*after(vy) - m*before(vy) = -impulse(N)", false, "`impulse(N)` has the wrong sign"},
+    {spinning, "m*after(vx) - m*before(vx) = -impulse(f)", true, NULL},
+    {spinning, "I_G*(after(omega) - before(omega)) = -0.1[m]*impulse(f)", true, NULL},
+    {spinning, "I_G*(after(omega) - before(omega)) = 0.1[m]*impulse(f)", false, NULL},
+    {spinning, "m*vy - m*vy0 = impulse(N) - m*g*t", true, NULL},
+    {oblique, "m*after(vy) - m*before(vy) = impulse(blow.normal.y) + impulse(blow.friction.y)", true, NULL},
+    {oblique, "m*after(vy) - m*before(vy) = impulse(blow.normal.y) - impulse(blow.friction.y)", false,
+     "`impulse(blow.friction.y)` has the wrong sign"},
+    {oblique, "I_G*(after(omega) - before(omega)) = -0.1[m]*impulse(blow.friction)", true, NULL},
+    {oblique,
+     "m*(after(vx)^2 + after(vy)^2)/2 + I_G*after(omega)^2/2 = m*before(vx)^2/2 + I_G*before(omega)^2/2 + "
+     "work(blow)",
+     true, NULL},
+    {landing, "m*after(vy) - m*before(vy) = impulse(floor.normal) + impulse(floor.normal_2)", true, NULL},
+    {landing, "m*after(vy) - m*before(vy) = 2*impulse(floor.normal)", true, NULL},
+    {landing, "m*after(vy) - m*before(vy) = impulse(floor.normal)", false, NULL},
+    {tow, "m*after(v) - m*before(v) = -impulse(T)", true, NULL},
+    {tow, "m*after(v) - m*before(v) = impulse(tow.x)", true, NULL},
+    {tow, "m*after(v) - m*before(v) = impulse(T)", false, "wrong sign"},
+    {tow, "m*v^2/2 + b.m*b.v^2/2 - m*v0^2/2 - b.m*b.v0^2/2 = work(tow) + work(b.tow)", true, NULL},
     {blow, "{equation: after(v) = before(v), impact: wall}", true, "holds at 1 impact"},
     {blow, "{equation: after(v) = e*before(v), impact: wall}", false, NULL},
 };
