@@ -22,7 +22,7 @@ bool writing_ambiguous(struct writing *w, size_t offset, const char *first, cons
     return hint && writing_refuse(w, "ambiguous-notation", offset, hint, "this can be read in two ways");
 }
 
-/* ---- the whole */
+/* ---- the whole text */
 
 static bool compiles(const struct writing *w, const char *text)
 {
