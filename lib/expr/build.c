@@ -213,7 +213,7 @@ static struct operand build_jumps(struct builder *b, int base, const struct tabl
         double level = last ? table->after : table->c[4 * i];
         if (!last && value.place == place_constant && value.value == level) continue;
         struct operand edge = build_constant(table->x[i], own, at), next = build_constant(level, kind, at);
-        int room = base + 1; /* behind the argument */
+        int room = base + 1; /* after the register of the argument */
         struct operand far = build_operation(b, room + 1, op_subtract, 0, x, &edge, own, at);
         struct operand on =
             build_instr(b, room + 1, (struct instr){.op = op_step, .table = table}, &far, NULL, pure, at);

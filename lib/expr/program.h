@@ -77,9 +77,9 @@ enum op {
     /* A switch with one branch for each piece of a table (table.h). */
     op_table,
 
-    /* The value a, with one branch for each interval of a of the length b, the middle one around 0, and one
-     * beyond each of the outermost ends: argument of a function that varies within a few of them only
-     * (build_levels). */
+    /* The value a, with one branch for each interval of a of the length b, the middle one around 0, the
+     * outermost ones unbounded: argument of a function that varies within a few of them only (build_levels).
+     */
     op_levels,
 
     /* Control: skip `extra` instructions. */

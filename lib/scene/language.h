@@ -37,8 +37,8 @@ enum field_flag_bits {
     required = 1,
     positive = 2,       /* above zero (`out-of-range`) */
     not_negative = 4,   /* zero or above */
-    slips = 8,          /* may name `slip`, */
-    slips_not = 16,     /* where it is 0 */
+    slips = 8,          /* may name `slip` */
+    slips_not = 16,     /* may name `slip`, which is 0 */
     may_vary = 32,      /* a number; if varying it is infinite, and read again later */
     may_be_empty = 128, /* without a value it is ignored */
     stored =

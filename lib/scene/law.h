@@ -30,7 +30,7 @@ struct law {
     bool follows;         /* a reaction: it follows from the other forces */
     bool written_as_c;    /* supported by --emit-c */
     bool of_constraint;   /* not listed under `forces`: it represents a coupling */
-    const char *work;     /* why it has no potential, whatever its keys and formulas say; or NULL */
+    const char *work;     /* reason why it has no potential, independent of its keys and formulas; or NULL */
     const char *singular; /* message where it is infinite, or NULL */
 
     /* Checks that involve several keys, and values derived from the keys; or NULL. */

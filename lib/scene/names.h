@@ -33,7 +33,7 @@ bool name_check(fbd_errors *errors, const char *name, struct pos at, const char 
 enum place {
     place_constant, /* parameters and g; t, coordinates and inputs are recognized, and refused as varying */
     place_load,     /* also t, coordinates, m */
-    place_event,    /* t, coordinates; those of the only body without its name */
+    place_event,    /* t, coordinates; of a single body also without its name */
     place_contact,  /* also the speed of approach, in the slot of the first acceleration */
     place_exact,    /* t and m, but no coordinates */
     place_hand,     /* also accelerations and the names of enum hand_slot */

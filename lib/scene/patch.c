@@ -103,7 +103,7 @@ static bool is_number(const struct site *site)
     return site->expr && expr_is_constant(site->expr);
 }
 
-/* NOLINTNEXTLINE(readability-non-const-parameter): it is written to, later */
+/* NOLINTNEXTLINE(readability-non-const-parameter): written later */
 static bool add_word(struct patch *patch, uint64_t *word, size_t site, bool pointer)
 {
     if (patch->word_count == patch->word_room) {
@@ -145,7 +145,7 @@ static bool is_mass(const struct reading *reading, const uint64_t *word)
     return false;
 }
 
-/* NOLINTNEXTLINE(readability-non-const-parameter): as arena_compare asks for */
+/* NOLINTNEXTLINE(readability-non-const-parameter): type required by arena_compare */
 static bool in_derived(void *context, uint64_t *word, uint64_t twin)
 {
     const struct comparison *comparison = context;
