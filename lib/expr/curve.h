@@ -48,10 +48,9 @@ struct curve {
     int piece_count, panel_count;
     struct curve_piece *pieces;
     struct curve_panel *panels;
-    struct table *
-        ends; /* ends of the pieces in s, as a table (table.h) with the same pieces; NULL for a single piece without ends */
-    bool kinked; /* the curvature jumps */
-    double kink; /* p of the first jump */
+    struct table *ends; /* ends of the pieces in s, as a table (table.h); NULL for one piece without ends */
+    bool kinked;        /* the curvature jumps */
+    double kink;        /* p of the first jump */
 };
 
 /* Geometry of the curve at the arc length s. */

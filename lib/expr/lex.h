@@ -11,7 +11,7 @@ enum token_kind {
     token_end,
     token_number,
     token_name, /* letters, digits, underscores and inner dots; also and, or, not */
-    token_unit, /* [ ... ]; its position is that of the bracket, start and length are those of the text inside */
+    token_unit, /* [ ... ]; positioned at the bracket; start and length are those of the text inside */
     token_plus,
     token_minus,
     token_times,

@@ -28,9 +28,9 @@ struct coupling_keys {
 /* Kinds of constraints between points or angles of bodies. */
 enum constraint_kind {
     /* in the order of --explain */
-    constraint_pin, /* two points coincide */
-    constraint_rod, /* constant distance of two points */
-    constraint_gear, /* two circles roll on each other without slip; radius below zero: ring with internal teeth */
+    constraint_pin,     /* two points coincide */
+    constraint_rod,     /* constant distance of two points */
+    constraint_gear,    /* two circles roll on each other without slip; radius below zero: internal teeth */
     constraint_rack,    /* a circle rolls on a line of a body without slip */
     constraint_roll,    /* a circle on a line of the ground or of a body */
     constraint_slot,    /* a point on a line or curve of a body */
@@ -54,9 +54,9 @@ struct contact_law {
     int law;                       /* enum impact_law (holds/impact.h) */
     const struct polygon *polygon; /* its surface, if that is a polygon of the ground; else NULL */
     bool line;                     /* its surface is a line of the ground */
-    int side; /* side of that line where the body stays: +1 to the left of its direction, -1 to the right, 0 as at the start */
+    int side; /* side of the line where the body stays: +1 left of its direction, -1 right, 0 as at the start */
     double e; /* of a stop: restitution as a number */
-    int stop; /* a stop, without shapes: +1: the coordinate of body 0 is at least `limit`; -1: at most; else 0 */
+    int stop; /* a stop: +1: the coordinate of body 0 is at least `limit`; -1: at most; else 0 */
     double limit;
 };
 
@@ -74,10 +74,9 @@ struct constraint {
     struct point point[most_constraint_ends];
     double radius[most_constraint_ends]; /* gear, roll, rack; rope: of the disc at this point, else 0 */
     int side[most_constraint_ends];      /* rope: +1 when it goes counter-clockwise round the disc */
-    int wound
-        [2]; /* rope wound on the disc at its first and last point: enum wound_side, where it leaves the disc; 0: not wound */
-    double spare[2];           /* wound length at the start; HUGE_VAL: unlimited */
-    bool crossed;              /* belt */
+    int wound[2];                        /* rope: enum wound_side at its first and last point; 0: not wound */
+    double spare[2];                     /* wound length at the start; HUGE_VAL: unlimited */
+    bool crossed;                        /* belt */
     double turns;              /* capstan: whole turns round the disc, in addition to the visible angle */
     const struct curve *curve; /* slot: in the frame of end 1 at its point; NULL for the line along `along` */
     double from, to;           /* slot: ends of that line, by its length; infinite if unlimited */

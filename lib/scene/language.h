@@ -41,8 +41,7 @@ enum field_flag_bits {
     slips_not = 16,     /* may name `slip`, which is 0 */
     may_vary = 32,      /* a number; if varying it is infinite, and read again later */
     may_be_empty = 128, /* without a value it is ignored */
-    stored =
-        64, /* reading only stores the number and tests on which side of 0 and 1 it lies, so that another value may replace it (patch.h) */
+    stored = 64,        /* reading only stores the number and tests its side of 0 and 1 (patch.h) */
 };
 
 struct choice {

@@ -91,7 +91,7 @@ struct motion {
     int parent;   /* parent body, or ground_body */
     double along; /* slide: direction of +x in the parent frame; weld: angle of the body frame [rad] */
     struct vec
-        through; /* slide: where x = 0; pivot: the axis O; weld: the joint; track: origin of the curve; all in the parent frame */
+        through; /* slide: where x = 0; pivot: axis O; weld: the joint; track: origin of the curve; in the parent frame */
     struct value
         prescribed;   /* slide, pivot, track: the coordinate as a function of t; expr NULL when it is free */
     struct vec point; /* pivot, weld, track: the point of the body at the joint, in the body frame */
@@ -145,8 +145,7 @@ struct load {
     /* Applied force: offset of the point of application from `point` along the axes of the world, which do
      * not turn with the body (expr NULL: none), and the resulting moment about `point`. */
     struct value offset_x, offset_y, couple;
-    bool
-        conservative; /* applied force or moment: its work is counted as potential energy, if it has a potential */
+    bool conservative; /* applied force or moment: its work is potential energy, if it has a potential */
     const char
         *toward; /* the point that it is directed to, as in the file, which determines `angle`; or NULL */
     struct spread spread;      /* of a distributed load, whose resultant this is; else length 0 */

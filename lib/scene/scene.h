@@ -97,9 +97,8 @@ struct body {
     bool assemble; /* its coordinates follow from its couplings at the start */
     bool complete; /* false when errors in it were reported; later checks skip it */
     struct motion motion;
-    int first, count; /* its coordinates */
-    struct value
-        mass; /* if it varies with time, coordinates, states; else expr NULL. The mass of the part is then that at the start */
+    int first, count;          /* its coordinates */
+    struct value mass;         /* if varying; else expr NULL. That of the part is then the initial mass */
     struct value inverse_mass; /* 1/m, for its accelerations */
     size_t part_count, point_count, load_count, hand_count;
     struct part *parts;
@@ -137,9 +136,9 @@ struct absolute {
     int part;
     const char *force;
     const struct force_sum *sum; /* of a declared symbol, whose key is then `force` */
-    int roll; /* absolute_slip of a rolling body: 1 + index of its constraint; 0: of the body's slide or bearing */
-    bool angular; /* absolute_slip of a bearing */
-    bool moves;   /* named by an equation of motion or an event; else only by derivations */
+    int roll;                    /* absolute_slip of a rolling body: 1 + index of its constraint; else 0 */
+    bool angular;                /* absolute_slip of a bearing */
+    bool moves;                  /* named by an equation of motion or an event; else only by derivations */
 };
 
 /* A user state: z' = rate. */
@@ -280,8 +279,7 @@ static inline size_t hand_sense_size(const struct scene *scene)
 struct override {
     const char *name;
     const char *value; /* NULL: value of the file, which may differ in other readings */
-    bool
-        as_time; /* the input replaces the time, and the time is the constant `now`: derivatives by time are by the input */
+    bool as_time;      /* the input replaces the time (also in derivatives), which is the constant `now` */
     double now;
     bool varies; /* its value will change in the next reading (patch.h) */
 };
@@ -309,7 +307,7 @@ struct document {
     const struct hand_reader *hand_reader; /* or NULL */
     size_t force_name_count;
     const struct force_name *
-        force_names; /* forces of the diagrams that derivations may name; NULL: not known yet, and derivations with unknown names are skipped */
+        force_names; /* forces of the diagrams; NULL: not known yet, derivations with unknown names are skipped */
     struct programs *programs; /* expressions compiled once for all readings (programs.h), or NULL */
     struct scene *first;       /* the scene whose memory holds them */
     const struct scene *like;  /* an earlier scene of the same text, whose tables are reused, or NULL */
