@@ -7,7 +7,7 @@
  * the formulas themselves: position, direction and curvature are those of the expressions, by exact
  * derivatives, at that p. With r' = dr/dp:
  *
- * ds/dp = |r'|,   e = r' / |r'|,   de/ds = kappa k x e,   kappa = (r' x r'') / |r'|^3
+ *   ds/dp = |r'|,   e = r' / |r'|,   de/ds = kappa k x e,   kappa = (r' x r'') / |r'|^3
  *
  * The rate of the curvature is the derivative of its series on the panel. Beyond an end of a piece the curve
  * continues along its circle of curvature, for steps that look ahead.

@@ -2,12 +2,12 @@
  *
  * Derivatives by dual numbers: each value v carries its rate d along a direction, by the chain rule
  *
- * f' = f_a a' + f_b b',
+ *   f' = f_a a' + f_b b',
  *
  * and, for second derivatives, hyper-dual numbers (Fike and Alonso, AIAA 2011-886): v carries d/da, d/db and
  * d2/(da db),
  *
- * f_pq = f_a a_pq + f_b b_pq + f_aa a_p a_q + f_ab (a_p b_q + a_q b_p) + f_bb b_p b_q.
+ *   f_pq = f_a a_pq + f_b b_pq + f_aa a_p a_q + f_ab (a_p b_q + a_q b_p) + f_bb b_p b_q.
  *
  * Both are exact to rounding, without a step size.
  */

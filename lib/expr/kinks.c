@@ -13,12 +13,12 @@
  * products and quotients keep their rounding error as low part, and other functions transfer it by their
  * slope,
  *
- * f(x + rest) = f(x) + f'(x) rest,  which is exact to rest^2 = eps^2 x^2.
+ *   f(x + rest) = f(x) + f'(x) rest,  which is exact to rest^2 = eps^2 x^2.
  *
  * Whether u is zero cannot be decided from rounded values alone. Each value therefore carries its rate along
  * the motion and a bound of its rounding error, by the first-order propagation
  *
- * e(f) = |f_a| e(a) + |f_b| e(b) + own |f|,  e(t) = eps^2 t,  e(y) = eps y,  e(c) = eps^2 c
+ *   e(f) = |f_a| e(a) + |f_b| e(b) + own |f|,  e(t) = eps^2 t,  e(y) = eps y,  e(c) = eps^2 c
  *
  * (N. Higham, Accuracy and Stability of Numerical Algorithms, ch. 3); own is eps^2 for operations that keep
  * their low part, else eps. Where |u| is within a few such bounds, the rate decides.

@@ -2,7 +2,7 @@
  *
  * Parts: the form of the most common force laws, which is evaluated without a program.
  *
- * sum of c u^n, c sin(w u + p) and c cos(w u + p),  u being t, a coordinate or a rate
+ *   sum of c u^n, c sin(w u + p) and c cos(w u + p),  u being t, a coordinate or a rate
  *
  * as in F*sin(w*t), -k*x - k3*x^3, a*t + b*v. Only formulas written in this form are accepted: terms are not
  * multiplied out or reordered, so the results are bitwise those of the program.

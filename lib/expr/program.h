@@ -4,7 +4,7 @@
  *
  * A program works on one frame of registers:
  *
- * variables (t first when it is used, then slots ascending) | constants | temporaries
+ *   variables (t first when it is used, then slots ascending) | constants | temporaries
  *
  * Evaluation fills the first two parts and executes the instructions, each of which reads two registers and
  * writes one temporary. Leaves cost no instruction, and the frame may contain any kind of number: doubles,

@@ -2,7 +2,7 @@
  *
  * Bound of the rounding error of a formula with exact variables, by the first-order propagation of kinks.c,
  *
- * e(f) = |f_a| e(a) + |f_b| e(b) + own |f|,
+ *   e(f) = |f_a| e(a) + |f_b| e(b) + own |f|,
  *
  * with half a unit in the last place for each operation that is rounded correctly, and one unit for functions
  * of the mathematical library.

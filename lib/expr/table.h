@@ -4,7 +4,7 @@
  *
  * Between two knots x_i and x_(i+1) a table is a polynomial in u = x - x_i,
  *
- * f = c_0 + u (c_1 + u (c_2 + u c_3)),
+ *   f = c_0 + u (c_1 + u (c_2 + u c_3)),
  *
  * and that polynomial is its piece i, also beyond the ends of the piece. So a table is a switch like floor
  * (expr.h): the branch is the piece, evaluation with a given branch is smooth and needs no search, and no

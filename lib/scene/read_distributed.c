@@ -2,7 +2,7 @@
  *
  * Distributed loads: a force per length w(s) along a line of the body, replaced by its resultant:
  *
- * F = integral of w ds,   s_F = integral of s w ds / F,   from `from` towards `to`.
+ *   F = integral of w ds,   s_F = integral of s w ds / F,   from `from` towards `to`.
  *
  * On a rigid body the two are equivalent, including all reactions. The integrals are computed once, by
  * adaptive quadrature over the pieces of w between its kinks and jumps.
