@@ -28,8 +28,7 @@ struct pos glyph_pos(const char *text, size_t offset, struct pos start)
     return at;
 }
 
-/* The micro sign U+00B5 and the letter mu look the same and mean different things; the letter is the likelier
- * one outside of a unit. */
+/* The micro sign U+00B5 and the letter mu look the same; outside of a unit the letter is more likely. */
 const char *glyph_plain(const char *text, size_t size)
 {
     static const char *const table[][2] = {

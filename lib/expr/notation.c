@@ -63,7 +63,7 @@ static size_t heading_length(const char *text)
     return is_equation(at) ? (size_t)(at - text) : 0;
 }
 
-/* ---- the whole */
+/* ---- the whole text */
 
 static bool compiles(const struct writing *w, const char *text)
 {
