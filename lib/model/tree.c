@@ -13,6 +13,11 @@ struct family {
     bool *jointed;
 };
 
+static void mark(bool *jointed, int body)
+{
+    if (body != ground_body) jointed[body] = true;
+}
+
 static void mark_jointed(const struct fbd_model *model, bool *jointed)
 {
     const struct scene *scene = model->scene;
@@ -23,16 +28,13 @@ static void mark_jointed(const struct fbd_model *model, bool *jointed)
             jointed[b] = true;
         if (parent == ground_body) continue;
         jointed[b] = true;
-        jointed[parent] = true;
+        mark(jointed, parent);
     }
     for (size_t c = 0; c < scene->force_coupling_count; c++)
-        for (int end = 0; end < 2; end++)
-            if (scene->force_couplings[c].body[end] != ground_body)
-                jointed[scene->force_couplings[c].body[end]] = true;
+        for (int end = 0; end < 2; end++) mark(jointed, scene->force_couplings[c].body[end]);
     for (size_t c = 0; c < scene->constraint_count; c++)
         for (int end = 0; end < scene->constraints[c].end_count; end++)
-            if (scene->constraints[c].body[end] != ground_body)
-                jointed[scene->constraints[c].body[end]] = true;
+            mark(jointed, scene->constraints[c].body[end]);
 }
 
 static bool find_family(struct fbd_model *model, struct family *family)
