@@ -22,13 +22,10 @@ static void mark_jointed(const struct fbd_model *model, bool *jointed)
 {
     const struct scene *scene = model->scene;
     for (size_t b = 0; b < scene->body_count; b++) {
-        int parent = scene->bodies[b].motion.parent;
-        if (scene->bodies[b].motion.prescribed.expr || scene->bodies[b].motion.curve ||
-            scene->bodies[b].mass.expr)
-            jointed[b] = true;
-        if (parent == ground_body) continue;
-        jointed[b] = true;
-        mark(jointed, parent);
+        const struct motion *motion = &scene->bodies[b].motion;
+        const int parent = motion->parent;
+        if (motion->prescribed.expr || motion->curve || scene->bodies[b].mass.expr) jointed[b] = true;
+        if (parent != ground_body) jointed[b] = jointed[parent] = true;
     }
     for (size_t c = 0; c < scene->force_coupling_count; c++)
         for (int end = 0; end < 2; end++) mark(jointed, scene->force_couplings[c].body[end]);
