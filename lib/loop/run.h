@@ -117,7 +117,7 @@ struct roundoff {
     bool heeds_time;       /* a force, or the rate of a state, names the time */
     double *along;  /* plan_rates: how accelerations and the rates of states change along the motion, when the
                               rest of this was set */
-    double *turned; /* twice the links of the tree */
+    double *turned; /* three times the links of the tree */
     double *cancelled;          /* for each body a force and its moment */
     double *formulas;           /* n: what rounding within formulas does to accelerations */
     double *nothing;            /* plan_size: what has been nothing beside the largest motion, at a start */
