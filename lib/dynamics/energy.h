@@ -11,7 +11,7 @@
 /* m v_G^2 / 2 + I_G omega^2 / 2; for a pivot I_O omega^2 / 2. */
 double kinetic_energy(const struct model_body *body, const struct instant *at);
 
-/* Of all jointed bodies together; the links are moved for it, or stand where the state is (after state_misfit). */
+/* Of all jointed bodies together; moves the links first, or expects them at the state (after state_misfit). */
 double jointed_kinetic_energy(struct fbd_state *state);
 double standing_kinetic_energy(struct fbd_state *state);
 
