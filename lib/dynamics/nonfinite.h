@@ -14,7 +14,7 @@ enum finite { finite_all, finite_not, finite_no_memory };
 struct nonfinite {
     char what[240]; /* "the force `pull` on `block`" */
     double value;
-    struct pos at; /* of what it belongs to, in the file */
+    struct pos at; /* position in the file of its load, body or state */
 };
 
 /* Check an evaluated state: coordinates and rates, applied loads (before accelerations and reactions, which
