@@ -112,7 +112,7 @@ struct one_sided {
     double rounding;                   /* of the excess */
     double near;       /* the tolerance of the excess at an event, from the size of rope and scene */
     double speed;      /* the scale of the rate */
-    double slack;      /* of the force: smaller forces are rounding, and open nothing */
+    double slack;      /* of the force: smaller forces are rounding, and do not open it */
     double turning;    /* largest angular velocity [rad/s]: times slack, that of the force's rate */
     bool touches;      /* closed within rounding, in length and rate */
     bool parts, meets; /* it opens, closes with more than a rounding of speed */

@@ -69,7 +69,7 @@ bool friction_is_idle(const struct fbd_model *model, int pair, const struct inst
                       const struct direction *along);
 
 /* The lower one of the coefficients if it is negative by more than the rounding of sums that reach zero, as 1
- * + cos(x) does; else 0. Negative friction would accelerate. */
+ * + cos(x) does; else 0. Negative friction would drive the body. */
 double friction_below_zero(const struct fbd_model *model, int pair, const struct instant *at);
 
 /* The rounding of the force needed and of its limit: a smaller excess is none. */
@@ -79,9 +79,8 @@ double friction_rounding(const struct friction_values *now);
 double friction_rounding_of_time(const struct friction_values *now, const struct friction_values *rate,
                                  double t);
 
-/* A body that slips without friction returns exactly to the limit at which it broke away. The excess that
- * errors of a run may have there: within it rates decide as at the limit, since else the mode would depend on
- * errors. */
+/* The tolerance of the limit after slipping without friction. Such a body returns exactly to the limit at
+ * which it broke away, up to the errors of a run: within them rates decide, as at the limit. */
 double friction_return(const struct friction_values *now);
 
 /* The next mode of a friction constraint at zero relative velocity: it sticks while the force needed is

@@ -72,7 +72,7 @@ void rest_free(struct rest_system *system);
 /* A limit of a reaction; the kinds in the order of fbd_limit_kind. */
 struct rest_limit {
     enum rest_limit_kind { limit_normal, limit_friction, limit_rope } kind;
-    int index;          /* of the contact, or of the pair */
+    int index;          /* of the contact, or of the mode */
     double needed, may; /* normal and rope: the force, and 0; friction: |F| and its limit */
 };
 
@@ -131,8 +131,8 @@ bool rest_vary(struct rest_system *system, size_t k, double size);
 /* The common distance of a redundant load to its limits, and the modes at zero distance. */
 struct rest_margin {
     double size;         /* of the forces: the scale of zero */
-    double value, rate;  /* HUGE_VAL where no limit takes part */
-    bool *of, *contacts; /* plan.mode_count, plan.contact_count: those that take part, in the arena */
+    double value, rate;  /* HUGE_VAL if no limit is involved */
+    bool *of, *contacts; /* plan.mode_count, plan.contact_count: those involved, in the arena */
     int *gives;          /* plan.mode_count: the mode after slipping or opening, 0 for an unchanged one */
 };
 

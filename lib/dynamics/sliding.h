@@ -101,11 +101,12 @@ void sliding_shift(struct sliding *sliding, int unit, double by);
 void sliding_solve_along(const struct fbd_model *model, const struct instant *given,
                          const struct direction *direction);
 
-/* Is a pair dry friction of a coordinate, or, on a fixed surface, of one to which couplings make it
+/* Is a mode dry friction of a coordinate, or, on a fixed surface, of one to which couplings make it
  * proportional? */
 bool sliding_is_friction_of(const struct sliding *sliding, const struct mode *mode, int coordinate);
 
-/* The pair of dry friction that keeps a coordinate from accelerating relative to its surface, -1 for none. */
+/* The mode of the dry friction that keeps a coordinate from accelerating relative to its surface, -1 for
+ * none. */
 int sliding_holder(const struct sliding *sliding, const struct fbd_model *model, const struct instant *at,
                    int coordinate);
 

@@ -60,9 +60,9 @@ struct decided question_without_shared(const struct question *q, const struct de
 /* Save the modes and the state, or with `back` restore them. */
 void question_keep_modes(const struct fbd_state *state, bool back);
 
-/* A switch whose branches both lead away from it is not slid on: where friction holds its coordinates the
- * expression has its value there, as if(v >= 0, ...) with v = 0. Resolve such switches by their values. True
- * when there are any: then the modes are to be settled again. */
+/* A switch whose branches both lead away from it has no sliding mode: where friction holds its coordinates
+ * the expression has its value there, as if(v >= 0, ...) with v = 0. Resolve such switches by their values.
+ * True when there are any: then the modes are to be settled again. */
 bool question_leave_repelling(struct question *q, const struct decided *decided);
 
 /* Collect the switches at zero. False when there are too many. */

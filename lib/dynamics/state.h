@@ -38,7 +38,7 @@ struct fbd_state {
     int *slip_driven;        /* and: the side on which drives make it slip, 0 if forces decide */
     double *scratch;         /* see struct scratch */
     double *extended;        /* scratch of world_refs.h */
-    struct sliding *sliding; /* NULL when no switch can be slid on */
+    struct sliding *sliding; /* NULL if no switch can have a sliding mode */
     struct tree_work *tree;  /* of the jointed bodies, by state_evaluate; NULL when there are none */
 };
 

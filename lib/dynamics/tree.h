@@ -110,7 +110,7 @@ struct tree_work {
     bool direct;        /* factored without a shift: its solution needs no corrections */
     bool shared;        /* indeterminate forces have been distributed, see rest_system.h */
     double shared_size; /* then: the largest force before that, as the scale of rounding */
-    bool kept;          /* couplings_keep: the side of a line on which a body is does not change */
+    bool kept;          /* couplings_keep: sides of lines do not change */
     bool complete;      /* A and F of the links are final, see tree_complete */
     bool rates_only;    /* only the accelerations of the joints are required */
     double fastest;     /* the speed of the fastest link; negative: not yet computed, see constraint.c; */
@@ -123,8 +123,8 @@ size_t tree_work_size(const struct fbd_model *model);
 void tree_work_init(struct tree_work *work, const struct fbd_model *model, void *memory);
 
 /* Compute the accelerations of the jointed bodies, a[n], from the generalized forces in the joints, slots[n].
- * The slots behind receive minus the normal forces and minus the friction forces of sticking pairs, as
- * friction_at expects. Further results are in at->tree. */
+ * The slots behind receive minus the normal forces and minus the forces of sticking friction, as friction_at
+ * expects. Further results are in at->tree. */
 void tree_accelerations(const struct fbd_model *model, const struct instant *at, double *slots, double *a);
 
 /* The rounding errors of the joint accelerations, or with `along` of their variations, due to couplings, for

@@ -9,7 +9,7 @@
 #include "dynamics/friction.h"
 #include "dynamics/tree_system.h"
 
-/* The surface of a sticking pair: the variation of its acceleration. */
+/* The variation of the accelerations of the surfaces of sticking joints. */
 static void vary_held(const struct fbd_model *model, const struct instant *at, const struct direction *along)
 {
     const struct tree *tree = model->tree;

@@ -16,7 +16,7 @@ static inline const struct row *hold_row(const struct fbd_state *state, const st
     return &state->tree->rows[first + (hold->kind == mode_tangent)];
 }
 
-/* A rope pulls against its row. */
+/* The force of a rope is opposite to the gradient of its row. */
 static inline int hold_sign(const struct mode *hold)
 {
     return hold->kind == mode_rope ? -1 : 1;

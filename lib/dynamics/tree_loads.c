@@ -104,7 +104,7 @@ static void force_along(const struct tree_force *force, const struct instant *at
     apply_along(&at->tree->x[force->link], &arm, &d, f, df);
 }
 
-/* ---- all of them */
+/* ---- all loads */
 
 void tree_load(const struct tree *tree, const struct instant *at)
 {

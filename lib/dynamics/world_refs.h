@@ -4,8 +4,8 @@
  * coordinates and rates, and stand behind these in an extended vector: [q, v, z, the slots of derivations by
  * hand, positions].
  *
- * Without such references an instant is not extended. If only derivations by hand have them it is not either,
- * and they are written after the forces (state_evaluate).
+ * Without such references an instant is not extended; nor if only derivations by hand contain them, which are
+ * written after the forces (state_evaluate).
  */
 #ifndef FBD_DYNAMICS_WORLD_REFS_H
 #define FBD_DYNAMICS_WORLD_REFS_H
