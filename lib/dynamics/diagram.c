@@ -262,7 +262,7 @@ static void set_share(const struct fbd_model *model, int b, const struct instant
     case motion_track: arrow->share[0] = vec_dot(joint.e, arrow->force) + joint.turning * moment; break;
     case motion_pivot: arrow->share[0] = moment; break;
     case motion_planar:
-        arrow->share[2] = moment; /* and */
+        arrow->share[2] = moment;
         /* fall through */
     case motion_particle:
         arrow->share[0] = vec_dot(joint.e, arrow->force);

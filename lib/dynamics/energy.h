@@ -15,8 +15,8 @@ double kinetic_energy(const struct model_body *body, const struct instant *at);
 double jointed_kinetic_energy(struct fbd_state *state);
 double standing_kinetic_energy(struct fbd_state *state);
 
-/* V of a load at an instant; 0 when it has none. A load by quadrature is integrated from its reference (GSL's
- * QAG, relative 1e-12): `scratch` has 2 n entries. NAN when that fails, with GSL's error handler called. */
+/* V of a load at an instant; 0 when it has none. A load by quadrature is integrated from its reference
+ * (numeric/quadrature.h): `scratch` has plan_size entries. NAN when that fails. */
 double potential_energy(const struct fbd_model *model, const struct model_load *load,
                         const struct instant *at, double *scratch);
 

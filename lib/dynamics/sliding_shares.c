@@ -296,7 +296,7 @@ void sliding_solve(const struct fbd_model *model, const struct instant *at)
 {
     enum { most_steps = 12 };
     struct sliding *s = at->sliding;
-    assert(s); /* the motion slides */
+    assert(s); /* called in sliding modes only */
     memset(s->delta, 0, (size_t)s->units * sizeof *s->delta);
     set_shares(s);
     find_held(model, at);

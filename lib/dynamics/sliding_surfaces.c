@@ -13,7 +13,6 @@
 
 /* ---- surfaces */
 
-/* The remaining u' of a switch of positions: its value, or zero within rounding. */
 double asked_passing_speed(const struct question *q, const struct asked *asked)
 {
     const double rounding = 1e-10;
@@ -42,7 +41,6 @@ static bool is_asked(const struct question *q, const struct decided *decided, co
            (decided && decided->branches[branch]) || fabs(s->u[part]) <= s->rounding[part];
 }
 
-/* False when there are too many. */
 bool question_gather(struct question *q, const struct decided *decided)
 {
     struct fbd_state *state = q->state;
@@ -216,7 +214,6 @@ static bool rests_with(struct question *q, const struct asked *rests, const stru
     return ratio != 0;
 }
 
-/* Add the switches that come to rest with a listed one. False when there are too many. */
 bool question_join(struct question *q)
 {
     const struct plan *plan = &q->state->model->plan;
@@ -252,8 +249,6 @@ static void find_left(struct question *q)
     }
 }
 
-/* `coupled`: switches of speeds that couplings make proportional, as of two bodies on a taut rope, have one
- * surface. */
 void question_find_surfaces(struct question *q, bool coupled)
 {
     q->units = 0;
@@ -274,7 +269,6 @@ void question_find_surfaces(struct question *q, bool coupled)
     find_left(q);
 }
 
-/* The smallest number of surfaces. False when memory is out. */
 bool question_find_fewest_surfaces(struct question *q)
 {
     bool couples = q->count > 1 && has_couplings(q);
