@@ -96,8 +96,8 @@ void rest_read_limits(const struct rest_system *system, double *values);
 double rest_limit_slack(const struct rest_system *system);
 bool rest_limit_slopes(struct rest_system *system, double *G);
 
-/* Set the basis from the null vectors of E, and subtract from `start` the step to the least reactions,
- * without limits. False when memory is out. */
+/* Set the basis from the null vectors of E, and add to `start` the step to the least reactions, without
+ * limits. False when memory is out. */
 bool rest_set_basis(struct rest_system *system, double *start);
 
 /* Part `which`: its basis vectors, the limits that depend on them, and the slopes of these. */

@@ -95,7 +95,7 @@ struct tree_work {
     size_t envelope_size;
     double *unit;        /* n: accelerations that are added */
     double *a, *a_along; /* n: accelerations of the last force_balance, and their variation */
-    double *taken;       /* n: scratch of tree_rounding */
+    double *taken;       /* n: the result of tree_rounding */
     double most;         /* the largest scale of a row */
     double *scale;       /* unknowns: largest possible diagonals, see constraint_solve.c */
     double damping;      /* of a projection: relative squares of slopes below this are damped out */
