@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
  * FMI 2.0 for co-simulation. A step ended by an event of the file is discarded, as the standard requires: the
- * importer queries fmi2GetBooleanStatus whether the FMU has terminated, and fmi2GetRealStatus at what time.
+ * importer queries fmi2GetBooleanStatus whether the FMU has terminated, and fmi2GetRealStatus for the time.
  */
 #include <math.h>
 #include <stdlib.h>
