@@ -25,10 +25,10 @@ enum exit_code {
 enum exit_code exit_code_for(enum exit_code code, fbd_errors *errors);
 
 struct command_line {
-    const char *program,
-        *help[2]; /* C guarantees string literals only up to 4095 characters; the second part may be NULL */
-    const struct option *
-        options; /* long options, including those of COMMAND_LINE_END; values of the others start at option_first */
+    /* help: C guarantees string literals only up to 4095 characters; the second part may be NULL */
+    const char *program, *help[2];
+    /* long options, including those of COMMAND_LINE_END; values of the others start at option_first */
+    const struct option *options;
     bool silent; /* another process prints the messages */
 };
 

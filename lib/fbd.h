@@ -177,8 +177,9 @@ FBD_API fbd_coordinate fbd_model_coordinate(const fbd_model *model, size_t index
 /* A parameter or an input of the file with its value in this model: the value set by the caller, or the
  * file's. Texts live as long as the model. */
 typedef struct fbd_parameter {
-    const char *name,
-        *unit; /* coherent unit of the value; "" for a pure number, and for a number whose dimension follows from its use */
+    /* unit: coherent unit of the value; "" for a pure number, and for a number whose dimension follows from its
+     * use */
+    const char *name, *unit;
     const char *description; /* "" if there is none */
     double value;
     bool input;       /* of `inputs`: it may change during the motion */
@@ -325,10 +326,11 @@ typedef struct fbd_options {
     double step;        /* fixed step size, 0 for automatic or the file's */
     const char *method; /* NULL for the file's, else "auto" */
     bool error_bars;    /* estimate the global errors by a more accurate companion run (see below) */
-    double
-        accuracy; /* global accuracy that fbd_simulation_run must reach, above 0 and at most 0.1; 0 for the file's, if any. Implies error bars, and excludes `tolerance` and `step` */
-    bool
-        no_structure; /* integrate all bodies together by the general method, whatever the structure of the forces */
+    /* global accuracy that fbd_simulation_run must reach, above 0 and at most 0.1; 0 for the file's, if any.
+     * Implies error bars, and excludes `tolerance` and `step` */
+    double accuracy;
+    /* integrate all bodies together by the general method, whatever the structure of the forces */
+    bool no_structure;
 } fbd_options;
 
 /* Options that leave everything to the file, as a macro and as a function for callers that cannot use it;
@@ -340,23 +342,27 @@ typedef struct fbd_options {
 FBD_API void fbd_options_init(fbd_options *options, size_t size);
 
 typedef enum fbd_event_kind {
-    FBD_EVENT_BREAKAWAY,    /* a sticking body starts to slip */
-    FBD_EVENT_STICK,        /* a slipping body comes to rest on its surface and sticks */
-    FBD_EVENT_REVERSAL,     /* a slipping body stops and slips in the opposite direction at once */
-    FBD_EVENT_CONTACT_LOST, /* a normal force reaches zero: the run ends, since the scene is no longer valid */
-    FBD_EVENT_USER,         /* an event of the file */
-    FBD_EVENT_ROPE_SLACK,   /* the tension of a rope reaches zero */
-    FBD_EVENT_ROPE_TAUT,    /* a slack rope becomes taut, with a plastic impact */
-    FBD_EVENT_LIFT_OFF, /* the normal force of a rolling or touching body reaches zero, and it leaves its surface */
-    FBD_EVENT_LANDING,      /* it returns to its surface: a plastic impact (`force` is its impulse) */
+    FBD_EVENT_BREAKAWAY, /* a sticking body starts to slip */
+    FBD_EVENT_STICK,     /* a slipping body comes to rest on its surface and sticks */
+    FBD_EVENT_REVERSAL,  /* a slipping body stops and slips in the opposite direction at once */
+    /* a normal force reaches zero: the run ends, since the scene is no longer valid */
+    FBD_EVENT_CONTACT_LOST,
+    FBD_EVENT_USER,       /* an event of the file */
+    FBD_EVENT_ROPE_SLACK, /* the tension of a rope reaches zero */
+    FBD_EVENT_ROPE_TAUT,  /* a slack rope becomes taut, with a plastic impact */
+    /* the normal force of a rolling or touching body reaches zero, and it leaves its surface */
+    FBD_EVENT_LIFT_OFF,
+    FBD_EVENT_LANDING,      /* it returns to its surface: a plastic impact */
     FBD_EVENT_SWITCH,       /* an expression passes from one branch to another (step, abs, if, ...) */
     FBD_EVENT_IMPACT,       /* shapes of a contact pair collide */
     FBD_EVENT_CONTACT,      /* the contact pair closes */
     FBD_EVENT_REST,         /* the contact pair closes at a Zeno limit of impacts */
     FBD_EVENT_SLIDING,      /* both branches of a switch point towards it: Filippov sliding mode */
     FBD_EVENT_SLIDING_ENDS, /* the sliding mode ends, and the motion continues on one branch */
-    FBD_EVENT_JAM, /* no finite forces are consistent with its slip (Painleve's paradox): an impulse ends the slip */
-    FBD_EVENT_SEVERAL, /* several motions are consistent with the forces, or with the impact; one of them is taken */
+    /* no finite forces are consistent with its slip (Painleve's paradox): an impulse ends the slip */
+    FBD_EVENT_JAM,
+    /* several motions are consistent with the forces, or with the impact; one of them is taken */
+    FBD_EVENT_SEVERAL,
     FBD_EVENT_TRACK_END, /* a body reaches an end of its track: the run ends */
 } fbd_event_kind;
 
@@ -488,19 +494,23 @@ typedef struct fbd_recording {
     bool ledger;    /* with a column for each force and its work, and for the energies */
     fbd_write *csv; /* receives the CSV, or NULL; if it returns nonzero the run fails */
     void *csv_context;
-    bool
-        motion_only; /* do not integrate the work of forces without a potential: results that need it are NAN. Nothing else changes; `ledger` and `keep` take precedence. */
-    bool
-        keep; /* keep the data of fbd_result_html and fbd_result_gnuplot: some 50 MB at most, or 256 rows where a row has more than 16 000 numbers */
-    fbd_watch *
-        progress; /* called after every step, so it must be quick; or NULL. Ending the run there gives FBD_INTERRUPTED and all outputs complete up to that time */
+    /* do not integrate the work of forces without a potential: results that need it are NAN. Nothing else
+     * changes; `ledger` and `keep` take precedence. */
+    bool motion_only;
+    /* keep the data of fbd_result_html and fbd_result_gnuplot: some 50 MB at most, or 256 rows where a row
+     * has more than 16 000 numbers */
+    bool keep;
+    /* called after every step, so it must be quick; or NULL. Ending the run there gives FBD_INTERRUPTED and
+     * all outputs complete up to that time */
+    fbd_watch *progress;
     void *progress_context;
     bool table;      /* keep the rows of the CSV as numbers, see fbd_result_table; 8 bytes each */
     bool components; /* show also the components of forces, and moments about the centre of mass */
-    unsigned
-        rows; /* of `keep`: at least so many at regular times; 0 for 2000, which play smoothly at any zoom */
-    bool
-        degrees; /* CSV, table, report, JSON, page and plots show angles and their rates in degrees: of coordinates, of values determined by `assemble`, and their errors. Equations are in radians */
+    /* of `keep`: at least so many at regular times; 0 for 2000, which play smoothly at any zoom */
+    unsigned rows;
+    /* CSV, table, report, JSON, page and plots show angles and their rates in degrees: of coordinates, of
+     * values determined by `assemble`, and their errors. Equations are in radians */
+    bool degrees;
 } fbd_recording;
 
 /* A column of the rows of a run: "t", "block.x", with error bars followed by "block.x ±"; and its unit. */
@@ -959,8 +969,8 @@ typedef struct fbd_drawing {
     bool symbols;     /* arrows labelled by symbols, m g, N, T_1, instead of names and values */
     bool worksheet;   /* the bodies cut free and no arrows, with lines to write on */
     bool solution;    /* of that worksheet: arrows by symbols, and the value of each symbol on its line */
-    double
-        scale; /* the force, in the scene's unit, that corresponds to 10 mm; 0: a round one that suits all bodies */
+    /* the force, in the scene's unit, that corresponds to 10 mm; 0: a round one that suits all bodies */
+    double scale;
 } fbd_drawing;
 
 /* The free-body diagrams of a state as an SVG 1.1 document in millimetres, to be freed with fbd_free. `drawing`
@@ -1016,7 +1026,7 @@ typedef enum fbd_finding_kind {
     FBD_FINDING_MOTION,          /* a body has another kind of motion */
     FBD_FINDING_BODY,            /* a body is missing, or superfluous */
     FBD_FINDING_UNREADABLE,      /* an entry cannot be read */
-    FBD_FINDING_DERIVATION,      /* it contradicts mechanics, or is empty */
+    FBD_FINDING_DERIVATION,      /* it contradicts mechanics, or holds for any forces */
     FBD_FINDING_NO_SUBMISSION,
 } fbd_finding_kind;
 

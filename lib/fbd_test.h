@@ -27,11 +27,11 @@ enum { fbd_test_room = 16 };
  * acceleration always; with an inertia the whole equation, that is inertia, sum, normal force and every term,
  * where terms of the model that are not listed must be zero; without an inertia only the listed terms. */
 typedef struct fbd_expected {
-    fbd_term at
-        [fbd_test_room]; /* the state: names as in fbd_state_set, "theta" if there is one body; others keep their values */
-    const char
-        *coordinate; /* "pendulum.theta"; "theta" if one body has it; "block.G.x": of the body cut free */
-    double inertia;  /* 0: not derived */
+    /* the state: names as in fbd_state_set, "theta" if there is one body; others keep their values */
+    fbd_term at[fbd_test_room];
+    /* "pendulum.theta"; "theta" if one body has it; "block.G.x": of the body cut free */
+    const char *coordinate;
+    double inertia;                /* 0: not derived */
     fbd_term terms[fbd_test_room]; /* by the names of the forces and moments */
     double acceleration;           /* by a separate formula, not as sum / inertia */
     double normal;                 /* on a slide */
