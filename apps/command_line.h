@@ -13,8 +13,7 @@
 /* Exit codes, on which scripts rely. A program ended by a signal returns 128 plus its number. */
 enum exit_code {
     exit_done = 0,
-    exit_failed =
-        1, /* a run failed or ended early because an assumption was violated; no memory; a full disk */
+    exit_failed = 1,       /* a failed run, a violated assumption, no memory, a full disk */
     exit_usage = 2,        /* the command line is wrong */
     exit_bad_model = 3,    /* the model file is wrong */
     exit_hand_differs = 4, /* a hand derivation, or an exact solution, differs */

@@ -178,8 +178,7 @@ static char *equations_of(const struct options *options, fbd_state *state, bool 
 
 static enum exit_code show_equations(const struct options *options, fbd_state *state)
 {
-    const bool symbols =
-        options->drawing.symbols && !options->svg; /* otherwise --symbols is for the arrows */
+    const bool symbols = options->drawing.symbols && !options->svg; /* else for the arrows */
     const bool components = options->drawing.components || symbols;
     enum exit_code code = exit_done;
     if (!data_alone(options)) code = print(equations_of(options, state, symbols, components), code);
@@ -302,8 +301,7 @@ static enum exit_code carry_and_write(fbd_simulation *simulation, const struct o
     fbd_outcome outcome = result ? fbd_result_outcome(result) : FBD_FAILED;
     if (outcome != FBD_FAILED && outcome != FBD_INTERRUPTED && code == exit_done)
         code = accurate(result, simulation, interrupt);
-    if (outcome != FBD_FAILED && code == exit_done)
-        code = balanced(result); /* a failed run has a more specific reason */
+    if (outcome != FBD_FAILED && code == exit_done) code = balanced(result); /* else see its reason */
     if (result && outcome != FBD_DONE && outcome != FBD_STOPPED) {
         if (!fbd_simulation_blame(simulation, errors))
             complain("fbd-run: %s", fbd_simulation_reason(simulation));

@@ -19,8 +19,7 @@ struct partial_file {
     FILE *stream;
     const char *path; /* NULL for standard output */
     char *target;     /* `path` with links resolved */
-    char *part,
-        *key; /* names; NULL for streams that cannot be resumed: standard output, a pipe, a terminal */
+    char *part, *key; /* names; NULL for streams (stdout, a pipe, a terminal), which cannot be resumed */
     struct partial_sums sums;
     size_t rows;   /* existing rows */
     size_t failed; /* of these, failed runs */

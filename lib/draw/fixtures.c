@@ -447,8 +447,7 @@ static void draw_track(struct panel *panel)
     double here = panel->at.y[panel->body->first], first = here - half / scale, last = here + half / scale;
     if (!curve->closed) first = fmax(first, curve->start), last = fmin(last, curve->start + curve->length);
     struct curve_place now = curve_at(curve, NULL, here);
-    struct vec frame = {vec_dot(now.e, s->e),
-                        vec_cross(now.e, s->e)}; /* rotation of the curve's frame in the world */
+    struct vec frame = {vec_dot(now.e, s->e), vec_cross(now.e, s->e)}; /* rotation of the curve */
     struct vec P = panel_point(panel, s->p), before = P;
     for (int i = 0; i <= segments; i++) {
         struct vec r = curve_at(curve, NULL, first + (last - first) * i / segments).r;

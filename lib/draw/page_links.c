@@ -171,8 +171,7 @@ void page_couplings_write(struct text *text, const fbd_result *result, const str
     size_t written = 0;
     text_add(text, "\"couplings\":[");
     for (int i = 0; i < count; i++) {
-        if (tree->couplings[i].meeting >= 0)
-            continue; /* contact pairs are shown by their shapes and forces */
+        if (tree->couplings[i].meeting >= 0) continue; /* its shapes and its forces are drawn */
         json_comma(text, written++);
         write_coupling(text, record, &tree->couplings[i], &result->start->tree->couplings[i]);
     }

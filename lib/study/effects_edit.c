@@ -143,8 +143,7 @@ void effect_edit(struct scene *scene, void *context, fbd_errors *errors)
     bool of_load = edit->kind != edit_part && edit->kind != edit_rotary && edit->kind != edit_uncouple &&
                    edit->kind != edit_linear_scene;
     struct load *load = of_load ? &body->loads[edit->index] : NULL;
-    for (size_t b = 0; b < scene->body_count; b++)
-        scene->bodies[b].hand_count = 0; /* they hold for the unedited scene */
+    for (size_t b = 0; b < scene->body_count; b++) scene->bodies[b].hand_count = 0; /* now invalid */
     switch (edit->kind) {
     case edit_leave_out: leave_out(scene, edit->body, edit->index); break;
     case edit_uncouple: uncouple(scene, edit->index); break;

@@ -53,8 +53,7 @@ static void add_load(struct fbd_effects *effects, int b, int i)
 static bool same_constant(const struct value *a, const struct value *b)
 {
     if (!a->expr || !b->expr) return true;
-    bool one_law = a->at.line == b->at.line &&
-                   a->at.column == b->at.column; /* one entry of the file for rest and motion */
+    bool one_law = a->at.line == b->at.line && a->at.column == b->at.column; /* of rest and motion */
     return one_law || (expr_is_constant(a->expr) && expr_is_constant(b->expr) &&
                        expr_value(a->expr) == expr_value(b->expr));
 }
@@ -219,8 +218,7 @@ static void add_linear_formula(struct fbd_effects *effects, int b, int i, struct
     const struct expr *all[] = {load->value.expr, load->fx.expr, load->fy.expr, load->potential.expr};
     for (int k = 0; k < 4; k++)
         if (reads_places(effects, all[k])) return;
-    if (load->toward || load_is_placed(load))
-        return; /* their directions and moments would not be linearised */
+    if (load->toward || load_is_placed(load)) return; /* directions and moments are not linearised */
     bool nonlinear = is_beyond_quadratic(effects, load->potential.expr), timed = false;
     for (int k = 0; k < 3; k++) nonlinear = nonlinear || is_nonlinear(effects, all[k]);
     for (int k = 0; k < 4; k++) timed = timed || (all[k] && expr_uses_time(all[k]));
