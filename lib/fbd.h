@@ -376,7 +376,8 @@ typedef struct fbd_event {
 } fbd_event;
 
 /* "breakaway", "stick", "reversal", "contact_lost", "user", "rope_slack", "rope_taut", "lift_off", "landing",
- * "switch", "impact", "contact", "rest", "sliding", "sliding_ends", "jam", "several"; "" for other values */
+ * "switch", "impact", "contact", "rest", "sliding", "sliding_ends", "jam", "several", "track_end"; ""
+ * for other values */
 FBD_API const char *fbd_event_kind_name(fbd_event_kind kind);
 
 typedef enum fbd_outcome {
@@ -1070,7 +1071,7 @@ FBD_API size_t fbd_grade_finding_count(const fbd_grade *grade);
 FBD_API fbd_finding fbd_grade_finding(const fbd_grade *grade, size_t index);
 
 /* As text, and as one JSON object (docs/grading.md); with `details` also the findings that name the key's
- * forces. To be freed with free(); NULL when memory is out. */
+ * forces. To be freed with fbd_free; NULL when memory is out. */
 FBD_API char *fbd_grade_text(const fbd_grade *grade, bool details);
 FBD_API char *fbd_grade_json(const fbd_grade *grade, bool details);
 
