@@ -46,7 +46,7 @@ static bool no_completion(const struct command_line *line, enum exit_code *code)
     return command_line_usage(line, "--completion is for bash, zsh or fish, not ", optarg);
 }
 
-/* A word that is nearly an option, or an option that lacks its value. */
+/* Report a word that is similar to an option, or an option without its value. */
 static bool refuse_option(const struct command_line *line, const char *text)
 {
     const char *nearest = completion_nearest(line, text);

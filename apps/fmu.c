@@ -8,7 +8,7 @@
 #include "complain.h"
 #include "whole_file.h"
 
-/* What was asked for wrongly is a mistake of the command line, unless it stands in the file. */
+/* Choose the exit code: an error with a position is one of the file, others are of the command line. */
 static enum exit_code blame(fbd_errors *errors)
 {
     const fbd_error first = fbd_errors_get(errors, 0);
