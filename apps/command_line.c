@@ -7,6 +7,7 @@
 
 #include "complain.h"
 #include "completion.h"
+#include "fbd_export.h"
 #include "standard_streams.h"
 
 enum exit_code exit_code_for(enum exit_code code, fbd_errors *errors)

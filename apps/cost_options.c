@@ -3,6 +3,7 @@
 
 #include <string.h>
 
+#include "fbd_study.h"
 #include "place.h"
 
 static const char help[] =

@@ -9,6 +9,7 @@
 
 #include "complain.h"
 #include "cost_options.h"
+#include "fbd_study.h"
 #include "place.h"
 #include "standard_streams.h"
 #include "terminal_line.h"

@@ -8,6 +8,9 @@
 #include <string.h>
 
 #include "complain.h"
+#include "fbd_export.h"
+#include "fbd_grade.h"
+#include "fbd_study.h"
 #include "fmu.h"
 #include "grading.h"
 #include "live_page.h"

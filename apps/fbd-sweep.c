@@ -10,6 +10,7 @@
 #include <string.h>
 
 #include "complain.h"
+#include "fbd_study.h"
 #include "partial_file.h"
 #include "ranks.h"
 #include "standard_streams.h"

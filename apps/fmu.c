@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "complain.h"
+#include "fbd_export.h"
 #include "whole_file.h"
 
 /* Choose the exit code: an error with a position is one of the file, others are of the command line. */

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "complain.h"
+#include "fbd_grade.h"
 #include "place.h"
 #include "standard_streams.h"
 #include "whole_file.h"

@@ -5,6 +5,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
+#include "fbd_export.h"
 #include "fmu.h"
 #include "gnuplot.h"
 #include "grading.h"

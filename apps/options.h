@@ -6,6 +6,7 @@
 #define FBD_APPS_OPTIONS_H
 
 #include "command_line.h"
+#include "fbd_export.h"
 #include "watch.h"
 
 struct options {

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "complain.h"
+#include "fbd_export.h"
 #include "gnuplot.h"
 #include "interrupt.h"
 #include "live_page.h"

@@ -7,6 +7,7 @@
 #define FBD_APPS_RANKS_H
 
 #include "fbd.h"
+#include "fbd_study.h"
 
 struct ranks {
     int rank, count;

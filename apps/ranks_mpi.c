@@ -20,6 +20,7 @@
 #include <time.h>
 
 #include "complain.h"
+#include "fbd_study.h"
 #include "fbd_workers.h"
 
 enum tag { tag_ask = 1, tag_rows, tag_share };

@@ -6,6 +6,7 @@
 #define FBD_APPS_SWEEP_OPTIONS_H
 
 #include "command_line.h"
+#include "fbd_study.h"
 
 enum { most_texts = 200 };
 

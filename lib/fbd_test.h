@@ -18,6 +18,7 @@
 #define FBD_TEST_H
 
 #include "fbd.h"
+#include "fbd_grade.h"
 
 #include <string.h>
 

@@ -10,6 +10,7 @@
 #define FBD_WORKERS_H
 
 #include "fbd.h"
+#include "fbd_study.h"
 
 #ifdef __cplusplus
 extern "C" {

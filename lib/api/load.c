@@ -8,6 +8,7 @@
 #include "base/file.h"
 #include "dynamics/contact.h"
 #include "dynamics/state.h"
+#include "fbd_export.h"
 #include "model/model.h"
 #include "output/hand_forces.h"
 #include "scene/schema.h"

@@ -12,6 +12,7 @@
 #include "base/format.h"
 #include "draw/panel.h"
 #include "dynamics/mass.h"
+#include "fbd_export.h"
 #include "output/equations.h"
 #include "output/symbols.h"
 #include "output/words.h"

@@ -11,6 +11,7 @@
 #include "base/utf8.h"
 #include "draw/record.h"
 #include "dynamics/modes.h"
+#include "fbd_export.h"
 #include "output/display_units.h"
 #include "output/words.h"
 

@@ -8,6 +8,7 @@
 
 #include "base/format.h"
 #include "draw/labelling.h"
+#include "fbd_study.h"
 #include "rest/linearize.h"
 
 static const double width = 130, height = 110, left = 16, right = 8, top = 24, bottom = 16;

@@ -7,6 +7,7 @@
 #include "base/api_check.h"
 #include "base/diag.h"
 #include "draw/svg.h"
+#include "fbd_export.h"
 
 static const struct page_asset *find_asset(const char *name, size_t length)
 {

@@ -12,6 +12,7 @@
 #include "draw/plates.h"
 #include "dynamics/diagram.h"
 #include "dynamics/state.h"
+#include "fbd_export.h"
 #include "model/outline.h"
 
 /* Sizes on paper [mm]. */

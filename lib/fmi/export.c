@@ -8,6 +8,7 @@
 #include "api/record.h"
 #include "base/api_check.h"
 #include "base/file.h"
+#include "fbd_export.h"
 #include "fmi/package.h"
 #include "fmi/zip.h"
 #include "loop/options.h"

@@ -14,6 +14,7 @@
 
 #include "base/text.h"
 #include "fbd.h"
+#include "fbd_export.h"
 #include "fmi/variables.h"
 
 enum { package_name_size = 64, package_token_size = 40 };

@@ -18,6 +18,7 @@
 #include "base/diag.h"
 #include "draw/page_json.h"
 #include "expr/unit.h"
+#include "fbd_export.h"
 #include "integrate/method.h"
 #include "live/live.h"
 

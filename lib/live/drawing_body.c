@@ -17,6 +17,7 @@
 #include "draw/panel.h"
 #include "dynamics/constraint.h"
 #include "dynamics/tree.h"
+#include "fbd_export.h"
 #include "model/outline.h"
 
 static const double pi = 3.141592653589793;

@@ -11,6 +11,8 @@
 #include "draw/page.h"
 #include "draw/page_json.h"
 #include "draw/svg.h"
+#include "fbd_export.h"
+#include "fbd_grade.h"
 #include "grade/handout.h"
 #include "live/drawing.h"
 #include "live/live.h"

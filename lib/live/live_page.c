@@ -11,6 +11,7 @@
 #include "base/file.h"
 #include "draw/page.h"
 #include "draw/page_json.h"
+#include "fbd_export.h"
 #include "live/live.h"
 #include "record/result.h"
 

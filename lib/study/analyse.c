@@ -6,6 +6,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "fbd_study.h"
 #include "integrate/method.h"
 #include "study/cost.h"
 

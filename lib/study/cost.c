@@ -6,6 +6,7 @@
 
 #include "base/api_check.h"
 #include "base/diag.h"
+#include "fbd_study.h"
 #include "model/variant.h"
 #include "study/stopwatch.h"
 

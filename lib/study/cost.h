@@ -10,6 +10,7 @@
 #define FBD_STUDY_COST_H
 
 #include "base/text.h"
+#include "fbd_study.h"
 #include "study/reference.h"
 #include "study/timing.h"
 

@@ -4,6 +4,7 @@
  */
 #include <math.h>
 
+#include "fbd_study.h"
 #include "study/cost.h"
 
 static const char *state_name(fbd_point_state state)

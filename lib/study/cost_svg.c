@@ -12,6 +12,7 @@
 #include <string.h>
 
 #include "draw/svg.h"
+#include "fbd_study.h"
 #include "study/cost.h"
 
 enum { width = 960, height = 640, left = 86, right = 800, top = 74, bottom = 560, label_pitch = 17 };

@@ -6,6 +6,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "fbd_study.h"
 #include "model/model.h"
 #include "study/cost.h"
 

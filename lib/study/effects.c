@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/diag.h"
+#include "fbd_study.h"
 #include "study/cost.h"
 #include "study/stopwatch.h"
 

@@ -8,6 +8,7 @@
 #ifndef FBD_STUDY_EFFECTS_H
 #define FBD_STUDY_EFFECTS_H
 
+#include "fbd_study.h"
 #include "model/variant.h"
 #include "study/reference.h"
 #include "study/timing.h"

@@ -10,6 +10,7 @@
 
 #include "base/text.h"
 #include "dynamics/state.h"
+#include "fbd_study.h"
 #include "study/effects.h"
 
 static void coefficient(struct text *text, double value)

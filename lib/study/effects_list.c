@@ -7,6 +7,7 @@
 
 #include "base/diag.h"
 #include "dynamics/state.h"
+#include "fbd_study.h"
 #include "study/effects.h"
 
 /* ---- entries */

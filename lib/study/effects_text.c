@@ -5,6 +5,7 @@
 #include <math.h>
 #include <stdio.h>
 
+#include "fbd_study.h"
 #include "model/model.h"
 #include "study/cost.h"
 #include "study/effects.h"

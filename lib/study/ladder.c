@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "base/diag.h"
+#include "fbd_study.h"
 #include "integrate/method.h"
 #include "study/cost.h"
 #include "study/stopwatch.h"

@@ -4,6 +4,7 @@
  */
 #include "base/format.h"
 #include "base/utf8.h"
+#include "fbd_study.h"
 #include "loop/options.h"
 #include "record/finite_result.h"
 #include "study/sweep.h"

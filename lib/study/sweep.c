@@ -3,6 +3,7 @@
 
 #include "base/api_check.h"
 #include "base/file.h"
+#include "fbd_study.h"
 #include "loop/options.h"
 #include "scene/names.h"
 #include "scene/node.h"

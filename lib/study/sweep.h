@@ -11,6 +11,7 @@
 #ifndef FBD_STUDY_SWEEP_H
 #define FBD_STUDY_SWEEP_H
 
+#include "fbd_study.h"
 #include "loop/ensemble.h"
 #include "model/model.h"
 #include "scene/patch.h"

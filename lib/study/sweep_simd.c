@@ -5,6 +5,7 @@
 
 #include "base/block_alloc.h"
 #include "batch/batch.h"
+#include "fbd_study.h"
 
 /* Rows kept at a time: a full share. */
 enum { most_rows = 64 };

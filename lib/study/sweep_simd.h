@@ -7,6 +7,7 @@
 #ifndef FBD_STUDY_SWEEP_SIMD_H
 #define FBD_STUDY_SWEEP_SIMD_H
 
+#include "fbd_study.h"
 #include "study/sweep.h"
 
 /* True if the runs fit into lanes, and no column requires more than their ends. */

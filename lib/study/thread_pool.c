@@ -3,6 +3,7 @@
 
 #include "base/api_check.h"
 #include "batch/batch.h"
+#include "fbd_study.h"
 #include "study/sweep_simd.h"
 
 #include <math.h>

@@ -10,6 +10,7 @@
 #ifndef FBD_STUDY_THREAD_POOL_H
 #define FBD_STUDY_THREAD_POOL_H
 
+#include "fbd_study.h"
 #include "fbd_workers.h"
 #include "study/sweep.h"
 

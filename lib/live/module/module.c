@@ -13,6 +13,9 @@
 #include <string.h>
 
 #include "fbd.h"
+#include "fbd_export.h"
+#include "fbd_grade.h"
+#include "fbd_study.h"
 #include "module.h"
 
 enum { most_off = 256, most_settings = 256 };
