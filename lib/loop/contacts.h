@@ -43,7 +43,7 @@ struct striker {
     bool rubs;       /* it has a tangential row, in which there may be friction */
     double v_n, v_t; /* before */
     double reel;     /* of a rope: its rate of growth at rest ends */
-    bool stays;      /* no contact, and opened by an impact with a speed so small that it is kept closed (zeno.c) */
+    bool stays;      /* no contact; opened with a speed so small that it stays closed (zeno.c) */
 };
 
 /* A contact that coincides with another one, of the same two links and with the same normal: a corner shared
@@ -87,10 +87,10 @@ struct contacts_work {
     struct bounces tugs;     /* of ropes that become taut and contacts that land, alternately */
     bool *asleep;            /* of each contact pair: too far apart for the step */
     int *touched;            /* of each contact pair: touching features at the last check */
-    double *deep;   /* of each contact pair: depth at which it was left open, at a corner next to another side */
-    bool *touching; /* of each coupling: scratch */
-    bool *moves;    /* of each coupling: for zeno_rest.c */
-    bool *was_closed; /* of each coupling, at the last check */
+    double *deep;            /* of each contact pair: overlap left open at a corner next to another side */
+    bool *touching;          /* of each coupling: scratch */
+    bool *moves;             /* of each coupling: for zeno_rest.c */
+    bool *was_closed;        /* of each coupling, at the last check */
     struct fbd_state *trial;
     double speed; /* the largest of the touching shapes so far */
     struct impact_record
@@ -176,11 +176,11 @@ bool contacts_strike(struct run *run, int count);
 bool contacts_solve_impact(struct run *run, int count);
 void contacts_apply_impulses(struct run *run, int count);
 
-/* What an impact has brought to rest on others, and has been closed, is so to the digit: impulses are known to 1e-13. */
-void contacts_hold_speeds(struct run *run, int count);
-
 /* After an impact and its closings: set the velocities of closed contacts to exactly zero; impulses have an
  * accuracy of 1e-13. */
+void contacts_hold_speeds(struct run *run, int count);
+
+/* Does impact constraint i separate after the impact, by more than rounding? */
 bool contacts_part(const struct run *run, int i);
 
 /* Open the strikers that separate by the velocities in work->v after an impact (or by the present ones,

@@ -38,9 +38,9 @@ struct run_options {
     double tolerance;
     double step; /* fixed size, or 0 */
     const struct method *method;
-    bool automatic; /* switch between the explicit and the stiff method as needed */
-    bool structure; /* exploit the structure of the plan: see structure.h; with `automatic` it may choose the method */
-    bool apart;     /* of a companion: its steps differ from those of a run without this option, where events set them */
+    bool automatic;                /* switch between the explicit and the stiff method as needed */
+    bool structure;                /* exploit the structure of the plan (structure.h) */
+    bool apart;                    /* of a companion: where events set steps, they differ */
     const struct fbd_state *start; /* initial state of the whole model; NULL: that of the file */
 };
 
@@ -51,7 +51,7 @@ struct run_event {
     int own;               /* a switch in the rate of this user state, or -1 */
     int branch;            /* of a switch */
     size_t group, order;   /* of an ensemble: the island, and the index in its log */
-    double force, limit;   /* friction: the force after the event (sticking or slipping) and the static limit; contact: the normal force and its rounding; rest: `limit` is the number of impacts */
+    double force, limit;   /* friction: after the event; static limit. Contact: N; its rounding */
     struct impact_record impact;
 };
 
@@ -87,7 +87,7 @@ struct progress {
 struct ending {
     fbd_outcome outcome;
     char reason[reason_size];
-    const char *refusal; /* if the start is refused: the id of the reason (start.h), and the position in the file; else NULL */
+    const char *refusal; /* of a start: id of the reason (start.h), and position; or NULL */
     struct pos refusal_at;
 };
 
@@ -100,13 +100,14 @@ struct snap {
 /* Search for events, besides the watchers. */
 struct event_search {
     struct scan timed, moving;
-    bool *reads;  /* for each group of moving functions: the components of the trajectory polynomial that it reads */
+    bool *reads;  /* for each group of moving functions: the components that it reads */
     bool *wanted; /* the groups that are searched at present */
-    bool paced, paced_by_motion; /* sampled functions may change as fast as formulas do; with the motion, too */
-    bool follows_places;         /* the trajectory polynomial includes positions in the world */
-    bool leads;                  /* there are prescribed motions (impose_drives) */
-    bool leads_speeds;           /* drives prescribe speeds, too: guides turn by them */
-    bool wakes; /* there are levels in switches that may be silent (expr_switch_is_silent) */
+    bool paced,
+        paced_by_motion; /* sampled functions may change as fast as formulas do; with the motion, too */
+    bool follows_places; /* the trajectory polynomial includes positions in the world */
+    bool leads;          /* there are prescribed motions (impose_drives) */
+    bool leads_speeds;   /* drives prescribe speeds, too: guides turn by them */
+    bool wakes;          /* there are levels in switches that may be silent (expr_switch_is_silent) */
 };
 
 /* Round-off levels of accelerations: see roundoff.c. */
@@ -114,12 +115,13 @@ struct roundoff {
     double *accelerations; /* plan_rates: round-off level of accelerations and of rates of user states */
     double *largest;       /* plan_rates: the largest values for which that was computed */
     bool heeds_time;       /* a force, or the rate of a user state, depends on time explicitly */
-    double *along;  /* plan_rates: rates of change of accelerations and of rates of user states along the motion, when the levels were last computed */
-    double *turned; /* twice the links of the tree */
-    double *cancelled;          /* for each body a force and its moment */
-    double *formulas;           /* n: effect of rounding within formulas on accelerations */
-    double *nothing;            /* plan_size: values negligible compared with the largest motion, at a start */
-    unsigned long since, pause; /* steps since; and steps to wait while the level matters but hardly changes */
+    double *along;         /* plan_rates: rates of change along the motion at the last update */
+    double *turned;        /* twice the links of the tree */
+    double *cancelled;     /* for each body a force and its moment */
+    double *formulas;      /* n: effect of rounding within formulas on accelerations */
+    double *nothing;       /* plan_size: values negligible compared with the largest motion, at a start */
+    unsigned long since,
+        pause; /* steps since; and steps to wait while the level matters but hardly changes */
 };
 
 /* Scratch of the loop: plan_size numbers each, unless noted. */
@@ -140,13 +142,12 @@ struct event_log {
 
 /* Events that accumulate at one instant, and events that recur around one state. */
 struct recent {
-    double time;      /* of the last event */
-    int crowd, turns; /* events at that instant; and sign changes of normal forces there */
+    double time;           /* of the last event */
+    int crowd, turns;      /* events at that instant; and sign changes of normal forces there */
     struct time_dd moment; /* the start, or the time of the last events */
     double interval[2];    /* the last two intervals between these; infinite before there are three */
-    double *
-        anchor; /* 2 plan_size: the state around which the last events happened; the largest |y_i| before the last step */
-    int around; /* number of events around it */
+    double *anchor; /* 2 plan_size: the state around which the last events happened; the largest |y_i| */
+    int around;     /* number of events around it */
 };
 
 struct run {
@@ -360,7 +361,7 @@ void roundoff_init(struct run *run, double *memory);
 /* Number of steps until the update of round-off levels is due. */
 unsigned long roundoff_steps(const struct run *run);
 
-/* The time for messages: times negligible compared with the first step are printed as the start. */
+/* The time for messages: 0 where it is negligible compared with the first step. */
 double run_time(const struct run *run);
 
 /* End the run where it gains too little time per work. (progress.c) */
