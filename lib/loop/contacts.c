@@ -109,8 +109,6 @@ static bool same_place(const struct run *run, int meeting, int a, int b, double 
     return vec_norm(vec_sub(p, q)) <= contacts_same * near;
 }
 
-/* Assign the touching features to the couplings of a contact pair; couplings keep their feature where
- * possible. */
 void contacts_find_touching(struct run *run, int index, double near)
 {
     const struct meeting *meeting = &tree_of(run)->meetings[index];
