@@ -280,7 +280,8 @@ static bool holds_more(const struct hold_problem *problem, const int *more, cons
     return longer;
 }
 
-/* Does a solution count beside the first one: with another motion, and without sticking contacts in addition? */
+/* Does a solution count in addition to the first one: with another motion, and not dominated by one with more
+ * sticking contacts? */
 static bool counts_beside(const struct solutions *solutions, const struct hold_problem *problem, size_t which)
 {
     size_t n = problem->count;

@@ -62,7 +62,6 @@ static void leave_surface(struct run *run, const struct watcher *watcher)
     sliding_drop(s);
 }
 
-/* Set the relative velocity to exactly zero, as the event implies; settling decides the modes. */
 /* Set rates at round-off level, relative to their largest values, to zero. */
 static void drop_rounding(struct run *run)
 {
@@ -73,6 +72,7 @@ static void drop_rounding(struct run *run)
         if (fabs(run->state->y[i]) <= rounding * most[i]) run->state->y[i] = 0;
 }
 
+/* Set the relative velocity to exactly zero, as the event implies; settling decides the modes. */
 static void stop_slipping(struct run *run, int pair)
 {
     const struct mode *mode = &run->model->plan.modes[pair];

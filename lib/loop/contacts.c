@@ -239,7 +239,7 @@ static void let_slack(struct run *run, int pair)
     run->decided.slips[pair] = true;
 }
 
-/* Update the contact of coupling `index` after an impact, by the velocities of striker i. */
+/* Update the contact of coupling `index` after an impact, by the velocities of impact constraint i. */
 static void open_or_close_contact(struct run *run, int index, int i, bool leaves, double v_t)
 {
     const struct coupling *coupling = &tree_of(run)->couplings[index];

@@ -42,7 +42,7 @@ struct striker {
     bool rope;
     bool rubs;       /* it has a tangential row, in which there may be friction */
     double v_n, v_t; /* before */
-    double reel;     /* of a rope: its rate of growth at rest ends */
+    double reel;     /* of a rope: the prescribed rate of its length */
     bool stays;      /* no contact; opened with a speed so small that it stays closed (zeno.c) */
 };
 
@@ -77,12 +77,12 @@ struct contacts_work {
     int struck;     /* of the last call of contacts_find_strikers */
     struct impacts_point *points;
     int *rows, *modes;
-    int *slides;     /* friction pairs that take part, numbered behind the strikers */
+    int *slides;     /* friction pairs that take part, numbered behind the impact constraints */
     int slide_count; /* their number */
     struct impacts_slide *slide;
     double *slide_before; /* their slip velocities before */
     double *W, *B, *answers, *v, *P, *y;
-    double *later;           /* two velocities and impulses of each striker, besides v and P */
+    double *later;           /* two velocities and impulses of each impact constraint, besides v and P */
     struct bounces *bounces; /* of each contact pair */
     struct bounces tugs;     /* of ropes that become taut and contacts that land, alternately */
     bool *asleep;            /* of each contact pair: too far apart for the step */
@@ -168,8 +168,8 @@ static const double contacts_same = 4;
 /* Height of bounces below the tolerance, likewise: 1e-9 of the scene. */
 enum { contacts_low = 1000 };
 
-/* Apply the impact of the first `count` strikers; work->v receives their velocities after it, work->P its
- * impulses. Returns false after failing the run. (contacts_strike.c) */
+/* Apply the impact of the first `count` impact constraints; work->v receives their velocities after it,
+ * work->P its impulses. Returns false after failing the run. (contacts_strike.c) */
 bool contacts_strike(struct run *run, int count);
 
 /* The two halves of contacts_strike. */
@@ -183,8 +183,8 @@ void contacts_hold_speeds(struct run *run, int count);
 /* Does impact constraint i separate after the impact, by more than rounding? */
 bool contacts_part(const struct run *run, int i);
 
-/* Open the strikers that separate by the velocities in work->v after an impact (or by the present ones,
- * without an impact); let the others slip or stick. */
+/* Open the impact constraints that separate by the velocities in work->v after an impact (or by the present
+ * ones, without an impact); let the others slip or stick. */
 void contacts_open_or_close(struct run *run, int count, bool struck);
 
 /* A rope became taut, or a contact landed, and opened others by it, which do the same alternately: as soon as
@@ -207,15 +207,16 @@ int contacts_find_strikers(struct run *run);
 /* Coefficient of restitution of a contact pair at a speed of approach; below zero after failing the run. */
 double contacts_restitution(struct run *run, int meeting, double approach);
 
-/* After an impact of `count` strikers: has a series of bounces become smaller than the tolerance? (zeno.c) */
+/* After an impact of `count` impact constraints: has a sequence of bounces become smaller than the tolerance?
+ * (zeno.c) */
 bool zeno_end_bounces(struct run *run, int count);
 
 /* Remove separation speeds of surfaces and ropes by impulses, with the friction that the weight would have
  * caused: resting bodies exert m a T in the time T of the series, and so do bouncing ones but for m v. */
 void zeno_remove_separation(struct run *run, int count);
 
-/* Place bouncing bodies on their surfaces (zeno_rest.c); the strikers are then the touching ones. Returns
- * their number. */
+/* Place bouncing bodies on their surfaces (zeno_rest.c); the impact constraints are then the touching
+ * contacts. Returns their number. */
 int zeno_rest(struct run *run, int strikers);
 
 /* Would that change the speed of each body by no more than bounces below the tolerance do? */
@@ -227,7 +228,7 @@ bool zeno_rest_is_harmless(struct run *run, int count);
  * opened. */
 void run_release_contacts(struct run *run);
 
-/* The next Zeno limit of a series of bounces; HUGE_VAL without one. log_rests logs those that are over. */
+/* The next Zeno limit of a sequence of bounces; HUGE_VAL without one. log_rests logs those that are over. */
 double zeno_next_rest(const struct run *run);
 void log_rests(struct run *run);
 

@@ -27,7 +27,7 @@ static const struct tree *tree_of(const struct run *run)
 /* Change of velocities in the short time, relative to the fastest slip. */
 static const double hint = 1e-7;
 
-/* The accelerations along normal and tangent of striker i without contact forces, from work->trial. */
+/* The accelerations along normal and tangent of impact constraint i without contact forces, from work->trial. */
 static void free_accelerations(const struct run *run, int i, double c[2])
 {
     const struct striker *striker = &run->contacts.strikers[i];

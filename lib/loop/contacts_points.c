@@ -72,7 +72,8 @@ static bool coincide(const struct run *run, int a, int b)
            vec_norm(vec_sub(p->arm, q->arm)) <= contacts_same * meeting_near(run->model, work, index);
 }
 
-/* The striker among the first `count` that coincides with the contact of coupling i; -1 without one. */
+/* The impact constraint among the first `count` that coincides with the contact of coupling i; -1 without
+ * one. */
 static int coinciding(const struct run *run, int i, int count)
 {
     const struct striker *strikers = run->contacts.strikers;

@@ -38,10 +38,11 @@ static double work_done(const struct run *run)
  * side. The cost of a check is negligible. */
 static const double window = 1e7;
 
-/* Each is a fraction of time gained in a window; its inverse is the number of windows left: - to double the
- * elapsed time would take ten million windows; - the run would take 1e15 windows, even at its start, when
- * little time has elapsed; - most steps are rejected, so that the pace decreases further, and doubling would
- * take a thousand windows; - a hundred windows have passed (the pace is steady), and a million are left. */
+/* Each is a fraction of time gained in a window; its inverse is the number of windows left:
+ *     - to double the elapsed time would take ten million windows;
+ *     - the run would take 1e15 windows, even at its start, when little time has elapsed;
+ *     - most steps are rejected, so that the pace decreases further, and doubling would take a thousand windows;
+ *     - a hundred windows have passed (the pace is steady), and a million are left. */
 static const double stands_share = 1e-7, hopeless_share = 1e-15, struggles_share = 1e-3, steady_share = 1e-2,
                     endless_share = 1e-6;
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Series of bounces: when bounces are below the tolerance the series is summed, and the body rests.
+ * Zeno limits of bounces: when bounces are below the tolerance the series is summed, and the body rests.
  */
 #include <float.h>
 #include <stdlib.h>
@@ -202,7 +202,7 @@ static double end_of_tugs(struct run *run, const struct bounces *bounces, double
     return end;
 }
 
-/* Does any contact open by the impact of striker i, by more than rounding? */
+/* Does any contact open by the impact of impact constraint i, by more than rounding? */
 static bool any_leaves(const struct run *run, int i, int count)
 {
     const struct contacts_work *work = &run->contacts;
@@ -230,8 +230,8 @@ static bool any_hops(struct run *run, int count)
     return false;
 }
 
-/* The time at which the impacts of striker i's pair end, if their bounces are below the tolerance; else
- * HUGE_VAL. */
+/* The time at which the impacts of impact constraint i's pair end, if their bounces are below the tolerance;
+ * else HUGE_VAL. */
 static double end_of_series(struct run *run, int i, int count)
 {
     const struct contacts_work *work = &run->contacts;

@@ -83,7 +83,7 @@ static double speed_between(const struct run *run, const struct tree_work *befor
     return most;
 }
 
-/* Does striker i belong to a summed series, and separate slowly? */
+/* Does impact constraint i belong to a summed series, and separate slowly? */
 static bool is_summed_up(const struct run *run, int i, double slow)
 {
     const struct contacts_work *work = &run->contacts;

@@ -342,8 +342,8 @@ static bool find_balance_from(struct resting *balance, gsl_vector *q, gsl_multir
 }
 
 /* At an unstable symmetric start the derivative may vanish (that of the moment of a horizontal rod), and
- * Newton's method may leap from near it. So starts beside it are tried as well, +-0.1, 0.2, ... 1.6 rad, or
- * this factor times the scale of a coordinate; the equilibrium nearest to the state is used. */
+ * Newton's method may leap from near it. So neighbouring starts are tried as well, +-0.1, 0.2, ... 1.6 rad,
+ * or this factor times the scale of a coordinate; the equilibrium nearest to the state is used. */
 static void set_start(gsl_vector *q, const struct fbd_model *model, const double *origin, int trial)
 {
     double share = trial == 0 ? 0 : ldexp(0.1, (trial - 1) / 2) * (trial % 2 ? -1 : 1);

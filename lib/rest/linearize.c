@@ -314,7 +314,7 @@ static bool look_around(struct looking *looking)
     }
     if (!away) step_aside(&looking->independent, little, from);
     move_place(state, from, true);
-    bool regular = slopes_at(looking, looking->beside); /* else the rank differs beside it */
+    bool regular = slopes_at(looking, looking->beside); /* else the rank differs nearby */
     move_place(state, q, true);
     state_evaluate(state);
     return slopes_at(looking, looking->there) && regular; /* leaves the Jacobian in A */
