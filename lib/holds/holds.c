@@ -32,7 +32,7 @@ void holds_free(struct hold_problem *problem)
     *problem = (struct hold_problem){0};
 }
 
-/* ---- affine in z: rows of `width` numbers, the coefficients of z and then the constant */
+/* ---- affine functions of z: rows of `width` numbers, the coefficients of z and then the constant */
 
 struct affine {
     const struct hold_problem *problem;
@@ -91,7 +91,7 @@ static bool affine_new(struct affine *of, const struct hold_problem *problem)
     return true;
 }
 
-/* P of a friction without what depends on N of a guide with two sides, P = 2 N' - N. */
+/* Add `share` times P of a friction constraint, without the term of N of a two-sided guide, P = 2 N' - N. */
 static void add_press(const struct affine *of, const struct hold *hold, double share, double *to)
 {
     const struct hold_problem *problem = of->problem;
@@ -108,7 +108,7 @@ static bool lint_friction_on_both_sides(const struct affine *of, const struct ho
            of->problem->guides[hold->presses].two_sided;
 }
 
-/* The share of P in f beside r: -mu_s at rest, -slip mu_k where it slips. */
+/* The factor of P in f, besides r: -mu_s at rest, -slip mu_k where it slips. */
 static double share_of(const struct hold *hold)
 {
     return hold->slip == 0 ? -hold->mu_s : -hold->slip * hold->mu_k;
@@ -193,7 +193,7 @@ static void set_problem(struct affine *of)
     }
 }
 
-/* ---- what is found */
+/* ---- result */
 
 static double value(const struct affine *of, const double *affine, const double *z)
 {
@@ -208,7 +208,8 @@ double holds_weight(const struct hold_problem *problem, size_t i)
     return own > 0 ? 1 / sqrt(own) : 0;
 }
 
-/* What counts as no acceleration: a share of the largest, for rounding and the corrections of multipliers. */
+/* Accelerations below this count as zero: a fraction of the largest, for rounding and the corrections of
+ * multipliers. */
 static double rounding_of(const struct hold_problem *problem, double share)
 {
     double most = problem->beside_c;
@@ -258,7 +259,7 @@ static void set_modes(struct hold_problem *problem)
     }
 }
 
-/* Solve what has been set up. */
+/* Solve the problem that was set up. */
 static enum holds_found solve_affine(struct affine *of, struct hold_problem *problem, int cover)
 {
     if (!set_forces(of)) return holds_lost;
@@ -284,7 +285,7 @@ static enum holds_found solve_once(struct hold_problem *problem, int cover)
     return found;
 }
 
-/* ---- do modes and forces agree? */
+/* ---- consistency of modes and forces */
 
 static double press_of(const struct hold_problem *problem, const struct hold *hold)
 {
@@ -294,7 +295,7 @@ static double press_of(const struct hold_problem *problem, const struct hold *ho
     return guide->two_sided ? fabs(guide->N) : fmax(0, guide->N);
 }
 
-/* What counts as no force along hold i. */
+/* Forces of constraint i below this count as zero. */
 static double force_rounding(const struct hold_problem *problem, size_t i)
 {
     const double rounding = 1e-9, beside = 1e-4;
@@ -302,7 +303,7 @@ static double force_rounding(const struct hold_problem *problem, size_t i)
     double own = problem->A[i * problem->count + i], size = fabs(hold->force);
     if (own > 0) size = fmax(size, fabs(hold->free) / own);
     if (hold->kind == hold_friction) size = fmax(size, hold->mu_s * press_of(problem, hold));
-    /* What presses on nothing has the rounding of what presses beside it. */
+    /* A constraint without load has the rounding of the forces of the others. */
     size = fmax(size, beside * problem->beside_force);
     for (size_t j = 0; j < problem->count; j++) size = fmax(size, beside * fabs(problem->holds[j].force));
     return rounding * size;
@@ -343,9 +344,9 @@ bool holds_agree(const struct hold_problem *problem)
     return true;
 }
 
-/* ---- the whole */
+/* ---- complete solution */
 
-/* With mu_k < mu_s: what has to slip does so with mu_k, and the others are decided again. */
+/* With mu_k < mu_s: constraints that slip get mu_k, and the others are decided again. */
 static enum holds_found solve(struct hold_problem *problem, int cover)
 {
     enum holds_found found = holds_lost;
@@ -364,13 +365,14 @@ static enum holds_found solve(struct hold_problem *problem, int cover)
     return found;
 }
 
-/* Nobody's friction, but anybody's file: slipping would start against itself, so the larger one holds. */
+/* mu_k > mu_s is not physical, but possible in a file: the friction force would exceed the limit at
+ * breakaway, so the larger one is used. */
 static double larger(const struct hold *hold)
 {
     return fmax(hold->mu_s, hold->mu_k);
 }
 
-/* What has been found, kept while others are looked for. */
+/* A solution, saved during the search for others. */
 struct found {
     struct hold *holds;
     struct hold_guide *guides;
@@ -394,8 +396,8 @@ static void found_restore(struct found *found, struct hold_problem *problem)
     free(found->guides);
 }
 
-/* Can there be other solutions? Only with friction that changes its own normal force, or with mu_s > mu_k beside other
- * constraints. */
+/* Can there be other solutions? Only with friction that changes its own normal force, or with mu_s > mu_k
+ * together with other constraints. */
 static bool may_have_others(const struct hold_problem *problem)
 {
     bool may = false;
@@ -407,7 +409,7 @@ static bool may_have_others(const struct hold_problem *problem)
     return may;
 }
 
-/* Is it the only solution? The problem stays as it is. */
+/* Is it the only solution? The problem is not changed. */
 static enum holds_found look_for_others(struct hold_problem *problem, size_t most)
 {
     struct found found = {0};
@@ -417,7 +419,7 @@ static enum holds_found look_for_others(struct hold_problem *problem, size_t mos
     return unique == -2 ? holds_no_memory : unique == 0 ? holds_several : holds_decided;
 }
 
-/* The sides on which holds slip already are as they were. */
+/* Solve, and restore the given directions of slip. */
 static enum holds_found solve_and_keep(struct hold_problem *problem, int cover)
 {
     int *slips = calloc(problem->count + 1, sizeof *slips);
@@ -434,14 +436,14 @@ static enum holds_found check(struct hold_problem *problem)
     return holds_agree(problem) ? holds_meet(problem) : holds_lost;
 }
 
-/* All that is not known to slip keeps. */
+/* All constraints that do not slip already stick or are closed. */
 static void keep_all(struct hold_problem *problem)
 {
     for (size_t i = 0; i < problem->count; i++) problem->holds[i].mode = problem->holds[i].slip;
 }
 
-/* Of holds too many to try all their modes. Where one start of Lemke's method ends in a ray or in rounding another may not,
- * and of modes that do not agree a few may be wrong. */
+/* For too many constraints to enumerate their modes. Where one start of Lemke's method ends in a ray or fails
+ * by rounding another may not, and of inconsistent modes only a few may be wrong. */
 static enum holds_found try_further(struct hold_problem *problem)
 {
     enum { most_covers = 16 };

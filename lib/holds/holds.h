@@ -69,8 +69,7 @@ struct hold_problem {
     double beside_c, beside_force;
 };
 
-/* The weight that makes accelerations of distances and of angles comparable: that of the constraint's
- * mobility. */
+/* 1 / sqrt(A_ii), which makes accelerations of distances and of angles comparable. */
 double holds_weight(const struct hold_problem *problem, size_t i);
 
 enum holds_found {

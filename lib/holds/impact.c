@@ -3,12 +3,12 @@
 
 #include <math.h>
 
-/* A place on the way, with the work of the normal impulse so far. */
+/* A point of the path in terms of p, with the work of the normal impulse so far. */
 struct place {
     double p, tau, v_n, v_t, work;
 };
 
-/* What changes with p on a piece of the way. */
+/* Derivatives by p on a segment of the path. */
 struct slope {
     double f, v_n, v_t;
 };
@@ -19,7 +19,7 @@ static struct slope slope_with(const struct impact_point *point, double f)
     return (struct slope){f, W[0] + W[1] * f, W[1] + W[2] * f};
 }
 
-/* Where the tangent rests it sticks if friction suffices, else it goes where the normal impulse throws it. */
+/* At v_t = 0 the point sticks if friction suffices, else it slips in the direction of W_nt. */
 static struct slope slope_at(const struct impact_point *point, const struct place *at)
 {
     const double *W = point->W;
@@ -30,7 +30,7 @@ static struct slope slope_at(const struct impact_point *point, const struct plac
     return slope;
 }
 
-/* The impulse after which the tangent rests. */
+/* The impulse until v_t = 0. */
 static double until_rest(const struct place *at, const struct slope *slope)
 {
     return at->v_t * slope->v_t < 0 ? -at->v_t / slope->v_t : HUGE_VAL;
@@ -45,21 +45,21 @@ static void go(struct place *at, const struct slope *slope, double dp, double re
     at->v_t = dp >= rest ? 0 : at->v_t + slope->v_t * dp;
 }
 
-/* Is W of rank one? To the rounding of its parts. */
+/* Is W of rank one, to rounding? */
 static bool is_on_a_line(const struct impact_point *point)
 {
     const double rounding = 1e-12, *W = point->W;
     return W[2] > 0 && W[0] * W[2] - W[1] * W[1] <= rounding * W[0] * W[2];
 }
 
-/* Does the tangent rest where friction holds it, on a line on which nothing else moves then? */
+/* Is the point sticking with W of rank one, so that its velocity cannot change? */
 static bool is_locked(const struct impact_point *point, const struct place *at)
 {
     return at->v_t == 0 && is_on_a_line(point) && fabs(point->W[1]) <= point->mu * point->W[2];
 }
 
-/* Slipping may first press the point on: friction that throws it against the other body. It comes to rest by
- * that, W being positive definite, and then compression ends. False where it is locked before. */
+/* Compression. Friction of a slipping point may first increase the approach; the slip then ends, as W is
+ * positive definite, and compression ends after it. False where the point is locked before. */
 static bool compress(const struct impact_point *point, struct place *at)
 {
     enum { most_pieces = 3 };
@@ -76,7 +76,7 @@ static bool compress(const struct impact_point *point, struct place *at)
     return at->v_n >= 0;
 }
 
-/* The impulse that is still to come on a piece that lasts. */
+/* The remaining impulse of restitution on a segment without an end of slip. */
 static double until_end(const struct impact_point *point, const struct place *at, const struct slope *slope,
                         const struct place *compressed, double approach)
 {
@@ -91,7 +91,7 @@ static double until_end(const struct impact_point *point, const struct place *at
     return due > 0 ? 2 * due / (at->v_n + sqrt(at->v_n * at->v_n + 2 * slope->v_n * due)) : 0;
 }
 
-/* What is locked gives nothing back, whatever the law. */
+/* Restitution. A locked point has none, whatever the law. */
 static void restore(const struct impact_point *point, struct place *at, double approach)
 {
     enum { most_pieces = 3 };
@@ -107,7 +107,7 @@ static void restore(const struct impact_point *point, struct place *at, double a
 
 /* ---- the laws */
 
-/* Along the way, piece by piece. */
+/* Laws along the path, segment by segment. */
 static bool follow(const struct impact_point *point, struct place *at, struct impact *impact)
 {
     double approach = -at->v_n;
@@ -117,7 +117,7 @@ static bool follow(const struct impact_point *point, struct place *at, struct im
     return true;
 }
 
-/* With v_n = -e v_n before and friction -mu p on a point that slips to `side` after: does it? */
+/* With v_n = -e v_n before and friction -mu p for slip to `side`: is that the direction of v_t after? */
 static bool slips_after(const struct impact_point *point, const struct place *before, int side,
                         struct place *after)
 {
@@ -128,7 +128,7 @@ static bool slips_after(const struct impact_point *point, const struct place *be
     return after->v_t * side > 0;
 }
 
-/* With friction that leaves it at rest, W [p, tau] = [-(1 + e) v_n, -v_t]: is it within its limit? */
+/* With friction that stops the point, W [p, tau] = [-(1 + e) v_n, -v_t]: is it within its limit? */
 static bool sticks_after(const struct impact_point *point, const struct place *before, struct place *after)
 {
     const double *W = point->W, det = W[0] * W[2] - W[1] * W[1], lift = -(1 + point->e) * before->v_n;
@@ -138,7 +138,7 @@ static bool sticks_after(const struct impact_point *point, const struct place *b
     return fabs(after->tau) <= point->mu * after->p;
 }
 
-/* On a line that leads to rest: is the other side at rest? */
+/* With W of rank one: does the line of velocities pass through rest? */
 static bool leads_to_rest(const struct impact_point *point, const struct place *before)
 {
     const double rounding = 1e-9, *W = point->W;
@@ -146,8 +146,8 @@ static bool leads_to_rest(const struct impact_point *point, const struct place *
            fabs(before->v_t - W[1] / W[0] * before->v_n) <= rounding * hypot(before->v_n, before->v_t);
 }
 
-/* Where several ends agree it is the one that the way would have come to: it slips on, or sticks, or slips
- * back. Without friction, and at a limit, the last is any of them. */
+/* Moreau's law. If several results are consistent it is the first along the path: continued slip, sticking,
+ * reversed slip. Without friction, and at a limit, the last is any of them. */
 static bool jump(const struct impact_point *point, struct place *at, struct impact *impact)
 {
     const struct place before = *at;

@@ -9,9 +9,9 @@
 #include "holds/parts.h"
 #include "holds/together.h"
 
-/* ---- one after the other */
+/* ---- sequential impacts */
 
-/* The point that closes fastest; of those that do so by the same speed the first, and not the one that rounding chooses. */
+/* The point that closes fastest; at equal speeds the first, independent of rounding. */
 static int fastest(const struct impacts *impacts, double least)
 {
     const double same = 1e-12;
@@ -36,7 +36,7 @@ static struct impact_point alone(const struct impacts *impacts, int i)
                                  impacts->points[i].law};
 }
 
-/* The friction of what slips on, whatever strikes. */
+/* The friction of a point that slips whatever the impulses. */
 static void rub_on(const struct impacts *impacts, int i, struct impact *impact)
 {
     const struct impacts_point *point = &impacts->points[i];
@@ -45,7 +45,8 @@ static void rub_on(const struct impacts *impacts, int i, struct impact *impact)
     impact->work += impact->tau * impact->v_t;
 }
 
-/* The impact of point i; others feel it. Returns the largest change of a speed, below zero where there is no impact. */
+/* Apply the impact of point i to all velocities. Returns the largest change of a speed, below zero where no
+ * impulse satisfies the law. */
 static double strike(struct impacts *impacts, int i)
 {
     int n = 2 * impacts->count, row = 2 * i;
@@ -59,7 +60,7 @@ static double strike(struct impacts *impacts, int i)
         impacts->v[k] += gain;
         most = fmax(most, fabs(gain));
     }
-    impacts->v[row] = impact.v_n; /* to the digit */
+    impacts->v[row] = impact.v_n; /* exactly */
     impacts->v[row + 1] = impact.v_t;
     impacts->P[row] += impact.p;
     impacts->P[row + 1] += impact.tau;
@@ -74,7 +75,7 @@ static double fastest_speed(const struct impacts *impacts)
     return most;
 }
 
-/* Of distances and angles alike, as holds have it. */
+/* Weighted as in holds_weight, for distances and angles alike. */
 static double weighted_speed(const struct impacts *impacts)
 {
     const int n = impacts_size(impacts);
@@ -86,7 +87,7 @@ static double weighted_speed(const struct impacts *impacts)
     return most;
 }
 
-/* A law that makes energy may do so at each turn: then there is no end that means anything. */
+/* A law that may gain energy can do so at each impact: then the sequence diverges. */
 static bool grows(const struct impacts *impacts, double before)
 {
     const double far = 1e3;
@@ -95,8 +96,8 @@ static bool grows(const struct impacts *impacts, double before)
     return may_grow && !(weighted_speed(impacts) <= far * before);
 }
 
-/* Each change of a speed leaves its rounding behind, by which points that are jammed between others would close for ever:
- * what closes no faster than that rests. */
+/* Each change of a speed adds rounding, by which points between others would close forever: points that close
+ * no faster than that are set to rest. */
 static enum impacts_end propagate(struct impacts *impacts)
 {
     enum { most_rounds = 10000 };
@@ -117,7 +118,7 @@ static enum impacts_end propagate(struct impacts *impacts)
     return impacts_endless;
 }
 
-/* ---- parts that do not feel each other */
+/* ---- uncoupled parts */
 
 static bool feel_each_other(const void *context, int i, int j)
 {
@@ -130,8 +131,9 @@ static bool feel_each_other(const void *context, int i, int j)
     return false;
 }
 
-/* Impacts of several points on each other that lose energy may go on without end, ever slower: what is left is taken
- * by one that is plastic. So is what hardly closes any more where some points lose none: rounding of the others keeps that. */
+/* Sequential impacts that lose energy may go on without end, ever slower: the rest is one plastic impact. The
+ * same is done if some points lose no energy, but the closing speeds are small: these are caused by rounding.
+ */
 static enum impacts_end propagate_to_the_end(struct impacts *impacts)
 {
     const double nothing = 1e-9;
@@ -155,13 +157,13 @@ static enum impacts_end propagate_to_the_end(struct impacts *impacts)
     return end == impacts_unsolvable ? impacts_endless : end;
 }
 
-/* Do the impulses do what is said of them? Their work is P (v before + v after) / 2, and is the change of kinetic energy
- * only as far as v after is what they make of v before. Of large impulses rounding takes a part of that. */
+/* Are the velocities after consistent with the impulses? Their work P (v before + v after) / 2 is the change
+ * of kinetic energy only if v after = v before + W P. With large impulses rounding affects that. */
 enum doing { does_not, does_to_rounding, does_to_digits };
 
 static enum doing do_what_they_say(const struct impacts *impacts, const double *before)
 {
-    const double share = 1e-9, of_products = 4 * DBL_EPSILON; /* in W, too */
+    const double share = 1e-9, of_products = 4 * DBL_EPSILON; /* also of the entries of W */
     int n = impacts_size(impacts);
     double wrong = 0, beyond = 0, energy = 0;
     for (int i = 0; i < n; i++) {
@@ -194,8 +196,8 @@ static enum impacts_end find_by(struct impacts *impacts, bool propagates)
 
 /* ---- large impulses */
 
-/* A copy whose W, symmetric as it is, and velocities before are off by rounding: plus or minus by chance, which is the same in
- * every run. */
+/* A copy with W, which remains symmetric, and initial velocities perturbed by rounding of pseudo-random sign,
+ * the same in every run. */
 static void set_off(const struct impacts *impacts, const double *before, struct impacts *off, double *W,
                     unsigned *chance)
 {
@@ -221,7 +223,7 @@ static void set_off(const struct impacts *impacts, const double *before, struct 
     off->work = 0;
 }
 
-/* Are velocities and works the same to 1e-9 of what there is? */
+/* Are velocities and works equal to a relative 1e-9? */
 static bool is_same(const struct impacts *impacts, const struct impacts *off, const double *before)
 {
     const double promise = 1e-9;
@@ -240,10 +242,10 @@ static bool is_same(const struct impacts *impacts, const struct impacts *off, co
     return same && fabs(impacts->work - off->work) <= promise * energy;
 }
 
-/* Impulses far larger than what would stop each point by itself, with sums of which rounding takes a part. They come from laws
- * that contradict each other - three points of one body cannot all bounce as `newton` wants it - or from points that press
- * against each other nearly along one line. What they do is known as well as it stays when W and the velocities before
- * are off by rounding themselves; that is tried. */
+/* For impulses far larger than each point alone would need, so that rounding affects their sums. They arise
+ * from laws that contradict each other - three points of one body cannot all satisfy `newton` - or from
+ * nearly collinear normals. The accuracy of the solution is tested by solving again with W and initial
+ * velocities perturbed by rounding. */
 static enum impacts_end stays_when_off(const struct impacts *impacts, const double *before, bool propagates)
 {
     enum { tries = 3 };
@@ -272,7 +274,7 @@ static enum impacts_end solve_by(struct impacts *impacts, const double *before, 
     return doing == does_to_digits ? impacts_done : stays_when_off(impacts, before, propagates);
 }
 
-/* Of those with restitution, if there are some. */
+/* The law of the fastest point, of those with restitution if there are any. */
 static enum impact_law law_of_fastest(const struct impacts *impacts)
 {
     const struct impacts_point *points = impacts->points;
@@ -285,15 +287,15 @@ static enum impact_law law_of_fastest(const struct impacts *impacts)
     return points[best].law;
 }
 
-/* `before` has the velocities, too. */
+/* `before` contains the initial velocities, too. */
 static enum impacts_end solve_whole(struct impacts *impacts, const double *before)
 {
     impacts->law = law_of_fastest(impacts);
     if (impacts->slides > 0) return solve_by(impacts, before, false);
     if (impacts->count == 1) return strike(impacts, 0) < 0 ? impacts_jammed : impacts_done;
     enum impacts_end end = solve_by(impacts, before, impacts->propagate);
-    /* Of points that press on each other nearly along one line impacts one after the other are those of the same
-     * laws, and may be found where all together are not. */
+    /* With nearly collinear normals sequential impacts satisfy the same laws, and may exist where no
+     * simultaneous solution is found. */
     bool has_found = end == impacts_done || end == impacts_no_memory;
     if (has_found || impacts->propagate || impact_by_velocity(impacts->law)) return end;
     take_back(impacts, before);
@@ -302,7 +304,7 @@ static enum impacts_end solve_whole(struct impacts *impacts, const double *befor
     return end == impacts_done || end == impacts_no_memory ? end : impacts_lost;
 }
 
-/* Points `member` of all; a part in which nothing closes is left as it is. */
+/* Solve the part of the points `member`; unchanged if no point of it closes. */
 static enum impacts_end solve_part(struct impacts *all, const int *member, int count, double *room)
 {
     int n = 2 * count, of = 2 * all->count;
@@ -339,7 +341,7 @@ static enum impacts_end solve_part(struct impacts *all, const int *member, int c
     return end;
 }
 
-/* Slides may press on each other's guides: no parts are looked for. */
+/* Slides may load each other's guides: the problem is not divided into parts. */
 static enum impacts_end solve_with_slides(struct impacts *impacts)
 {
     size_t n = (size_t)impacts_size(impacts);

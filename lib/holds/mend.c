@@ -3,7 +3,7 @@
 
 #include "holds/trial.h"
 
-/* The mode that hold i changes to by its law, or the one that it has. */
+/* The mode of constraint i required by its law, or its present mode if that is consistent. */
 static int lawful_mode(const struct hold_problem *problem, size_t i)
 {
     const struct hold *hold = &problem->holds[i];
@@ -15,7 +15,7 @@ static int lawful_mode(const struct hold_problem *problem, size_t i)
     return hold->force > 0 ? hold_slips_back : hold_gives;
 }
 
-/* Change the first mode that breaks its law; false where none does. */
+/* Change the first inconsistent mode; false where all are consistent. */
 static bool change_first(struct hold_problem *problem)
 {
     for (size_t i = 0; i < problem->count; i++) {
@@ -29,7 +29,7 @@ static bool change_first(struct hold_problem *problem)
 
 enum holds_found holds_mend(struct hold_problem *problem)
 {
-    enum { rounds = 8 }; /* of all holds */
+    enum { rounds = 8 }; /* times the number of constraints */
     struct trial trial;
     enum holds_found found = trial_new(&trial, problem) ? holds_lost : holds_no_memory;
     for (size_t round = 0; found == holds_lost && round < rounds * problem->count; round++) {

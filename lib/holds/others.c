@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Other forces beside those that have been found. Where the modes leave forces open, M f = right has null vectors z, and f +
- * t z are forces of the same modes as far as they stay within the limits: of a surface f >= 0, of friction that keeps
- * |f| <= mu P, and while what gives goes on its way. All of that is a + t b >= 0.
+ * Other forces of the same modes. Where the forces are indeterminate, M f = right has null vectors z, and f +
+ * t z are forces of the same modes within the limits: f >= 0 of a surface, |f| <= mu P of sticking friction,
+ * and the directions of motion of open and slipping constraints. All of these have the form a + t b >= 0.
  */
 #include "holds/others.h"
 
@@ -13,7 +13,7 @@
 #include "holds/trial.h"
 #include "numeric/svd.h"
 
-/* How far t may go by a + t b >= 0, where a counts as zero up to `zero`. */
+/* Limit of t by a + t b >= 0, where a counts as zero up to `zero`. */
 static double within(double limit, double a, double b, double zero, double least)
 {
     if (!(b < -least)) return limit;
@@ -27,7 +27,7 @@ static double answer_to(const struct hold_problem *problem, size_t i, const doub
     return c;
 }
 
-/* The largest t with which hold i is as its mode says. */
+/* The largest t with which constraint i is consistent with its mode. */
 static double furthest_of(const struct hold_problem *problem, size_t i, const double *z, double size)
 {
     const double rounding = 1e-9;
@@ -48,7 +48,8 @@ static double furthest_of(const struct hold_problem *problem, size_t i, const do
     return within(t, hold->mu_s * P + hold->force, hold->mu_s * by + z[i], zero, least);
 }
 
-/* Half of the way along z, or as far as the forces there are, into `step`; false where it has next to no length. */
+/* Set `step` to half of the largest t, at most to the size of the present forces; false where it is
+ * negligible. */
 static bool set_step(const struct hold_problem *problem, const double *z, double *step)
 {
     const double short_of = 1e-6;
@@ -72,7 +73,7 @@ static bool has_none(const struct hold *hold)
 static double scale_of(const struct hold_problem *problem, size_t i)
 {
     double weight = holds_weight(problem, i);
-    return weight > 0 ? weight : 1; /* as share.c has it: f = weight g */
+    return weight > 0 ? weight : 1; /* as in share.c: f = weight g */
 }
 
 static bool find_open(struct trial *trial, struct svd *svd)
@@ -89,7 +90,7 @@ static bool find_open(struct trial *trial, struct svd *svd)
     return svd_decompose(svd, n, n, trial->A);
 }
 
-/* The part of a force at hold i alone that is open: its projection. False where there is none. */
+/* Project a unit force at constraint i onto the null space. False where the projection vanishes. */
 static bool project(const struct hold_problem *problem, const struct svd *svd, size_t i, double *z)
 {
     const double rounding = 1e-9;

@@ -25,7 +25,7 @@ int parts_find(int count, bool (*meet)(const void *context, int i, int j), const
     return parts;
 }
 
-/* ---- the parts of a problem: its holds, then its guides */
+/* ---- the parts of a problem: its constraints, then its guides */
 
 static bool bears_on(const struct hold_problem *problem, size_t guide, size_t i)
 {
@@ -50,7 +50,7 @@ static bool feel_each_other(const void *context, int first, int second)
            presses(&problem->holds[j], i);
 }
 
-/* Holds and guides of one part, and where those of the whole are in it. */
+/* Constraints and guides of one part, and their indices in it. */
 struct members {
     int count, guide_count;
     int *holds, *guides, *at;
@@ -93,7 +93,7 @@ static void take_out(const struct hold_problem *problem, const struct members *m
     }
 }
 
-/* Only what is found; what presses on what has its old numbers. */
+/* Copy results only; `presses` refers to indices within the part. */
 static void put_back(struct hold_problem *problem, const struct members *members,
                      const struct hold_problem *alone)
 {
@@ -121,7 +121,7 @@ static enum holds_found decide_apart(struct hold_problem *problem, const struct 
     return found;
 }
 
-/* What is rounding in one part is told by the sizes of all. */
+/* Round-off levels of each part are relative to the sizes of the whole. */
 static void set_sizes(struct hold_problem *problem)
 {
     for (size_t i = 0; i < problem->count; i++) {

@@ -1,15 +1,16 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Of what the modes leave open, the least forces. Modes are found within tolerances that forget how large forces may be
- * at holds that are nearly redundant, as two points of a body a hair apart: there a mode may "hold" with forces of 1e6
- * and leave 1e-3 of what it should stop. So forces are solved for once more, M f = right by rows of comparable sizes,
- * until what is left of that is rounding; modes in which nothing does so are no solution.
+ * Minimum-norm forces where the modes leave them indeterminate. Modes are found within tolerances that
+ * disregard how large forces may be at nearly redundant constraints, as at two points of a body very close
+ * together: there a mode may be closed with forces of 1e6 and a residual acceleration of 1e-3. So the forces
+ * are solved for once more, M f = right with rows of comparable sizes, until the residual is rounding; modes
+ * without such forces are no solution.
  *
- *   1. M with some give, corrected until nothing is left (Tikhonov, iterated): least forces where holds are
- *      redundant or are not, O(n^2) beyond one factorisation;
- *   2. where some are nearly redundant, so that this takes too long: singular values, the largest first, until
- *      nothing is left (truncated at what the equations need, not at a threshold);
- *   3. where the least forces are not within their limits: those that were found, corrected by 2.
+ *     1. M with a small compliance, iterated until the residual vanishes (iterated Tikhonov regularization):
+ *        minimum-norm forces with or without redundancy, O(n^2) after one factorization;
+ *     2. where near redundancy makes this too slow: singular values, the largest first, until the residual
+ *        vanishes (truncated by the residual, not at a threshold);
+ *     3. where the minimum-norm forces exceed their limits: the original forces, corrected by 2.
  */
 #include "holds/trial.h"
 
@@ -21,17 +22,17 @@
 #include "numeric/lu.h"
 #include "numeric/svd.h"
 
-/* M f = right, f and what is left, right - M f. */
+/* M f = right, f and the residual right - M f. */
 struct sharing {
     struct trial *trial;
     size_t n;
     double *M, *right, *f, *rest, *before;
-    double *zero;    /* what counts as nothing left: */
-    double rounding; /* of `right`, and of what there was before (beside_c) */
+    double *zero;    /* tolerance of the residual: */
+    double rounding; /* relative to `right` and to beside_c */
 };
 
-/* What the equations leave; are they satisfied to rounding? That of n products, the largest of which are far larger than
- * their sum where holds are nearly redundant. */
+/* Compute the residual; is it at round-off level? That of n products, which with nearly redundant constraints
+ * are far larger than their sum. */
 static bool is_satisfied(struct sharing *sharing)
 {
     size_t n = sharing->n;
@@ -49,7 +50,7 @@ static bool is_satisfied(struct sharing *sharing)
     return satisfied;
 }
 
-/* Friction that nothing asks for has rounding, which counts for nothing beside what else there is. */
+/* Set friction forces at round-off level, relative to the largest force, to zero. */
 static void drop_nothing(struct sharing *sharing)
 {
     const double rounding = 1e-11;
@@ -70,7 +71,7 @@ static bool agrees(struct sharing *sharing)
 static bool correct_with_give(struct sharing *sharing)
 {
     enum { most_corrections = 20 };
-    const double give = 1e-5; /* what is not determined has rounding/give */
+    const double give = 1e-5; /* indeterminate forces have an error of rounding/give */
     struct trial *trial = sharing->trial;
     trial_set_system(trial, give);
     if (!lu_decompose(sharing->n, trial->A, trial->pivot)) return false;
@@ -82,7 +83,7 @@ static bool correct_with_give(struct sharing *sharing)
     return is_satisfied(sharing);
 }
 
-/* f += the part of M^+ rest that the largest `count` singular values have; M's columns are divided by weights. */
+/* f += the component of M^+ rest along singular vector k; columns of M are divided by weights. */
 static void add_part(struct sharing *sharing, const struct svd *svd, size_t k)
 {
     size_t n = sharing->n;
@@ -96,7 +97,8 @@ static void add_part(struct sharing *sharing, const struct svd *svd, size_t k)
     }
 }
 
-/* In forces that do comparable things, f = weight g. Once more from the start, for the rounding of small ones. */
+/* With scaled forces, f = weight g. Repeated from the start, since rounding affects components of small
+ * singular values. */
 static bool correct_by_singular_values(struct sharing *sharing, bool *made)
 {
     enum { rounds = 3 };
@@ -136,7 +138,7 @@ static void set_equations(struct sharing *sharing)
     }
 }
 
-/* Forces of the modes that there are; holds_lost where none satisfies them, and all is as it was. */
+/* Forces of the present modes; holds_lost, with forces restored, where none satisfy the equations and limits. */
 static enum holds_found share(struct sharing *sharing)
 {
     size_t n = sharing->n, bytes = n * sizeof *sharing->f;
@@ -155,8 +157,8 @@ static enum holds_found share(struct sharing *sharing)
     return made ? holds_lost : holds_no_memory;
 }
 
-/* What is open and yet closes, by more than rounding, is held after all: that it did so little has been within the
- * tolerance of the search. Returns whether there is any. */
+/* Close open constraints that approach by more than rounding, which was within the tolerance of the search.
+ * Returns whether there is any. */
 static bool hold_what_closes(struct hold_problem *problem, double rounding)
 {
     size_t n = problem->count;
@@ -177,7 +179,7 @@ static bool hold_what_closes(struct hold_problem *problem, double rounding)
     return any;
 }
 
-/* What slips by no more than rounding may as well keep still. Returns whether there is any. */
+/* Let friction stick that slips at round-off level. Returns whether there is any. */
 static bool keep_still(struct hold_problem *problem)
 {
     const double still = 1e-9;
@@ -211,7 +213,7 @@ static void set_modes(struct hold_problem *problem, const int *modes)
     for (size_t i = 0; i < problem->count; i++) problem->holds[i].mode = modes[i];
 }
 
-/* Forces of the modes, or of those in which what slips by rounding keeps still. */
+/* Forces of the modes, if possible of those in which friction slipping by rounding sticks. */
 static enum holds_found share_within(struct sharing *sharing, const int *modes)
 {
     struct hold_problem *problem = sharing->trial->problem;
@@ -227,9 +229,9 @@ static enum holds_found share_within(struct sharing *sharing, const int *modes)
     return found;
 }
 
-/* The places of points are known to 1e-12 of the scene, and two of one face slip along directions that differ by as
- * much: what is redundant contradicts itself by that, and no forces do better where many of them lie on each other.
- * Next to a dead centre answers are what is left of far larger ones. */
+/* Positions of points are accurate to 1e-12 of the scene, and the directions of slip of two points of one
+ * face differ by as much: redundant constraints contradict each other by that, more where many are stacked.
+ * Near a dead centre responses are small differences of large numbers. */
 enum holds_found holds_share(struct hold_problem *problem)
 {
     static const double roundings[] = {1e-13, 1e-11, 1e-10};
@@ -249,8 +251,9 @@ enum holds_found holds_share(struct hold_problem *problem)
     return found;
 }
 
-/* What holds_agree takes for no acceleration grows with the forces: with far larger ones than what there is without holds
- * asks for, as those of modes that have none, which some give makes finite, it would take that itself for none. */
+/* The zero tolerance of holds_agree grows with the forces. With forces far larger than those required by the
+ * free accelerations, as in modes without a solution, which compliance makes finite, it would accept these
+ * accelerations as zero. */
 static bool has_far_larger_forces(const struct hold_problem *problem)
 {
     const double far = 1e3;

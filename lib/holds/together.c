@@ -9,7 +9,7 @@
 #include "holds/holds.h"
 #include "holds/others.h"
 
-/* v += W P for impulses that are added, and the work that they do. */
+/* v += W P for additional impulses; returns their work. */
 static double add_impulses(const struct impacts *impacts, const double *P, double *v)
 {
     int n = impacts_size(impacts);
@@ -23,7 +23,7 @@ static double add_impulses(const struct impacts *impacts, const double *P, doubl
     return work;
 }
 
-/* The work of normal impulses between two velocities, the way from one to the other being straight. */
+/* The work of normal impulses between two velocities, with a linear change between them. */
 static double normal_work(const struct impacts *impacts, const double *P, const double *before,
                           const double *after, int point)
 {
@@ -35,13 +35,13 @@ static double normal_work(const struct impacts *impacts, const double *P, const 
 struct together {
     const struct impacts *impacts;
     struct hold_problem problem;
-    double *compressed; /* of all unknowns: velocities */
+    double *compressed; /* all unknowns: velocities after compression */
     double *P;          /* impulses of compression */
     double *v, *more;   /* velocities after restitution, its impulses */
-    bool several;       /* there are other modes with other velocities */
+    bool several;       /* other modes give other velocities */
 };
 
-/* Friction of slides, whose guides come behind `first` others. */
+/* Friction of slides, whose guides follow `first` others. */
 static void set_slides(struct together *together, size_t first)
 {
     const struct impacts *impacts = together->impacts;
@@ -98,7 +98,7 @@ static enum impacts_end decide(struct together *together)
     return found == holds_decided ? impacts_done : impacts_unsolvable;
 }
 
-/* What closes no more, or does not slip, has that velocity exactly. */
+/* Set the velocity of closed or sticking constraints to exactly zero. */
 static void take(const struct together *together, double *v)
 {
     for (int i = 0; i < impacts_size(together->impacts); i++) {
@@ -107,7 +107,7 @@ static void take(const struct together *together, double *v)
     }
 }
 
-/* Compression; with `newton` all of the impact. */
+/* Compression; with `newton` and `moreau` the whole impact. */
 static enum impacts_end compress(struct together *together)
 {
     const struct impacts *impacts = together->impacts;
@@ -128,8 +128,8 @@ static enum impacts_end compress(struct together *together)
     return impacts_done;
 }
 
-/* Is it what rounding leaves of the largest, or an impulse that changes no speed by more than holds tell from none? Nothing bounces
- * by it: what closes or opens by next to nothing would have to be told apart. */
+/* Is the impulse at round-off level of the largest, or does it change no speed by more than the tolerance? It
+ * gets no restitution, since closing and opening could not be distinguished. */
 static bool is_no_impulse(const struct together *together, int row)
 {
     const double rounding = 1e-9;
@@ -139,8 +139,8 @@ static bool is_no_impulse(const struct together *together, int row)
     return together->P[row] <= rounding * most;
 }
 
-/* Restitution with `share` of e: given normal impulses, the friction that they bring, and what then holds up
- * what would close. */
+/* Restitution with `share` times e: given normal impulses, the friction that they cause, and impulses at
+ * points that would close by it. */
 static enum impacts_end restore(struct together *together, double share)
 {
     const struct impacts *impacts = together->impacts;
@@ -166,7 +166,7 @@ static enum impacts_end restore(struct together *together, double share)
     return end;
 }
 
-/* By how much restitution gives back more than it may: below zero when it is less. */
+/* The work of restitution beyond its limit; below zero when it is less. */
 static double excess(const struct together *together)
 {
     const struct impacts *impacts = together->impacts;
@@ -200,7 +200,7 @@ static double surplus(const struct together *together)
     return together->impacts->law == impact_stronge ? fmax(excess(together), work) : work;
 }
 
-/* Shares of e between which the surplus changes its sign, and what it is there. */
+/* Factors of e that bracket a zero of the surplus, and its values there. */
 struct between {
     double low, high, at_low, at_high;
 };
@@ -212,8 +212,8 @@ static enum impacts_end try_share(struct together *together, double share, doubl
     return end;
 }
 
-/* The zero of a surplus that is quadratic between changes of modes: by secants, where an end that stays once more counts
- * half of what is there (Illinois), and halves where that does not get on. */
+/* The zero of the surplus, which is quadratic between changes of modes: by the Illinois method, with a
+ * bisection every few steps. */
 static enum impacts_end close_in(struct together *together, struct between *between, double least)
 {
     enum { most_rounds = 60, patience = 8 };
@@ -237,8 +237,8 @@ static enum impacts_end close_in(struct together *together, struct between *betw
     return end;
 }
 
-/* The share of e at which nothing is given back too much: a zero of a function that grows with it. Without
- * friction it is 1, and 0 where only points that lasted have any e. */
+/* The factor of e at which restitution returns the energy of the law: a zero of an increasing function.
+ * Without friction it is 1, and 0 where only points without compression have e > 0. */
 static enum impacts_end restore_by_law(struct together *together)
 {
     enum { doublings = 10 };
@@ -252,7 +252,7 @@ static enum impacts_end restore_by_law(struct together *together)
     if (end != impacts_done || fabs(between.at_high) <= rounding * size) return end;
     if (between.at_high < 0 && !stronge) return end;
     if (between.at_high > 0) end = try_share(together, 0, &between.at_low);
-    double jammed = 0; /* the share from which on nothing more is given back, however much is given */
+    double jammed = 0; /* factor beyond which larger impulses no longer increase the returned energy */
     for (int k = 0; k < doublings && between.at_high < 0 && end == impacts_done; k++) {
         between.low = between.high;
         between.at_low = between.at_high;
@@ -283,7 +283,7 @@ static void finish(struct impacts *impacts, const double *P, const double *v)
     }
 }
 
-/* ---- other impulses that do as well */
+/* ---- other solutions */
 
 static bool are_others(const struct impacts *impacts, const double *v, const double *other, double before)
 {
@@ -295,7 +295,8 @@ static bool are_others(const struct impacts *impacts, const double *v, const dou
     return false;
 }
 
-/* Do impulses of compression that are off by `step` lead to other velocities, at once or by what they give back? */
+/* Do impulses of compression that differ by `step` lead to other velocities, after compression or after
+ * restitution? */
 static enum impacts_end try_step(const struct together *first, const struct together *second,
                                  const double *step, double before, bool *several)
 {
@@ -319,7 +320,7 @@ static enum impacts_end try_step(const struct together *first, const struct toge
     return end == impacts_no_memory ? end : impacts_done;
 }
 
-/* Of slides, and of many points (singular values cost their cube), that is not looked for. */
+/* Not searched with slides, or with many points (singular values cost their cube). */
 static enum impacts_end look_for_others(struct together *first, struct together *second, double before,
                                         bool *several)
 {

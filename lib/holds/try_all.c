@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * All modes one after the other: in each of them the forces are those of a linear system.
+ * Enumeration of all modes: in each of them the forces solve a linear system.
  */
 #include "holds/trial.h"
 
@@ -15,7 +15,7 @@ static size_t choices(const struct hold *hold)
     return hold->kind == hold_one_sided ? 2 : hold->slip == 0 ? 3 : 1;
 }
 
-/* The modes of number `number`; those that hold come first. */
+/* The modes of combination `number`; closed and sticking ones come first. */
 static void set_modes(struct trial *trial, size_t number)
 {
     static const int of_friction[] = {hold_keeps, hold_gives, hold_slips_back};
@@ -29,7 +29,7 @@ static void set_modes(struct trial *trial, size_t number)
     }
 }
 
-/* f_i + slip mu P = 0, P as the side of a guide has it. */
+/* f_i + slip mu P = 0, with P for the assumed side of a guide. */
 static void slipping_row(const struct trial *trial, size_t i, double *row, double *right)
 {
     const struct hold_problem *problem = trial->problem;
@@ -47,7 +47,7 @@ static void slipping_row(const struct trial *trial, size_t i, double *row, doubl
     *right -= share * side * guide->free;
 }
 
-/* Friction of what is open has no force in any of its modes: one of them will do. */
+/* Friction on an open surface has no force in any mode: only one of them is enumerated. */
 static bool is_repeated(const struct hold_problem *problem)
 {
     for (size_t i = 0; i < problem->count; i++) {
@@ -57,7 +57,7 @@ static bool is_repeated(const struct hold_problem *problem)
     return false;
 }
 
-/* How many are left then: of a surface, that it is open beside the modes of what rubs on it. */
+/* The number of different combinations: a surface is open, or closed with each mode of its friction. */
 static double different_modes(const struct hold_problem *problem)
 {
     double all = 1;
@@ -98,7 +98,7 @@ void trial_set_system(struct trial *trial, double give)
             slipping_row(trial, i, row, &trial->f[i]);
         }
         for (size_t j = 0; j < n; j++) most = fmax(most, fabs(row[j]));
-        if (most == 0) row[i] = most = 1; /* nothing moves it */
+        if (most == 0) row[i] = most = 1; /* no force moves it */
         for (size_t j = 0; j < n; j++) row[j] /= most;
         trial->f[i] /= most;
         trial->row[i] = most;
@@ -132,7 +132,7 @@ bool trial_find_forces(struct trial *trial)
     return true;
 }
 
-/* Guides whose friction depends on their side are on the side that was assumed; of others one will do. */
+/* Have normal forces of guides the assumed signs, to rounding? */
 static bool sides_agree(const struct trial *trial)
 {
     const double rounding = 1e-9;
@@ -206,7 +206,7 @@ static size_t all_modes(const struct hold_problem *problem)
     return all;
 }
 
-/* Set modes number `number`: holds_decided where their forces agree with them, else holds_lost. */
+/* Set mode combination `number`: holds_decided where its forces are consistent, else holds_lost. */
 static enum holds_found try_modes(struct trial *trial, size_t number)
 {
     set_modes(trial, number);
@@ -239,7 +239,7 @@ int holds_try_all(struct hold_problem *problem, size_t most)
     return made ? trial.solutions : -2;
 }
 
-/* ---- is a solution unique? */
+/* ---- uniqueness */
 
 /* Solutions in sequence: modes and accelerations of each constraint. */
 struct solutions {
@@ -280,7 +280,8 @@ static bool holds_more(const struct hold_problem *problem, const int *more, cons
     return longer;
 }
 
-/* Does a solution count beside the first one: with another motion, and without sticking contacts in addition? */
+/* Does a solution count in addition to the first one: with another motion, and not dominated by one with more
+ * sticking contacts? */
 static bool counts_beside(const struct solutions *solutions, const struct hold_problem *problem, size_t which)
 {
     size_t n = problem->count;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * What happens at an event: branches cross over, bodies stick, break away or reverse, contacts are lost, user
- * events are noted.
+ * Apply an event: branches change, friction sticks, breaks away or reverses, contacts are lost, user events
+ * are logged.
  */
 #include <float.h>
 #include <stdlib.h>
@@ -41,13 +41,13 @@ struct run_event *log_event(struct run *run, fbd_event_kind kind, int body, int 
 
 /* ---- events by kind */
 
-/* The share of a switch that is slid on is used up, and those of all on the same surface: the branch there
- * goes on alone. */
+/* The weight of a branch in a Filippov sliding mode has reached its limit: leave the mode, with all switches
+ * on the same surface, to the branch on that side. */
 static void leave_surface(struct run *run, const struct watcher *watcher)
 {
     struct sliding *s = run->state->sliding;
     int branch = run->model->plan.kinks[watcher->index].formula.branch + watcher->part;
-    if (s->slide_at[branch] == 0) return; /* with another one */
+    if (s->slide_at[branch] == 0) return; /* already left with another switch */
     const struct slide first = s->slides[s->slide_at[branch] - 1];
     int side = (watcher->end == 0 ? -1 : 1) * first.sign;
     for (int j = s->count - 1; j >= 0; j--) {
@@ -62,8 +62,7 @@ static void leave_surface(struct run *run, const struct watcher *watcher)
     sliding_drop(s);
 }
 
-/* The relative velocity is zero by the event, so it is made zero exactly; settling decides what follows. */
-/* What is brought to rest is at rest: what is left of its rates is rounding of those that were. */
+/* Set rates at round-off level, relative to their largest values, to zero. */
 static void drop_rounding(struct run *run)
 {
     const double rounding = 1e-14;
@@ -73,6 +72,7 @@ static void drop_rounding(struct run *run)
         if (fabs(run->state->y[i]) <= rounding * most[i]) run->state->y[i] = 0;
 }
 
+/* Set the relative velocity to exactly zero, as the event implies; settling decides the modes. */
 static void stop_slipping(struct run *run, int pair)
 {
     const struct mode *mode = &run->model->plan.modes[pair];
@@ -87,7 +87,7 @@ static void stop_slipping(struct run *run, int pair)
     run->state->y[run->model->plan.n + mode->coordinate] = friction_surface_speed(mode, &at, &acceleration);
 }
 
-/* The impulses in the strands of a rope that jerks round a drum are not followed. */
+/* Impulses in the strands of a rope around a drum are not modelled. */
 static bool refuse_jerk(struct run *run, int pair)
 {
     const struct tree *tree = run->model->tree;
@@ -101,7 +101,7 @@ static bool refuse_jerk(struct run *run, int pair)
     return true;
 }
 
-/* What was off its slot lands on it. A roller that strikes its end would have to go round that. */
+/* A point lands on its slot. A roller that hits an end of the slot is refused. */
 static bool refuse_end_of_slot(struct run *run, int pair)
 {
     const int index = run->model->plan.modes[pair].coupling;
@@ -121,8 +121,8 @@ static bool refuse_end_of_slot(struct run *run, int pair)
     return true;
 }
 
-/* A tension that ends is left to settling. A rope that becomes taut takes at once the velocities that would
- * lengthen it, and so does what lands: a plastic impact, with the impulses that everything else gives for it. */
+/* A constraint that opens is left to settling. A rope that becomes taut, or a contact that lands, stops the
+ * velocity that would violate it: a plastic impact, with the impulses on all other constraints. */
 static void one_sided_event(struct run *run, int pair)
 {
     if (run->state->slip[pair] == stick) {
@@ -142,7 +142,7 @@ static void one_sided_event(struct run *run, int pair)
                                              : run->impact_work[mode->load] - taken;
 }
 
-/* Is the way in which the event is passed now one that is asked for? */
+/* Does the user event count in the present direction of crossing? */
 static bool counts_now(const struct run *run, int watch)
 {
     int direction = run->model->plan.watches[watch].source->direction;
@@ -155,8 +155,7 @@ static bool fired_now(const struct run *run, int watch)
     return fabs(run->watchers.fired[watch] - run->state->t) <= instant;
 }
 
-/* `touched`: the function is exactly zero and may go either way; otherwise it has passed to the other side.
- */
+/* `touched`: the function is exactly zero and may get either sign; otherwise it has changed its sign. */
 static void user_event(struct run *run, int watch, bool touched)
 {
     const struct user_event *source = run->model->plan.watches[watch].source;
@@ -196,9 +195,9 @@ bool log_user_events(struct run *run, double t)
     return true;
 }
 
-/* `crossing`: an expression passes to another branch at the same instant. A force that reaches its limit just
- * there may go down again beyond, so the forces beyond decide (in settling) and not the crossing of the
- * limit, which may be a rounding of the instant. */
+/* `crossing`: an expression changes its branch at the same instant. A force that reaches its limit there may
+ * decrease again beyond it, so the forces after the event decide (in settling), not the crossing of the
+ * limit, which may be a rounding error. */
 static void happen(struct run *run, const struct watcher *watcher, bool crossing)
 {
     int index = watcher->index;
@@ -235,8 +234,8 @@ static void happen(struct run *run, const struct watcher *watcher, bool crossing
 
 /* ---- after the modes have settled */
 
-/* Has the event that shows the loss of a contact come, though its normal force is still zero to the rounding of the
- * instant? */
+/* Has the event of the loss of a contact occurred, while its normal force is still zero to the rounding of
+ * the time? */
 static bool is_just_lost(struct run *run, const bool *moving, int contact, double N, double slack)
 {
     const struct watcher_set *set = &run->watchers.moving;
@@ -286,12 +285,12 @@ void run_apply_touched(struct run *run, bool at_event)
         double value =
             formula_value(&plan->watches[i].left, &at) - formula_value(&plan->watches[i].right, &at);
         double band = at_event && value == 0 ? 0 : run->watchers.band[i];
-        if (fired && value == 0) run->watchers.armed[i] = 0; /* it may leave on either side */
+        if (fired && value == 0) run->watchers.armed[i] = 0; /* it may leave to either side */
         if (armed != 0 && !fired && armed * value + band <= 0) user_event(run, (int)i, value == 0);
     }
 }
 
-/* `load` is what `name` names, or -1: an event of the file, or an expression in one. */
+/* `load` is the load called `name`, or -1: a user event, or an expression in one. */
 static void fail_chatter(struct run *run, int load, bool state, const char *name)
 {
     run_fail(run, FBD_FAILED,
@@ -302,16 +301,16 @@ static void fail_chatter(struct run *run, int load, bool state, const char *name
                    : unsettled_advice(run->model, load));
 }
 
-/* A switch that has just been crossed and whose new branch already ends: the forces on both sides push back
- * to it, by more than rounding within a step. The motion would slide along the switch, which no branch describes. */
+/* Fail at a switch that was just crossed and whose new branch leads back across it, by more than rounding
+ * within a step: the forces on both sides point to the switch. The motion would be a Filippov sliding mode,
+ * which no branch describes. */
 static void refuse_sliding(struct run *run, const bool *moving)
 {
-    const double roundings = 1e3; /* of what turns just there, the rate has either sign */
+    const double roundings = 1e3; /* at a turning point the rate may have either sign */
     const struct watcher_set *set = &run->watchers.moving;
     size_t modes = run->model->plan.mode_count * sizeof *run->state->slip;
     if (!moving || run->end.outcome != FBD_GOING) return;
-    if (memcmp(run->state->slip, run->during->slip, modes) != 0)
-        return; /* other forces now: they will tell */
+    if (memcmp(run->state->slip, run->during->slip, modes) != 0) return; /* other forces act now */
     double *values = run->work.values, *rate = values + set->count;
     watchers_evaluate(&run->watchers, set, run->state, state_moment(run->state), run->state->y, values, rate);
     for (size_t i = 0; i < set->count; i++) {
@@ -321,10 +320,11 @@ static void refuse_sliding(struct run *run, const bool *moving)
         const struct expr *expr = formula->expr;
         int branch = formula->branch + watcher->part;
         if (run->state->branch[branch] == run->during->branch[branch])
-            continue; /* it has turned back with another */
-        if (expr_switch_remembers(expr, (size_t)watcher->part)) continue; /* its other end is elsewhere */
+            continue; /* another switch has reversed it */
+        if (expr_switch_remembers(expr, (size_t)watcher->part))
+            continue; /* with hysteresis the other threshold is elsewhere */
         if (!expr_switch_jumps(expr, (size_t)watcher->part)) continue; /* rates are the same on both sides */
-        /* The other end of the same switch is the one that has been crossed, seen from beyond. */
+        /* The reverse crossing of the same switch. */
         for (size_t k = 0; k < set->count; k++) {
             const struct watcher *back = &set->watchers[k];
             bool same =
@@ -356,9 +356,8 @@ double run_instant(const struct run *run)
     return instant * fmax(fabs(run->state->t), fmin(run->options.until, steps * run->step.longest));
 }
 
-/* Events that crowd at one instant never let time pass: a sliding mode that no friction entry declares, or an
- * infinite sequence. At the start, where no step has got anywhere, an instant is measured against the first one
- * proposed. */
+/* Fail after too many events at one instant: an undeclared sliding mode, or an infinite sequence. At the
+ * start, before any step, the instant is relative to the first proposed step. */
 static void count_crowd(struct run *run)
 {
     enum { most_at_once = 200 };
@@ -373,9 +372,9 @@ static void count_crowd(struct run *run)
     run_fail_chatter(run);
 }
 
-/* A motion that passes a switch ever slower and ever more often, as a body that a force of constant size
- * attracts to a point and a damper slows down, never gets done with it: events by the hundred thousand while
- * coordinates stay within a part in a million, and speeds in a thousand, of what they have been. */
+/* Fail where a motion crosses a switch ever slower and ever more often, as a body attracted to a point by a
+ * force of constant magnitude, with a damper: more than 100000 events while coordinates stay within a part in
+ * a million, and speeds in a thousand, of their earlier sizes. */
 static void count_around(struct run *run)
 {
     enum { most_around = 100000 };
@@ -423,7 +422,7 @@ void log_several(struct run *run)
     if (event) event->force = holds->answer;
 }
 
-/* What jams has other slips then, which may jam in turn. */
+/* After a jam the slips have changed, so other contacts may jam. */
 static bool settle(struct run *run)
 {
     enum { most_jams = 8 };
@@ -438,8 +437,9 @@ static bool settle(struct run *run)
     }
 }
 
-/* What has closed at rest within what counts as touching is put where it closes; what sticks gives way to that by as
- * much, as it would have gone on to. A step does not move what sticks, and would take it from what else is closed. */
+/* Project constraints that have closed at rest within the touching tolerance onto their surfaces; sticking
+ * ones may move by as much. Steps do not move sticking coordinates, and would violate the other closed
+ * constraints. */
 static void close_up(struct run *run)
 {
     const struct plan *plan = &run->model->plan;
@@ -452,7 +452,7 @@ static void close_up(struct run *run)
         const int coupling = plan->modes[pair].coupling;
         struct one_sided now = one_sided_at(run->model, &at, pair);
         apart |= fabs(now.excess) > now.rounding;
-        /* What has turned in the air rolls on from where it is. */
+        /* A wheel that rotated in the air rolls on from its present angle. */
         if (run->model->tree->couplings[coupling].row_count > 1 && kind == mode_surface)
             coupling_rezero(run->model, run->state->tree, coupling);
     }
@@ -484,7 +484,7 @@ void run_apply(struct run *run, const bool *timed, const bool *moving)
     run_check_drives(run);
     run_check_counts(run);
     log_mode_changes(run, first, moving);
-    if (run->end.outcome == FBD_GOING) close_up(run); /* what sticks now does so from here on */
+    if (run->end.outcome == FBD_GOING) close_up(run); /* sticking starts at these positions */
     run_release_contacts(run);
     refuse_sliding(run, moving);
     run_apply_touched(run, true);

@@ -5,25 +5,24 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* ---- making and freeing */
+/* ---- allocation */
 
-/* What the companion goes by, where it chooses nothing else. */
+/* The method of the companion, unless it switches. */
 static const struct method *method_for(const struct fbd_model *model)
 {
     return structure_method(model, structure_general);
 }
 
-/* Does the first run choose its steps as the companion does? */
+/* Does the main run choose its steps as the companion does? */
 static bool is_like(const struct fbd_model *model, const struct run_options *options)
 {
     return options->step == 0 && (options->automatic || options->method == method_for(model));
 }
 
-/* How much more accurate the companion is asked to be. A fifth of the tolerance, and so of the error, costs a
- * method of order 8 a quarter more steps. Methods that it is not like may have smaller errors at the same
- * tolerance, and most cost more; bsimp makes errors that have little to do with the tolerance.
- * Large tolerances are proportional to nothing. Where rounding sets the limit, steps of another size are what
- * matters: they round anew. */
+/* The tolerance of the companion. A fifth of the tolerance, and so of the error, costs a method of order 8 a
+ * quarter more steps. Other methods may have smaller errors at the same tolerance, and most cost more; errors
+ * of bsimp hardly depend on the tolerance. At large tolerances errors are not proportional to them. Where
+ * rounding is the limit, only the different step sizes matter: they give independent rounding. */
 static double tolerance_for(const struct fbd_model *model, const struct run_options *options)
 {
     const double fixed = 1e-13, least = 1e-14, other = 4e-14, most = 2e-6;
@@ -37,8 +36,7 @@ static double tolerance_for(const struct fbd_model *model, const struct run_opti
 static double sample_interval(const struct companion *companion)
 {
     enum { samples = 500 };
-    return fmax(companion->ensemble->options.until / samples,
-                DBL_TRUE_MIN); /* a run may be as short as that */
+    return fmax(companion->ensemble->options.until / samples, DBL_TRUE_MIN); /* a run may be that short */
 }
 
 struct companion *companion_new(const struct fbd_model *model, const struct run_options *options)
@@ -79,12 +77,12 @@ void companion_free(struct companion *companion)
     free(companion);
 }
 
-/* ---- going along */
+/* ---- stepping */
 
-/* A method of order 8 makes steps of 0.82 of the length at a fifth of the tolerance. Where a run has but few steps, that
- * is not so: the first one is a guess, they grow by so much at most, and the last one is what is left. Steps of equal
- * length have equal errors, and the difference says nothing; so those of the companion are kept shorter by as much as
- * they would be elsewhere. What is behind by more than a step of the first run goes there in a few. */
+/* A method of order 8 makes steps of 0.82 of the length at a fifth of the tolerance, but not in a run of few
+ * steps: the first is a guess, they grow by a limited factor, and the last is the remaining time. Steps of
+ * equal length have equal errors, which cancel in the difference; so those of the companion are limited to
+ * that ratio. A companion that is behind by more than a step of the main run catches up in a few. */
 static void keep_apart(struct companion *companion, const struct ensemble *main, double t)
 {
     const double share = 0.8, least = 0.25;
@@ -106,11 +104,11 @@ bool companion_go(struct companion *companion, const struct ensemble *main, doub
     return own->outcome != FBD_OUT_OF_MEMORY;
 }
 
-/* It ended before t: an event has stopped it that comes a little later in the first run. Go on as it was
- * going there, q + v s + a s^2 / 2. */
+/* The companion ended before t, by an event that comes a little later in the main run: extrapolate, q + v s +
+ * a s^2 / 2. */
 static bool go_beyond(struct ensemble *own, double t, struct fbd_state *state)
 {
-    const double most = 0.1; /* of the time so far */
+    const double most = 0.1; /* of the elapsed time */
     size_t n = (size_t)own->model->plan.n;
     double s = t - own->t;
     if (own->outcome == FBD_FAILED || own->outcome == FBD_OUT_OF_MEMORY || own->outcome == FBD_INTERRUPTED ||
@@ -127,7 +125,7 @@ static bool go_beyond(struct ensemble *own, double t, struct fbd_state *state)
     return true;
 }
 
-/* Events of a run up to and including the time t. */
+/* The number of events of a run up to and including the time t. */
 static size_t events_until(const struct run *run, double t)
 {
     size_t count = run->log.count;
@@ -159,9 +157,9 @@ bool companion_look(struct companion *companion, const struct ensemble *main, do
     return true;
 }
 
-/* ---- what is kept of the errors */
+/* ---- accumulated errors */
 
-/* The size of the motion up to t. */
+/* Update the sizes of the components up to t. */
 static void note_sizes(struct companion *companion, const struct ensemble *main, const double *y)
 {
     size_t size = plan_size(&companion->model->plan);
@@ -177,11 +175,10 @@ static void note_sizes(struct companion *companion, const struct ensemble *main,
     }
 }
 
-/* How many multiples lie between two samples: so many that there are four in a step at least, where there can be, and not
- * many more. A method may have to redo a step for each look into it, and a run of a few long steps would do little
- * else; with one in a step, the largest error was low by more than a third in one of ten runs, and with two by two
- * thirds where a step has it near its end. Inside the steps of an exact method there is nothing that is not at their
- * ends. Beyond the end of a step nothing is known of the next one, which may be a short one. */
+/* Number of sample intervals until the next sample: at least four samples in a step where possible, and not
+ * many more. A method may have to repeat a step for each dense output, which would dominate a run of a few
+ * long steps; measured: with one or two samples in a step the largest error is too low. Steps of an exact
+ * method are sampled at their ends only. The next step may be short, so the sample is not beyond its begin. */
 static long stride(const struct companion *companion, const struct ensemble *main, double t)
 {
     enum { least = 4 };
@@ -215,12 +212,12 @@ static double floor_of(double size)
 
 double companion_error(const struct companion *companion, size_t i, double main, double other)
 {
-    bool exact = main == 0 && other == 0; /* at rest, or sticking: known to be so */
+    bool exact = main == 0 && other == 0; /* at rest, or sticking */
     return exact ? 0 : fabs(main - other) + floor_of(fmax(companion->scale[i], fabs(main)));
 }
 
-/* The companion's coordinates at t; false when there are none. At the end of the first run they are those of
- * companion_look, since it may have ended by an event. */
+/* The companion's coordinates at t; false when there are none. At an event, and at the end of the main run,
+ * they are those of companion_look, since it may have ended by an event. */
 static bool coordinates(struct companion *companion, const struct ensemble *main, double t, double *y)
 {
     struct ensemble *own = companion->ensemble;
@@ -253,9 +250,9 @@ void companion_sample(struct companion *companion, struct ensemble *main, double
     plan_next(companion, main, t);
 }
 
-/* Sizes below which a component is not asked to be accurate for itself: a thousandth of its fellows of the
- * same body and kind (y of a body that moves along x), and for a rate what moves its coordinate by a
- * thousandth of its size in the whole run (a body in balance but for roundings). */
+/* Lower bounds of the size of a component: a thousandth of the other components of the same body and kind (y
+ * of a body that moves along x), and for a rate the value that moves its coordinate by a thousandth of its
+ * size in the whole run (a body in equilibrium but for rounding). */
 static double size_of(const struct companion *companion, size_t i)
 {
     const double share = 1e-3;
@@ -263,7 +260,7 @@ static double size_of(const struct companion *companion, size_t i)
     size_t n = (size_t)companion->model->plan.n, q = i % n;
     const double *scale = companion->scale, *kind = scale + (i - q);
     double size = scale[i], duration = companion->ensemble->options.until;
-    if (i >= 2 * n) return size; /* a state is of a kind of its own */
+    if (i >= 2 * n) return size; /* a user state */
     for (size_t k = 0; k < n; k++)
         if (scene->coordinates[k].body == scene->coordinates[q].body &&
             scene->coordinates[k].angle == scene->coordinates[q].angle)
@@ -285,7 +282,7 @@ double companion_global(const struct companion *companion)
 
 /* ---- events */
 
-/* Has a group of the first run had more events than the companion's? */
+/* Has an island of the main run had more events than that of the companion? */
 static bool lacks_events(const struct ensemble *own, const struct ensemble *main)
 {
     for (size_t p = 0; p < main->count; p++)
@@ -296,7 +293,7 @@ static bool lacks_events(const struct ensemble *own, const struct ensemble *main
 
 bool companion_come_to_events(struct companion *companion, const struct ensemble *main)
 {
-    const double most = 1.1; /* later than this its event is another one */
+    const double most = 1.1; /* a later event is a different one */
     struct ensemble *own = companion->ensemble;
     double limit = most * main->t;
     for (size_t p = 0; p < own->count; p++) own->groups[p].run->step.most = 0;
@@ -310,15 +307,14 @@ static bool alike(const struct run_event *a, const struct run_event *b)
     return a->kind == b->kind && a->body == b->body && a->load == b->load && a->watch == b->watch;
 }
 
-/* The first event of `run` like this one, from `index` on; event_count when there is none. */
+/* Index of the first event of `run` like this one, from `index` on; event_count when there is none. */
 static size_t next_alike(const struct ensemble *run, const struct run_event *event, size_t index)
 {
     while (index < run->event_count && !alike(&run->events[index], event)) index++;
     return index;
 }
 
-/* The time of an event at the very end of a run is known to rounding; the other run may not have come to
- * it. */
+/* The time of an event at the very end of a run is exact to rounding; the other run may end before it. */
 static double error_at_the_end(const struct companion *companion, double t)
 {
     const double near = 1e-9;
@@ -332,8 +328,8 @@ void companion_event_errors(const struct companion *companion, const struct ense
     for (size_t i = 0; i < main->event_count; i++) errors[i] = NAN;
     for (size_t first = 0; first < main->event_count; first++) {
         if (!isnan(errors[first])) continue;
-        /* All events like this one, in pairs. Where the partner is nearer to another event of the sequence,
-         * the sequences differ, and from there on nothing is known. */
+        /* Pair all events like this one. Where the partner is nearer to another event of the sequence, the
+         * sequences differ, and there is no estimate from there on. */
         size_t k = next_alike(own, &main->events[first], 0), next;
         double before = -HUGE_VAL;
         bool known = true;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Couplings that close loops: a start that does not fit is refused, and every step ends on the constraints.
+ * Couplings that close loops: a start that violates them is refused, and every step ends on the constraints.
  */
 #include <float.h>
 #include <gsl/gsl_errno.h>
@@ -20,7 +20,7 @@ static bool has_couplings(const struct run *run)
     return run->model->tree && run->model->tree->coupling_count > 0;
 }
 
-/* The largest change from `from` to `to`, in tolerances of the largest size that each number has had. */
+/* The largest change from `from` to `to`, in tolerances relative to the largest value of each number so far. */
 static double tolerances_apart(const struct run *run, const double *from, const double *to)
 {
     size_t n = (size_t)run->model->plan.n;
@@ -33,7 +33,7 @@ static double tolerances_apart(const struct run *run, const double *from, const 
     return apart;
 }
 
-/* y at time t, brought back; by how much. */
+/* Project y at time t; returns the change, in tolerances. */
 static double close_at(struct run *run, double t, double *y)
 {
     struct instant at = state_instant(run->during);
@@ -50,8 +50,8 @@ void project_within(struct run *run, double t, double *y)
     if (!has_couplings(run)) return;
     double moved = close_at(run, t, y);
     if (moved <= far) return;
-    /* The curve through a step that passes a singular position may be off by more than the step's end is: no
-     * error estimate covers what it is made of. Steps that end at t have one. */
+    /* In a step past a singular position the dense output may be less accurate than the end of the step,
+     * since it has no error estimate. Steps that end at t have one. */
     size_t size = plan_size(&run->model->plan);
     double *other = run->work.aside, *f = other + size;
     int code = switcher_walk(run->stepper, time_dd_at(t), other, f);
@@ -59,12 +59,12 @@ void project_within(struct run *run, double t, double *y)
     if (code == GSL_SUCCESS && close_at(run, t, other) < moved) memcpy(y, other, size * sizeof *y);
 }
 
-/* What rounding may do in the last step: in a scene at rest accelerations are what is left of forces that
- * cancel, 1e-12 of what one of the forces alone would do, which is some thousand roundings; and as a drive
- * starts, velocities that are made of positions. */
+/* Effect of rounding in the last step: in a scene at rest accelerations are the residuals of cancelling
+ * forces, 1e-12 of the acceleration by one of the forces alone (some thousand roundings); at the start of a
+ * drive, velocities are differences of positions. */
 struct rounding {
-    double speed, way; /* made by that in the time of the step: [m/s], [m] */
-    double energy;     /* of all that moves so fast */
+    double speed, way; /* caused by rounding in the step: [m/s], [m] */
+    double energy;     /* kinetic energy of all bodies at that speed */
 };
 
 static struct rounding rounding_of_step(struct run *run)
@@ -78,7 +78,7 @@ static struct rounding rounding_of_step(struct run *run)
         most = fmax(most, vec_norm(run->state->tree->links[i].F.force) / tree->links[i].mass);
         most = fmax(most, vec_norm(tree->links[i].force) / tree->links[i].mass);
     }
-    for (int k = 0; k < tree->coupling_count; k++) { /* what couplings do, no joint passes on */
+    for (int k = 0; k < tree->coupling_count; k++) { /* forces of couplings, which are not in F */
         const struct coupling *coupling = &tree->couplings[k];
         for (int j = 0; j < coupling->row_count * coupling->end_count; j++) {
             const struct tree_link *link = &tree->links[coupling->end[j / coupling->row_count].link];
@@ -86,12 +86,12 @@ static struct rounding rounding_of_step(struct run *run)
             if (link->mass > 0) most = fmax(most, fabs(force) / link->mass);
         }
     }
-    double unseen = 16 * DBL_EPSILON * run->drift.reach; /* a way that changes no digit of a position */
+    double unseen = 16 * DBL_EPSILON * run->drift.reach; /* a displacement at round-off level of positions */
     double speed = share * most * time + (time > 0 ? unseen / time : 0);
     return (struct rounding){speed, speed * time, mass * speed * speed / 2};
 }
 
-/* Has the return to the constraints moved nothing but rounding, of a scene at rest say? */
+/* Has the projection moved the state by rounding only, of a scene at rest for example? */
 static bool is_moved_by_rounding(struct run *run)
 {
     const double roundings = 64 * DBL_EPSILON;
@@ -107,8 +107,8 @@ static bool is_moved_by_rounding(struct run *run)
     return true;
 }
 
-/* A multistep method goes on from what it remembers, which a return to the constraints does not change. When
- * that has gone far it starts anew: near a singular position being off grows. */
+/* A multistep method continues from its history, which the projection does not change. If the projection was
+ * large the method restarts: near a singular position violations grow. */
 bool projection_has_failed(struct run *run)
 {
     const double far = 10;
@@ -116,9 +116,7 @@ bool projection_has_failed(struct run *run)
     return tolerances_apart(run, run->work.y, run->state->y) > far && !is_moved_by_rounding(run);
 }
 
-/* Note how large the mechanism is and how fast, with the points that couplings take; returns its present
- * size.
- */
+/* Update the size and the speed of the mechanism, including the ends of couplings; returns its present size. */
 static double measure(struct run *run)
 {
     const struct tree *tree = run->model->tree;
@@ -136,8 +134,8 @@ static double measure(struct run *run)
             reach = larger(reach, vec_norm(s->p) + arm);
             speed = larger(speed, vec_norm(s->v) + fabs(s->omega) * arm);
         }
-    /* Shapes have their size wherever they are. An angle has a stop also where nothing has a length, as of a wheel about
-     * its centre. */
+    /* Shapes have a size wherever they are. A stop of an angle has one also where no body has a length, as of
+     * a wheel about its centre. */
     for (int i = 0; i < tree->meeting_count; i++)
         reach = larger(reach, tree->meetings[i].stop != 0 ? tree->meetings[i].reach : tree->meetings[i].size);
     run->drift.reach = fmax(run->drift.reach, reach);
@@ -145,16 +143,16 @@ static double measure(struct run *run)
     return reach;
 }
 
-/* What a step may be off by before it is brought back, as a share of the size of the mechanism: its error,
- * and more where it was not asked for (a fixed step). */
+/* Accepted violation at the end of a step before projection, relative to the size of the mechanism: from the
+ * tolerance, or larger for a fixed step without error control. */
 static double explained(const struct run *run)
 {
     const double many = 1e4, least = 1e-12, unknown = 0.1;
     return run->options.step > 0 ? unknown : fmin(many * fmax(run->options.tolerance, least), unknown);
 }
 
-/* A rope that has become longer than it is without having been taut at any time: the event was missed. To
- * make it taut now would throw the bodies about. */
+/* Fail if a slack rope exceeds its length without having become taut: the event was missed. To close it now
+ * would cause a large velocity jump. */
 static bool overlong_rope(struct run *run, double most)
 {
     const struct plan *plan = &run->model->plan;
@@ -182,7 +180,7 @@ static bool overlong_rope(struct run *run, double most)
     return false;
 }
 
-/* Bring the end of the step back, and note what that took. */
+/* Project the end of the step, and record the residuals. */
 static struct closing bring_back(struct run *run)
 {
     struct drift *drift = &run->drift;
@@ -197,8 +195,8 @@ static struct closing bring_back(struct run *run)
     return closing;
 }
 
-/* In a structure at rest error control sees nothing but rounding, and steps grow without end. What rounding
- * alone has moved goes back; the next step is shorter, so that it always can. */
+/* For a structure at rest the error estimate is only rounding, and steps grow without limit. A violation by
+ * rounding is accepted; the next step is shorter, so that it stays small. */
 static bool is_rounding(struct run *run, const struct misfit *misfit)
 {
     if (!(misfit->position <= rounding_of_step(run).way)) return false;
@@ -206,9 +204,9 @@ static bool is_rounding(struct run *run, const struct misfit *misfit)
     return true;
 }
 
-/* Does what is prescribed go to where the couplings cannot be closed? Some steps later it is beyond by some
- * steps' ways, while a position that is only passed lies behind. Nothing is seen of a way that is rounding:
- * steps next to such a position are short. `during` is free. */
+/* Do the prescribed motions lead to positions where the couplings cannot be closed? Tested some steps ahead,
+ * where a singular position that is only passed lies behind; not less than 1e-3 of the first step, since
+ * steps near such a position are short. `during` is free. */
 static bool ends_reach(struct run *run)
 {
     struct fbd_state *later = run->during;
@@ -225,7 +223,7 @@ static bool ends_reach(struct run *run)
     return true;
 }
 
-/* Of rounding of forces the lightest bodies are torn from their places: say so where the masses are that far apart. */
+/* Rounding of forces displaces the lightest bodies: report that where the mass ratio is large. */
 static bool fail_by_masses(struct run *run, const struct misfit *misfit)
 {
     const double ratio = run->model->tree->mass_ratio;
@@ -267,7 +265,7 @@ void project_step(struct run *run)
     double reach = measure(run);
     coupled_scales_set_floors(&run->mechanisms, run->state, run->stepper);
     if (overlong_rope(run, explained(run) * reach)) return;
-    /* What has come to the origin has no size of its own there: a stop at zero. */
+    /* Positions near the origin have no size there: a stop at zero. */
     bool nothing = misfit.position <= 16 * DBL_EPSILON * run->drift.reach;
     bool explains = nothing || misfit.position <= explained(run) * reach;
     nothing |= !explains && is_rounding(run, &misfit);
@@ -280,8 +278,8 @@ void project_step(struct run *run)
             misfit.position);
         return;
     }
-    /* Where a mechanism can fold over to another branch (all bars in one line) a step may start to, and going
-     * back takes the energy with it: that is no rounding any more. */
+    /* Where a mechanism can change to another branch (all bars in one line) a step may begin to do so, and
+     * the projection back changes the energy by more than rounding. */
     if (!(fabs(after - before) <= 1e4 * fmax(run->options.tolerance, 1e-12) * run->liveliest) &&
         !(fabs(after - before) <= rounding_of_step(run).energy)) {
         fail_singular(run, &misfit);
@@ -297,8 +295,8 @@ void project_step(struct run *run)
             misfit.position);
 }
 
-/* What rounding has left of such a speed would be taken for a side that it moves to. That nothing comes of it is told by its
- * acceleration: not even a step as long as the longest makes a speed of that. */
+/* A slip velocity at round-off level has an arbitrary sign. It is removed if its acceleration is so small
+ * that the longest step would not make it significant. */
 void rest_held(struct run *run)
 {
     const double rounding = 1e-14, little = 1e-12;

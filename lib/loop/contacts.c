@@ -75,7 +75,7 @@ bool contacts_work_init(struct contacts_work *work, const struct fbd_model *mode
     return true;
 }
 
-/* ---- what touches */
+/* ---- touching features */
 
 static const struct tree *tree_of(const struct run *run)
 {
@@ -100,7 +100,7 @@ static bool still_touches(const struct run *run, int meeting, int feature, doubl
     return true;
 }
 
-/* Two features at one place are one contact. */
+/* Two features at one position are one contact. */
 static bool same_place(const struct run *run, int meeting, int a, int b, double near)
 {
     if (a == b) return true;
@@ -109,7 +109,6 @@ static bool same_place(const struct run *run, int meeting, int a, int b, double 
     return vec_norm(vec_sub(p, q)) <= contacts_same * near;
 }
 
-/* Give the couplings of a meeting the features that touch; those that they have stay where they can. */
 void contacts_find_touching(struct run *run, int index, double near)
 {
     const struct meeting *meeting = &tree_of(run)->meetings[index];
@@ -134,7 +133,7 @@ void contacts_find_touching(struct run *run, int index, double near)
     }
 }
 
-/* ---- who takes part */
+/* ---- impact constraints */
 
 static bool any_closes(const struct run *run, int count)
 {
@@ -143,7 +142,7 @@ static bool any_closes(const struct run *run, int count)
     return false;
 }
 
-/* ---- what follows */
+/* ---- after an impact */
 
 bool contacts_part(const struct run *run, int i)
 {
@@ -152,7 +151,7 @@ bool contacts_part(const struct run *run, int i)
     return run->contacts.v[(ptrdiff_t)2 * i] > contacts_no_speed(run, row);
 }
 
-/* The impacts of a rope, or of a landing, in the present events: one may follow another. */
+/* Add an impact of a rope, or of a landing, to its record of the current events: there may be several. */
 static void add_to_coupling(struct contacts_work *work, const struct striker *striker, const double *v,
                             const double *P, double taken)
 {
@@ -166,7 +165,7 @@ static void add_to_coupling(struct contacts_work *work, const struct striker *st
     impact->v_t[1] = striker->rubs ? v[1] : 0;
 }
 
-/* Is the impact at point i an event? Ropes and landings have events of their own. */
+/* Does the impact at point i have an event? Ropes and landings have events of their own. */
 static bool is_impact(const struct run *run, int i)
 {
     const struct contacts_work *work = &run->contacts;
@@ -201,7 +200,7 @@ static void note_impact(struct run *run, int i, int count)
     if (!is_impact(run, i)) return;
     for (int k = 0; k < count; k++) {
         if (!strike_alike(run, i, k)) continue;
-        if (k < i) return; /* its event has this one */
+        if (k < i) return; /* included in the event of point k */
         const double *P = work->P + (ptrdiff_t)2 * k;
         p += P[0];
         tau += P[1];
@@ -214,7 +213,7 @@ static void note_impact(struct run *run, int i, int count)
         false, work->in_turn};
 }
 
-/* By the name of what is pressed most. */
+/* Log that the impacts are not unique, by the name of the contact with the largest impulse. */
 static void note_several(struct run *run, int count)
 {
     const struct contacts_work *work = &run->contacts;
@@ -233,14 +232,14 @@ static void note_impacts(struct run *run, int count)
     note_several(run, count);
 }
 
-/* What an impact has made slack is no more taut by its length, and what it has lifted off is open. */
+/* Open a rope, or another constraint, that an impact has opened, whatever its length or gap. */
 static void let_slack(struct run *run, int pair)
 {
     run->state->slip[pair] = slip_plus;
     run->decided.slips[pair] = true;
 }
 
-/* What a contact does at coupling `index` after it has come to the velocities of striker i. */
+/* Update the contact of coupling `index` after an impact, by the velocities of impact constraint i. */
 static void open_or_close_contact(struct run *run, int index, int i, bool leaves, double v_t)
 {
     const struct coupling *coupling = &tree_of(run)->couplings[index];
@@ -249,7 +248,7 @@ static void open_or_close_contact(struct run *run, int index, int i, bool leaves
         return;
     }
     if (coupling->pair < 0) return;
-    /* Friction that sticks from here on sticks at this position. */
+    /* Sticking starts at this position. */
     if (v_t == 0 && run->state->slip[coupling->pair] != stick)
         coupling_rezero(run->model, run->state->tree, index);
     run->state->slip[coupling->pair] = v_t > 0 ? slip_plus : v_t < 0 ? slip_minus : stick;
@@ -275,7 +274,7 @@ void contacts_open_or_close(struct run *run, int count, bool struck)
     }
 }
 
-/* How large the speed across a surface that is slid on is, by those that there were. */
+/* The scale of the speed across a sliding surface, from the largest speeds so far. */
 static double size_of_speed(struct run *run, const struct slide *slide)
 {
     const struct fbd_model *model = run->model;
@@ -294,7 +293,7 @@ static double size_of_speed(struct run *run, const struct slide *slide)
     return size;
 }
 
-/* What slid on a switch and has got a speed across it is on one of its sides. */
+/* End Filippov sliding modes whose surface is left with a speed after the impact. */
 static void leave_switches(struct run *run)
 {
     const double rounding = 1e-12;
@@ -308,8 +307,9 @@ static void leave_switches(struct run *run)
     if (s) sliding_drop(s);
 }
 
-/* What stuck and has got a speed slips. In a series of impacts too small to see, `interval` apart, it sticks where it would not
- * come far until the next: it is its friction, at its limit for as long as that, that might make the next one. */
+/* Sticking friction that has got a speed slips. In a series of impacts below the tolerance, `interval` apart,
+ * it sticks if its slip until the next one would be negligible: friction at its limit for that time might
+ * cause the next impact. */
 static void unstick(struct run *run, double interval)
 {
     const double nobody_sees = 1e-9;
@@ -328,7 +328,7 @@ static void unstick(struct run *run, double interval)
     }
 }
 
-/* ---- all of it */
+/* ---- complete impact */
 
 double contacts_reach(const struct run *run, int index)
 {
@@ -338,7 +338,7 @@ double contacts_reach(const struct run *run, int index)
     return deep > near && deep <= contacts_late * near ? 1.001 * deep : near;
 }
 
-/* Features of all that touches, and where they are. */
+/* Find the touching features of all pairs, and evaluate their rows. */
 static void find_touching(struct run *run)
 {
     impulse_look(run->state);
@@ -347,8 +347,8 @@ static void find_touching(struct run *run)
     impulse_look(run->state);
 }
 
-/* Surfaces of one body, and of the ground, are level within contact_level; those of bodies that move against each other are
- * where these are. */
+/* Fail at an impact on a step lower than contact_level: surfaces of one body, and of the ground, are made
+ * level within it, but not those of bodies that move relative to each other. */
 static bool refuse_low_step(struct run *run, int count)
 {
     for (int i = 0; i < count; i++) {
@@ -368,7 +368,7 @@ static bool refuse_low_step(struct run *run, int count)
     return false;
 }
 
-/* One look at all that touches. True when shapes have been moved, and others are to be looked at. */
+/* Process all touching contacts once. True when shapes were moved, so that others have to be checked. */
 static bool look_at_contacts(struct run *run)
 {
     bool moved = false;
@@ -418,7 +418,7 @@ bool run_start_contacts(struct run *run, struct lack *lack)
         modes_settle(state, NULL);
     }
     run_contacts(run);
-    /* Energies are counted from behind impacts of the start. */
+    /* Energies are counted from after the impacts of the start. */
     memset(run->impact_work, 0, run->model->load_count * sizeof *run->impact_work);
     return true;
 }
@@ -444,9 +444,9 @@ static bool is_closed(const struct run *run, const struct fbd_state *state, int 
     return state->slip[tree_of(run)->couplings[coupling].surface] == stick;
 }
 
-/* What does not press is let go, and what an impact has brought to rest on it closes or parts by what rounding leaves of
- * that. No impact would stop what closes, which would meet again at once, and for ever; what parts would be elsewhere when
- * the next one comes, and feel nothing of it. It is at rest. */
+/* Set separation speeds at round-off level to zero, for contacts that the modes opened after an impact
+ * stopped them there. An approach would cause impacts at once, again and again; a separation would place the
+ * body elsewhere at the next impact. */
 static void stop_what_opens(struct run *run)
 {
     const struct tree *tree = tree_of(run);
@@ -468,7 +468,7 @@ static void stop_what_opens(struct run *run)
     state_evaluate(state);
 }
 
-/* Note that a contact has closed or opened: once, at however many corners. */
+/* Log that a contact has closed or opened: once, for any number of corners. */
 static void note_change(struct run *run, int index)
 {
     const struct coupling *couplings = tree_of(run)->couplings, *coupling = &couplings[index];

@@ -1,17 +1,16 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * What a run does where shapes meet: impacts, and what closes by them.
+ * Impacts of shapes in a run, and the contacts that close by them.
  *
- * At such an instant all features that touch are found anew. Where one of them closes, all that touches and
- * all taut ropes have an impact together (holds/impacts.h); what has no speed left stays closed, what has one
- * opens. Whether what is closed without an impact stays so is for the modes to settle.
+ * At an impact all touching features are determined anew. If one closes, all touching contacts and all taut
+ * ropes have an impact together (holds/impacts.h); those with no separation speed stay closed, the others
+ * open. Contacts closed without an impact are left to the settling of the modes.
  *
  * A body that bounces with e < 1 does so infinitely often in finite time. When its bounces are lower than the
- * tolerance sees, the rest of the series is summed up: the intervals form a geometric series, and with
- * constant acceleration exactly that. The body then rests on its surface, and the event has the time at which
- * the series ends, which is when an infinitely patient observer would see it come to rest. So does what
- * strikes a surface without bouncing and is thrown up again by a rope that gets taut, as in Atwood's machine on the
- * floor: in the end the surface and the rope hold it together.
+ * tolerance, the rest of the series is summed: the intervals form a geometric series, exactly so with
+ * constant acceleration. The body then rests on its surface; the event has the time of the Zeno limit. The
+ * same is done for a body that lands plastically and is lifted again by a rope that becomes taut, as in
+ * Atwood's machine on the floor: at the limit the surface and the rope are both closed.
  */
 #ifndef FBD_LOOP_CONTACTS_H
 #define FBD_LOOP_CONTACTS_H
@@ -22,157 +21,158 @@
 struct lack;
 struct run;
 
-/* The impacts of a meeting so far. */
+/* The recent impacts of a contact pair. */
 struct bounces {
     int count;         /* since it was last at rest */
-    double t[5];       /* of the last ones, the latest first */
+    double t[5];       /* times of the last ones, the latest first */
     int feature;       /* of the last one */
-    int unseen;        /* how many of them have followed each other within bounces that nobody sees */
-    double slow;       /* a speed that is lost within what counts as the same place */
-    double rests_from; /* end of a series that is summed up; HUGE_VAL without one */
-    /* What comes back from having been closed, as ropes throw it up: when, the latest first. */
+    int unseen;        /* number of successive ones with bounces below the tolerance */
+    double slow;       /* a speed whose bounce stays within the tolerance of position */
+    double rests_from; /* Zeno limit of a summed series; HUGE_VAL without one */
+    /* Impacts of a contact that was closed before and is reopened by ropes: their times, the latest first. */
     bool is_closed;
     int returns;
     double returned[12];
 };
 
-/* What takes part in an impact: a contact, a rope, what rolls or follows a cam. */
+/* An impact constraint: a contact, a rope, a rolling or cam coupling. */
 struct striker {
     int coupling;
     bool contact; /* it may bounce; all others are plastic */
     bool rope;
-    bool rubs;       /* it has a row along its surface, too, in which there may be friction */
+    bool rubs;       /* it has a tangential row, in which there may be friction */
     double v_n, v_t; /* before */
-    double reel;     /* of a rope: how fast it grows by itself */
+    double reel;     /* of a rope: the prescribed rate of its length */
     bool stays;      /* no contact; opened with a speed so small that it stays closed (zeno.c) */
 };
 
-/* A contact at the place of another one, of the same two links and with the same normal: a corner that several parts of a
- * body share, or a corner over a joint of tiles. Both are one point of an impact, which has the coefficients of the
- * first; velocities and modes after are those of that point. */
+/* A contact that coincides with another one, of the same two links and with the same normal: a corner shared
+ * by several parts of a body, or a corner over a joint of tiles. Both are one point of an impact, with the
+ * coefficients of the first; both receive its velocities and modes. */
 struct striker_twin {
-    int coupling, point; /* the striker that it coincides with */
+    int coupling, point; /* the impact constraint with which it coincides */
 };
 
-/* The work of its impulses P on the bodies, with the speeds v after. */
+/* The energy that its impulses P take from the bodies, with the speeds v after. */
 static inline double striker_taken(const struct striker *striker, const double v[2], const double P[2])
 {
     double across = P[0] * ((striker->v_n + v[0]) / 2 - striker->reel);
     return striker->rubs ? across + P[1] * (striker->v_t + v[1]) / 2 : across;
 }
 
-/* A past impact: impulses along normal and tangent, their work, and the velocities of the
- * point before and after: of a rope the rate of its length, below zero while it lengthens. */
+/* A past impact: impulses along normal and tangent, their work, and the velocities of the point before and
+ * after; of a rope the rate of its slack, below zero while it lengthens. */
 struct impact_record {
     double p, tau, work;
     double v_n[2], v_t[2];
-    bool makes;   /* all impacts of the instant have gained energy, this one too */
-    bool several; /* other velocities agree with the laws, too */
-    bool in_turn; /* points one after the other, where simultaneous impacts were requested */
+    bool makes;   /* the impacts of the instant, together, have gained energy */
+    bool several; /* other velocities satisfy the laws, too */
+    bool in_turn; /* points one after the other, although simultaneous impacts were requested */
 };
 
 struct contacts_work {
-    struct striker *strikers; /* room for all that may take part, each point once */
+    struct striker *strikers; /* room for all couplings, each point once */
     struct striker_twin *twins;
     int twin_count; /* of the last look by contacts_find_strikers */
-    int struck;     /* number of points of the last impact */
+    int struck;     /* of the last call of contacts_find_strikers */
     struct impacts_point *points;
     int *rows, *modes;
-    int *slides;     /* pairs whose friction takes part, behind the strikers; */
-    int slide_count; /* and how many */
+    int *slides;     /* friction pairs that take part, numbered behind the impact constraints */
+    int slide_count; /* their number */
     struct impacts_slide *slide;
-    double *slide_before; /* their slip before */
+    double *slide_before; /* their slip velocities before */
     double *W, *B, *answers, *v, *P, *y;
-    double *later;           /* two velocities and impulses of each striker, beside v and P */
-    struct bounces *bounces; /* of each meeting */
-    struct bounces tugs;     /* of ropes that get taut, and what lands, in turn */
-    bool *asleep;            /* of each meeting: too far apart for the step */
-    int *touched;            /* of each meeting: how many features touched, at the last look */
+    double *later;           /* two velocities and impulses of each impact constraint, besides v and P */
+    struct bounces *bounces; /* of each contact pair */
+    struct bounces tugs;     /* of ropes that become taut and contacts that land, alternately */
+    bool *asleep;            /* of each contact pair: too far apart for the step */
+    int *touched;            /* of each contact pair: touching features at the last check */
     double *deep;            /* of each contact pair: overlap left open at a corner next to another side */
     bool *touching;          /* of each coupling: scratch */
-    bool *moves;             /* and: for zeno_rest.c */
-    bool *was_closed;        /* of each coupling, when it was looked at last */
+    bool *moves;             /* of each coupling: for zeno_rest.c */
+    bool *was_closed;        /* of each coupling, at the last check */
     struct fbd_state *trial;
-    double speed; /* the largest of the shapes that have touched so far */
+    double speed; /* the largest of the touching shapes so far */
     struct impact_record
-        *of_couplings; /* of each coupling that is no contact: its impacts in the present events */
-    bool due;          /* shapes have met, or what touches has come to the end of a side */
-    bool makes;        /* the last impacts have made energy */
-    bool several;      /* others agree with the laws, too, and give other velocities */
-    bool in_turn;      /* and are of one point after the other, where all together were asked for */
+        *of_couplings; /* of each coupling that is no contact: its impacts in the current events */
+    bool due;          /* an impact is pending: shapes have met, or a contact has reached the end of a side */
+    bool makes;        /* the last impacts have gained energy */
+    bool several;      /* the last impacts are not unique: other velocities satisfy the laws */
+    bool in_turn;      /* the last impacts were solved one after the other, not simultaneously as requested */
     bool turned;       /* see run_note_sign */
-    bool plastic;      /* the next ones are to be, whatever their e */
+    bool plastic;      /* the next impacts are plastic, whatever their e */
 };
 
-/* Made of `memory`, all but `trial`; false when that is out. */
+/* Allocated from `memory`, except `trial`; false when memory is out. */
 bool contacts_work_init(struct contacts_work *work, const struct fbd_model *model, struct arena *memory);
 
-/* Find what touches, let it have its impacts, and close what stays. To be called before the modes settle. */
+/* Find the touching features, apply their impacts, and close those that stay. Called before the modes settle. */
 void run_contacts(struct run *run);
 
 /* Before events are applied: clear the impacts of ropes and landings (contacts_work.of_couplings). */
 void contacts_begin_events(struct run *run);
 
-/* The first look: what a file's digits have put into each other is moved out before. False, with what is lacking,
- * when couplings do not fit. */
+/* The first search: moves apart shapes that overlap by the digits of the file. Returns false, with the
+ * reason, when the couplings are inconsistent. */
 bool run_start_contacts(struct run *run, struct lack *lack);
 
-/* No accelerations agree with what touches and slips: let it jam. Without an approach, an impact of all that touches
- * ends the slip that asks for infinite forces. False where it does not. */
+/* No accelerations are consistent with the closed and slipping contacts: let them jam. An impact of all
+ * touching contacts, without approach, ends the slip that would require infinite forces. Returns false where
+ * it does not. */
 bool run_jam(struct run *run);
 
-/* Note, for run->during in the modes of the steps that follow, and compare at the end of a step, before its events,
- * the sign by which normal forces answer to each other and to their friction. Where a step has turned it the forces were
- * infinite on the way, and the run ends. `evaluated`: run->state is. */
+/* Record the sign of the response of normal forces to each other and to their friction, for run->during in
+ * the modes of the following steps; compare it at the end of a step, before its events. Where it has changed
+ * within a step the forces were infinite, and the run ends. `evaluated`: run->state is evaluated. */
 void run_note_sign(struct run *run);
 void run_check_jam(struct run *run, bool evaluated);
 
-/* A rope has just got taut, or what rolls or follows a cam is back on its surface: it, all other taut ropes and all that
- * touches have an impact together, in which they are plastic. What it makes slack or lifts off is decided. */
+/* A rope has just become taut, or a rolling or cam coupling has closed again: it has a plastic impact
+ * together with all other taut ropes and touching contacts. Decides which of them open. */
 void run_strike_closed(struct run *run);
 
-/* A drive that moves, and how many do. */
+/* A moving drive, and the number of moving drives. */
 const struct mode *run_only_drive(const struct run *run, int *moving);
 
-/* What has been put on its surface by zeno_rest may have got into others that are next to it, the deeper the
- * farther they are from where it turned: they are moved out. Whether there were any, which may now touch. */
+/* A body placed on its surface by zeno_rest may overlap neighbouring ones, the deeper the farther they are
+ * from its axis of rotation: move these out. Returns whether there were any, which may now touch. */
 bool zeno_lift_others(struct run *run);
 
-/* Note how deep in each other shapes are that do not touch: within what counts as touching, where a corner goes
- * over the end of a side. */
+/* Record the overlap of shapes with open contacts: within the touching tolerance, where a corner passes the
+ * end of a side. */
 void contacts_note_depths(struct run *run);
 
-/* Note which shapes touch, closed or left open. */
+/* Record which shapes touch, closed or left open. */
 void contacts_note_touching(struct run *run);
 
-/* Which meetings the step from run->step.from to the state run->work.y at `end` has to look at: those whose shapes
- * could come near in it. In panels of how many radians the shapes turn. */
+/* Select the contact pairs to search in the step from run->step.from to the state run->work.y at `end`: those
+ * whose shapes could come near in it. run_contact_radians bounds the rotation of shapes per panel. */
 void run_wake_contacts(struct run *run, double end);
 double run_contact_radians(const struct run *run, double span);
 
-/* The end of the first stretch of (from, to] of the step in which no gap bends, as where a corner goes past another, but
- * for those that stay far apart. */
+/* The end of the first part of (from, to] of the step in which no gap has a kink, as where one corner passes
+ * another; gaps that stay large are ignored. */
 double run_contact_bend(struct run *run, double from, double to);
 
-/* No shapes are in each other at the end of a step; else the run ends, for it has missed an impact. */
+/* Check that no shapes overlap at the end of a step; else the run ends, since an impact was missed. */
 void run_check_overlap(struct run *run);
 
-/* ---- for the files of contacts */
+/* ---- internal to contacts */
 
-/* What counts as touching when it is seen late, in `near` of dynamics/contact.h. */
+/* Touching tolerance when detection is late, in units of `near` of dynamics/contact.h. */
 static const double contacts_late = 1e3;
 
-/* Places that count as the same one, likewise: each is known to that. */
+/* Distance of positions that coincide, likewise: each has that accuracy. */
 static const double contacts_same = 4;
 
-/* Bounces that nobody sees, likewise: 1e-9 of the scene. */
+/* Height of bounces below the tolerance, likewise: 1e-9 of the scene. */
 enum { contacts_low = 1000 };
 
-/* The impact of the first `count` strikers; their velocities after are in work->v, its impulses in work->P. False
- * after failing the run. (contacts_strike.c) */
+/* Apply the impact of the first `count` impact constraints; work->v receives their velocities after it,
+ * work->P its impulses. Returns false after failing the run. (contacts_strike.c) */
 bool contacts_strike(struct run *run, int count);
 
-/* Its two halves. */
+/* The two halves of contacts_strike. */
 bool contacts_solve_impact(struct run *run, int count);
 void contacts_apply_impulses(struct run *run, int count);
 
@@ -183,50 +183,52 @@ void contacts_hold_speeds(struct run *run, int count);
 /* Does impact constraint i separate after the impact, by more than rounding? */
 bool contacts_part(const struct run *run, int i);
 
-/* What leaves by the velocities in work->v after an impact, or as it is without one, is open; what stays slips or
- * sticks. */
+/* Open the impact constraints that separate by the velocities in work->v after an impact (or by the present
+ * ones, without an impact); let the others slip or stick. */
 void contacts_open_or_close(struct run *run, int count, bool struck);
 
-/* A rope has got taut or something has landed, and by that lets others go, which do the same to it in turn: once by no
- * more than nobody sees all stay. */
+/* A rope became taut, or a contact landed, and opened others by it, which do the same alternately: as soon as
+ * one opens by less than the tolerance all stay closed. */
 void zeno_end_rope_impacts(struct run *run, int count);
 
-/* The interval between the last two of many of them in a row that nobody sees; 0 elsewhere. */
+/* The interval between the last two of many successive such impacts below the tolerance; 0 otherwise. */
 double zeno_rope_limit(const struct run *run);
 
-/* What counts as touching [m, or radians of a stop]; shapes that are in each other by a little more, which was seen late,
+/* The touching tolerance [m, or radians of a stop]; shapes that overlap by a little more, detected late,
  * touch as well. */
 double contacts_reach(const struct run *run, int index);
 
-/* Give the couplings of meeting `index` the features that touch within `near`. */
+/* Assign the features that touch within `near` to the couplings of contact pair `index`. */
 void contacts_find_touching(struct run *run, int index, double near);
 
-/* All points that touch, ropes that are taut, and what presses on its surface; returns their number. */
+/* Collect all touching points, taut ropes, and closed rolling or cam couplings; returns their number. */
 int contacts_find_strikers(struct run *run);
 
-/* e of a meeting at a speed of approach; below zero after failing the run. */
+/* Coefficient of restitution of a contact pair at a speed of approach; below zero after failing the run. */
 double contacts_restitution(struct run *run, int meeting, double approach);
 
-/* After an impact of `count` strikers: does a series of bounces end that nobody sees any more? (zeno.c) */
+/* After an impact of `count` impact constraints: has a sequence of bounces become smaller than the tolerance?
+ * (zeno.c) */
 bool zeno_end_bounces(struct run *run, int count);
 
-/* The speeds at which surfaces are left, and ropes let go, are taken away by impulses that rub as the weight would have
- * done that took them away: at rest from now on, surfaces press m a T in the time T of the series, and so they do in it
- * but for m v. */
+/* Remove separation speeds of surfaces and ropes by impulses, with the friction that the weight would have
+ * caused: resting bodies exert m a T in the time T of the series, and so do bouncing ones but for m v. */
 void zeno_remove_separation(struct run *run, int count);
 
-/* Put what bounces on its surface (zeno_rest.c); the strikers are then those that touch. Returns their number. */
+/* Place bouncing bodies on their surfaces (zeno_rest.c); the impact constraints are then the touching
+ * contacts. Returns their number. */
 int zeno_rest(struct run *run, int strikers);
 
-/* Would that change the speed of any body by no more than bounces that nobody sees do? */
+/* Would that change the speed of each body by no more than bounces below the tolerance do? */
 bool zeno_rest_is_harmless(struct run *run, int count);
 
-/* ---- the loop */
+/* ---- called by the loop */
 
-/* After the modes have settled: what they have opened touches no more. Notes what has closed and opened. */
+/* After the modes have settled: contacts that they opened touch no longer. Records which have closed and
+ * opened. */
 void run_release_contacts(struct run *run);
 
-/* The next end of a series of bounces; HUGE_VAL without one. And noting those that end by now. */
+/* The next Zeno limit of a sequence of bounces; HUGE_VAL without one. log_rests logs those that are over. */
 double zeno_next_rest(const struct run *run);
 void log_rests(struct run *run);
 

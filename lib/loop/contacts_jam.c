@@ -1,16 +1,16 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Jams: where dry friction and normal forces grow on each other beyond all bounds.
+ * Jams: dry friction and normal forces that increase each other without limit.
  *
- * While a point slips its friction is -mu N sign(v_t), and an acceleration of its normal force may answer to that with
- * the wrong sign: then no finite forces go with the slip (Painleve's paradox). What rigid bodies do there is known from
- * the limit of stiff ones and from time stepping: the forces rise without bound while hardly any time passes, an impulse
- * that ends the slip at once though nothing approaches (a tangential impact, or impact without collision: Genot and
- * Brogliato, European Journal of Mechanics A 18, 1999; Stewart, SIAM Review 42, 2000).
+ * The friction of a slipping point is -mu N sign(v_t), and the normal acceleration may respond to N with the
+ * wrong sign: then no finite forces are consistent with the slip (Painleve's paradox). The behaviour follows
+ * from the limit of stiff bodies and from time stepping: the forces grow without limit in a vanishing time,
+ * an impulse that ends the slip at once without an approach (a tangential impact, or impact without
+ * collision: Genot and Brogliato, European Journal of Mechanics A 18, 1999; Stewart, SIAM Review 42, 2000).
  *
- * So all that touches has the velocities that it would have after a moment without forces between shapes, and a plastic
- * impact. Without a jam the impulses would be as small as the moment is. They are linear in its length while the modes
- * are the same, so that a moment and one twice as long tell what they are without any.
+ * So touching contacts get the velocities after a short time without contact forces, and a plastic impact.
+ * Without a jam the impulses would be proportional to that time. They are linear in it in the same modes, so
+ * the solutions for that time and for twice as long are extrapolated to zero.
  */
 #include <string.h>
 
@@ -24,10 +24,10 @@ static const struct tree *tree_of(const struct run *run)
     return run->model->tree;
 }
 
-/* What a moment does to velocities, as a share of the fastest slip. */
+/* Change of velocities in the short time, relative to the fastest slip. */
 static const double hint = 1e-7;
 
-/* The accelerations along normal and tangent of striker i where nothing that touches pushes, in work->trial. */
+/* The accelerations along normal and tangent of impact constraint i without contact forces, from work->trial. */
 static void free_accelerations(const struct run *run, int i, double c[2])
 {
     const struct striker *striker = &run->contacts.strikers[i];
@@ -51,7 +51,7 @@ static void let_go(struct run *run, int count)
     state_evaluate(trial);
 }
 
-/* A moment that is short against the slips; 0 where nothing slips. */
+/* A time that is short for the slips; 0 without slip. */
 static double short_moment(const struct run *run, int count)
 {
     const struct striker *strikers = run->contacts.strikers;
@@ -77,7 +77,7 @@ static bool solve_after(struct run *run, int count, double moment)
     return contacts_solve_impact(run, count);
 }
 
-/* Impulses and velocities without a moment. */
+/* Extrapolate impulses and velocities to zero time. */
 static bool solve_jam(struct run *run, int count, double moment)
 {
     struct contacts_work *work = &run->contacts;
@@ -108,7 +108,7 @@ static void note_jam(struct run *run, int i, bool jams)
         .p = P[0], .tau = P[1], .work = taken, .v_n = {striker->v_n, v[0]}, .v_t = {striker->v_t, v[1]}};
 }
 
-/* The largest impulse that the moment itself could ask for. */
+/* An upper bound of the impulses that the short time itself causes. */
 static double least_impulse(const struct run *run, int count, double moment)
 {
     const double far = 1e3;
@@ -122,8 +122,9 @@ static double least_impulse(const struct run *run, int count, double moment)
     return least;
 }
 
-/* Impulses and velocities of a jam, and which impulses are none; below zero where there is no jam. One that ends a slow slip
- * beside a fast one has small impulses, which a moment that is short against the fast one would hide. */
+/* Find impulses and velocities of a jam; returns the bound below which impulses are negligible, negative
+ * without a jam. A jam that ends a slow slip has small impulses; with a time that is short only for a fast
+ * slip they would be below the bound, so shorter times are tried. */
 static double find_jam(struct run *run, int count)
 {
     enum { shorter = 32, most_moments = 3 };
@@ -165,7 +166,7 @@ bool run_jam(struct run *run)
     return true;
 }
 
-/* The contact that is rubbed on and presses most; -1 without one. */
+/* The contact with friction and the largest normal force; -1 without one. */
 static int pressed_most(const struct run *run)
 {
     const struct tree *tree = tree_of(run);
@@ -185,8 +186,9 @@ static int pressed_most(const struct run *run)
     return found;
 }
 
-/* Without friction the system of the multipliers is positive definite. Friction that slips may turn the sign of its
- * determinant; on either side of that there may be a motion, but where it turns the forces are infinite. */
+/* Is the determinant of the system of multipliers negative? Without friction the system is positive definite.
+ * Slipping friction may change the sign; there may be solutions on both sides, but at the change the forces
+ * are infinite. */
 static bool has_turned(const struct fbd_state *state)
 {
     const struct tree_work *work = state->tree;

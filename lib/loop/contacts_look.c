@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Which meetings a step has to look at, and how closely.
+ * Selection of contact pairs for the event search of a step, and its resolution.
  */
 #include <float.h>
 #include <string.h>
@@ -22,8 +22,8 @@ static const struct tree *tree_of(const struct run *run)
     return run->model->tree;
 }
 
-/* How fast a shape turns: with its link, but for a circle about its middle, which is alike all round, and with
- * those that the link moves on. */
+/* Angular speed of a shape: of its link, unless it is a circle about the link's origin, and of the links that
+ * carry it. */
 static double turning(const struct run *run, const struct contact_shape *shape)
 {
     const struct tree_state *links = run->contacts.trial->tree->links;
@@ -34,7 +34,8 @@ static double turning(const struct run *run, const struct contact_shape *shape)
     return turn;
 }
 
-/* As shapes turn and go past each other: they are in each other no longer than it takes to go by their size. */
+/* Radians by rotation, and by shapes that pass each other: an overlap lasts no longer than a displacement by
+ * their size. */
 double run_contact_radians(const struct run *run, double span)
 {
     const struct contacts_work *work = &run->contacts;
@@ -44,17 +45,17 @@ double run_contact_radians(const struct run *run, double span)
     for (int i = 0; i < tree->meeting_count; i++) {
         const struct contact_shape *shapes = tree->meetings[i].shape;
         double size = shapes[0].radius + shapes[1].radius;
-        bool flat = shapes[1].kind == contact_line; /* the gap of a line is linear in the place */
+        bool flat = shapes[1].kind == contact_line; /* the gap of a line is linear in position */
         if (work->asleep[i]) continue;
         for (int k = 0; k < 2; k++) turn = fmax(turn, turning(run, &shapes[k]));
         if (flat || size <= 0) continue;
         pass = fmax(pass, meeting_distance(run->model, work->trial->tree, i).speed / size);
     }
-    return (2 * turn + 2 * pass) * span; /* both shapes of a meeting may turn */
+    return (2 * turn + 2 * pass) * span; /* both shapes of a pair may turn */
 }
 
-/* Speeds within a step are those at its ends, or not much more: a factor, and a check at the end of the step,
- * cover it. */
+/* Speeds within a step are about those at its ends; a factor of two, and a check at the end of the step,
+ * allow for more. */
 void run_wake_contacts(struct run *run, double end)
 {
     const double speeds = 2;
@@ -79,11 +80,11 @@ void run_wake_contacts(struct run *run, double end)
 
 /* ---- kinks
  *
- * The gap of two sets of corners is smooth while it is that of one corner over one side, and bends where another takes
- * over. Series are of smooth functions, and what dips between two samples as a corner goes past another is nothing that
- * they see. So panels end at bends that could matter. */
+ * The gap of two sets of corners is smooth while it belongs to one corner and one side, and has a kink where
+ * another pair takes over. Chebyshev series require smooth functions, and could miss a dip between two
+ * samples as a corner passes another. So panels end at kinks that could matter. */
 
-/* The gap of a meeting at an instant of the step, and the largest speed of its shapes against each other. */
+/* The gap of a contact pair at a time of the step, and the largest relative speed of its shapes. */
 struct look {
     double t, speed;
     struct gap gap;
@@ -106,14 +107,14 @@ static struct look look_at(struct run *run, int index, int probe, double t)
     return (struct look){t, speed, meeting_probe(run->model, &at, index, probe)};
 }
 
-/* What no gap can have got to within a stretch, at the speeds of its ends and half as much again. */
+/* Is the gap too large to close within the interval, at 1.5 times the speeds of its ends? */
 static bool stays_apart(const struct look *a, const struct look *b)
 {
     const double speeds = 1.5;
     return a->gap.x + b->gap.x > speeds * fmax(a->speed, b->speed) * (b->t - a->t);
 }
 
-/* Does the gap bend between two looks, of which b is the last one, by more than what counts as touching? */
+/* Has the gap a kink between a and b (the last one computed), larger than the touching tolerance? */
 static bool bends(struct run *run, int index, const struct look *a, const struct look *b)
 {
     const struct tree_work *work = run->contacts.trial->tree;
@@ -136,13 +137,14 @@ static double bend_between(struct run *run, int index, int probe, struct look a,
     return b.t;
 }
 
-/* Shapes that come nearer and part again between two looks: they may have been in each other in between. */
+/* Shapes that approach and separate again between a and b: they may have overlapped in between. */
 static bool may_dip(const struct look *a, const struct look *b)
 {
     return a->gap.x > 0 && b->gap.x > 0 && a->gap.rate < 0 && b->gap.rate > 0;
 }
 
-/* An instant at which they are, on the way to where they are nearest; the end of the stretch where there is none. */
+/* A time at which they overlap, found on the way to the smallest gap; the end of the interval where there is
+ * none. */
 static double dip_between(struct run *run, int index, int probe, struct look a, struct look b)
 {
     const double share = 1e-6, end = b.t;
@@ -158,8 +160,8 @@ static double dip_between(struct run *run, int index, int probe, struct look a, 
     return end;
 }
 
-/* The first bend that matters or dip in (from, to], else `to`. Where a corner has come and gone it is the same side at
- * both ends: so quarters are looked at. */
+/* The first relevant kink or dip in (from, to], else `to`. A corner may pass within the interval with the
+ * same side at both ends: so quarters are checked. */
 static double until_bend(struct run *run, int index, int probe, double from, double to)
 {
     enum { pieces = 4 };
@@ -176,7 +178,7 @@ static double until_bend(struct run *run, int index, int probe, double from, dou
     return to;
 }
 
-/* How many of its gaps are functions that bend, or are sharply curved, as one shape goes past the other. */
+/* The number of gaps with kinks or sharp curvature as one shape passes the other. */
 static int bending_probes(const struct run *run, int index)
 {
     const struct meeting *meeting = &tree_of(run)->meetings[index];
@@ -192,11 +194,11 @@ double run_contact_bend(struct run *run, double from, double to)
     return to;
 }
 
-/* Do the shapes of a meeting get no deeper into each other? What has just opened does so from rest, to rounding. */
+/* Does the overlap of a pair not increase? Contacts that have just opened separate from rest, to rounding. */
 static bool parts(const struct run *run, const struct instant *at, int index)
 {
     const double rounding = 1e-10,
-                 of_all = 1e-13; /* of the speeds there, and of those that the scene has seen */
+                 of_all = 1e-13; /* relative to the present speeds, and to the largest of the run */
     const struct meeting *meeting = &tree_of(run)->meetings[index];
     double least = HUGE_VAL, speed = meeting_speed(run->state->tree, meeting);
     for (int probe = 0; probe < meeting->probes; probe++) {
@@ -213,8 +215,7 @@ void contacts_note_depths(struct run *run)
     for (int i = 0; i < tree_of(run)->meeting_count; i++) {
         double deep = meeting_depth(run->model, &at, i), near = meeting_near(run->model, state->tree, i);
         int features[2];
-        bool beyond =
-            deep > meeting_rounding(run->model, state->tree, i); /* rounding is allowed for anyway */
+        bool beyond = deep > meeting_rounding(run->model, state->tree, i); /* rounding is always accepted */
         bool leaves = beyond && deep <= contacts_late * near && parts(run, &at, i);
         double reach = contacts_reach(run, i);
         bool over_an_end =
@@ -223,8 +224,8 @@ void contacts_note_depths(struct run *run)
     }
 }
 
-/* Shapes that nothing has seen go into each other: the projection of other couplings has moved them there, by less than
- * what counts as touching. Those that part are left as deep as they are; whether there are others. */
+/* Shapes that overlap without an event: the projection of other couplings has moved them by less than the
+ * touching tolerance. For those that separate the depth is recorded; returns whether there are others. */
 static bool projected_in(struct run *run)
 {
     struct contacts_work *work = &run->contacts;
@@ -242,7 +243,7 @@ static bool projected_in(struct run *run)
     return in;
 }
 
-/* The number of places at which the shapes of a contact pair touch. */
+/* The number of points at which the shapes of a contact pair touch. */
 static int count_touching(const struct run *run, int index)
 {
     const struct tree_work *work = run->state->tree;
@@ -264,8 +265,8 @@ static int count_closed(const struct run *run, int index)
     return closed;
 }
 
-/* Features that have come to touch without an approach, as a corner that slides over a joint of level tiles: no gap has
- * had a zero. Those that touched before and were left open are not looked at again. */
+/* Features that touch without an approach, as a corner that slides over a joint of level tiles: no gap had a
+ * zero. Those that touched before and were left open are ignored. */
 static bool come_to_touch(struct run *run)
 {
     struct contacts_work *work = &run->contacts;

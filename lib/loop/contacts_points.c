@@ -11,7 +11,7 @@ static const struct tree *tree_of(const struct run *run)
     return run->model->tree;
 }
 
-/* The speeds that a row's velocity is made of. */
+/* The scale of a row's velocity: the speeds of its points. */
 static double speed_at(const struct run *run, const struct row *row)
 {
     double size = 0;
@@ -34,7 +34,7 @@ static double normal_rate(const struct run *run, const struct striker *striker)
     return striker->rope ? -rate : rate;
 }
 
-/* Does it take part in its present mode? */
+/* Does coupling i take part in impacts in its present mode? */
 static bool is_striker(const struct run *run, int i)
 {
     const struct coupling *coupling = &tree_of(run)->couplings[i];
@@ -52,8 +52,8 @@ static const struct port *port_on(const struct row *row, int link)
     return NULL;
 }
 
-/* Are two closed contacts one point: the same links, the same place and the same normal? Places to what counts as
- * touching, directions to the digits of a file. */
+/* Are two closed contacts one point: the same links, position and normal? Positions to the touching
+ * tolerance, directions to the digits of a file. */
 static bool coincide(const struct run *run, int a, int b)
 {
     const double direction = 1e-9;
@@ -72,7 +72,8 @@ static bool coincide(const struct run *run, int a, int b)
            vec_norm(vec_sub(p->arm, q->arm)) <= contacts_same * meeting_near(run->model, work, index);
 }
 
-/* The striker among the first `count` at whose point the contact of coupling i is; -1 without one. */
+/* The impact constraint among the first `count` that coincides with the contact of coupling i; -1 without
+ * one. */
 static int coinciding(const struct run *run, int i, int count)
 {
     const struct striker *strikers = run->contacts.strikers;
@@ -81,7 +82,7 @@ static int coinciding(const struct run *run, int i, int count)
     return -1;
 }
 
-/* ---- strikers */
+/* ---- impact constraints */
 
 static void set_striker(struct run *run, int i, struct striker *striker)
 {
@@ -98,15 +99,14 @@ static void set_striker(struct run *run, int i, struct striker *striker)
     run->contacts.speed = fmax(run->contacts.speed, speed_at(run, rows));
 }
 
-/* Round-off of redundant points is inconsistent, which matters beside a slow impact. */
+/* Rounding of redundant points is inconsistent, which matters in a slow impact. */
 static void drop_no_speeds(const struct run *run, struct striker *striker)
 {
     double least =
         contacts_no_speed(run, &run->state->tree->rows[tree_of(run)->couplings[striker->coupling].first_row]);
     if (fabs(striker->v_n) <= least) striker->v_n = 0;
     if (fabs(striker->v_t) <= least) striker->v_t = 0;
-    striker->rubs |=
-        striker->v_t != 0; /* a roll without a limit, which lands: it holds along its line from then on */
+    striker->rubs |= striker->v_t != 0; /* a roll without a limit that lands sticks from then on */
 }
 
 int contacts_find_strikers(struct run *run)

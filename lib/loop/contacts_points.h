@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * The points of an impact: all touching points, each place once.
+ * The points of an impact: all touching points, coincident ones once.
  */
 #ifndef FBD_LOOP_CONTACTS_POINTS_H
 #define FBD_LOOP_CONTACTS_POINTS_H
@@ -8,7 +8,8 @@
 struct row;
 struct run;
 
-/* A speed of a row that is rounding: of the speeds that it is made of, and of the largest that contacts have seen. */
+/* Round-off level of the velocity of a row, from the speeds of its points and the largest speed of contacts
+ * so far. */
 double contacts_no_speed(const struct run *run, const struct row *row);
 
 #endif

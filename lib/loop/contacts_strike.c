@@ -172,7 +172,7 @@ static void set_answers(struct run *run, int count)
     }
 }
 
-/* The impulse of row i of the strikers; that of a rope has the opposite sign, and a single row. */
+/* The impulse of row i of the impact constraints; that of a rope has the opposite sign, and a single row. */
 static double impulse_of(const struct contacts_work *work, int i)
 {
     const struct striker *striker = &work->strikers[i / 2];

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Couplings come to an end: a rope that is wound on a disc is unwound, or its free end has come to the disc, where it
- * would turn ever faster; one that is hauled in has come to the end of its way; the point of a slot has come to where
- * the slot ends. None of these can be passed with the same equations, so that each ends the run by name.
+ * Limits of couplings: a rope wound on a disc is unwound, or its free end has reached the disc, where it
+ * would turn ever faster; one that is hauled in has no length left; the point of a slot has reached its end.
+ * The same equations are not valid beyond, so each of these ends the run with a message.
  *
- * What is left may have gone to nothing and be back within a step: so a step is looked at in parts, and where the rate
- * turns within a part its least is found.
+ * The remaining room may vanish and return within a step: so a step is searched in parts, and where the rate
+ * changes its sign within a part the minimum is found.
  */
 #include <math.h>
 #include <string.h>
@@ -17,7 +17,7 @@
 struct end {
     struct run *run;
     int coupling, end;
-    bool piece; /* not an end but the straight piece after place `end` */
+    bool piece; /* the straight piece after point `end`, not an end */
 };
 
 static const struct coupling *coupling_of(const struct end *end)
@@ -30,10 +30,10 @@ static void look(struct run *run, double t, const double *y)
     struct fbd_state *state = run->during;
     memcpy(state->y, y, 2 * (size_t)run->model->plan.n * sizeof *state->y);
     state->t = t;
-    state_misfit(state); /* puts the links in their places */
+    state_misfit(state); /* updates the positions of the links */
 }
 
-/* What is left before the end, where the links have been looked at. */
+/* The room before the limit, for the links set by look(). */
 static struct room room_of(const struct end *end)
 {
     const struct tree_work *work = end->run->during->tree;
@@ -41,7 +41,7 @@ static struct room room_of(const struct end *end)
                       : coupling_room(end->run->model, work, end->coupling, end->end);
 }
 
-/* The same within the last step; NAN where that is not known. */
+/* The same at a time within the last step; NAN where it is not available. */
 static struct room room_at(const struct end *end, double t)
 {
     struct run *run = end->run;
@@ -51,14 +51,14 @@ static struct room room_at(const struct end *end, double t)
     return room_of(end);
 }
 
-/* Used up by more than rounding. */
+/* Is the room negative by more than rounding? */
 static bool is_used_up(struct room room)
 {
     const double rounding = 1e-12;
     return room.left < -rounding * room.size;
 }
 
-/* A time in a stretch at which it is used up, where it may be at its least; NAN where it is not. */
+/* A time in an interval at which the room is used up, tested near its minimum; NAN if there is none. */
 static double used_up_within(const struct end *end, double from, double to)
 {
     struct room before = room_at(end, from), after = room_at(end, to);
@@ -74,7 +74,7 @@ static double used_up_within(const struct end *end, double from, double to)
     return NAN;
 }
 
-/* The time at which nothing is left: between one at which there is something, and one at which it is used up. */
+/* The time at which the room vanishes, by bisection between a time with room and one without. */
 static double empty_time(const struct end *end, double some, double none)
 {
     for (;;) {
@@ -84,7 +84,7 @@ static double empty_time(const struct end *end, double some, double none)
     }
 }
 
-/* What is no rope always is, whatever it rubs, but for a point that is off its slot. */
+/* Other couplings than ropes are always taut, except for a point off its slot. */
 static bool is_taut(const struct fbd_state *state, const struct coupling *coupling)
 {
     if (slot_is_open(coupling, state->slip)) return false;
@@ -115,23 +115,23 @@ static void fail_at_end(const struct end *end, double t, bool gets_taut)
             name_of(run, coupling, end->end == 0 ? 0 : coupling->end_count - 1));
 }
 
-/* Is there plenty left in a part of a step, as the interpolant tells? Where the rate turns, what is left is above its
- * tangents at both ends. */
+/* Is the room large in a part of a step, by the dense output? Where the rate changes its sign the room is
+ * assumed to lie above its tangents at both ends. */
 static bool has_plenty(const struct end *end, struct room before, struct room after, double length)
 {
-    const double share = 0.01, tolerances = 100; /* errors of interpolants are some tens of them */
+    const double share = 0.01, tolerances = 100; /* errors of dense output are some tens of them */
     double least = fmax(share, tolerances * end->run->options.tolerance) * after.size;
     if (!(before.left > least && after.left > least)) return false;
     bool turns = before.rate < 0 && after.rate > 0;
     return !turns || fmax(before.left + before.rate * length, after.left - after.rate * length) > least;
 }
 
-/* The same of all parts of the last step, by samples that take no steps. */
+/* The same for all parts of the last step, by dense output. */
 static bool is_far(const struct end *end, double from, double length, int parts)
 {
     struct run *run = end->run;
     struct room before = {0};
-    if (run->options.step > 0) return false; /* of no known accuracy */
+    if (run->options.step > 0) return false; /* unknown accuracy */
     for (int k = 0; k <= parts; k++) {
         if (switcher_dense(run->stepper, time_dd_at(from + k * length), run->work.aside) != 0) return false;
         look(run, from + k * length, run->work.aside);
@@ -155,7 +155,7 @@ static void watch_end(const struct end *end, struct time_dd *t)
     if (!isnan(used)) fail_at_end(end, t->t, false);
 }
 
-/* Where a piece is at its shortest within the last step: it may go through nothing and grow again, beyond the rim. */
+/* The time at which a piece is shortest within the last step: it may vanish and grow again, beyond the rim. */
 static double shortest_at(const struct end *piece, double little, double to)
 {
     enum { parts = 8 };
@@ -166,14 +166,14 @@ static double shortest_at(const struct end *piece, double little, double to)
         double middle = from + (to - from) / 2;
         if (!(middle > from && middle < to)) break;
         struct room room = room_at(piece, middle);
-        if (room.rate < 0 && room.left <= little * room.size) return middle; /* while it has a direction */
+        if (room.rate < 0 && room.left <= little * room.size) return middle; /* it still has a direction */
         *(room.rate < 0 ? &from : &to) = middle;
     }
     return to;
 }
 
-/* What is left of a straight piece and gets less: a millionth of the disc, a thousandth of the rope that is hauled in, about
- * whose end a load turns ever faster, or 1e-9 of the rope between points. */
+/* End the run where a straight piece becomes too short: a millionth of the disc, a thousandth of a rope that
+ * is hauled in, about whose end a load turns ever faster, or 1e-9 of a rope between points. */
 static void watch_piece(const struct end *piece, struct time_dd *t)
 {
     struct run *run = piece->run;
@@ -182,7 +182,7 @@ static void watch_piece(const struct end *piece, struct time_dd *t)
     const double little = coupling->reels ? 1e-3 : at_rim ? 1e-6 : 1e-9;
     double when = shortest_at(piece, little, t->t);
     struct room room = room_at(piece, when);
-    if (room.left > little * room.size || room.rate > 0) { /* a number that is none has gone beyond */
+    if (room.left > little * room.size || room.rate > 0) { /* NAN is beyond */
         switcher_partial(run->stepper, *t, run->work.y, run->work.f);
         return;
     }
@@ -194,9 +194,9 @@ static void watch_piece(const struct end *piece, struct time_dd *t)
         t->t, coupling->name, name_of(run, coupling, piece->end), name_of(run, coupling, piece->end + 1));
 }
 
-/* Pieces between points of a taut rope of constant length: one becomes shorter as another becomes longer. The ends of the
- * step show which of them have to be watched within. A piece that ends on a rim passes through zero length where its
- * other end passes the point of tangency, and the motion goes on. */
+/* Check pieces between points of a taut rope of constant length: one becomes shorter as another becomes
+ * longer. The ends of the step show which of them have to be searched within it. A piece that ends on a rim
+ * passes through zero length where its other end passes the point of tangency, and the motion goes on. */
 static void watch_shortening(struct run *run, int index, struct time_dd *t)
 {
     const struct coupling *coupling = &run->model->tree->couplings[index];
@@ -211,7 +211,7 @@ static void watch_shortening(struct run *run, int index, struct time_dd *t)
     }
 }
 
-/* A rope that rubs has become straight, and comes off its drum. */
+/* End the run where a rope with friction on a drum has become straight. */
 static void watch_wrap(struct run *run, int index, struct time_dd t)
 {
     const struct coupling *coupling = &run->model->tree->couplings[index];
@@ -240,9 +240,9 @@ static void watch_coupling(struct run *run, int i, struct time_dd *t)
     if (coupling->kind == constraint_rope && !hauls && is_taut(state, coupling)) watch_shortening(run, i, t);
 }
 
-/* ---- a point that is off its slot passes an end of it */
+/* ---- a point off its slot passes an end of it */
 
-/* What is left of the slot, from where rounding cannot tell any more that it is within (half of slot_rounding). */
+/* The room in the slot, plus half of slot_rounding, the uncertainty of being within. */
 static struct room way_at(const struct end *end, double t)
 {
     struct room room = room_at(end, t);
@@ -250,7 +250,8 @@ static struct room way_at(const struct end *end, double t)
     return room;
 }
 
-/* A time in a stretch at which it is on the other side of the end than it was before; NAN where it is not. */
+/* A time in an interval at which the point is on the other side of the end than at `from`; NAN if there is
+ * none. */
 static double passed_within(const struct end *end, int side, double from, double to)
 {
     double before = side * way_at(end, from).rate;
@@ -267,8 +268,8 @@ static double passed_within(const struct end *end, int side, double from, double
     return NAN;
 }
 
-/* The last time on the same side, between one at which it is there and one at which it has passed; the first on the other
- * side where that is where the step begins. */
+/* By bisection, the last time on the same side; or the first on the other side if that is at the begin of the
+ * step. */
 static double passing_time(const struct end *end, int side, double not_yet, double passed)
 {
     for (;;) {
@@ -278,8 +279,8 @@ static double passing_time(const struct end *end, int side, double not_yet, doub
     }
 }
 
-/* What it meets is another thing there, so that one step ends just before, and the next one just behind. It does not come
- * back from behind. */
+/* Beyond the end the gap is a different function, so one step ends just before, and the next one just behind.
+ * A return from behind the slot ends the run. */
 static void watch_passing(const struct end *end, struct time_dd *t)
 {
     enum { parts = 8 };
@@ -316,10 +317,10 @@ void run_watch_slots(struct run *run, struct time_dd *t)
     }
 }
 
-/* ---- a point that is off its slot comes back to it, a slack rope gets taut */
+/* ---- return of a point to its slot, of a slack rope to its full length */
 
-/* How far it is off, by how much that varies in a second at most, and for how long it is a function without surprises: while
- * nothing at it turns by more than a radian, nor goes a quarter of the radius of a curve. */
+/* The gap, a bound of its rate, and the longest interval in which it is a smooth function: rotation by at
+ * most one radian, and displacement by at most a quarter of the radius of a curve. */
 struct flight {
     double apart, speed, longest;
 };
@@ -329,7 +330,7 @@ static bool is_slack(const struct fbd_state *state, const struct coupling *coupl
     return coupling->kind == constraint_rope && coupling->pair >= 0 && state->slip[coupling->pair] != stick;
 }
 
-/* Within the last step. */
+/* At time t within the last step. */
 static bool flight_at(struct run *run, int index, double t, struct flight *flight)
 {
     const struct coupling *coupling = &run->model->tree->couplings[index];
@@ -346,8 +347,9 @@ static bool flight_at(struct run *run, int index, double t, struct flight *fligh
     return true;
 }
 
-/* How far it is off bends where another place of a slot has come nearer, and may fall to nothing and grow again on its way
- * through a cam, or as a crank turns that pulls a rope. So a stretch is as long as it stays apart, or else short. */
+/* The gap has a kink where another part of the slot becomes the nearest, and may vanish and grow again in
+ * passing a cam, or as a crank turns that pulls a rope. So the interval is one in which the gap stays open,
+ * or else a short one. */
 static double until_near(struct run *run, int index, double from, double to)
 {
     const double speeds = 1.5;
@@ -373,7 +375,7 @@ double run_flights(struct run *run, double from, double to)
     return to;
 }
 
-/* ---- the whole */
+/* ---- all couplings */
 
 void run_watch_ends(struct run *run, struct time_dd *t)
 {

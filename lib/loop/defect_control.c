@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Steps that are torn: at the ends and stages of a step a pulse may be asleep, and awake at a place inside at which the
- * method looks for nothing but the interpolant that events are searched by. Then the interpolant goes astray over all of
- * the step, and with it the search for the pulse. It does not obey the equations any more, by far: the slopes that it has
- * are not those that they give. Implicit methods are not asked: between fast components their interpolants need not.
- * (But those of bounces: falls_at_once.)
+ * Defect control: at the ends and stages of a step a pulse may vanish, but not at an inner point at which the
+ * method evaluates only the interpolant for the event search. Then the interpolant is wrong over the whole
+ * step, and so is the search for the pulse. Its derivative differs from the right-hand side by far. Implicit
+ * methods are not checked: the interpolants of fast components need not satisfy the equations (except after
+ * bounces: falls_at_once).
  */
 #include <gsl/gsl_errno.h>
 #include <math.h>
@@ -12,7 +12,7 @@
 
 #include "loop/run.h"
 
-/* The slopes of the interpolant at a share of the step, by differences, and those of the equations. */
+/* The derivative of the interpolant at a fraction of the step, by differences, and the right-hand side there. */
 static bool take_slopes(struct run *run, double share, double h, double *slope, double *f)
 {
     const double apart = 1e-3; /* of the step */
@@ -26,7 +26,7 @@ static bool take_slopes(struct run *run, double share, double h, double *slope, 
     return taken;
 }
 
-/* The largest rate, and state, of a kind: what is less than a rounding of it is nothing. */
+/* The largest rate or state of a kind; values below a small multiple of it are negligible. */
 static double largest(const double *most, size_t from, size_t to)
 {
     double size = 0;
@@ -43,14 +43,14 @@ static bool obeys(const struct run *run, double h, const double *slope, const do
     double least = nothing * fmax(largest(most, from, to), largest(run->work.y, from, to));
     for (size_t i = from; i < to; i++) {
         double size = fmax(fmax(most[i], fabs(run->work.y[i])), least), off = fabs(f[i] - slope[i]);
-        /* What a coupling holds has accelerations that are rounding. */
+        /* Accelerations of components held by couplings are rounding. */
         if (i < 2 * n && off <= roundings * run->roundoff.accelerations[i - n]) continue;
         if (h * off > far_off * size + far_off * h * fabs(run->work.f[i])) return false;
     }
     return true;
 }
 
-/* The moving functions at the start of the step, or a share of it further. */
+/* Evaluate the moving functions at the start of the step, or at a fraction of it. */
 static bool look_at_functions(struct run *run, double share, double h)
 {
     double *y = run->work.kept;
@@ -64,9 +64,9 @@ static bool look_at_functions(struct run *run, double share, double h)
     return true;
 }
 
-/* The first step of a method that knows no more than ends of steps is a line, with the speed that it comes to. What has just
- * bounced goes through its floor at once, where that is beyond the top of its flight: a flight less high than an error
- * of the step. */
+/* The first dense output of a multistep method is linear, with the speed at the end of the step. A body that
+ * has just bounced then falls through its floor at once if the step ends beyond the top of its flight: a
+ * flight lower than the error of the step. */
 static bool falls_at_once(struct run *run, double h)
 {
     const double share = 1.0 / 16;

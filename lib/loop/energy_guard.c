@@ -13,8 +13,9 @@
 
 double energy_explained(double tolerance, double steps, double in_motion, double terms)
 {
-    /* Runs of few steps are allowed a hundred; below its rounding a tolerance says nothing. Over the gallery, by methods from
-     * 1e-4 to 1e-10, residuals are up to a half of this by msadams where a ball bounces, and up to an eighth elsewhere. */
+    /* Runs of few steps are allowed a hundred; tolerances below their rounding are raised. Measured over the
+     * gallery, by methods from 1e-4 to 1e-10: residuals are up to a half of this by msadams with a bouncing
+     * ball, and up to an eighth elsewhere. */
     const double least_steps = 100, least_tolerance = 1e-13, tolerances = 4, roundings = 1e-11;
     return tolerances * (steps + least_steps) * fmax(tolerance, least_tolerance) * in_motion +
            roundings * terms;
@@ -43,7 +44,7 @@ double energy_of_place(const struct run *run)
     return sum;
 }
 
-/* In the scratch of `during`, which is unused then. `branch`: of masses that vary. */
+/* Kinetic energy, in the scratch of `during`, which is unused then. `branch`: of masses that vary. */
 static double kinetic_at(struct run *run, double t, const double *y, const int *branch)
 {
     const struct fbd_model *model = run->model;
@@ -71,7 +72,7 @@ static bool has_potentials(const struct fbd_model *model)
     return true;
 }
 
-/* The energy in motion at most: that of the largest rates there have been, with the places of the end. */
+/* An upper bound of the kinetic energy: that of the largest rates so far, at the final positions. */
 static double in_motion(struct run *run)
 {
     size_t n = (size_t)run->model->plan.n, size = plan_size(&run->model->plan);
@@ -87,7 +88,7 @@ static double potential_at(struct run *run, double t, const double *y, double *t
 {
     struct instant at = state_instant_at(run->during, t, y);
     double sum = 0;
-    at.branch = NULL; /* plain values on both sides */
+    at.branch = NULL; /* the same branches at both ends */
     if (run->model->tree) tree_move(run->model, &at);
     for (size_t i = 0; i < run->model->load_count; i++) {
         double potential = potential_energy(run->model, &run->model->loads[i], &at, run->work.sample);
@@ -129,7 +130,7 @@ struct energy_balance ensemble_energy_balance(struct ensemble *ensemble)
     double beyond = -1;
     for (size_t g = 0; g < ensemble->count; g++) {
         struct energy_balance one = look_at_run(ensemble->groups[g].run);
-        double ratio = fabs(one.residual) / one.explained; /* NAN where nothing moves, or nothing is known */
+        double ratio = fabs(one.residual) / one.explained; /* NAN without motion, or without a bound */
         if (!(ratio > beyond)) continue;
         beyond = ratio;
         worst = one;

@@ -10,9 +10,9 @@
 #include "dynamics/constraint.h"
 #include "rest/balance.h"
 
-/* ---- making and freeing */
+/* ---- allocation */
 
-/* The part of the start that is a group's, in two arrays. */
+/* Copy the components and branches of an island from the start. */
 static void part_of_start(const struct ensemble *ensemble, const struct group *group, double *y, int *branch)
 {
     const struct fbd_state *whole = ensemble->options.start;
@@ -21,7 +21,7 @@ static void part_of_start(const struct ensemble *ensemble, const struct group *g
     for (int i = 0; i < plan->branches; i++) branch[i] = whole->branch[group->branch ? group->branch[i] : i];
 }
 
-/* A run that goes on from the start of the ensemble. */
+/* A run that begins at the start of the ensemble. */
 static struct run *run_from_start(const struct ensemble *ensemble, const struct group *group)
 {
     const struct plan *plan = &group->model->plan;
@@ -55,7 +55,7 @@ static bool make_group(struct ensemble *ensemble, struct group *group)
     return group->probe != NULL;
 }
 
-/* Room for the maps of all groups, and for the counts of what is in them while they are made. */
+/* Allocate the maps of all islands, and counters for filling them. */
 static bool allocate_maps(struct ensemble *ensemble)
 {
     const struct fbd_model *whole = ensemble->model;
@@ -81,8 +81,7 @@ static void map_branches(struct ensemble *ensemble)
     for (size_t i = 0; i < plan->kink_count; i++) {
         const struct kink *kink = &plan->kinks[i];
         int p = kink->body >= 0 ? division->group_of_body[kink->body] : 0;
-        if (kink->body < 0 &&
-            kink->own < 0) { /* of a user event: the one whose formula begins with this branch */
+        if (kink->body < 0 && kink->own < 0) { /* find the user event whose formula begins here */
             int first = kink->formula.branch;
             while (plan->watches[watch].left.branch != first && plan->watches[watch].right.branch != first)
                 watch++;
@@ -93,9 +92,9 @@ static void map_branches(struct ensemble *ensemble)
     }
 }
 
-/* Where the branches, friction pairs and loads of the groups stand in the whole. The whole lists each in the
- * same order as the groups do (loads of bodies, couplings, named couplings, drives; switches of loads first and
- * those of user events last), so what is of a group comes in its order. */
+/* Map branches, friction pairs and loads of the islands to the whole. The whole lists each in the same order
+ * as the islands do (loads of bodies, couplings, named couplings, drives; switches of loads first and those
+ * of user events last), so those of an island come in its order. */
 static bool make_maps(struct ensemble *ensemble)
 {
     const struct fbd_model *whole = ensemble->model;
@@ -185,7 +184,7 @@ void ensemble_free(struct ensemble *ensemble)
     free(ensemble);
 }
 
-/* The first early end is the one that counts. */
+/* The first early end counts. */
 void ensemble_fail(struct ensemble *ensemble, fbd_outcome outcome, const char *reason)
 {
     if (ensemble->outcome != FBD_GOING && ensemble->outcome != FBD_DONE) return;
@@ -262,7 +261,7 @@ void ensemble_release(struct ensemble *ensemble, size_t count)
         qsort(ensemble->events + before, ensemble->event_count - before, sizeof *ensemble->events, by_time);
 }
 
-/* ---- looking */
+/* ---- states within steps */
 
 typedef bool look_at_run(struct run *run, double t, struct fbd_state *state);
 
@@ -279,7 +278,7 @@ static bool look_run(struct run *run, double t, struct fbd_state *state)
     return t >= run->step.from && t < run->state->t && run_look(run, time_dd_at(t), state);
 }
 
-/* The double next to the end of a step is the end, whose rest it has not. */
+/* The double nearest to the end of a step stands for the end, including its low part. */
 static bool look_run_before(struct run *run, double t, struct fbd_state *state)
 {
     return run_look(run, t == run->state->t ? run_end(run) : time_dd_at(t), state);
@@ -298,7 +297,7 @@ struct fbd_state *ensemble_look_group(struct ensemble *ensemble, size_t index, s
     return seen ? group->probe : NULL;
 }
 
-/* Put coordinates and rates of a group in their places among those of the whole. */
+/* Copy coordinates and rates of an island to the whole. */
 static void scatter_coordinates(const struct fbd_model *whole, const struct group *group, double *y)
 {
     const double *part = group->probe->y;
@@ -319,7 +318,7 @@ bool ensemble_group_coordinates(struct ensemble *ensemble, size_t group, struct 
     return true;
 }
 
-/* What a group slides on, with the kinks of the whole and surfaces of its own. */
+/* Copy the Filippov sliding modes of an island, with the kinks of the whole and separate surfaces. */
 static void scatter_slides(const struct group *group, const struct fbd_state *part, struct fbd_state *state)
 {
     if (!part->sliding || !state->sliding) return;
@@ -349,13 +348,13 @@ static void scatter_modes(const struct group *group, const struct fbd_state *par
         size_t pair = whole ? i : (size_t)group->pairs[i];
         state->slip[pair] = part->slip[i];
         state->pull[pair] = part->pull[i];
-        if (plan->modes[i].kind == mode_contact) /* at which feature it is */
+        if (plan->modes[i].kind == mode_contact) /* its feature */
             state->tree->couplings[state->model->plan.modes[pair].coupling] =
                 part->tree->couplings[plan->modes[i].coupling];
     }
 }
 
-/* Put the state of a group in its place in that of the whole. */
+/* Copy the state of an island to that of the whole. */
 static void scatter(const struct fbd_model *whole, const struct group *group, struct fbd_state *state)
 {
     scatter_coordinates(whole, group, state->y);

@@ -1,27 +1,26 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Ensemble: the independent groups of a scene, each carried by a run of its own, seen as one run of the
- * whole.
+ * Ensemble: the islands of a scene, each integrated by a run of its own, seen as one run of the whole.
  *
- * Every group has its own stepper, step size, modes and event functions, and starts anew at its own events
- * only. So a thousand bodies with one stiff one cost the sum of their costs, and not the steps of the worst
- * one times the number of bodies. A scene whose bodies all hang together is an ensemble of one.
+ * Every island has its own stepper, step size, modes and event functions, and restarts at its own events
+ * only. So a thousand bodies with one stiff one cost the sum of their costs, and not the steps of the
+ * stiffest times the number of bodies. A scene whose bodies are all coupled is an ensemble of one.
  *
- * There are two ways to move the common time t on:
+ * There are two ways to advance the common time t:
  *
- *   ensemble_advance   the group that is furthest behind makes a step, and t becomes the least of the ends of
- *                      all last steps, or an event to tell before it. The last step of every group then
- *                      covers [from, t], so the state is to be had anywhere in it.
+ *     ensemble_advance   the island that is furthest behind makes a step, and t becomes the least of the ends of
+ *                        all last steps, or an event to log before it. The last step of every island then
+ *                        covers [from, t], so the state is available anywhere in it.
  *
- *   ensemble_go        t goes to a given time, by any number of steps; the state is to be had at t only. A
- *                      group in which nothing can happen (no event function at all) is carried there in one
- *                      go, which keeps its memory in the processor's caches.
+ *     ensemble_go        t goes to a given time, by any number of steps; the state is available at t only. An
+ *                        island without event functions makes all its steps at once, which keeps its
+ *                        memory in the processor's caches.
  *
- * Both give the same trajectory bit for bit: a step of a group depends on nothing but the group. One
- * simulation uses one of them.
+ * Both give the same trajectory bit for bit: a step of an island depends on nothing outside it. A simulation
+ * uses one of them.
  *
- * When the run ends early at t, by an event or a failure in one group, the others are looked at there too.
- * One that has gone beyond, which ensemble_go allows to groups without events, is carried there again.
+ * When the run ends early at t, by an event or a failure in one island, the state of the others at t is
+ * needed, too. An island without events that ensemble_go has advanced beyond t is integrated again up to t.
  */
 #ifndef FBD_LOOP_ENSEMBLE_H
 #define FBD_LOOP_ENSEMBLE_H
@@ -30,25 +29,25 @@
 #include "loop/run.h"
 
 struct group {
-    const struct fbd_model *model; /* the whole scene's, or `owned` */
+    const struct fbd_model *model; /* that of the whole scene, or `owned` */
     struct fbd_model *owned;
     const struct selection *selection;
     struct run *run;
     struct fbd_state *probe;
-    bool quiet;          /* no event can happen in it */
-    size_t released;     /* of run->log.events: taken over by the ensemble */
-    int *branch, *pairs; /* of its branches and friction pairs in the whole plan; NULL when it is the whole */
-    int *loads;          /* of its loads in the whole model; NULL when it is the whole */
+    bool quiet;          /* without event functions */
+    size_t released;     /* events of run->log copied to the ensemble */
+    int *branch, *pairs; /* indices of branches and friction pairs in the whole plan; NULL: the same */
+    int *loads;          /* indices of loads in the whole model; NULL: the same */
 };
 
 struct ensemble;
 
-/* Told of every step of every group as soon as it is made. */
+/* Called after every step of every island. */
 struct observer {
     void *context;
     bool (*step)(void *context, struct ensemble *ensemble, size_t group); /* false ends the run */
     void (*restart)(void *context, struct ensemble *ensemble,
-                    size_t group); /* the group begins again at t = 0 */
+                    size_t group); /* the island restarts at t = 0 */
 };
 
 struct ensemble {
@@ -57,96 +56,97 @@ struct ensemble {
     struct islands division;
     size_t count;
     struct group *groups;
-    int *maps;     /* memory of the groups' maps */
-    int *counts;   /* scratch of their making, in `maps` */
-    size_t *queue; /* heap of groups by the ends of their last steps */
+    int *maps;     /* memory of the islands' maps */
+    int *counts;   /* scratch of make_maps, in `maps` */
+    size_t *queue; /* heap of islands by the ends of their last steps */
     size_t queued;
-    bool lazy;        /* moved by ensemble_go: quiet groups are not queued */
-    bool started;     /* the queue is there */
-    bool cut;         /* it has been asked to end */
-    bool stepping;    /* a group is making a step */
+    bool lazy;        /* advanced by ensemble_go: quiet islands are not queued */
+    bool started;     /* the queue is filled */
+    bool cut;         /* an interruption is requested */
+    bool stepping;    /* an island is making a step */
     double from, t;   /* see above; with ensemble_go from == t */
-    double next_told; /* with ensemble_advance: the first event to tell that lies within the last step of a
-                         group */
-    double calm;      /* before this time no group steps, tells an event or ends: ensemble_go looks at none */
+    double next_told; /* with ensemble_advance: the first event to log within the last step of an island */
+    double calm;      /* before this time no island steps, logs an event or ends */
     fbd_outcome outcome;
-    const char *reason; /* "" while all is well */
+    const char *reason; /* "" without a failure */
     char own_reason[reason_size];
-    const struct run *refused; /* the one whose start is, and so the whole; or NULL */
+    const struct run *refused; /* an island whose start is refused, or NULL */
     struct observer observer;
 
-    struct run_event *events; /* up to t, of all groups in the order of time, indices of the whole scene */
+    struct run_event
+        *events; /* up to t, of all islands in the order of time, with indices of the whole scene */
     size_t event_count, event_room;
     struct fbd_state *state; /* of the whole, see ensemble_state */
     bool current;
-    size_t *due;          /* scratch: groups at t */
-    struct arrow *arrows; /* scratch: the most of a diagram */
+    size_t *due;          /* scratch: islands at t */
+    struct arrow *arrows; /* scratch of diagrams */
 };
 
-/* A run of the model at its start, divided if options->structure. NULL when memory is out. */
+/* A run of the model at its start, divided into islands if options->structure. NULL when memory is out. */
 struct ensemble *ensemble_new(const struct fbd_model *model, const struct run_options *options);
 void ensemble_free(struct ensemble *ensemble);
 
-/* Move on as said above, at most to the end of the run. ensemble_go stops before `target` at an event if
- * `pause`, also at one that lies beyond it by `near` at most. */
+/* Advance as described above, at most to the end of the run. With `pause` ensemble_go stops before `target`
+ * at an event, also at one beyond it by at most `near`. */
 fbd_outcome ensemble_advance(struct ensemble *ensemble);
 fbd_outcome ensemble_go(struct ensemble *ensemble, double target, double near, bool pause);
 
-/* End it, as interrupted: now, or from an observer, as soon as all groups can be seen at one time. */
+/* End it as interrupted: now, or from an observer, as soon as the states of all islands are available at one
+ * time. */
 void ensemble_interrupt(struct ensemble *ensemble);
 
-/* With ensemble_go: a target that is at most the end of a step of any group, and above ensemble->t. */
+/* For ensemble_go: a target above ensemble->t, and at most the end of a step of any island. */
 double ensemble_next_end(const struct ensemble *ensemble);
 
-/* Have all groups made a step that reaches t? */
+/* Have all islands made a step that reaches t? */
 bool ensemble_has_reached(const struct ensemble *ensemble, double t);
 
-/* The evaluated state at t, from <= t <= ensemble->t, with the modes of the steps around it, and those after
- * an event at its very time. False when it cannot be had. */
+/* The evaluated state at t, from <= t <= ensemble->t, with the modes of the steps around it; at an event with
+ * those after it. False when it is not available. */
 bool ensemble_look(struct ensemble *ensemble, double t, struct fbd_state *state);
 
-/* Coordinates and rates of one group at t, within its last step, in their places among those of the whole. False when
- * they cannot be had. */
+/* Coordinates and rates of one island at t, within its last step, stored among those of the whole. False when
+ * they are not available. */
 bool ensemble_group_coordinates(struct ensemble *ensemble, size_t group, struct time_dd t, double *y);
 
-/* The same, but at the very time of an event with the modes before it. */
+/* The same, but at an event with the modes before it. */
 bool ensemble_look_before(struct ensemble *ensemble, double t, struct fbd_state *state);
 
-/* Only coordinates and rates there, 2 n, without evaluating anything but the dense output. */
+/* Only coordinates and rates at t, 2 n, from the dense output alone. */
 bool ensemble_coordinates(struct ensemble *ensemble, double t, double *y);
 
-/* Put the jump of the events at the end of a group's last step, and its modes after them, into a state of the
- * whole that has not come to them; not evaluated. */
+/* Apply the jump of the events at the end of an island's last step, and its modes after them, to a state of
+ * the whole before them; not evaluated. */
 void ensemble_pass_on(const struct ensemble *ensemble, size_t index, struct fbd_state *state);
 
-/* The component of the whole (n coordinates, then n rates) that is `i` in a group. */
+/* Index in the whole (n coordinates, then n rates) of component `i` of an island. */
 size_t group_component(const struct fbd_model *whole, const struct group *group, size_t i);
 
-/* End it as failed when the forces at ensemble->t do not account for the motion (balance.h). */
+/* Fail when the forces at ensemble->t do not balance the accelerations (balance.h). */
 void ensemble_check_balance(struct ensemble *ensemble);
 
-/* The state at ensemble->t; stays valid until the ensemble moves on. */
+/* The state at ensemble->t; valid until the ensemble advances. */
 struct fbd_state *ensemble_state(struct ensemble *ensemble);
 
-/* Group `index` at t, within its last step or at the end of it, as by ensemble_look, in its own coordinates:
- * its probe, or NULL. Without `forces` only its coordinates and rates are those at t. */
+/* The state of island `index` at t, within its last step or at the end of it, as by ensemble_look, in its own
+ * coordinates: its probe, or NULL. Without `forces` only coordinates and rates are set. */
 struct fbd_state *ensemble_look_group(struct ensemble *ensemble, size_t index, struct time_dd t, bool forces);
 
-/* The body or load of the whole scene that is `index` in a group; -1 for -1. */
+/* Index in the whole scene of body or load `index` of an island; -1 for -1. */
 int group_body(const struct group *group, int index);
 int group_load(const struct group *group, int index);
 
-/* ---- for the files of the ensemble */
+/* ---- internal to the ensemble */
 
-/* Take over the events up to ensemble->t of the groups listed in due[0 .. count - 1]. */
+/* Copy the events up to ensemble->t of the islands due[0 .. count - 1] to the ensemble. */
 void ensemble_release(struct ensemble *ensemble, size_t count);
 
-/* Make the run of a group. */
+/* Make the run of an island. */
 bool ensemble_make_run(struct ensemble *ensemble, struct group *group);
 
 void ensemble_fail(struct ensemble *ensemble, fbd_outcome outcome, const char *reason);
 
-/* End with failure, also where it had come to its end: what has been found makes it worthless. */
+/* End with failure, even after the end, when a later check shows the results to be wrong. */
 void ensemble_spoil(struct ensemble *ensemble, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
 #endif

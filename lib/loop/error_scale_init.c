@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * How large what starts from zero becomes: the size that its errors are compared with.
+ * Error scales of components that start from zero.
  */
 #include <float.h>
 #include <gsl/gsl_errno.h>
@@ -14,8 +14,9 @@
 #include "dynamics/user_states.h"
 #include "loop/run.h"
 
-/* The acceleration of coordinate i (or the rate of a state) at this instant, or its change within a short time where that is
- * larger: drives start without an acceleration. A change within the round-off level of the acceleration is none. */
+/* The acceleration of coordinate i (or the rate of a user state), or its change within the time tau where
+ * that is larger, since drives start without an acceleration. A change below the round-off level of the
+ * acceleration is ignored. */
 static double starting(const struct run *run, size_t i, double tau)
 {
     double a = run->state->a[i], later = tau * run->roundoff.along[i];
@@ -32,18 +33,17 @@ static void vary(struct run *run, const struct instant *at, const double *dy, do
         user_state_rates_along(run->model, at, &direction, along + run->model->plan.n);
 }
 
-/* How long each acceleration, and rate of a state, goes on as it starts: for less than the time that is given where something
- * ends it before. */
+/* ---- the time for which each acceleration, and rate of a user state, keeps its initial size */
 
-/* Accelerations, and rates of states, at another instant or place; false where there are none. */
+/* Accelerations, and rates of user states, at another time or state; false where they are not finite. */
 static bool accelerations_there(const struct run *run, double t, const double *y, double *f)
 {
     const gsl_odeiv2_system *system = &run->system.inner;
     return system->function(t, y, f, system->params) == GSL_SUCCESS;
 }
 
-/* Forces fade, or turn round by themselves: one of 1 kN that falls with (t + 1 us)^-2 moves 1 kg by 1e-3 m/s, and not by
- * 100 m/s in a tenth of a second. `along` is by the time alone. */
+/* Forces may decay or change sign as functions of time: a force of 1 kN that falls with (t + 1 us)^-2 moves 1
+ * kg at 1e-3 m/s, not at 100 m/s, after a tenth of a second. `along` is the derivative by time alone. */
 static void end_with_forces(struct run *run, double tau, double *times)
 {
     const double most = 0.75;
@@ -64,8 +64,9 @@ static void end_with_forces(struct run *run, double tau, double *times)
     }
 }
 
-/* Springs and dampers turn it round as soon as what it makes of places and speeds changes it by no less than itself: a
- * spring of 3e8 N/m whose end is moved by 0.4 m/s would have a block of 0.2 kg at 10 km/s in 4 ms. */
+/* Springs and dampers reverse the acceleration when its effect on positions and speeds changes it by as much
+ * as itself: a spring of 3e8 N/m whose end moves at 0.4 m/s would otherwise give a block of 0.2 kg a speed of
+ * 10 km/s in 4 ms. */
 static void end_with_springs(struct run *run, const struct instant *at, double *times)
 {
     const struct plan *plan = &run->model->plan;
@@ -86,7 +87,7 @@ static void end_with_springs(struct run *run, const struct instant *at, double *
     }
 }
 
-/* What starts to move as far and as fast as it does in these times. */
+/* The state with the displacements and velocities reached in these times. */
 static void set_off(const struct run *run, const double *times, double *y)
 {
     const size_t n = (size_t)run->model->plan.n, rates = (size_t)plan_rates(&run->model->plan);
@@ -98,8 +99,8 @@ static void set_off(const struct run *run, const double *times, double *y)
     }
 }
 
-/* That was the answer of straight lines. A spring that stiffens, or drag by the square of the speed, is not there yet where
- * it starts: halved until accelerations change by no more than twice themselves. */
+/* The estimate before is linear. A spring that stiffens, or quadratic drag, has no effect on it at the start:
+ * halve the times until accelerations change by no more than twice their size. */
 static void end_with_bends(struct run *run, double *times)
 {
     enum { most_halvings = 60 };
@@ -120,8 +121,8 @@ static void end_with_bends(struct run *run, double *times)
     }
 }
 
-/* What a coordinate and its rate become in a short time, and the arm that makes a length of an angle: of a body
- * that turns, the radius of gyration. */
+/* Sizes of a coordinate and its rate after a short time, and the arm that converts an angle to a length: the
+ * radius of gyration of a turning body. */
 struct motion_size {
     double place, rate, arm;
 };
@@ -137,8 +138,8 @@ static struct motion_size motion_size(const struct run *run, const struct model_
     return (struct motion_size){v * tau + a * tau * tau, fmax(v, a * tau), arm};
 }
 
-/* The largest of all, as lengths and speeds: by what moves, or by what starts to where nothing moves yet, for near
- * singular positions accelerations are far beyond what comes of them. */
+/* The largest of all, as lengths and speeds: from present velocities, or from accelerations if all velocities
+ * are zero, since near singular positions accelerations overestimate the motion by far. */
 static struct motion_size largest_motion(const struct run *run, const double *times)
 {
     const int n = run->model->plan.n;
@@ -162,7 +163,8 @@ static struct motion_size largest_motion(const struct run *run, const double *ti
     return all;
 }
 
-/* Couplings bring states back to rounding of a radian, or of the scene: an error that is allowed of this is that. */
+/* Couplings are projected to the rounding of a radian, or of the size of the scene: the scale whose allowed
+ * error is that. */
 static double unseen_place(const struct run *run, const struct model_body *body, int k)
 {
     double reach = 0;
@@ -171,16 +173,17 @@ static double unseen_place(const struct run *run, const struct model_body *body,
     return DBL_EPSILON / run->options.tolerance * (coordinate_turns(body, k) ? 1 : reach);
 }
 
-/* A coordinate or rate that is exactly zero has no size that an error could be compared with, and a method of
- * low order needs one (Euler's first step from rest errs by all that the body moves). What the acceleration
- * does in a thousandth of the run is small, and enough; of the time for which it lasts (end_with_forces and what
- * follows it), for a force that is switched on may be large and short, and a stiff spring turns it round. The last of a row
- * of blocks on springs that is pulled at its other end starts as a high power of the time, or by rounding, which no step follows to a share of itself: what is a
- * billionth of the largest motion has that for its size. */
+/* A coordinate or rate that is exactly zero has no scale for its error, and a method of low order needs one
+ * (Euler's first step from rest has an error as large as the displacement). The scale is the displacement by
+ * the acceleration in a thousandth of the run, limited to the time for which the acceleration lasts
+ * (end_with_forces and the functions after it): a force that is switched on may be large and short, and a
+ * stiff spring reverses it. In a row of blocks on springs, the block farthest from the force starts as a high
+ * power of time, or by rounding, which no step resolves relative to its size: components below a billionth of
+ * the largest motion have that as their scale. */
 static void set_floors(struct run *run, double tau, const double *times)
 {
     const struct tree *tree = run->model->tree;
-    /* Bodies that touch rest or part by roundings of their gaps: each keeps its own size. */
+    /* Touching bodies rest or separate by roundings of their gaps: each keeps its own scale. */
     const double negligible = tree && tree->meeting_count > 0 ? 0 : 1e-9;
     struct motion_size all = largest_motion(run, times);
     for (size_t b = 0; b < run->model->body_count; b++) {
@@ -188,7 +191,7 @@ static void set_floors(struct run *run, double tau, const double *times)
         for (int k = 0; k < body->count; k++) {
             size_t position = (size_t)body->first + (size_t)k, rate = position + (size_t)run->model->plan.n;
             struct motion_size own = motion_size(run, body, k, times);
-            bool sized = own.arm > 0 && isfinite(own.arm); /* what is driven need have no mass */
+            bool sized = own.arm > 0 && isfinite(own.arm); /* a driven body may have no mass */
             double place = sized ? negligible * all.place / own.arm : 0;
             double speed = sized ? negligible * all.rate / own.arm : 0;
             run->roundoff.nothing[position] = fmax(run->roundoff.nothing[position], place);
@@ -197,7 +200,7 @@ static void set_floors(struct run *run, double tau, const double *times)
             if (run->state->y[rate] == 0) speed = fmax(speed, own.rate);
             if (tree && tree->row_count > 0 && tree->meeting_count == 0 && place == 0 && speed == 0 &&
                 run->state->y[position] == 0) {
-                place = unseen_place(run, body, k); /* held by a coupling, before anything acts */
+                place = unseen_place(run, body, k); /* held by a coupling, without a load yet */
                 speed = place / tau;
             }
             switcher_set_floor(run->stepper, position, place);
@@ -206,7 +209,7 @@ static void set_floors(struct run *run, double tau, const double *times)
     }
 }
 
-/* Is there a number that is zero, or rounding beside the largest? */
+/* Is there a number that is zero, or at round-off level of the largest? */
 static bool any_is_small(const struct run *run)
 {
     const int n = run->model->plan.n;
@@ -218,7 +221,7 @@ static bool any_is_small(const struct run *run)
     return n > 0 && least <= DBL_EPSILON * most;
 }
 
-/* Likewise a state that starts from zero. */
+/* The same for a user state that starts from zero. */
 static void set_own_floor(struct run *run, int i, const double *times)
 {
     const struct plan *plan = &run->model->plan;
@@ -238,7 +241,7 @@ void error_scale_init(struct run *run)
     const double share = 1e-3, tau = share * run_time_to_switch(run);
     double *times = run->work.kept;
     for (size_t i = 0; i < plan_rates(plan); i++) times[i] = tau;
-    end_with_forces(run, tau, times); /* `along` is that by the time alone */
+    end_with_forces(run, tau, times); /* `along` is the derivative by time alone here */
     struct instant at = state_instant(run->state);
     roundoff_changes(run, &at, false, run->roundoff.along);
     end_with_springs(run, &at, times);

@@ -12,11 +12,12 @@ static inline bool coordinate_turns(const struct model_body *body, int k)
     return body->kind == motion_pivot || k == 2;
 }
 
-/* How fast the accelerations change: along the motion, or by the time alone, which is what its rounding does to them.
- * `along` has plan_rates entries: the rates of states change likewise. */
+/* Rates of change of accelerations and rates of user states: along the motion, or by time alone (the effect
+ * of a rounding of time). `along` has plan_rates entries. */
 void roundoff_changes(struct run *run, const struct instant *at, bool by_time, double *along);
 
-/* Floors for the errors of what is zero at a start; run->roundoff.along is that by the time alone. */
+/* Set error floors for components that are zero at a start; run->roundoff.along is then the derivative by
+ * time alone. */
 void error_scale_init(struct run *run);
 
 #endif

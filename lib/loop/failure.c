@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Why a run ended early, in the words of the scene: time, body, quantity and what to try.
+ * Messages for runs that end early, in terms of the scene: time, body, quantity and advice.
  */
 #include <gsl/gsl_errno.h>
 #include <stdarg.h>
@@ -12,8 +12,7 @@
 
 void run_fail(struct run *run, fbd_outcome outcome, const char *format, ...)
 {
-    if (run->end.outcome != FBD_GOING && run->end.outcome != FBD_STOPPED)
-        return; /* the first reason is the cause */
+    if (run->end.outcome != FBD_GOING && run->end.outcome != FBD_STOPPED) return; /* keep the first reason */
     run->end.outcome = outcome;
     va_list args;
     va_start(args, format);
@@ -42,7 +41,7 @@ static const char *body_of(const struct run *run, size_t element)
     return run->model->bodies[scene->coordinates[element % n].body].name;
 }
 
-/* The coordinate or state whose motion is the fastest: where a solution runs away, it is this one. */
+/* The coordinate or state with the largest relative rate: that of a solution that diverges. */
 static size_t fastest(const struct run *run)
 {
     size_t n = (size_t)run->model->plan.n, worst = 0;
@@ -58,7 +57,7 @@ static size_t fastest(const struct run *run)
     return worst;
 }
 
-/* A rope that is about to lose its way to a pulley, a millionth of the run ahead: its pull has no direction
+/* A rope that will be blocked by its pulley within a millionth of the run: its tension has no direction
  * there. */
 static bool explain_blocked_rope(struct run *run)
 {
@@ -141,8 +140,8 @@ void run_fail_pole(struct run *run, const struct pole *pole)
 void run_fail_step(struct run *run, enum stepper_status status)
 {
     const struct stepper_counts counts = switcher_counts(run->stepper);
-    /* The last attempts before a step size underflow may have failed by their error alone, on the brink of
-     * the same place. */
+    /* Before an underflow of the step size the last attempts may have been rejected for their error only,
+     * near the same point. */
     bool not_finite = run->system.last_code == system_not_finite ||
                       counts.rejected[rejected_not_finite] > run->step.not_finite;
     if (status == stepper_misuse) {

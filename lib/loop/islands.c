@@ -5,8 +5,7 @@
 
 #include "base/block_alloc.h"
 
-/* ---- connected components by union and find: parent[b] leads to a body of the same group, the first one in
- * the end */
+/* ---- connected components by union-find: parent[b] is a body of the same island, finally the first one */
 
 static int find(int *parent, int b)
 {
@@ -14,7 +13,7 @@ static int find(int *parent, int b)
     return b;
 }
 
-/* The earlier of the two roots stays one, so that a group is known by its first body. */
+/* The earlier root remains, so that an island is identified by its first body. */
 static void join(int *parent, int a, int b)
 {
     int root_a = find(parent, a), root_b = find(parent, b);
@@ -24,18 +23,18 @@ static void join(int *parent, int a, int b)
         parent[root_a] = root_b;
 }
 
-/* The body whose coordinate, rate or place in the world a slot stands for. */
+/* The body of a slot: of a coordinate, a rate or a world position. */
 static int body_of_slot(const struct scene *scene, int slot)
 {
     size_t n = scene->coordinate_count, size = scene_size(scene), index = (size_t)slot - 1;
     if (index < 2 * n) return scene->coordinates[index % n].body;
     return index < size
                ? 0
-               : scene->absolutes[index - size - hand_slots].body; /* with states all are one group */
+               : scene->absolutes[index - size - hand_slots].body; /* with user states there is one island */
 }
 
-/* Join the bodies whose coordinates or places an expression reads with `body`, or with each other where that
- * is -1; returns one of them, -1 if there is none. */
+/* Join the bodies whose coordinates or positions an expression reads with `body`, or with each other where
+ * that is -1; returns one of them, -1 if there is none. */
 static int join_read(const struct scene *scene, int *parent, const struct expr *expr, int body)
 {
     const int *slots;
@@ -56,7 +55,7 @@ static void join_load(const struct scene *scene, int *parent, const struct load 
     for (size_t k = 0; k < most_formulas_of_a_load; k++) join_read(scene, parent, formulas[k]->expr, body);
 }
 
-/* Join all bodies of a constraint and those that its coefficients of friction read; returns one of them. */
+/* Join all bodies of a constraint and those in its coefficients of friction; returns one of them. */
 static int join_constraint(const struct scene *scene, int *parent, const struct constraint *constraint)
 {
     int body = 0;
@@ -69,8 +68,8 @@ static int join_constraint(const struct scene *scene, int *parent, const struct 
     return body;
 }
 
-/* group_of_event, group_of_coupling, group_of_constraint and group_of_absolute hold a body of each on return.
- */
+/* group_of_event, group_of_coupling, group_of_constraint and group_of_absolute contain a body of each on
+ * return. */
 static void join_all(const struct scene *scene, int *parent, struct islands *division)
 {
     for (size_t b = 0; b < scene->body_count; b++) parent[b] = (int)b;
@@ -78,7 +77,7 @@ static void join_all(const struct scene *scene, int *parent, struct islands *div
         const struct body *body = &scene->bodies[b];
         if (body->motion.parent != ground_body)
             join(parent, (int)b, body->motion.parent);
-        else if (body->count == 0) /* has no motion of its own that could be integrated */
+        else if (body->count == 0) /* a fixed body has no equations of motion */
             join(parent, (int)b, 0);
         join_read(scene, parent, body->mass.expr, (int)b);
         for (size_t i = 0; scene->body_count > 1 && i < body->load_count; i++)
@@ -101,10 +100,10 @@ static void join_all(const struct scene *scene, int *parent, struct islands *div
         division->group_of_absolute[i] = scene->absolutes[i].body;
 }
 
-/* ---- the groups as lists */
+/* ---- lists of the islands */
 
-/* Replace the root of each body by the number of its group; returns how many there are. A root comes before
- * the other bodies of its group. */
+/* Replace the root of each body by the number of its island; returns the number of islands. A root comes
+ * before the other bodies of its island. */
 static size_t number_groups(const struct scene *scene, int *parent, struct islands *division)
 {
     size_t count = 0;
@@ -156,7 +155,7 @@ static struct list absolutes_of(struct selection *selection)
     return (struct list){&selection->absolutes, &selection->absolute_count};
 }
 
-/* Sort 0 ... count - 1 by group, in order within each; `next` has division->count entries. */
+/* Sort 0 ... count - 1 by island, in order within each; `next` has division->count entries. */
 static void sort_by_group(const struct islands *division, const int *group_of, size_t count, int *sorted,
                           int *next, list_of *of)
 {
@@ -194,7 +193,7 @@ static void renumber(const struct scene *scene, struct selection *selection, int
             1 + 2 * all + (int)scene->own_count + hand_slots + (int)i;
 }
 
-/* One block for all lists; `sorted` and what follows it behind those of the division. */
+/* One block for all lists; `sorted` and the following ones are behind those of the division. */
 static bool allocate(struct islands *division, const struct scene *scene, int **sorted)
 {
     size_t bodies = scene->body_count, events = scene->event_count, couplings = scene->force_coupling_count,

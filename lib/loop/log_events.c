@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * What has happened at an event, read off the modes before and after it.
+ * Log of events by comparison of the modes before and after.
  */
 #include "dynamics/constraint.h"
 #include "loop/run.h"
 
-/* ---- friction, and what is one-sided */
+/* ---- friction and one-sided constraints */
 
 void log_friction(struct run *run, fbd_event_kind kind, int pair)
 {
@@ -14,19 +14,20 @@ void log_friction(struct run *run, fbd_event_kind kind, int pair)
     if (!event) return;
     struct instant at = state_instant(run->state);
     double *slots = run->during->scratch;
-    state_balance_of(run->state, mode->body, slots); /* with its share of what several hold */
+    state_balance_of(run->state, mode->body, slots); /* includes indeterminate forces */
     struct friction_values values = friction_at(run->model, pair, &at, slots);
     event->force = values.force;
     event->limit = values.limit;
 }
 
-/* What a mode was and is. */
+/* Modes of a pair before and after. */
 struct change {
     int pair, before, after;
-    bool stopped; /* its velocity has come to zero */
+    bool stopped; /* its velocity has become zero */
 };
 
-/* What is open at no more than rounding beyond where it closes is no farther from that by the rounding of another place. */
+/* The excess of an open constraint that is at round-off level, so that rounding at another position does not
+ * close it; else 0. */
 static double left_beyond(const struct run *run, int pair)
 {
     const struct instant at = state_instant(run->state);
@@ -46,7 +47,7 @@ static void note_one_sided(struct run *run, const struct change *change)
     if (snapped) run->snap.pair = -1;
     if (!snapped && (change->before == stick || change->after != stick)) return;
     if (!snapped && run->end.outcome == FBD_BROKEN)
-        return; /* an impact that the run does not pass is not listed */
+        return; /* an impact at which the run ends is not listed */
     if (snapped && !isfinite(run->snap.work)) {
         run_fail(run, FBD_FAILED,
                  "at t = %.9g the impact at which `%s` becomes taut takes more work than numbers can tell",
@@ -71,7 +72,7 @@ void log_lifts_at_start(struct run *run)
     }
 }
 
-/* Friction of a contact that has just closed or opened has no event of its own. */
+/* Was the surface of the friction closed before and after? Otherwise friction has no event of its own. */
 static bool rubbed_throughout(const struct run *run, const struct mode *mode)
 {
     const struct coupling *coupling =
@@ -92,14 +93,14 @@ static void note_rubbing(struct run *run, const struct change *change)
     if (before != stick && after == stick) {
         if (mode->coupling >= 0) coupling_rezero(run->model, run->state->tree, mode->coupling);
         if (run->zeno_switches.now)
-            run->zeno_switches.sticks[pair] = true; /* at the end of the series */
+            run->zeno_switches.sticks[pair] = true; /* logged at the limit of the series */
         else
             log_friction(run, FBD_EVENT_STICK, pair);
     }
     if (change->stopped && after != stick && after != before) log_friction(run, FBD_EVENT_REVERSAL, pair);
 }
 
-/* By kind; a drive has no events, and those of a contact are noted by run_release_contacts. */
+/* By kind; a drive has no events, and those of a contact are logged by run_release_contacts. */
 static void (*const note[mode_kinds])(struct run *run,
                                       const struct change *change) = {[mode_single] = note_rubbing,
                                                                       [mode_joint] = note_rubbing,
@@ -107,7 +108,7 @@ static void (*const note[mode_kinds])(struct run *run,
                                                                       [mode_rope] = note_one_sided,
                                                                       [mode_surface] = note_one_sided};
 
-/* What each pair has done is read off its modes before and after, whichever event was the cause. */
+/* Log the changes of each pair by its modes before and after, whichever event was the cause. */
 static void note_frictions(struct run *run, const bool *moving)
 {
     const struct watcher_set *set = &run->watchers.moving;
@@ -123,7 +124,7 @@ static void note_frictions(struct run *run, const bool *moving)
 
 /* ---- switches */
 
-/* What has come to its switch and goes on as before has not passed it. */
+/* Remove events of switches that were reached but whose branch is unchanged. */
 static void drop_touched(struct run *run, size_t first)
 {
     size_t kept = first;
@@ -137,7 +138,7 @@ static void drop_touched(struct run *run, size_t first)
     run->log.count = kept;
 }
 
-/* The event of a slide, with the value that the force takes. */
+/* Set the event of a Filippov sliding mode, with the value of the force. */
 static void set_slide(const struct run *run, const struct kink *kink, fbd_event_kind kind,
                       struct run_event *event)
 {
@@ -154,8 +155,8 @@ void log_filippov(struct run *run, const struct kink *kink, fbd_event_kind kind)
     set_slide(run, kink, kind, log_event(run, kind, kink->body, kink->load, -1));
 }
 
-/* Sliding is read off the modes before and after, too. What begins to slide has not passed to another branch,
- * as was noted when its switch was reached: `first` is the first event of this instant. */
+/* Log sliding modes by comparison of the modes before and after, too. A switch event of the same instant
+ * (from index `first`) is replaced by the begin of a sliding mode. */
 static void note_slides(struct run *run, size_t first)
 {
     const struct plan *plan = &run->model->plan;
@@ -167,7 +168,7 @@ static void note_slides(struct run *run, size_t first)
                  after = run->state->sliding->slide_at[branch] > 0;
             if (before == after) continue;
             if (after) zeno_switch_blunt(run, (int)branch);
-            bool *waits = &run->zeno_switches.list[branch].slides; /* for the end of the series */
+            bool *waits = &run->zeno_switches.list[branch].slides; /* for the limit of the series */
             if ((run->zeno_switches.now && after) || *waits) {
                 *waits = after;
                 continue;

@@ -49,7 +49,7 @@ bool options_choose(const struct fbd_model *model, const fbd_options *given, str
                         : file->tolerance > 0 ? file->tolerance
                                               : default_tolerance;
     chosen->step = given->step != 0 ? given->step : file->step;
-    if (!isnan(given->until)) diag_in_file(errors, NULL); /* the file has nothing to do with it */
+    if (!isnan(given->until)) diag_in_file(errors, NULL); /* not in the file */
     if (isnan(chosen->until))
         bad_option(errors, "no-end-time", "write `simulate: {until: 2 s}` or give --until",
                    "the model has no end time");

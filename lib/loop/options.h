@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Options of a run: what is given, else what the file says, else the default.
+ * Options of a run: those given by the caller, else those of the file, else defaults.
  */
 #ifndef FBD_LOOP_OPTIONS_H
 #define FBD_LOOP_OPTIONS_H

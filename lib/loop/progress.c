@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Progress: a run that gains no time for its work ends by name, its state kept. Work is counted and no clock is read, so that
- * the same run ends at the same step everywhere.
+ * Progress: a run that gains too little time per work ends with a message, and keeps its state. Work is
+ * counted, and no clock is read, so that the same run ends at the same step on every machine.
  */
 #include "loop/progress.h"
 
@@ -10,8 +10,8 @@
 
 #include "loop/run.h"
 
-/* Steps of a few roundings of the time, one after the other: before a place that cannot be passed, by a method without a
- * fine sense of error, or between events that crowd. */
+/* Fail after many successive steps of a few roundings of the time: before a singularity, by a method with a
+ * coarse error estimate, or between events that accumulate. */
 static void check_crawl(struct run *run)
 {
     enum { most_steps = 100 };
@@ -24,7 +24,7 @@ static void check_crawl(struct run *run)
         run_fail_step(run, stepper_underflow);
 }
 
-/* Right-hand sides, event samples, and Jacobians and events at the price of sixteen, each for all components of the state. */
+/* Work in evaluations times components: right-hand sides and event samples count 1, Jacobians and events 16. */
 static double work_done(const struct run *run)
 {
     const double price = 16;
@@ -34,15 +34,15 @@ static double work_done(const struct run *run)
     return evaluations * (double)plan_size(&run->model->plan);
 }
 
-/* Work from check to check: some tenths of a second to some seconds of processor time, as right-hand sides are short or long. A
- * check costs nothing beside it, and who waits has not waited long when the first ones fail. */
+/* Work between checks: some tenths of a second to some seconds of processor time, depending on the right-hand
+ * side. The cost of a check is negligible. */
 static const double window = 1e7;
 
-/* Each is a share of time in a window; its inverse says how many windows are left, and so how long one would wait:
- * - as much time again as has passed takes ten million windows;
- * - the run takes 1e15 windows even at its start, where little has passed yet;
- * - where most steps are rejected the pace falls further, so a thousand windows to double the time are too many;
- * - a hundred windows have been done (gain and pace are steady), and a million are left. */
+/* Each is a fraction of time gained in a window; its inverse is the number of windows left:
+ *     - to double the elapsed time would take ten million windows;
+ *     - the run would take 1e15 windows, even at its start, when little time has elapsed;
+ *     - most steps are rejected, so that the pace decreases further, and doubling would take a thousand windows;
+ *     - a hundred windows have passed (the pace is steady), and a million are left. */
 static const double stands_share = 1e-7, hopeless_share = 1e-15, struggles_share = 1e-3, steady_share = 1e-2,
                     endless_share = 1e-6;
 

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * A rope runs round a pulley as long as it presses on it. When the angle between its two pieces there has
- * come down to zero they are one straight line, and the rope comes off: the scene is no longer true, since
- * what pulls goes on to pull the pulley along with it. While one of the two is slack nothing presses, and the
- * rope may lie where it likes; it must be back when it gets taut.
+ * A rope runs around a pulley as long as its normal force there is positive. When the angle between its two
+ * pieces has become zero they are one straight line, and the rope leaves the pulley: the model is no longer
+ * valid, since its constraint would pull the pulley along. While one of the two is slack there is no normal
+ * force, and the rope may be anywhere; it must be back when it becomes taut.
  */
 #include <math.h>
 #include <string.h>
@@ -12,16 +12,16 @@
 #include "dynamics/project.h"
 #include "loop/run.h"
 
-/* The angle at pulley `coupling` at y. */
+/* The angle of wrap at pulley `coupling` in state y. */
 static double wrap_at(struct run *run, int coupling, const double *y)
 {
     struct fbd_state *state = run->during;
     memcpy(state->y, y, plan_size(&run->model->plan) * sizeof *state->y);
-    state_misfit(state); /* puts the links in their places */
+    state_misfit(state); /* updates the positions of the links */
     return rope_wrap(run->model, state->tree, coupling);
 }
 
-/* Off its pulley by more than rounding. */
+/* Is the angle negative by more than rounding? */
 static bool is_off(double wrap)
 {
     const double rounding = 1e-12;
@@ -33,7 +33,7 @@ static bool is_taut(const struct fbd_state *state, const struct coupling *coupli
     return state->slip[coupling->pair] == stick;
 }
 
-/* Cut the step back to where the rope is just still on its pulley: halved as long as numbers can tell. */
+/* Cut the step back to the last time at which the rope is on its pulley, by bisection. */
 static bool cut_step(struct run *run, int coupling, struct time_dd *t)
 {
     double on = run->step.from, off = t->t;

@@ -34,16 +34,16 @@ static double turned_by_places(const struct row *row, const struct tree_state *l
     return length > 0 ? share_of_difference * distance_of_ports(row, links) / length : 0;
 }
 
-/* How much the links from the ground to each have turned in all: an angle in the world is their sum, and has
- * its rounding. A force between two links has the larger one. A contact, roll or slot finds its point from the other link: its
- * arm has the round-off of that place. `turned` has room for all links three times: for the angle of each, for the larger
- * one, and for the distance from the origin times share_of_difference. */
+/* The sum of the rotations of the links from the ground to each: an angle in the world is that sum, with its
+ * rounding. A force between two links uses the larger one. A contact, roll or slot finds its point from the other link: its
+ * arm has the round-off of that position. `turned` has room for all links three times: for the angle of each, for the
+ * larger one, and for the distance from the origin times share_of_difference. */
 static void measure_turns(struct run *run, const struct instant *at)
 {
     const struct tree *tree = run->model->tree;
     double *own = run->roundoff.turned, *sides = own + tree->count, *places = sides + tree->count;
-    /* Where couplings bring states back, directions have the rounding of a radian, turned or not: places are
-     * known to that share of the arms that lead to them. */
+    /* With projection onto couplings, directions have the rounding of a radian, turned or not: positions have
+     * that accuracy relative to the arms that lead to them. */
     own[0] = tree->row_count > 0 ? 1 : 0;
     for (int i = 1; i < tree->count; i++) {
         const struct model_body *body = &run->model->bodies[tree->links[i].body];
@@ -77,10 +77,11 @@ static void measure_turns(struct run *run, const struct instant *at)
 
 /* ---- springs between distant points
  *
- * The force of a spring is the small difference of its length and its free length, which has the rounding of the
- * places of its ends: a row of blocks of 1 kg on springs of 1e6 N/m, 1 to 16 m from the origin, has forces of 1e-9 N
- * where it rests. A damper has that of the velocities of its ends. They count
- * with a share of the roundings of gross forces, which are sums of many: these are differences of two numbers. */
+ * The force of a spring is the small difference of its length and its free length, which has the rounding of
+ * the positions of its ends: a row of blocks of 1 kg on springs of 1e6 N/m, 1 to 16 m from the origin, has
+ * forces of 1e-9 N at rest. The force of a damper has the rounding of the velocities of its ends. Their
+ * weight is smaller than that of the gross forces, which are long sums: these are differences of two numbers.
+ */
 
 static void add_cancelled(struct run *run, int body, double force, double arm)
 {
@@ -108,7 +109,7 @@ static void cancel_in_tree(struct run *run, const struct instant *at)
     }
 }
 
-/* To the ground: what its length has beyond that of the anchor's distance is in its force. */
+/* Springs to the ground: the force already contains the difference of length and distance of the anchor. */
 static void measure_cancelled(struct run *run, const struct instant *at)
 {
     const struct plan *plan = &run->model->plan;
@@ -121,7 +122,7 @@ static void measure_cancelled(struct run *run, const struct instant *at)
     if (run->model->tree) cancel_in_tree(run, at);
 }
 
-/* The size of what has been added up for the share of an arrow in each coordinate of a jointed body. A moment
+/* Add the sizes of the terms of the generalized forces of an arrow to `gross`, for a jointed body. A moment
  * is small where the force points at O, and still has the rounding of its products, and of the angle. */
 static void add_jointed(const struct model_body *body, const struct tree_state *link, double angle,
                         double place, const struct arrow *arrow, double *gross)
@@ -136,7 +137,7 @@ static void add_jointed(const struct model_body *body, const struct tree_state *
     if (body->count > 2) gross[2] += moment;
 }
 
-/* Add the sizes of what acts along each coordinate of a body. */
+/* Add the sizes of the generalized forces along each coordinate of a body. */
 static void add_gross_forces(struct run *run, int b, const struct instant *at, double *gross)
 {
     const struct model_body *body = &run->model->bodies[b];
@@ -158,7 +159,7 @@ static void add_gross_forces(struct run *run, int b, const struct instant *at, d
 
 /* ---- formulas of applied forces (load_rounding.h) */
 
-/* What a force at a point is along the coordinates of a link that carries it. */
+/* Add the generalized forces of a force at a point, for the coordinates of a link that carries it. */
 static void add_along_link(const struct run *run, const struct tree_state *s, int link, struct vec point,
                            const struct load_rounding *of, double *Q)
 {
@@ -170,7 +171,7 @@ static void add_along_link(const struct run *run, const struct tree_state *s, in
     for (int k = 0; k < body->count && k < most_coordinates_of_a_body; k++) Q[body->first + k] += own[k];
 }
 
-/* Add what the rounding of a load is along coordinates; false where it has none. */
+/* Add the generalized forces of the rounding of a load; false where it has none. */
 static bool add_rounding(const struct run *run, const struct instant *at, size_t index, double *Q)
 {
     const struct model_load *load = &run->model->loads[index];
@@ -190,7 +191,7 @@ static bool add_rounding(const struct run *run, const struct instant *at, size_t
     return true;
 }
 
-/* Accelerations of jointed bodies are found once more with forces that are off by Q. */
+/* Add the changes of accelerations of jointed bodies by generalized forces Q. */
 static void add_answer(struct run *run, const struct instant *at, const double *Q, double *noise)
 {
     const struct tree *tree = run->model->tree;
@@ -205,7 +206,8 @@ static void add_answer(struct run *run, const struct instant *at, const double *
     }
 }
 
-/* What they do to each acceleration: the sum over the loads, or over a few lots of many. */
+/* The effect of rounding in formulas on each acceleration: the sum over the loads, or over a few groups of
+ * them. */
 static void measure_formulas(struct run *run, const struct instant *at)
 {
     enum { most_lots = 8 };
@@ -227,7 +229,7 @@ static void measure_formulas(struct run *run, const struct instant *at)
     }
 }
 
-/* What moves with the time and not by the integration: coordinates that are prescribed. */
+/* The direction of motion by time alone: of prescribed coordinates. */
 static void take_driven(const struct run *run, double *dy)
 {
     const struct plan *plan = &run->model->plan;
@@ -241,12 +243,12 @@ static void take_driven(const struct run *run, double *dy)
     }
 }
 
-/* Where no force names the time, and nothing is prescribed, nothing changes by it, as steps have the size that they say. */
+/* The derivative by time alone is zero if no force depends on time explicitly and no motion is prescribed. */
 void roundoff_changes(struct run *run, const struct instant *at, bool by_time, double *along)
 {
     const struct plan *plan = &run->model->plan;
     struct scratch scratch = state_scratch(run->state);
-    if (by_time && tree_is_bare(run->model)) { /* no force names the time, and nothing is prescribed */
+    if (by_time && tree_is_bare(run->model)) {
         memset(along, 0, plan_rates(plan) * sizeof *along);
         return;
     }
@@ -256,10 +258,10 @@ void roundoff_changes(struct run *run, const struct instant *at, bool by_time, d
     if (plan->own > 0) user_state_rates_along(run->model, at, &flow, along + plan->n);
 }
 
-/* Roundings of its gross forces that the acceleration of a body is known to. Measured with chains of 16 to
- * 128 rods, error estimates of dop853 are up to 4 roundings of the gross forces of the worst rod, seldom 10.
- * The worst of many is worse: one of a thousand rods that lie still but for rounding is above 16 in every
- * step, and has steps a thousand times as short as the motion of the others needs. */
+/* Round-off level of the acceleration of a body, in roundings of its gross forces. Measured with chains of 16
+ * to 128 rods: error estimates of dop853 are up to 4 roundings of the gross forces of the worst rod, seldom
+ * 10. The maximum over many is larger: of a thousand rods at rest but for rounding, one is above 16 in every
+ * step, which would shorten the steps a thousandfold. */
 static double roundings_of(const struct fbd_model *model, bool in_tree)
 {
     const double single = 2, jointed = 16, few = 16;
@@ -268,7 +270,8 @@ static double roundings_of(const struct fbd_model *model, bool in_tree)
     return jointed * (1 + fmax(0, log2(links / few)));
 }
 
-/* Of an acceleration, or of the rate of a state; with `passing` besides, which goes with it. */
+/* Set the level of an acceleration, or of the rate of a user state; `passing` is the part that depends on
+ * time and formulas. */
 static void take_noise(struct run *run, size_t rate, double noise, double passing)
 {
     double all = isfinite(noise + passing) ? noise + passing : 0;
@@ -314,7 +317,7 @@ void roundoff_estimate(struct run *run)
     error_scale_init(run);
 }
 
-/* Have accelerations about the noise that they had before? */
+/* Are the levels within a factor of two of those before? */
 static bool is_steady(const struct run *run, const double *before)
 {
     const double most = 2;
@@ -325,7 +328,7 @@ static bool is_steady(const struct run *run, const double *before)
     return true;
 }
 
-/* A pulse makes an acceleration of nothing, and its noise with it, which is not yet known there. */
+/* A pulse may increase an acceleration from zero, and its round-off level, which is then outdated. */
 static bool has_grown(const struct run *run)
 {
     const double most = 4;
@@ -336,7 +339,7 @@ static bool has_grown(const struct run *run)
     return false;
 }
 
-/* Steps after which it is looked at, in trees: it costs a hundredth of them. */
+/* Steps between updates with a tree: the cost is a hundredth of that of the steps. */
 static const unsigned long steps_between = 64;
 
 unsigned long roundoff_steps(const struct run *run)
@@ -346,12 +349,13 @@ unsigned long roundoff_steps(const struct run *run)
     return next < steps_between ? steps_between - next : 0;
 }
 
-/* Where it counts it has to be that of here. It costs as much as five right-hand sides; where it hardly changes, as in a
- * chain whose last rods move by 1e-9 rad/s, some steps may pass. One that is large for a moment is seen to have changed. */
+/* Where the level limits steps it must be that of the present state. An update costs as much as five
+ * right-hand sides; where the level hardly changes, as in a chain whose last rods move at 1e-9 rad/s, some
+ * steps may pass. Levels that change are updated after each step. */
 void roundoff_renew(struct run *run)
 {
     const unsigned long most_between = 8;
-    if (run->options.step > 0) return; /* nothing chooses by it */
+    if (run->options.step > 0) return; /* fixed step size */
     run->roundoff.since++;
     bool due = (run->model->tree && run->roundoff.since >= steps_between) || has_grown(run);
     bool counts =
@@ -367,7 +371,7 @@ void roundoff_renew(struct run *run)
                                                                    : most_between;
 }
 
-/* ---- where it stands */
+/* ---- memory */
 
 static size_t links_of(const struct fbd_model *model)
 {
@@ -385,7 +389,7 @@ static bool names_time(const struct formula *formula)
     return formula->expr && expr_uses_time(formula->expr);
 }
 
-/* Does the time name a force, or the rate of a state? */
+/* Does a force, or the rate of a user state, depend on time explicitly? */
 static bool heeds_time(const struct fbd_model *model)
 {
     for (size_t i = 0; i < model->load_count; i++) {

@@ -12,7 +12,7 @@
 #include "loop/switch_event.h"
 #include "rest/start.h"
 
-/* ---- the system that the stepper sees */
+/* ---- the system of the stepper */
 
 static int jacobian(double t, const double y[], double *dfdy, double dfdt[], void *params)
 {
@@ -22,14 +22,14 @@ static int jacobian(double t, const double y[], double *dfdy, double dfdt[], voi
     return GSL_SUCCESS;
 }
 
-/* The right-hand side in the modes of the step that follows. */
+/* Bind the right-hand side in the modes of the next step. */
 static void bind_rates(struct run *run)
 {
     rates_bind(run->rates);
     run->system.inner.function = rates_call(run->rates, &run->system.inner.params);
 }
 
-/* ---- making and freeing */
+/* ---- allocation and start */
 
 static bool chooses_structure(const struct run *run)
 {
@@ -58,7 +58,8 @@ static bool make_stepper(struct run *run)
     return run->stepper != NULL;
 }
 
-/* Does a step ask for the forces at its end? Friction of bodies by themselves does where it feeds its own normal force. */
+/* Does a step need the forces at its end? Friction of single bodies does where it changes its own normal
+ * force. */
 static bool asks_forces(const struct run *run)
 {
     const struct plan *plan = &run->model->plan;
@@ -71,9 +72,9 @@ static bool asks_forces(const struct run *run)
     return false;
 }
 
-/* The accuracy that a return to the constraints is for. Next to a singular position rows of little slope are left alone
- * where their rounding is more than that (project.c); were it what a tolerance of 1e-14 asks for, they would be left for so
- * long that the mechanism drifts from its couplings: rows of 12 windows fell apart, others lost more energy than at 1e-10. */
+/* The accuracy for which the projection is designed. Next to a singular position, rows with a small gradient
+ * are left out where their rounding exceeds it (project.c); with the accuracy of a tolerance of 1e-14 they
+ * would be left out for so long that the mechanism drifts from its couplings or loses energy. */
 static double projected_accuracy(const struct run_options *options)
 {
     const double least = 1e-10;
@@ -137,13 +138,14 @@ static void refuse(struct run *run, struct lack *lack)
     } else {
         run->end.refusal = lack->id;
         run->end.refusal_at = lack->at;
-        if (strcmp(lack->id, "leaves-surface") == 0) run_check_contacts(run, NULL); /* an event, too */
+        if (strcmp(lack->id, "leaves-surface") == 0) run_check_contacts(run, NULL); /* logs the event, too */
         run_fail(run, FBD_FAILED, "%s", lack->text.data);
     }
     text_free(&lack->text);
 }
 
-/* What cannot move has no equations of motion: one step, whatever it carries. Once it is known how the bodies lie. */
+/* A scene that cannot move has no equations of motion: one step, whatever its loads. Tested once the initial
+ * positions are final. */
 static bool hold_fixed(struct run *run)
 {
     size_t n = (size_t)run->model->plan.n;
@@ -218,7 +220,7 @@ void run_free(struct run *run)
     free(run);
 }
 
-/* ---- one turn */
+/* ---- one turn of the loop */
 
 void run_evaluate(struct run *run)
 {
@@ -226,7 +228,8 @@ void run_evaluate(struct run *run)
     run->stale = false;
 }
 
-/* A linear system is the same in the same modes: branches, slips and pulls, one behind the other. Not so while it slides. */
+/* The matrices of a linear system depend on the modes only: branches, slips and pulls, one behind the other;
+ * except in a Filippov sliding mode. */
 static void start_linear(struct run *run)
 {
     const int *modes = state_sliding(run->during) ? NULL : run->during->branch;
@@ -260,7 +263,7 @@ static bool restart(struct run *run)
     return true;
 }
 
-/* The next event of time alone within reach of a step, or the end of the run. */
+/* The next event that depends on time alone within reach of a step, or the end of the run. */
 static struct time_dd next_time(struct run *run, bool *found)
 {
     const double stretch = 1.02; /* the stepper may lengthen a step by 1 % to end at its limit */
@@ -268,14 +271,15 @@ static struct time_dd next_time(struct run *run, bool *found)
     double reach = fmin(until, run->state->t + stretch * run->step.h);
     int status = scan_interval(&run->search.timed, run->state->t, reach);
     *found = status == 1;
-    /* Where functions of time change too fast for so long a step, it goes to where they have been seen. */
+    /* Where functions of time vary too fast for so long a step, it ends where they have been searched. */
     if (status == 2 && run->search.timed.clear > run->state->t) return time_dd_at(run->search.timed.clear);
     struct time_dd end = time_dd_at(until);
-    if (time_dd_since(end, run_end(run)) <= 0) end.t = nextafter(end.t, HUGE_VAL); /* rests in no time */
+    if (time_dd_since(end, run_end(run)) <= 0)
+        end.t = nextafter(end.t, HUGE_VAL); /* a rest without duration */
     return *found ? time_dd_earlier(run_pin_timed(run), end) : end;
 }
 
-/* A coordinate that has grown beyond all numbers, though its rate has not; the step is not taken. */
+/* Fail at a coordinate that overflows although its rate is finite; the step is not accepted. */
 static bool is_beyond_numbers(struct run *run, double t)
 {
     size_t n = (size_t)run->model->plan.n, size = plan_size(&run->model->plan);
@@ -314,7 +318,7 @@ static void accept(struct run *run, struct time_dd t)
     memcpy(run->work.y, run->state->y, size * sizeof *run->work.y);
 }
 
-/* Keep the next step away from where a force is infinite; false at such a place. */
+/* Limit the next step near poles of the forces; false at a pole. */
 static bool heed_poles(struct run *run)
 {
     const struct pole *nearest;
@@ -325,7 +329,7 @@ static bool heed_poles(struct run *run)
     return !reached;
 }
 
-/* An exact method has no error to choose its steps by; they are to show events. */
+/* An exact method has no error estimate for its step size; its steps only have to resolve events. */
 static void set_linear_step(struct run *run)
 {
     double resolved = run->search.moving.resolved;
@@ -335,16 +339,16 @@ static void set_linear_step(struct run *run)
     if (resolved > 0) run->step.h = fmin(run->step.h, resolved);
 }
 
-/* ---- the stages of a turn: each goes on from the one before, and is the last where it ends the run */
+/* ---- the stages of a turn: each continues the previous one; false ends the turn */
 
 struct turn {
     struct time_dd t;     /* the end of the step so far */
-    struct time_dd limit; /* which it does not pass */
-    bool timed;           /* because events of time alone happen there */
-    bool moving;          /* other events happen at its end */
+    struct time_dd limit; /* upper bound of t */
+    bool timed;           /* events that depend on time alone happen at the limit */
+    bool moving;          /* other events happen at t */
 };
 
-/* From where the step goes, in which modes; after events the stepper starts anew. */
+/* Set the start and the modes of the step; after events the stepper restarts. */
 static bool begin_step(struct run *run)
 {
     run->step.from = run->state->t;
@@ -355,7 +359,7 @@ static bool begin_step(struct run *run)
     return restart(run);
 }
 
-/* How long the step may be: to the next event of time alone, and not into a pole. */
+/* Limit the step: to the next event that depends on time alone, and before poles. */
 static bool limit_step(struct run *run, struct turn *turn)
 {
     if (run->step.crawl == 0) run->step.not_finite = switcher_rejected(run->stepper, rejected_not_finite);
@@ -369,7 +373,7 @@ static bool limit_step(struct run *run, struct turn *turn)
     return true;
 }
 
-/* A step that fails on the brink of a switch goes on behind it, as one that has been cut there does. */
+/* A step that fails next to a switch continues past it, as after an event there. */
 static bool go_beyond(struct run *run, struct turn *turn)
 {
     if (!run_pass_brink(run)) return false;
@@ -377,7 +381,8 @@ static bool go_beyond(struct run *run, struct turn *turn)
     return run->end.outcome == FBD_GOING && begin_step(run) && limit_step(run, turn);
 }
 
-/* One accepted step, to y and its slopes. One that is torn is made again, shorter. */
+/* Make one accepted step, to y and its slopes. A step rejected by defect control is repeated with a quarter
+ * of its length. */
 static bool make_step(struct run *run, struct turn *turn)
 {
     enum { most_times = 30 };
@@ -400,7 +405,7 @@ static bool make_step(struct run *run, struct turn *turn)
     }
 }
 
-/* The first event within it, to which it is cut; likewise where a coupling comes to an end. */
+/* Find the first event within the step and cut the step there; likewise at limits of couplings. */
 static bool find_events(struct run *run, struct turn *turn)
 {
     turn->moving = false;
@@ -418,7 +423,7 @@ static bool find_events(struct run *run, struct turn *turn)
     return true;
 }
 
-/* The state is that at its end, back on the couplings. */
+/* Set the state to the end of the step, projected onto the couplings. */
 static bool accept_step(struct run *run, const struct turn *turn)
 {
     accept(run, turn->t);
@@ -428,7 +433,7 @@ static bool accept_step(struct run *run, const struct turn *turn)
     return true;
 }
 
-/* What happens there: events, and what they settle; without any the forces are found anew. */
+/* Apply the events at the end of the step and settle the modes; without events evaluate the forces. */
 static bool apply_events(struct run *run, const struct turn *turn)
 {
     bool happens = turn->moving || turn->timed || run->contacts.due;
@@ -442,7 +447,7 @@ static bool apply_events(struct run *run, const struct turn *turn)
         energy_guard_events(run, struck);
         if (turn->moving && run->end.outcome == FBD_GOING) step_past_switch(run);
     } else {
-        /* Who shows forces shares them out: run_look, run_check_balance. */
+        /* Indeterminate forces are resolved for output only: run_look, run_check_balance. */
         if (!run->lazy) run_evaluate(run);
         if (!run->plain) run_check_jam(run, true);
         if (!run->plain) run_check_sides(run);
@@ -451,7 +456,7 @@ static bool apply_events(struct run *run, const struct turn *turn)
     return true;
 }
 
-/* What is noted of the step, and what is watched from now on. */
+/* Log the results of the step, and prepare the watchers for the next one. */
 static void end_step(struct run *run, const struct turn *turn)
 {
     bool at_end = turn->t.t >= run->options.until;
@@ -461,7 +466,7 @@ static void end_step(struct run *run, const struct turn *turn)
         zeno_switch_log(run);
     }
     if (at_end) {
-        run_evaluate(run); /* with the places that user events name */
+        run_evaluate(run); /* including world positions in user events */
         run_apply_touched(run, false);
     }
     if (turn->moving || turn->timed || at_end) run_check_balance(run);

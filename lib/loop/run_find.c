@@ -9,23 +9,23 @@
 #include "loop/contacts.h"
 #include "loop/run.h"
 
-/* The time that function i of the moving set still has, by its value and rate at an event; negative when it
- * has passed. */
+/* The time until the zero of function i of the moving set, from its value and rate at an event; negative when
+ * it has passed. */
 static double time_left(const struct run *run, size_t i)
 {
     double value = run->work.values[i], rate = run->work.values[run->search.moving.count + i];
     return rate < 0 && value < HUGE_VAL ? -value / rate : HUGE_VAL;
 }
 
-/* Events of one instant that rounding has put a little apart happen together. */
+/* Events separated by rounding of the time are simultaneous. */
 static double instant_at(double t)
 {
     return 64 * DBL_EPSILON * fabs(t);
 }
 
-/* The state at t within the step, as the step would end there: by a step of its own, where drives and surfaces lead, and
- * back on the couplings. What is off them by the error of a long step moves what is next to touch, by much where a
- * body lies almost flat. */
+/* The state at t within the step, as if the step ended there: by a partial step, with prescribed motions
+ * imposed, projected onto the couplings. Without the projection the error of a long step would displace
+ * shapes about to touch, by much where a body lies almost flat. */
 static bool end_at(struct run *run, double t)
 {
     if (switcher_partial(run->stepper, time_dd_at(t), run->work.y, run->work.f) != GSL_SUCCESS) return false;
@@ -34,7 +34,7 @@ static bool end_at(struct run *run, double t)
     return true;
 }
 
-/* The functions at the state that end_at has left. */
+/* Evaluate the functions at the state set by end_at. */
 static void evaluate_at(struct run *run, double t)
 {
     double *values = run->work.values, *rates = values + run->search.moving.count;
@@ -43,11 +43,9 @@ static void evaluate_at(struct run *run, double t)
                       rates);
 }
 
-/* Go back to the event that the scan has found and improve its time: the partial step has the full accuracy
- * of the method, the dense output may have less. Newton on the function that reaches zero first; y and f are
- * left at the result, which is at *t + *move, the move being of the size of a rounding where it has
- * converged.
- */
+/* Refine the time of the event that the scan has found, by partial steps with the full accuracy of the
+ * method; the dense output may have less. Newton's method on the function that reaches zero first; y and f
+ * are set to the result at *t + *move, where the move is of the size of a rounding if it has converged. */
 static bool polish(struct run *run, double step_end, double *t, double *move)
 {
     enum { most_steps = 4 };
@@ -64,8 +62,8 @@ static bool polish(struct run *run, double step_end, double *t, double *move)
         if (there || step == most_steps) break;
         *t = next;
     }
-    /* Where Newton has come far back from what the scan has found, to another one that crosses, the former has its own
-     * time. */
+    /* Where Newton's method has moved far back, to the zero of another crossing function, the function that
+     * was found has a later time. */
     const double far = 1e-4, share = 1e-3;
     double back = scan->t - *t;
     bool parted = fabs(*move) <= instant_at(*t) && back > far * (step_end - run->step.from);
@@ -77,9 +75,9 @@ static bool polish(struct run *run, double step_end, double *t, double *move)
     return true;
 }
 
-/* Does one of the functions that crossed go down at t, and to zero before the step ends? The dense output of
- * a low-order step may dip below zero where the function rises, as the velocity just after a breakaway, or
- * stays above it; the state and rate at t, which are those of the motion and not of the interpolant, tell. */
+/* Does one of the functions that crossed decrease at t, to zero before the step ends? The dense output of a
+ * low-order step may dip below zero where the function rises, as the velocity just after a breakaway, or may
+ * stay above it; the state and rate at t, which are those of the motion and not of the interpolant, decide. */
 static bool goes_down(const struct run *run, double t, double end)
 {
     for (size_t i = 0; i < run->search.moving.count; i++) {
@@ -90,8 +88,8 @@ static bool goes_down(const struct run *run, double t, double end)
     return false;
 }
 
-/* Is one of them below zero at the end of the step? Then it has gone there, whatever the inside looks like.
- * On return y and f are those at t again. */
+/* Is one of them below zero at the end of the step? Then it has crossed, whatever the dense output shows. On
+ * return y and f are those at t again. */
 static bool is_down_at_end(struct run *run, double t, double end)
 {
     const double *values = run->work.values;
@@ -103,8 +101,8 @@ static bool is_down_at_end(struct run *run, double t, double end)
     return end_at(run, t) && down;
 }
 
-/* Of functions with kinks, as the gap of the lowest of several corners, one may have gone down before the first that
- * was found: it is below zero by then. The first of all becomes *t. False when that fails. */
+/* A function with kinks, such as the gap of the lowest of several corners, may have crossed before the first
+ * zero found: it is below zero at that time. Sets *t to the first of all. False on failure. */
 static bool look_before(struct run *run, double start, double *t, double *move)
 {
     struct scan *scan = &run->search.moving;
@@ -124,13 +122,13 @@ static bool look_before(struct run *run, double start, double *t, double *move)
     return end_at(run, when);
 }
 
-/* Cut the step to t, where nothing happens. 0, or -1 when that fails. */
+/* Cut the step to t, without an event. 0, or -1 on failure. */
 static int cut_step(struct run *run, struct time_dd t)
 {
     return switcher_partial(run->stepper, t, run->work.y, run->work.f) == GSL_SUCCESS ? 0 : -1;
 }
 
-/* The longest share of a step that is believed when it has passed a pole: where that was is not asked. */
+/* Cut a step that has passed a pole to a fixed fraction; the position of the pole is not determined. */
 static int stay_before_poles(struct run *run, struct time_dd *t)
 {
     const double share = 0.25;
@@ -143,8 +141,8 @@ static int stay_before_poles(struct run *run, struct time_dd *t)
     return cut_step(run, *t);
 }
 
-/* Events that crowd are looked for in a panel about as long as what was between the last ones, or has passed since, before
- * those that the step would allow; not shorter by so much that values there are rounding. */
+/* The first panel of the search, for events that accumulate: about as long as the intervals between the last
+ * ones, or the time since then; not so short that values are dominated by rounding. */
 static double soon(const struct run *run, double length)
 {
     const double intervals = 2, least_share = 1e-3;
@@ -153,8 +151,8 @@ static double soon(const struct run *run, double length)
     return fmax(intervals * last, least_share * length);
 }
 
-/* The step ends at the event that cuts it where its inside, from which rows and works are taken, is not that of a step to
- * there: 1; 0 where it is, with y and f as they were, or -1. */
+/* End the step at the event that cuts it if its dense output, from which rows and works are computed, is not
+ * that of a step to there: 1; else 0, with y and f unchanged, or -1. */
 static int shorten_step(struct run *run, double t)
 {
     const size_t bytes = plan_size(&run->model->plan) * sizeof *run->work.y;
@@ -168,11 +166,11 @@ static int shorten_step(struct run *run, double t)
     return 1;
 }
 
-/* Look for the first event in (from, t] that changes the motion; on return *t is its time, with y and f
- * there. 1 found, 0 none, -1 failed. Where the event functions change so fast that the scan gives up, the
- * step is cut to what it has seen; one that is noise (it gives up at the very start) is not looked at more
- * closely. One that dips again and again, as the gaps of a pile that has just bounced do to the last digits, is cut
- * where it did so last; where that is its very start the others are looked at without it. */
+/* Find the first event in (from, t] that changes the motion; on return *t is its time, with y and f there. 1
+ * found, 0 none, -1 failed. Where the event functions vary so fast that the scan gives up, the step is cut to
+ * the searched part; if it gives up at the very start, the function is round-off and not resolved further. A
+ * function that dips below zero repeatedly, as the gaps of a pile that has just bounced do at round-off
+ * level, cuts the step at the last dip; where that is at the very start the others are searched without it. */
 static int find_change(struct run *run, struct time_dd *t)
 {
     enum { most_dips = 8 };
@@ -214,15 +212,15 @@ static int find_change(struct run *run, struct time_dd *t)
         start = fmax(when, run->search.moving.t);
     }
     if (!(start < end) || start - run->step.from <= instant_at(start)) return 0;
-    *t = time_dd_at(start); /* nothing has happened up to here; beyond nobody has looked */
+    *t = time_dd_at(start); /* no event up to here; not searched beyond */
     run->step.restart = true;
     return cut_step(run, *t);
 }
 
-/* Log the user events in (from, t]. They are looked for when it is known how far the step goes, and change
- * nothing in it, so that a run with them has the bits of one without. One that ends the run cuts the step: 1,
- * else 0; -1 failed. Where there is no end of them, as in the steps of a method that is at a loss, the step is cut to
- * what has been seen, and whoever watches the run is asked again: 2. */
+/* Log the user events in (from, t]. They are searched after the length of the step is decided, and change
+ * nothing in it, so that a run with them equals one without to the bit. One that ends the run cuts the step:
+ * 1, else 0; -1 failed. With too many of them, as in the steps of a method that fails, the step is cut to the
+ * searched part, so that the caller of the run regains control: 2. */
 static int find_told(struct run *run, struct time_dd *t)
 {
     enum { most_dips = 8, most_told = 10000 };
@@ -273,8 +271,8 @@ int run_find_event(struct run *run, struct time_dd *t)
     return change;
 }
 
-/* How long the state has until it is behind switches that are a rounding of the time away; they become the moving functions
- * that have crossed. */
+/* The time until the state is past switches that are a rounding of the time away; flags these as crossed
+ * moving functions. */
 static double time_to_brink(struct run *run, struct fbd_state *modes, double most)
 {
     const struct watcher_set *set = &run->watchers.moving;

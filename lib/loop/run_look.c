@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Looking into the last step of a run.
+ * Dense output: states within the last step of a run.
  */
 #include <gsl/gsl_errno.h>
 #include <string.h>
@@ -9,7 +9,7 @@
 
 int run_panels(const struct run *run)
 {
-    enum { most = 100, nystrom = 2, general = 1 }; /* a step of the Nystrom method is that much longer */
+    enum { most = 100, nystrom = 2, general = 1 }; /* a step of the Nystrom method is longer */
     if (run->kind != structure_linear) return run->kind == structure_velocity_free ? nystrom : general;
     double rate = linear_pace_rate(&run->pace, run->step.from), span = run->state->t - run->step.from;
     return (int)fmin(fmax(1, ceil(2 * span * rate)), most);

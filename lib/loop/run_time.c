@@ -1,17 +1,17 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * From a double next to an event to its moment; and what two runs that compare their errors may not share.
+ * Times of events in double-double arithmetic, from a double near them; and different steps for runs whose
+ * errors are compared.
  */
 #include <float.h>
 #include <math.h>
 
 #include "loop/run.h"
 
-/* What a double may be away from a zero that has been searched for, in roundings. */
+/* Distance of a double from a zero found by the search, in roundings. */
 static const double near = 64;
 
-/* A moment before the end of the run, that the double next to it may be: what is told of it has to come
- * before. */
+/* A time before the end of the run whose nearest double may be the end: represent it by the double before. */
 static struct time_dd before_end(struct time_dd t, double until)
 {
     if (t.t < until) return t;
@@ -19,17 +19,17 @@ static struct time_dd before_end(struct time_dd t, double until)
     return (struct time_dd){before, time_dd_since(t, time_dd_at(before))};
 }
 
-/* The first moment after this one: what happens where a step begins has to wait for time to pass. As long as
- * two doubles can tell, and so that implicit methods can divide by it. */
+/* The earliest time after this one, for an event at the begin of a step: the smallest difference in
+ * double-double arithmetic by which implicit methods can divide. */
 static struct time_dd at_once(struct time_dd start)
 {
     double least = start.t == 0 ? DBL_MIN / DBL_EPSILON : DBL_EPSILON * DBL_EPSILON * fabs(start.t);
     return (struct time_dd){start.t, nextafter(start.rest + least, HUGE_VAL)};
 }
 
-/* The moment at which the first of the functions that crossed is zero, by Newton from a double: the values
- * keep their rests, so nothing but the curvature of a function over some roundings of the time is left to a
- * second step. A function without a slope there stays where the search has seen it. */
+/* The time at which the first of the functions that crossed is zero, by Newton's method from a double: values
+ * include their low parts, so only the curvature over some roundings of the time is left to a second
+ * iteration. A function with zero slope there keeps the time of the search. */
 struct time_dd run_pin_timed(struct run *run)
 {
     enum { steps = 3 };
@@ -47,7 +47,7 @@ struct time_dd run_pin_timed(struct run *run)
         t = next;
     }
     if (time_dd_since(time_dd_at(run->options.until), t) <= 0) t = time_dd_at(run->options.until);
-    /* Those that are zero at the same moment, to the rounding of their values, happen together. */
+    /* Functions that are zero at the same time, to the rounding of their values, are simultaneous. */
     watchers_evaluate_timed(&run->watchers, run->during, t, values, rates, roundings);
     for (size_t i = 0; i < scan->count; i++)
         if (scan->crossed[i] && rates[i] < 0 && values[i] > roundings[i]) scan->crossed[i] = false;
@@ -61,7 +61,7 @@ double run_time_to_switch(struct run *run)
     return time_dd_since(found ? run_pin_timed(run) : end, run_end(run));
 }
 
-/* The motion over a rounding of the time is a line. */
+/* Over a rounding of the time the motion is linear. */
 struct time_dd run_pin_moving(struct run *run, double t, double move, struct time_dd end)
 {
     struct time_dd there = time_dd_after(time_dd_at(t), move);
@@ -72,16 +72,16 @@ struct time_dd run_pin_moving(struct run *run, double t, double move, struct tim
     return before_end(there, run->options.until);
 }
 
-/* ---- apart
+/* ---- independent steps (options.apart)
  *
- * Where events come so often that every step ends at the next one, two runs of different tolerances make the
- * same steps, and with the same errors: of the method, and of rounding, which is all that an exact one has.
- * One that is to be apart makes two steps from each event to the next: halves have a 2^-p of the error. Likewise where
- * there are few steps in all: its steps are shorter than those that it is to be told from (step.most). The
- * next event of time alone is known; for others the last intervals tell, of which the longer one counts:
- * after a short one (a pulse, a stop) steps would have to grow again. */
+ * Where every step ends at the next event, two runs of different tolerances make the same steps, with the
+ * same errors: of the method, and of rounding, which is the only error of an exact one. A run with
+ * options.apart makes two steps between events: halves have 2^-p of the error. Likewise where there are few
+ * steps in all: its steps are shorter than those of the main run (step.most). The next event that depends on
+ * time alone is known; for others the longer one of the last two intervals is used: after a short one (a
+ * pulse, a stop) steps would have to grow again. */
 
-static const double share = 0.6; /* of the way; the stepper makes the rest of it in halves */
+static const double share = 0.6; /* of the interval; the stepper halves the rest */
 
 void desync_steps(struct run *run)
 {

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * What a run watches: event functions at instants and over stretches of time, on the state along the last
+ * Evaluation of event functions, at instants and over intervals of time, on the dense output of the last
  * step.
  */
 #include <float.h>
@@ -18,10 +18,9 @@ static int sample_timed(void *context, double t, double *values, double *rate)
     return 0;
 }
 
-/* Where a pair sticks its surface leads, and a drive where it says, at every instant as at the ends of steps (modes_hold): the dense
- * output says so only to the error of the method, and a difference of the two would change its sign at
- * random.
- */
+/* Does the surface prescribe the velocity of a sticking pair? Such velocities, and drives, are imposed at
+ * every sample as at the ends of steps (modes_hold): the dense output satisfies them only to the error of the
+ * method, and the sign of the difference would be random. */
 static bool leads(const struct run *run, size_t pair)
 {
     const struct mode *mode = &run->model->plan.modes[pair];
@@ -50,7 +49,7 @@ void impose_drives(const struct run *run, double t, double *y)
     double acceleration;
     for (size_t i = 0; run->search.leads && i < plan->mode_count; i++) {
         const struct mode *mode = &plan->modes[i];
-        bool drives = mode->kind == mode_drive; /* always stick */
+        bool drives = mode->kind == mode_drive; /* drives always stick */
         if (!drives && !leads(run, i)) continue;
         struct instant at = state_instant_at(run->during, t, y);
         if (drives) y[mode->coordinate] = formula_value(&mode->position, &at);
@@ -76,7 +75,8 @@ static int sample_moving(void *context, double t, double *values, double *rate)
     return 0;
 }
 
-/* Where the inside of a step is the step made again: a Jacobian is about as many right-hand sides as it has columns. */
+/* Work of the dense output where it is made by further steps: a Jacobian counts as many right-hand sides as
+ * it has columns. */
 static unsigned long work_so_far(void *context)
 {
     const struct counted_system *system = &((const struct run *)context)->system;
@@ -89,7 +89,7 @@ static void enclose_timed(void *context, size_t group, const struct stretch *str
     watchers_enclose(&run->watchers, &run->watchers.timed, group, run->during, stretch, NULL, out);
 }
 
-/* Those that are affine in the modes of the step, by their polynomials. */
+/* Functions that are affine in the modes of the step, by their polynomials. */
 static bool enclose_affine(struct run *run, size_t group, const struct stretch *stretch,
                            struct enclosure *out)
 {
@@ -111,7 +111,7 @@ static void enclose_moving(void *context, size_t group, const struct stretch *st
     struct run *run = context;
     bool affine = run->trajectory.exact && run->watchers.any_affine;
     if (affine && enclose_affine(run, group, stretch, out)) return;
-    /* What slides shares forces that other groups read. */
+    /* In a Filippov sliding mode forces are coupled to components that other groups read. */
     const bool *wanted =
         state_sliding(run->during) ? NULL : run->search.reads + group * run->trajectory.count;
     trajectory_enclose(&run->trajectory, stretch, wanted);
@@ -119,7 +119,7 @@ static void enclose_moving(void *context, size_t group, const struct stretch *st
                      out);
 }
 
-/* The state along the last step with the places that expressions name. */
+/* The state along the last step with the world positions used by expressions. */
 static int sample_course(void *context, double t, double *y)
 {
     struct run *run = context;
@@ -132,7 +132,7 @@ static int sample_course(void *context, double t, double *y)
     return 0;
 }
 
-/* How far the jointed bodies reach from the origin, and how fast they are over the last step. */
+/* The largest distance of the jointed bodies from the origin, and their largest speed over the last step. */
 static double measure(const struct run *run, double *speed)
 {
     const struct tree *tree = run->model->tree;
@@ -153,9 +153,9 @@ static double measure(const struct run *run, double *speed)
     return reach;
 }
 
-/* Couplings keep coordinates at zero, or at rest, to the rounding of the places and speeds of all that they
- * join. What starts as a high power of the time is nothing beside the largest motion at first (roundoff.c). The sign of such a
- * number means nothing, as an error of it does. */
+/* Couplings keep coordinates at zero, or at rest, to the rounding of the positions and speeds of the bodies
+ * that they join. Components that start as a high power of time are negligible at first (roundoff.c). The
+ * sign of such a number is arbitrary, like that of an error. */
 static void set_noise(struct run *run)
 {
     const double roundings = 64 * DBL_EPSILON, error = 0.1 * run->options.tolerance;
@@ -188,8 +188,8 @@ static int powers_of_ends(void *context, double from, double to, int component, 
     return switcher_powers_of_ends(run->stepper, time_dd_at(from), time_dd_at(to), (size_t)component, c);
 }
 
-/* By the powers that the method has, of its ends alone for a first look at what costs evaluations. False where it has none,
- * or the motion is functions: what leads, and places. */
+/* Use the power series of the method; for a first search with functions that are costly, that of the ends of
+ * the step alone. False where it has none, or the motion includes prescribed motions or world positions. */
 static bool follow_powers(struct run *run, double from, double to, bool coarse, const bool *wanted)
 {
     struct trajectory *trajectory = &run->trajectory;
@@ -198,13 +198,14 @@ static bool follow_powers(struct run *run, double from, double to, bool coarse, 
     return trajectory_set_powers(trajectory, from, to, wanted, false, powers_of, run);
 }
 
-/* Follow the wanted components; returns the end of the piece, NAN where the motion cannot be had. */
+/* Compute polynomials of the wanted components; returns the end of the interval, NAN where the motion is not
+ * available. */
 static double follow(struct run *run, double from, double to, bool coarse, const bool *wanted)
 {
     enum { simple = 6 };
     double negligible;
     int degree = switcher_degree(run->stepper, &negligible);
-    if (run->search.follows_places || any_leads(run)) { /* functions of the motion, and no polynomials */
+    if (run->search.follows_places || any_leads(run)) { /* functions of the motion, not polynomials */
         negligible = fmax(negligible, 1e-13);
         degree = trajectory_most_degree;
     }
@@ -217,7 +218,8 @@ static double follow(struct run *run, double from, double to, bool coarse, const
     return status ? NAN : run->trajectory.to;
 }
 
-/* What the groups read that are still searched; all where something slides: see enclose_moving. */
+/* The components of the groups that are still searched; NULL (all) in a Filippov sliding mode: see
+ * enclose_moving. */
 static const bool *find_wanted(struct run *run)
 {
     const struct watcher_set *set = &run->watchers.moving;
@@ -237,9 +239,9 @@ static double follow_course(void *context, double from, double to, bool coarse)
     return follow(run, from, to, coarse, find_wanted(run));
 }
 
-/* ---- panels for functions that are sampled */
+/* ---- panels for sampled functions */
 
-/* Formulas of forces and frictions in turn; NULL after the last. */
+/* Formula `index` of forces and frictions; NULL after the last. */
 static const struct formula *paced_formula(const struct fbd_model *model, size_t index)
 {
     size_t loads = model->load_count, frictions = model->plan.mode_count;
@@ -257,9 +259,9 @@ static const struct formula *paced_formula(const struct fbd_model *model, size_t
     return all[index % 4];
 }
 
-/* Over how many radians a formula turns at most: its fastest rate against half of its range. That of a narrow
- * peak is that of its flanks. Beside an extremum C - b u^2 it is four, however near: so a range that is nothing beside C
- * is counted as if it were more, or panels would get shorter towards each extremum without end. */
+/* An upper bound of the phase in radians of a formula: its fastest rate over half of its range; for a narrow
+ * peak that of its flanks. Near an extremum C - b u^2 it is four at any distance: so the range is at least a
+ * small multiple of C, or panels would get shorter towards each extremum without limit. */
 static double radians_of(const struct run *run, const struct formula *formula, const struct stretch *stretch)
 {
     const double nothing = 1e-7;
@@ -271,7 +273,7 @@ static double radians_of(const struct run *run, const struct formula *formula, c
     return range > 0 ? 2 * turn / range : 0;
 }
 
-/* The size of component i of the course, where `reach` and `speed` are those of the scene. */
+/* The size of component i of the trajectory, for a scene of size `reach` and speed `speed`. */
 static double size_of(const struct run *run, size_t i, double reach, double speed)
 {
     const struct fbd_model *model = run->model;
@@ -280,7 +282,7 @@ static double size_of(const struct run *run, size_t i, double reach, double spee
         double size = i < n ? reach : speed;
         return model->scene->coordinates[i % n].angle ? size / reach : size;
     }
-    if (i < all) return 0; /* a state: nothing is known of its size */
+    if (i < all) return 0; /* a user state, of unknown size */
     switch (model->absolutes[i - all - hand_slots].kind) {
     case absolute_x:
     case absolute_y: return reach;
@@ -290,8 +292,8 @@ static double size_of(const struct run *run, size_t i, double reach, double spee
     }
 }
 
-/* What varies by no more than its rounding, or what joints and couplings keep from varying but for theirs,
- * has bounds of its rate that are those of noise over whatever stretch. */
+/* Replace components that vary at round-off level, or only by rounding in joints and couplings, by points:
+ * the bounds of their rates are meaningless. */
 static void hold_noise(struct run *run)
 {
     const double negligible = 1e-10, roundings = 4;
@@ -306,9 +308,9 @@ static void hold_noise(struct run *run)
     }
 }
 
-/* Where a formula has turned by three radians, `to` at most. What turns no less in half of the time, nor in a quarter
- * of it, goes one way there, faster at one end than at the other, or hardly varies at all, and its bounds are those
- * of a difference of what is the same. */
+/* The end of an interval in which the phase of a formula is at most three radians; `to` at most. If halving
+ * the interval twice does not reduce the phase the formula is monotonic there, or nearly constant, with
+ * bounds dominated by cancellation. */
 static double end_of_turn(struct run *run, const struct formula *formula, double from, double to)
 {
     enum { most_halvings = 20, most_in_vain = 2 };
@@ -340,9 +342,10 @@ static bool varies(const struct formula *formula)
     return formula->expr && (expr_uses_time(formula->expr) || expr_variables(formula->expr, &slots) > 0);
 }
 
-/* The end of the first panel in which no force or friction, and no body that may meet another,
- * turns by more than three radians, no gap bends, and nothing gets taut or comes back to its slot from afar. What joints make
- * of several of them changes no faster, but where they pass a singular position; there steps are short. */
+/* The end of the first panel in which no force or friction, and no body of a contact pair, turns by more than
+ * three radians, no gap has a kink, and no rope becomes taut and no point returns to its slot from afar.
+ * Joints do not make combined functions change faster, except near singular positions, where steps are short.
+ */
 static double end_of_panel(void *context, double from, double to)
 {
     const double most = 3;
@@ -352,14 +355,14 @@ static double end_of_panel(void *context, double from, double to)
     to = run_flights(run, from, run_contact_bend(run, from, to));
     if (!run->search.paced) return to;
     double followed = run->search.paced_by_motion ? follow(run, from, to, false, NULL) : to;
-    if (followed < to) to = followed; /* NAN: there is no motion to ask */
+    if (followed < to) to = followed; /* false for NAN: no motion available */
     const struct formula *formula;
     for (size_t k = 0; (formula = paced_formula(run->model, k)); k++)
         if (varies(formula)) to = end_of_turn(run, formula, from, to);
     return to;
 }
 
-/* For functions that will be sampled, or may be, what forces are made of is followed as well. */
+/* For functions that may be sampled, mark the components that forces depend on. */
 static void mark_paced(struct run *run, bool *used)
 {
     const struct watcher_set *set = &run->watchers.moving;
@@ -377,7 +380,7 @@ static void mark_paced(struct run *run, bool *used)
     }
 }
 
-/* Which components of the course each group of functions reads; `used` has room for all. */
+/* Mark the components of the trajectory that each group of functions reads; `used` has room for all. */
 static bool mark_reads(struct run *run, bool *used, size_t size)
 {
     const struct watcher_set *set = &run->watchers.moving;
@@ -419,7 +422,7 @@ static bool use_enclosures(struct run *run)
     return make_course(run);
 }
 
-/* Is there something that wakes up with the motion, not at times alone? */
+/* Is there a silent switch (a level) that depends on the motion? */
 static bool any_wakes(const struct run *run)
 {
     const struct watcher_set *set = &run->watchers.moving;
@@ -432,8 +435,8 @@ static bool any_wakes(const struct run *run)
     return false;
 }
 
-/* Does a guide with friction turn, whose normal force goes with the speeds of what is driven? Once it has turned on one side of
- * zero it may not be found on the other. Gaps know places. */
+/* Is there a frictional guide whose normal force may change its sign with the speeds of driven bodies? A sign
+ * change on one side of zero could be missed on the other. Gaps depend on positions only. */
 static bool any_turns(const struct run *run)
 {
     const struct watcher_set *set = &run->watchers.moving;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * The pace of an ensemble: whose turn it is, and how far the common time has come.
+ * Schedule of an ensemble: the order of the islands' steps, and the common time.
  */
 #include <stdio.h>
 #include <stdlib.h>
@@ -8,21 +8,21 @@
 #include "base/format.h"
 #include "loop/ensemble.h"
 
-/* ---- the queue: a binary heap with the group that is furthest behind on top */
+/* ---- the queue: a binary heap with the island that is furthest behind on top */
 
 static double end_of(const struct ensemble *ensemble, size_t group)
 {
     return ensemble->groups[group].run->state->t;
 }
 
-/* Among equals the first group comes first. */
+/* At equal times the first island comes first. */
 static bool before(const struct ensemble *ensemble, size_t a, size_t b)
 {
     double end_a = end_of(ensemble, a), end_b = end_of(ensemble, b);
     return end_a < end_b || (end_a == end_b && a < b);
 }
 
-/* Restore the order below place i, whose group has moved on. */
+/* Restore the heap below index i, whose island has advanced. */
 static void sift(struct ensemble *ensemble, size_t i)
 {
     size_t *queue = ensemble->queue, group = queue[i];
@@ -49,8 +49,7 @@ static void start(struct ensemble *ensemble, bool lazy)
 
 /* ---- steps */
 
-/* What forces do over a step is summed up from states within it; where there are none, no memory is missing.
- */
+/* The work of forces over a step is integrated from states within it, which are not available. */
 static void fail_within(struct ensemble *ensemble, const struct run *run)
 {
     format_into(
@@ -61,7 +60,7 @@ static void fail_within(struct ensemble *ensemble, const struct run *run)
     ensemble_fail(ensemble, FBD_FAILED, ensemble->own_reason);
 }
 
-/* One step of a group. A run that fails may have made none. */
+/* One step of an island. A run that fails may have made none. */
 static void step(struct ensemble *ensemble, size_t p)
 {
     struct run *run = ensemble->groups[p].run;
@@ -90,8 +89,8 @@ static void step_top(struct ensemble *ensemble)
     sift(ensemble, 0);
 }
 
-/* The common time is t: what happens there happens to the whole. due[0 .. count - 1] are the groups that may
- * have something to tell. */
+/* Advance the common time to t, with the events and ends there. due[0 .. count - 1] are the islands that may
+ * have any. */
 static void arrive(struct ensemble *ensemble, double t, size_t count)
 {
     ensemble->t = t;
@@ -113,7 +112,7 @@ static int by_number(const void *a, const void *b)
     return *first < *second ? -1 : *first > *second;
 }
 
-/* List the groups below place i of the queue whose last steps end at t; returns how many `due` then has. */
+/* List the islands below index i of the queue whose last steps end at t; returns the new count of `due`. */
 static size_t list_due(struct ensemble *ensemble, size_t i, double t, size_t count)
 {
     if (i >= ensemble->queued || end_of(ensemble, ensemble->queue[i]) > t) return count;
@@ -122,7 +121,7 @@ static size_t list_due(struct ensemble *ensemble, size_t i, double t, size_t cou
     return list_due(ensemble, 2 * i + 2, t, count);
 }
 
-/* Where a group has an event to tell that lies within its last step. */
+/* The time of an event of an island within its last step that is not logged yet. */
 static double told_within(const struct group *group)
 {
     const struct run *run = group->run;
@@ -165,10 +164,9 @@ fbd_outcome ensemble_advance(struct ensemble *ensemble)
     return ensemble->outcome;
 }
 
-/* ---- in one go */
+/* ---- ensemble_go */
 
-/* The time at which the whole has to stop for this group: an event that is still to be told, or its end, when
- * that is an early one. */
+/* The time at which the whole has to stop for this island: an event to log, or its end, if that is early. */
 static double stop_of(const struct ensemble *ensemble, size_t p, bool pause)
 {
     const struct group *group = &ensemble->groups[p];
@@ -177,7 +175,7 @@ static double stop_of(const struct ensemble *ensemble, size_t p, bool pause)
     return within < HUGE_VAL || !(untold || ended_early(group->run)) ? within : group->run->state->t;
 }
 
-/* Carry the queued groups on; returns the time that can be reached. */
+/* Advance the queued islands; returns the time that can be reached. */
 static double go_queued(struct ensemble *ensemble, double target, double near, bool pause)
 {
     double stop = HUGE_VAL;
@@ -193,15 +191,14 @@ static double go_queued(struct ensemble *ensemble, double target, double near, b
     return stop <= target + near ? stop : target;
 }
 
-/* Carry the quiet groups on; returns the time that can be reached, less than `target` when one fails or is
- * interrupted: a stiff one may have any number of steps to make. What others have gone beyond is made again.
- */
+/* Advance the quiet islands; returns the time that can be reached, less than `target` when one fails or is
+ * interrupted: a stiff one may need many steps. Islands beyond that time are integrated again. */
 static double go_quiet(struct ensemble *ensemble, double target)
 {
     for (size_t p = 0; p < ensemble->count && ensemble->outcome == FBD_GOING; p++) {
         const struct group *group = &ensemble->groups[p];
         if (!group->quiet) continue;
-        bool alone = ensemble->count == 1; /* several are carried on to one time, if they can be */
+        bool alone = ensemble->count == 1; /* several are advanced to one time, if possible */
         while (group->run->end.outcome == FBD_GOING && end_of(ensemble, p) < target && !ensemble->cut)
             step(ensemble, p);
         if (ended_early(group->run) || alone || ensemble->cut) target = fmin(target, end_of(ensemble, p));
@@ -209,7 +206,7 @@ static double go_quiet(struct ensemble *ensemble, double target)
     return target;
 }
 
-/* Carry a group that has gone too far to t once more. */
+/* Integrate an island that is beyond t again, up to t. */
 static void rewind_group(struct ensemble *ensemble, size_t p, double t)
 {
     struct group *group = &ensemble->groups[p];
@@ -238,11 +235,11 @@ double ensemble_next_end(const struct ensemble *ensemble)
 {
     double first = HUGE_VAL;
     for (size_t p = 0; p < ensemble->count; p++) first = fmin(first, end_of(ensemble, p));
-    /* One that is at t has to step before its end is known. */
+    /* An island at t has to step before its end is known. */
     return first > ensemble->t ? first : nextafter(ensemble->t, HUGE_VAL);
 }
 
-/* Until when a group is calm: it has made a step beyond, or its last one, and has nothing to tell before. */
+/* The time until which an island has no event to log and needs no step. */
 static double calm_until(const struct group *group)
 {
     const struct run *run = group->run;
@@ -251,8 +248,7 @@ static double calm_until(const struct group *group)
                                             : run->state->t;
 }
 
-/* A thousand rows of a hundred thousand groups that made one step each are no reason to look at all of them a
- * thousand times. */
+/* Avoid a loop over all islands for every row of output: with many islands of long steps it would dominate. */
 static void find_calm(struct ensemble *ensemble)
 {
     ensemble->calm = HUGE_VAL;
@@ -268,7 +264,7 @@ bool ensemble_has_reached(const struct ensemble *ensemble, double t)
     return true;
 }
 
-/* Carry every group that is behind to t, the target or what is before it. */
+/* Advance every island that is behind to t, the target or an earlier time. */
 static void go(struct ensemble *ensemble, double target, double near, bool pause)
 {
     double queued = go_queued(ensemble, target, near, pause);

@@ -5,8 +5,8 @@
 #include "integrate/nystrom.h"
 #include "integrate/parabola.h"
 
-/* Methods for structures are not in the table of method.h: for a scene that has not the structure they would
- * give wrong results, so that nobody should be able to ask for them. */
+/* Methods for structures are not in the table of method.h, so that they cannot be selected: for a scene
+ * without the structure they would give wrong results. */
 static const struct method nystrom_method = {.name = "nystrom",
                                              .description =
                                                  "explicit Runge-Kutta-Nystrom, Dormand-El-Mikkawy-Prince "
@@ -44,7 +44,7 @@ const struct method *structure_method(const struct fbd_model *model, enum struct
 
 /* ---- velocities */
 
-/* Does a slot stand for a velocity? Those above n are rates, above 2 n states and then places in the world and theirs. */
+/* Is a slot a velocity? Those above n are rates, above 2 n user states, then world positions and velocities. */
 static bool is_rate(const struct fbd_model *model, int slot)
 {
     int n = model->plan.n, size = (int)plan_size(&model->plan);
@@ -62,7 +62,7 @@ static bool reads_rate(const struct fbd_model *model, const struct value *value)
     return false;
 }
 
-/* Friction that slips has the sign of its mode, and depends on the velocity through its coefficients only. */
+/* Slipping friction has the sign of its mode, and depends on the velocity through its coefficients only. */
 static bool depends_on_velocity(const struct fbd_model *model, const struct load *load)
 {
     enum law_rate rate = load_law(load)->rate;
@@ -75,15 +75,14 @@ static bool depends_on_velocity(const struct fbd_model *model, const struct load
     return false;
 }
 
-/* A body that turns about another point than its centre of mass, with its axis free to move, has a term
- * omega^2 r in its equations. */
+/* A body with a free axis that is not its centre of mass has a term omega^2 r in its equations. */
 static bool has_centrifugal_term(const struct model_body *body)
 {
     return body->kind == motion_planar && (body->arm.x != 0 || body->arm.y != 0);
 }
 
-/* Does a body move on another one, or is it coupled to one or to the ground? Then there are Coriolis forces, and
- * a mass matrix that varies. */
+/* Does a body move on another one, or is there a coupling? Then there are Coriolis forces, and a mass matrix
+ * that varies. */
 static bool has_joints(const struct fbd_model *model)
 {
     if (model->scene->constraint_count > 0) return true;
@@ -92,7 +91,8 @@ static bool has_joints(const struct fbd_model *model)
     return false;
 }
 
-/* On a track the normal force grows with v^2, and friction with it; so does what turns a body along. */
+/* On a track the normal force grows with v^2, and so does its friction, and the moment that turns the body
+ * with the track. */
 static bool is_pressed_by_speed(const struct model_body *body)
 {
     return body->kind == motion_track && (body->friction >= 0 || body->inertia.I_G > 0 || body->L > 0);
@@ -115,7 +115,7 @@ static enum expr_degree worse(enum expr_degree a, enum expr_degree b)
     return a > b ? a : b;
 }
 
-/* The share of an expression. A place in the world is no coordinate, and need not be linear in them. */
+/* The degree of an expression. World positions are no coordinates, and need not be linear in them. */
 static enum expr_degree degree_of(const struct fbd_model *model, const struct value *value)
 {
     const int *slots;
@@ -125,9 +125,9 @@ static enum expr_degree degree_of(const struct fbd_model *model, const struct va
     return places && degree != expr_constant_between ? expr_nonlinear : degree;
 }
 
-/* An applied force: what it is in the directions of the body's coordinates. Its moment about the frame's
- * origin or the axis turns with the body unless both the force and its point do, or the point is that origin.
- */
+/* An applied force, by its components along the body's coordinates. Its moment about the frame's origin or
+ * the axis varies with the rotation unless both the force and its point rotate with the body, or the point is
+ * that origin. */
 static enum expr_degree degree_of_applied(const struct fbd_model *model, const struct model_body *body,
                                           const struct model_load *load)
 {
@@ -159,8 +159,8 @@ static enum expr_degree degree_of_gravity(const struct model_body *body)
     return turns && (body->arm.x != 0 || body->arm.y != 0) ? expr_nonlinear : expr_constant_between;
 }
 
-/* Friction in a mode is a constant force if its normal force is constant, which the loads across the line see
- * to, and so are its coefficients. */
+/* Friction in a mode is a constant force if its normal force is constant, which the degrees of the loads
+ * across the line ensure, and so are its coefficients. */
 static enum expr_degree degree_of_friction(const struct fbd_model *model, const struct load *load)
 {
     const struct expr *speed = load->surface_speed.expr;
@@ -191,8 +191,8 @@ static enum expr_degree degree_of_drag(const struct fbd_model *model, const stru
     return load_has_wind(load->source) ? worse(still, degree_of_applied(model, body, load)) : still;
 }
 
-/* How the share of a load in the accelerations of its body varies between events. Normal forces come with the
- * loads that they balance: see accelerations_vary. */
+/* The degree of a load's contribution to the accelerations of its body between events. Normal forces vary as
+ * the loads that they balance: see accelerations_vary. */
 static enum expr_degree degree_of_load(const struct fbd_model *model, const struct model_body *body,
                                        const struct model_load *load)
 {
@@ -234,8 +234,8 @@ static enum expr_degree accelerations_vary(const struct fbd_model *model)
     return worst;
 }
 
-/* Along a switch that the motion may slide on, the accelerations are what keeps it there: linear where what
- * it watches is. */
+/* In a Filippov sliding mode the accelerations keep the motion on the surface: they are linear if the
+ * switching function is. */
 static enum expr_degree slides_vary(const struct fbd_model *model)
 {
     enum expr_degree worst = expr_constant_between;
@@ -243,7 +243,7 @@ static enum expr_degree slides_vary(const struct fbd_model *model)
         const struct kink *kink = &model->plan.kinks[i];
         const struct expr *expr = kink->formula.expr;
         for (size_t part = 0; kink->slides && part < kink->count; part++) {
-            /* Where it rests on places the accelerations vary as the forces do. */
+            /* On a switch that depends on positions the accelerations vary as the forces do. */
             if (!expr_switch_jumps(expr, part) || kink_watches_places(kink, (int)part)) continue;
             worst = worse(worst, worse(expr_affine, expr_switch_degree(expr, part, 2 * model->plan.n)));
         }
@@ -253,7 +253,7 @@ static enum expr_degree slides_vary(const struct fbd_model *model)
 
 enum structure structure_of(const struct fbd_model *model)
 {
-    if (model->plan.own > 0) return structure_general; /* the exact ways are for coordinates alone */
+    if (model->plan.own > 0) return structure_general; /* exact methods have no user states */
     enum expr_degree degree = worse(accelerations_vary(model), slides_vary(model));
     if (degree == expr_constant_between) return structure_constant;
     if (degree == expr_affine && model->plan.n <= linear_most_pairs) return structure_linear;

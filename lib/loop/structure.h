@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Structure: what the forces on a group of bodies have in common, and the method that makes use of it.
+ * Structure: a common property of the forces on an island, and the method that exploits it.
  *
- * `auto` looks at the forces once, before the run. What it recognises holds for every state, so nothing is
- * asked again on the way; where the motion turns out stiff, `auto` still goes over to the method for that.
+ * `auto` analyses the forces once, before the run. The result holds for every state, so the analysis is not
+ * repeated; if the motion turns out stiff, `auto` still switches to the stiff method.
  */
 #ifndef FBD_LOOP_STRUCTURE_H
 #define FBD_LOOP_STRUCTURE_H
@@ -12,27 +12,27 @@
 #include "model/model.h"
 
 enum structure {
-    structure_general,       /* nothing in particular: the default method */
+    structure_general,       /* none of the others: the default method */
     structure_velocity_free, /* no force depends on a velocity: nystrom.h */
     structure_linear,        /* linear equations with constant coefficients between events: linear.h */
     structure_constant,      /* accelerations are constant between events: parabola.h */
-    structure_fixed, /* there is no way to move, as the bodies lie (state_is_fixed); structure_of never says so */
+    structure_fixed, /* no motion is possible in its positions (state_is_fixed); not returned by structure_of */
     structure_kinds
 };
 
 enum structure structure_of(const struct fbd_model *model);
 
-/* The method for a structure. In general it is rk8pd; with states of the file's own dop853, which knows the inside of its
- * steps for them as well as for coordinates, at three evaluations. */
+/* The method for a structure. The general one is rk8pd; with user states dop853, whose dense output includes
+ * them at three evaluations. */
 const struct method *structure_method(const struct fbd_model *model, enum structure structure);
 
-/* Does that method make steps of any length without error? */
+/* Does that method make steps of any length without truncation error? */
 static inline bool structure_is_exact(enum structure structure)
 {
     return structure == structure_constant || structure == structure_fixed || structure == structure_linear;
 }
 
-/* One step goes to the next event. */
+/* Do steps extend to the next event? */
 static inline bool structure_is_one_step(enum structure structure)
 {
     return structure == structure_constant || structure == structure_fixed;

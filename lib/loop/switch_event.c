@@ -11,7 +11,7 @@
 #include "loop/zeno_switch.h"
 #include "rest/start.h"
 
-/* Pieces of a curve are switches of its body, and of no load. */
+/* Switches between the pieces of a curve belong to its body, and to no load. */
 static bool is_track(const struct run *run, const struct kink *kink)
 {
     return kink->load < 0 && kink->body >= 0 && run->model->bodies[kink->body].kind == motion_track;
@@ -47,7 +47,7 @@ static bool end_table(struct run *run, const struct kink *kink, const struct tab
     return true;
 }
 
-/* A point of a table at which nothing is to be seen but in the second derivative is no event, nor is a level. */
+/* A knot of a table with a discontinuity of the second derivative or higher is no event, nor is a level. */
 static bool is_smooth(const struct expr *expr, const struct watcher *watcher, int piece)
 {
     const struct table *table = expr_switch_table(expr, (size_t)watcher->part);
@@ -55,15 +55,15 @@ static bool is_smooth(const struct expr *expr, const struct watcher *watcher, in
            (table && table_smoothness(table, watcher->end ? piece : piece + 1) >= 1);
 }
 
-/* Do two values of a motion differ by more than rounding? `size` is what they are made of. */
+/* Do two values of a motion differ by more than rounding, relative to `size`? */
 static bool jumps(double before, double after, double size)
 {
     const double rounding = 1e-9;
     return fabs(after - before) > rounding * size;
 }
 
-/* A prescribed motion has a velocity, and so has the length of a rope: where its place or its velocity jumps, no force is
- * large enough. */
+/* Prescribed motions, and lengths of ropes, must have a continuous position and velocity: a jump requires an
+ * infinite force. */
 static void check_drive(struct run *run, const struct kink *kink, bool rope)
 {
     const struct fbd_model *model = run->model;
@@ -89,12 +89,12 @@ static void check_drive(struct run *run, const struct kink *kink, bool rope)
              rope ? model->loads[kink->load].source->name : body->name, place ? x[0] : v[0],
              place ? x[1] : v[1]);
     memcpy(run->state->branch + kink->formula.branch, before, kink->count * sizeof *before);
-    modes_hold(run->state); /* the last state is that before */
+    modes_hold(run->state); /* restore the state before the jump */
     state_evaluate(run->state);
 }
 
-/* What drops off at once goes on with the velocity of the body, and takes its kinetic energy along; what would come at
- * once would come by an impact. */
+/* Mass that drops off keeps the velocity of the body and takes its kinetic energy with it; mass that is added
+ * at once would cause an impact. */
 static void check_mass(struct run *run, const struct kink *kink)
 {
     const struct fbd_model *model = run->model;
@@ -160,8 +160,8 @@ void run_check_drives(struct run *run)
     }
 }
 
-/* Has a switch been crossed in this event that decides what this one watches? Then the way it goes on is for the rates
- * beyond to say: |x| has turned, and f(|x|) comes back to the piece that it was about to leave. */
+/* Has a switch been crossed in this event on which this one depends? Then the rates beyond decide: |x| has
+ * changed its sign, and f(|x|) returns to the piece that it was about to leave. */
 static bool follows_crossed(const struct run *run, const struct kink *kink, int part)
 {
     const bool *crossed = run->decided.branches + kink->formula.branch;
@@ -216,7 +216,7 @@ void run_check_sides(struct run *run)
         double N = -run->state->slots[mode->normal_slot] * run->state->pull[pair];
         if (N >= -slacks * press_slack(model, run->state->tree, mode->body)) continue;
         const struct instant at = state_instant(run->state);
-        if (rest_is_open(model, &at)) continue; /* with forces that are shared, which keep their side */
+        if (rest_is_open(model, &at)) continue; /* indeterminate forces keep their side */
         run_fail(
             run, FBD_FAILED,
             "before t = %.9g `%s` jams: friction by `%s` feeds its own normal force, which grows without "

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Bounces without end: when they are too low to be seen the series is summed up, and what bounces rests.
+ * Zeno limits of bounces: when bounces are below the tolerance the series is summed, and the body rests.
  */
 #include <float.h>
 #include <stdlib.h>
@@ -22,9 +22,9 @@ static const struct tree *tree_of(const struct run *run)
     return run->model->tree;
 }
 
-/* The gap's acceleration where only the surfaces that stay closed act: neither those that the impact just now has given a
- * speed away - a box that falls flat bounces on all its corners, and one of a row may leave the next as well - nor its own;
- * by a trial of the modes as they are. */
+/* The gap's acceleration with only the surfaces that stay closed: without those that the impact has just
+ * opened (a box that falls flat bounces on all its corners, and one of a row may leave the next as well) and
+ * without its own; by evaluating a trial state in these modes. */
 static double acceleration_of(struct run *run, int coupling, int feature)
 {
     const struct contacts_work *work = &run->contacts;
@@ -47,7 +47,7 @@ static double acceleration_of(struct run *run, int coupling, int feature)
     return state->tree->rows[tree_of(run)->couplings[coupling].first_row].g.x2;
 }
 
-/* Is the restitution of a meeting the same at all speeds? */
+/* Is the restitution of a contact pair independent of speed? */
 static bool has_constant_restitution(const struct run *run, int meeting)
 {
     int index = tree_of(run)->meetings[meeting].constraint;
@@ -55,8 +55,8 @@ static bool has_constant_restitution(const struct run *run, int meeting)
     return !expr || expr_is_constant(expr);
 }
 
-/* The sum of the intervals that are still to come after an impact from which the surface is left with v at
- * the acceleration -a: 2 v / a, and so on with e v. */
+/* The sum of the intervals after an impact with separation speed v at acceleration -a: 2 v / a, then the same
+ * with e v, and so on. */
 static double sum_of_bounces(struct run *run, int meeting, double v, double a)
 {
     enum { most_terms = 1000000 };
@@ -72,8 +72,8 @@ static double sum_of_bounces(struct run *run, int meeting, double v, double a)
     return HUGE_VAL;
 }
 
-/* The sum of intervals of which the last four impacts show two, from corner to corner and back, and their
- * ratio. */
+/* The remaining time of rocking from corner to corner and back: the last four impacts give two intervals, and
+ * their ratio. */
 static double sum_of_rocking(const struct bounces *bounces)
 {
     if (bounces->count < 4) return HUGE_VAL;
@@ -83,8 +83,8 @@ static double sum_of_rocking(const struct bounces *bounces)
     return ratio > 0 && ratio < 1 ? ratio * (last + before) / (1 - ratio) : HUGE_VAL;
 }
 
-/* What is left of bounces of one point, by their last intervals: where accelerations change on the way, as others slip and
- * stick at each bounce, no one of them tells it. */
+/* The remaining time of bounces of one point, from their last intervals: where accelerations vary, as other
+ * contacts slip and stick at each bounce, no single one determines it. */
 static double sum_of_intervals(const struct bounces *bounces)
 {
     if (bounces->count < 4) return HUGE_VAL;
@@ -93,11 +93,12 @@ static double sum_of_intervals(const struct bounces *bounces)
     return last < before && before < first ? last * last / (before - last) : HUGE_VAL;
 }
 
-/* Bounces that nobody sees and that do not come to an end: what slips and sticks at each of them, or after a plastic one,
- * may throw the point up again by as much (chatter, and reverse chatter, of Nordmark, Dankowicz and Champneys, IMA Journal of Applied Mathematics
- * 76, 2011). Their heights are below the rounding of places, and rest is a motion, too: after so many, at rest. Of an
- * impact that leaves nothing, plastic ones for example, the speed that it took tells what is to be seen: those of a disc
- * that comes and goes are far apart, and no series. */
+/* Bounces below the tolerance that do not end: changes of stick and slip at each of them, or after a plastic
+ * impact, may lift the point again by as much (chatter, and reverse chatter, of Nordmark, Dankowicz and
+ * Champneys, IMA Journal of Applied Mathematics 76, 2011). Their heights are below the rounding of positions,
+ * and rest is a solution, too: after `many` bounces the point is set to rest. If an impact leaves no
+ * separation speed, as a plastic one, the approach speed is used: impacts of a disc that comes and goes are
+ * far apart, and no series. */
 enum { many = 20 };
 
 static bool is_crowd(struct bounces *bounces, double speed, double unseen)
@@ -108,13 +109,13 @@ static bool is_crowd(struct bounces *bounces, double speed, double unseen)
     return bounces->unseen >= many;
 }
 
-/* What is left of rocking that has struck plastically: the series of the last impacts where they are one, and else the one
- * hop that is low, `next`. */
+/* The remaining time of rocking with plastic impacts: the series of the last impacts where they are
+ * geometric, and else the one low bounce `next`. */
 static double sum_of_plastic_rocking(const struct bounces *bounces, double next, bool nothing)
 {
-    const double alike = 0.01; /* accelerations change that little from hop to hop of a series that is low */
+    const double alike = 0.01; /* relative change of the ratio from bounce to bounce of a low series */
     const double *t = bounces->t;
-    if (bounces->count < 5) return nothing ? next : HUGE_VAL; /* it is known when there have been five */
+    if (bounces->count < 5) return nothing ? next : HUGE_VAL; /* five impacts are needed */
     double ratio = (t[0] - t[1]) / (t[2] - t[3]), before = (t[1] - t[2]) / (t[3] - t[4]);
     double all = sum_of_rocking(bounces);
     return fabs(ratio - before) <= alike * before ? all : fmin(all, next);
@@ -128,7 +129,7 @@ static void remember(struct bounces *bounces, double t, int feature)
     bounces->count++;
 }
 
-/* The largest speed with which a meeting's features open after an impact. */
+/* The largest separation speed of a contact pair's features after an impact. */
 static double leaving_speed(const struct run *run, int meeting, int count)
 {
     const double *v = run->contacts.v;
@@ -139,9 +140,9 @@ static double leaving_speed(const struct run *run, int meeting, int count)
     return most;
 }
 
-/* ---- ropes that are let go by what strikes a surface, and throw it up again when they get taut */
+/* ---- ropes that become slack by impacts on a surface, and lift the body again when they become taut */
 
-/* The largest speed with which ropes, and surfaces of what does not bounce, are let go by the last impact. */
+/* The largest speed with which ropes, and surfaces without restitution, open by the last impact. */
 static double slackening_speed(const struct run *run, int count)
 {
     const struct contacts_work *work = &run->contacts;
@@ -159,16 +160,16 @@ static void note_return(struct bounces *bounces, double t)
     if (bounces->returns < most) bounces->returns++;
 }
 
-/* The end of a geometric series that has come to t[2], t[1], t[0]; HUGE_VAL where it has none. */
+/* The limit of a geometric series through t[2], t[1], t[0]; HUGE_VAL without one. */
 static double end_of_three(const double t[3])
 {
     double last = t[0] - t[1], ratio = last / (t[1] - t[2]);
     return ratio > 0 && ratio < 1 ? t[0] + ratio * last / (1 - ratio) : HUGE_VAL;
 }
 
-/* When returns that follow each other ever faster come to their end. The last intervals are short against the rounding
- * of places over speeds, the first ones not yet geometric where accelerations change on the way: so it is the end that
- * three returns and those one before agree on best. */
+/* The limit of returns at decreasing intervals. The last intervals are affected by the rounding of positions
+ * over speeds, the first ones are not yet geometric where accelerations vary: so the limit is used on which
+ * three returns and the three before agree best. */
 static double end_of_returns(const struct bounces *bounces)
 {
     double best = HUGE_VAL, apart = HUGE_VAL;
@@ -181,7 +182,7 @@ static double end_of_returns(const struct bounces *bounces)
     return best;
 }
 
-/* In a crowd ropes are kept as well that are let go by no more than nobody sees. */
+/* In a crowd ropes that open by less than the tolerance stay closed, too. */
 static void keep_ropes(struct run *run, const struct bounces *bounces, double unseen, int count)
 {
     struct contacts_work *work = &run->contacts;
@@ -191,7 +192,7 @@ static void keep_ropes(struct run *run, const struct bounces *bounces, double un
             !work->strikers[i].contact && work->v[(ptrdiff_t)2 * i] * interval <= unseen;
 }
 
-/* The end of such a series, once ropes are let go by no more than nobody sees; they are kept then. */
+/* The limit of such a series, if ropes open by less than the tolerance; they then stay closed. */
 static double end_of_tugs(struct run *run, const struct bounces *bounces, double unseen, int count)
 {
     double leaving = slackening_speed(run, count), end = end_of_returns(bounces);
@@ -201,7 +202,7 @@ static double end_of_tugs(struct run *run, const struct bounces *bounces, double
     return end;
 }
 
-/* Does any contact open by the impact of striker i, by more than rounding? */
+/* Does any contact open by the impact of impact constraint i, by more than rounding? */
 static bool any_leaves(const struct run *run, int i, int count)
 {
     const struct contacts_work *work = &run->contacts;
@@ -211,8 +212,8 @@ static bool any_leaves(const struct run *run, int i, int count)
     return false;
 }
 
-/* Does any contact open by the impact for no more than a bounce that nobody sees? What parts as slowly, and does not come
- * back, does not. */
+/* Does any contact open by the impact for a bounce below the tolerance? Contacts that separate as slowly, but
+ * do not return, do not count. */
 static bool any_hops(struct run *run, int count)
 {
     const struct contacts_work *work = &run->contacts;
@@ -229,7 +230,8 @@ static bool any_hops(struct run *run, int count)
     return false;
 }
 
-/* The impacts of striker i's meeting: do they end soon, in bounces that nobody sees? Then when. */
+/* The time at which the impacts of impact constraint i's pair end, if their bounces are below the tolerance;
+ * else HUGE_VAL. */
 static double end_of_series(struct run *run, int i, int count)
 {
     const struct contacts_work *work = &run->contacts;
@@ -251,7 +253,7 @@ static double end_of_series(struct run *run, int i, int count)
     bounces->slow = a > 0 ? sqrt(2 * a * unseen) : leaving;
     if (bounces->is_closed) return run->state->t; /* in a crowd */
     if (!low && bounces->unseen < 3) return HUGE_VAL;
-    if (leaving == 0 && !any_hops(run, count)) return HUGE_VAL; /* it rests, and others part */
+    if (leaving == 0 && !any_hops(run, count)) return HUGE_VAL; /* it rests, and others separate */
     if (same && v > 0) {
         left = low ? sum_of_bounces(run, index, v, a) : sum_of_intervals(bounces);
     } else if (low && !(v > 0)) {
@@ -267,7 +269,7 @@ static double end_of_series(struct run *run, int i, int count)
     return tugs < HUGE_VAL ? tugs : run->state->t + left;
 }
 
-/* Close the meeting for good, as its bounces do in the end; its event comes with that end. */
+/* Close pairs whose series end; their events are logged at the limit. */
 bool zeno_end_bounces(struct run *run, int count)
 {
     bool ended = false;
@@ -293,7 +295,7 @@ bool zeno_end_bounces(struct run *run, int count)
     return false;
 }
 
-/* Friction -mu p sign(v_t) of what slips; what sticks does so by another row. */
+/* Friction -mu p sign(v_t) of a slipping contact; sticking uses another row. */
 static double rubbing(const struct contacts_work *work, int i)
 {
     if (!work->strikers[i].rubs) return 0;
@@ -304,7 +306,7 @@ static double rubbing(const struct contacts_work *work, int i)
 static bool leaves_for_the_last_time(const struct run *run, int i)
 {
     const struct contacts_work *work = &run->contacts;
-    if (!work->strikers[i].contact) return work->strikers[i].stays; /* also with those that are not let go */
+    if (!work->strikers[i].contact) return work->strikers[i].stays; /* closed ropes, too */
     if (!(work->v[(ptrdiff_t)2 * i] > 0)) return false;
     return work->bounces[tree_of(run)->couplings[work->strikers[i].coupling].meeting].rests_from < HUGE_VAL;
 }
@@ -337,7 +339,7 @@ void zeno_remove_separation(struct run *run, int count)
     free(which);
 }
 
-/* Within what nobody sees whether it is let go. */
+/* The opening below which a constraint stays closed. */
 static double unseen_of(const struct run *run, const struct striker *striker)
 {
     const double nobody_sees = 1e-9; /* of a rope */
@@ -346,7 +348,7 @@ static double unseen_of(const struct run *run, const struct striker *striker)
     return one_sided_at(run->model, &at, tree_of(run)->couplings[striker->coupling].surface).near;
 }
 
-/* Do ropes get taut ever faster, in turn? Compared over two of them, as intervals alternate. */
+/* Do ropes become taut at decreasing intervals? Compared over two of them, as intervals alternate. */
 static bool hurries(const struct bounces *tugs)
 {
     const double *t = tugs->returned;
@@ -379,7 +381,7 @@ double zeno_rope_limit(const struct run *run)
     return tugs->unseen >= many ? tugs->t[0] - tugs->t[1] : 0;
 }
 
-/* ---- their end */
+/* ---- Zeno limits */
 
 double zeno_next_rest(const struct run *run)
 {

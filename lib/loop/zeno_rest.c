@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * What bounces too low to be seen is put down on its surface.
+ * Place bodies on their surfaces when their bounces are below the tolerance.
  */
 #include <string.h>
 
@@ -13,7 +13,8 @@
 #include "loop/energy_guard.h"
 #include "loop/run.h"
 
-/* Within what a corner is about to come down; and what that moves of others, which are farther from where it turns. */
+/* Height within which corners are closed, in units of touching; and factor for displacements farther from the
+ * axis of rotation. */
 static const double wide = 2 * contacts_low, levers = 8;
 
 static const struct tree *tree_of(const struct run *run)
@@ -21,7 +22,7 @@ static const struct tree *tree_of(const struct run *run)
     return run->model->tree;
 }
 
-/* A meeting whose series is summed up. */
+/* The last contact pair with a summed series. */
 static int last_at_rest(const struct run *run)
 {
     int last = 0;
@@ -30,7 +31,7 @@ static int last_at_rest(const struct run *run)
     return last;
 }
 
-/* The largest speed that is lost, of those whose series are summed up. */
+/* The largest speed that is removed in the summed series. */
 static double slow_speed(const struct run *run)
 {
     double slow = 0;
@@ -41,7 +42,7 @@ static double slow_speed(const struct run *run)
     return slow;
 }
 
-/* What parts faster than by what is lost goes on to do so: it only touches still. */
+/* Open touching contacts that separate faster than `slow`. */
 static void let_part(struct run *run, double slow)
 {
     const struct tree *tree = tree_of(run);
@@ -55,7 +56,7 @@ static void let_part(struct run *run, double slow)
     }
 }
 
-/* A slip that friction ends within what counts as the same place, as the impacts that are left would. */
+/* Is the slip so slow that friction ends it within the position tolerance, as the remaining impacts would? */
 static bool stops_at_once(const struct run *run, int index, double slow)
 {
     const struct coupling *coupling = &tree_of(run)->couplings[index];
@@ -82,7 +83,7 @@ static double speed_between(const struct run *run, const struct tree_work *befor
     return most;
 }
 
-/* Does striker i belong to a series that is summed up, and leave slowly? */
+/* Does impact constraint i belong to a summed series, and separate slowly? */
 static bool is_summed_up(const struct run *run, int i, double slow)
 {
     const struct contacts_work *work = &run->contacts;
@@ -92,7 +93,7 @@ static bool is_summed_up(const struct run *run, int i, double slow)
            work->v[(ptrdiff_t)2 * i] <= slow;
 }
 
-/* The state after an impact, with what is summed up closed without friction, and what parts open. */
+/* The state after an impact, with summed contacts closed without friction, and separating ones open. */
 static void try_to_close(struct run *run, int count, double slow, struct fbd_state *state)
 {
     const struct contacts_work *work = &run->contacts;
@@ -115,11 +116,12 @@ static void try_to_close(struct run *run, int count, double slow, struct fbd_sta
     impulse_look(state);
 }
 
-/* Points that are close together leave slowly while their body turns fast: a hop too low to be seen at them is seen
- * elsewhere. A trial shows it: it changes speeds by much, or does not even bring the points to rest. */
+/* Points close together separate slowly while their body rotates fast: a bounce that is below the tolerance
+ * there is large elsewhere. A trial detects it: closing changes speeds by much, or does not even stop the
+ * points. */
 bool zeno_rest_is_harmless(struct run *run, int count)
 {
-    const double resolved = 0.1; /* of the speed with which they leave */
+    const double resolved = 0.1; /* of the separation speed */
     const struct tree *tree = tree_of(run);
     struct fbd_state *state = run->contacts.trial;
     double slow = slow_speed(run), leaving = 0, left = 0;
@@ -136,7 +138,7 @@ bool zeno_rest_is_harmless(struct run *run, int count)
     return speed_between(run, run->state->tree, state->tree) <= levers * fmax(slow, levers * leaving);
 }
 
-/* The longest way that shapes have gone since the look before. */
+/* The largest displacement of shapes since the state `before`. */
 static double way_since(const struct run *run, const struct tree_work *before)
 {
     const struct tree *tree = tree_of(run);
@@ -152,7 +154,7 @@ static double way_since(const struct run *run, const struct tree_work *before)
     return way;
 }
 
-/* Is anything that touches deeper than what counts as touching? */
+/* Does any closed contact overlap by more than the touching tolerance? */
 static bool is_deep(const struct run *run)
 {
     const struct tree *tree = tree_of(run);
@@ -166,8 +168,8 @@ static bool is_deep(const struct run *run)
     return deep;
 }
 
-/* Where what sticks does not let all that touches lie on what it touches, it goes along its surface by as little: its place
- * there is no better known. */
+/* Where sticking contacts prevent the projection of positions, let them move along their surfaces by as
+ * little: their positions along them have no better accuracy. */
 static void move_along(struct run *run)
 {
     const struct tree *tree = tree_of(run);
@@ -188,8 +190,9 @@ static void move_along(struct run *run)
     }
 }
 
-/* Move shapes onto what they touch, and their speeds with `all`. False, with the state as it was, when that takes any of
- * them far, as what leans flat against something while the feet of both stick. */
+/* Project shapes onto their surfaces; with `all` also their velocities. Returns false, with the state
+ * restored, when that moves any shape far, such as a body leaning flat on another while the feet of both
+ * stick. */
 static bool move_a_little(struct run *run, bool all)
 {
     struct fbd_state *state = run->state, *before = run->contacts.trial;
@@ -211,7 +214,7 @@ static bool move_a_little(struct run *run, bool all)
     return little;
 }
 
-/* Open what did not touch before. */
+/* Open the contacts that did not touch before. */
 static void open_others(struct run *run, const bool *was_touching)
 {
     const struct tree *tree = tree_of(run);
@@ -223,7 +226,8 @@ static void open_others(struct run *run, const bool *was_touching)
     }
 }
 
-/* Close what touches; of meetings whose series is summed up within a share of what counts as touching. */
+/* Close the touching contacts; for contact pairs with a summed series within `share` of the touching
+ * tolerance. */
 static void close_within(struct run *run, double share)
 {
     const struct tree *tree = tree_of(run);
@@ -238,7 +242,7 @@ static void close_within(struct run *run, double share)
     for (int i = 0; i < tree->coupling_count; i++) {
         const struct coupling *coupling = &tree->couplings[i];
         if (coupling->kind != constraint_contact || coupling->pair < 0) continue;
-        /* What comes down now holds nothing along its surface; what has stuck sticks. */
+        /* Newly closed contacts slip; sticking ones stick on. */
         if (!work->touching[i]) run->state->slip[coupling->pair] = slip_plus;
         if (run->state->slip[coupling->pair] == stick || !stops_at_once(run, i, slow)) continue;
         coupling_rezero(run->model, run->state->tree, i);
@@ -246,7 +250,7 @@ static void close_within(struct run *run, double share)
     }
 }
 
-/* The potential energy of a move onto a surface goes into the work of that contact's impacts. */
+/* Add the change of potential energy by the displacement to the work of the contact's impacts. */
 static void book_place(struct run *run, int meeting, double before)
 {
     const struct tree *tree = tree_of(run);
@@ -255,8 +259,8 @@ static void book_place(struct run *run, int meeting, double before)
     run->energy.lowered += change;
 }
 
-/* What bounces too low to be seen is put on its surface, and its speed from there taken away: what is left of
- * the series does the same, and its impulses are those of the weight in that time. */
+/* Place bodies with bounces below the tolerance on their surfaces and remove their separation speed: the rest
+ * of the series has the same effect, and its impulses are those of the weight in that time. */
 int zeno_rest(struct run *run, int strikers)
 {
     const struct tree *tree = tree_of(run);
@@ -268,7 +272,7 @@ int zeno_rest(struct run *run, int strikers)
         was_touching[i] = run->state->tree->couplings[i].feature != no_feature;
     close_within(run, wide);
     if (!move_a_little(run, true)) {
-        open_others(run, was_touching); /* what is farther comes down by itself, later */
+        open_others(run, was_touching); /* farther ones land later */
         close_within(run, 1);
         if (!move_a_little(run, true)) state_project_velocity(run->state, false);
     }
@@ -285,8 +289,8 @@ int zeno_rest(struct run *run, int strikers)
     return count;
 }
 
-/* Have the features that touch of what is deeper than touching, by no more than what is put down moves others. The last
- * of these contacts, or -1. */
+/* Find the touching features of pairs that overlap by more than the touching tolerance, but by no more than
+ * zeno_rest may move neighbours. Returns the last of these pairs, or -1. */
 static int find_deep(struct run *run)
 {
     struct fbd_state *state = run->state;
@@ -301,7 +305,7 @@ static int find_deep(struct run *run)
     return last;
 }
 
-/* What is lifted out may be moved into others, which are lifted out with it. */
+/* Shapes that are moved out may overlap others, which are then moved out with them. */
 bool zeno_lift_others(struct run *run)
 {
     enum { most_rounds = 8 };

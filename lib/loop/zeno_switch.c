@@ -36,7 +36,7 @@ void zeno_switch_remember(struct run *run, const struct watcher *watcher)
     passage->count++;
 }
 
-/* The largest that u has been: its gradient, times the largest coordinates of the run. */
+/* The largest u so far: its gradient times the largest coordinates of the run. */
 static double size_of(struct run *run, const struct kink *kink, int part)
 {
     struct fbd_state *state = run->state;
@@ -53,8 +53,7 @@ static double size_of(struct run *run, const struct kink *kink, int part)
     return size;
 }
 
-/* The time that all further passages take together, where they stay within what nobody sees, 1e-9 of the
- * scene; else HUGE_VAL. */
+/* The total time of all further crossings, if they stay within 1e-9 of the scene; else HUGE_VAL. */
 static double time_left(struct run *run, const struct kink *kink, int part)
 {
     const double unseen = 1e-9;

@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * What rounding explains. A force of a diagram is a sum of products, or an unknown of a solved system: each
- * is right to `grain` of the largest force that meets it. Forces pass on from body to body, so among jointed
- * bodies that is the largest of all of them. A moment about G is the force's error times its arm, and the
- * rounding of the arm, a difference of two places in the world, times the force.
+ * Round-off levels. A force of a diagram is a sum of products, or an unknown of a solved system: each has an
+ * error of `answer_level` times the largest force on the body. Forces are transmitted from body to body, so
+ * for jointed bodies it is the largest force on any of them. The error of a moment about G is the error of
+ * the force times its arm, plus the rounding of the arm, a difference of two positions in the world, times
+ * the force.
  */
 #include "rest/balance.h"
 
@@ -18,11 +19,11 @@
 #include "dynamics/tree.h"
 #include "expr/unit.h"
 
-/* Runs of all models need less than 2 roundings (tests/unit/test_balance.c); what is wrong is off by parts in
- * a thousand. */
+/* Runs of all models need less than 2 roundings (tests/unit/test_balance.c); real errors are parts in a
+ * thousand. */
 static const double answer_level = 1048576 * DBL_EPSILON;
 
-/* What acts on one body, and what it does: residuals, and the sizes of what they are made of. */
+/* Loads and motion of one body: residuals, and the sizes of their terms. */
 struct sums {
     struct vec m_a, f; /* mass times acceleration; sum of forces */
     double I_alpha, M;
@@ -31,8 +32,8 @@ struct sums {
     double place;         /* rounding of arms, as a moment */
 };
 
-/* A force between its branches may be next to nothing, and is right to the rounding of these: what shares can do to
- * the body's coordinates, as forces or moments. */
+/* The force of a Filippov sliding mode may nearly vanish; its error is relative to the forces of both
+ * branches: the size of their effect on the coordinates of the body, as forces or moments. */
 static double slid_size(const struct fbd_state *state, const struct model_body *body)
 {
     const struct plan *plan = &state->model->plan;
@@ -73,15 +74,15 @@ static struct sums sums_of(const struct fbd_state *state, int b, struct arrow *a
         sums.reach = fmax(sums.reach, arm);
         sums.place += DBL_EPSILON * (vec_norm(arrow->point) + vec_norm(G)) * size;
     }
-    /* On a slide of the ground, and as a particle, nothing turns, and what keeps it from turning has no
-     * arrow. */
+    /* On a slide of the ground, and as a particle, the body does not turn; its constraining couple is not
+     * listed. */
     if (!jointed && (body->kind == motion_slide || body->kind == motion_particle)) sums.M = sums.I_alpha = 0;
     return sums;
 }
 
 struct worst {
     int body;
-    double ratio, is, sum, explained; /* of what rounding explains; left and right side; that */
+    double ratio, is, sum, explained; /* residual over round-off; left and right side; round-off */
     const char *what;
     bool moment;
 };
@@ -90,19 +91,19 @@ static void compare(struct worst *worst, int body, const char *what, bool moment
                     double explained)
 {
     double off = fabs(is - sum);
-    /* What is not a number goes on; below the least normal number roundings are no shares of numbers. */
+    /* NaN passes; below the least normal number there is no relative rounding. */
     if (off <= worst->ratio * explained || off <= DBL_MIN) return;
     *worst =
         (struct worst){body, explained > 0 ? off / explained : HUGE_VAL, is, sum, explained, what, moment};
 }
 
-/* What forces and moments of jointed bodies are right to. */
+/* Errors of forces and moments of jointed bodies. */
 struct answer_levels {
     double force, moment;
 };
 
-/* Where a curve has its inflection nothing presses and nothing turns, to the rounding of what it bends elsewhere: as fast as
- * a circle of its length turns. */
+/* At the inflection of a curve normal force and rotation vanish; their error is relative to those of a circle
+ * of the same length. */
 static double turn_of_track(const struct fbd_state *state, const struct model_body *body)
 {
     if (body->kind != motion_track) return 0;
@@ -110,10 +111,10 @@ static double turn_of_track(const struct fbd_state *state, const struct model_bo
     return fabs(state->y[state->model->plan.n + body->first]) / track->curve->length;
 }
 
-/* The largest that meets any of them counts, and how well directions are known where the bodies are small
- * against how far away they stand. Accelerations are sums too, of those of the bodies below and of what their
- * turning adds, at the speed there is and at the distance from them: a body on which nothing acts has m a = 0 to the
- * rounding of m times these. */
+/* The largest force on any of the jointed bodies counts, with the error of directions where bodies are small
+ * compared with their distance from the origin. Accelerations are sums, too, of those of the parent bodies
+ * and of the terms of their rotation, at the present speed and distance: a body without forces has m a = 0
+ * only to the rounding of m times these. */
 static struct answer_levels joined_level(const struct fbd_state *state, struct arrow *arrows)
 {
     const struct tree *tree = state->model->tree;
@@ -157,9 +158,9 @@ static void say(const struct fbd_state *state, const struct worst *worst, struct
         fabs(worst->is - worst->sum), unit, worst->explained, unit);
 }
 
-/* The force and the moment by which the motion of each body answers when the numbers of the state change by one rounding each,
- * as where stiff springs make much of the last digit of an angle: the forces of two evaluations differ by that. NULL without
- * memory. */
+/* Changes of the inertia force and moment of each body when each number of the state changes by one rounding,
+ * which stiff springs for example amplify: the forces of two evaluations differ by that. NULL without memory.
+ */
 static struct answer_levels *find_answers(const struct fbd_state *state, struct arrow *arrows)
 {
     const size_t bodies = state->model->body_count;
@@ -168,7 +169,7 @@ static struct answer_levels *find_answers(const struct fbd_state *state, struct 
     const bool made = answers && here && there;
     if (made) {
         state_copy(here, state);
-        state_evaluate(here); /* afresh, as those beside it */
+        state_evaluate(here); /* evaluated anew, like the perturbed states */
     } else {
         free(answers);
         answers = NULL;
@@ -190,8 +191,8 @@ static struct answer_levels *find_answers(const struct fbd_state *state, struct 
     return answers;
 }
 
-/* The equation that is farthest off; none within what rounding explains, at least `joined` for a jointed
- * body. `answers` may be NULL. */
+/* The equation with the largest residual relative to round-off, at least `joined` for a jointed body; none if
+ * all are below. `answers` may be NULL. */
 static struct worst find_worst(const struct fbd_state *state, struct arrow *arrows,
                                struct answer_levels joined, const struct answer_levels *answers)
 {
@@ -220,9 +221,9 @@ bool balance_lack(struct fbd_state *state, struct arrow *arrows, struct text *la
     struct instant at = state_instant(state);
     bool used =
         state->tree && (!state->tree->complete || (!state->tree->shared && rest_is_open(state->model, &at)));
-    if (used) state_evaluate(state); /* others have used its scratch */
+    if (used) state_evaluate(state); /* its scratch was overwritten */
     struct worst worst = find_worst(state, arrows, (struct answer_levels){0, 0}, NULL);
-    if (!worst.what) return false; /* nearly always: what the other bodies feel is not needed */
+    if (!worst.what) return false; /* nearly always; the levels of jointed bodies are not needed */
     const struct answer_levels joined = joined_level(state, arrows);
     worst = find_worst(state, arrows, joined, NULL);
     if (!worst.what) return false;

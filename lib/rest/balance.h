@@ -2,9 +2,9 @@
  *
  * Do the forces of the diagrams add up to the motion: m a = sum of f, I alpha = sum of M of each body?
  *
- * The right-hand side and the diagrams are two ways through the same mechanics. Where they differ, or where
- * modes were decided that no forces agree with, the motion is not that of the scene: a wrong number that
- * looks like any other. So every run is held to it where it is looked at.
+ * The right-hand side and the diagrams are two implementations of the same mechanics. Where they differ, or
+ * where modes are inconsistent with the forces, the motion is not that of the scene, and the error would be
+ * invisible. So every run is checked at the states that are output.
  */
 #ifndef FBD_REST_BALANCE_H
 #define FBD_REST_BALANCE_H
@@ -13,14 +13,13 @@
 #include "dynamics/diagram.h"
 #include "dynamics/state.h"
 
-/* Say of the body that is farthest off which equation does not hold at the evaluated state, by how much, and
- * what rounding explains. False, with nothing added to `lack`, when all hold; without memory
- * true, and `lack` has failed. `arrows` is scratch:
- * diagram_most_arrows. */
+/* Describe the equation with the largest residual relative to rounding, at the evaluated state. Returns
+ * false, with nothing added to `lack`, when all equations are satisfied; without memory true, and `lack` has
+ * failed. `arrows` is scratch: diagram_most_arrows. */
 bool balance_lack(struct fbd_state *state, struct arrow *arrows, struct text *lack);
 
-/* The accelerations that the forces on a body would give it if none met another: the largest of all bodies, at the
- * evaluated state. Those that balance leave some roundings of it. */
+/* The largest acceleration of a body that the sum of the magnitudes of its forces would cause, at the
+ * evaluated state: the reference for round-off of balanced forces. */
 double balance_size(const struct fbd_state *state, struct arrow *arrows);
 
 #endif

@@ -23,24 +23,24 @@
 struct resting {
     struct fbd_state *state;
     double *work;  /* scratch of state_jacobian: dfdy, then dfdt */
-    double *share; /* with couplings 1 - P, n x n, else NULL */
-    double k;      /* acceleration for a length off the couplings */
-    double zero;   /* an acceleration that is none, beside those of the start */
-    double *start; /* unknowns: where the search began */
-    double *scale; /* unknowns: what makes the rates of states as large as accelerations */
-    int *slip;     /* of the modes: what held there */
+    double *share; /* with couplings S = 1 - P, n x n, else NULL */
+    double k;      /* acceleration per length of violation of the couplings */
+    double zero;   /* accelerations below this count as zero */
+    double *start; /* unknowns: start of the search */
+    double *scale; /* unknowns: scales rates of user states to the size of accelerations */
+    int *slip;     /* of the modes: those at the start */
     double *Q;     /* n: generalized forces without those of couplings, which do no work along a step */
-    double *slots, *lambda; /* of rest_forces; lambda is zero */
+    double *slots, *lambda; /* for rest_forces; lambda is zero */
     struct arrow *arrows;   /* scratch of balance_size */
 };
 
-/* The unknowns: coordinates, and the states of the file's own, whose rates are to be zero beside accelerations. */
+/* The unknowns: coordinates, and user states, whose rates must vanish as well as the accelerations. */
 static size_t unknowns_of(const struct resting *balance)
 {
     return plan_rates(&balance->state->model->plan);
 }
 
-/* Where unknown i is in y. */
+/* Index of unknown i in y. */
 static size_t place_of(const struct fbd_state *state, size_t i)
 {
     size_t n = (size_t)state->model->plan.n;
@@ -52,7 +52,7 @@ static void keep_place(const struct fbd_state *state, double *x)
     for (size_t i = 0; i < plan_rates(&state->model->plan); i++) x[i] = state->y[place_of(state, i)];
 }
 
-/* At rest there. */
+/* Set the state to rest at x. */
 static void put_place(struct fbd_state *state, const double *x)
 {
     size_t n = (size_t)state->model->plan.n;
@@ -60,7 +60,7 @@ static void put_place(struct fbd_state *state, const double *x)
     memset(state->y + n, 0, n * sizeof *state->y);
 }
 
-/* At rest at q, or at the place on the couplings that is nearest to it. */
+/* Set the state to rest at q, or at the nearest position on the couplings. */
 static void set_coordinates(struct resting *balance, const gsl_vector *q)
 {
     struct fbd_state *state = balance->state;
@@ -83,7 +83,7 @@ static int forces(const gsl_vector *q, void *context, gsl_vector *f)
     return GSL_SUCCESS;
 }
 
-/* The slope of residual i with unknown j, as far as the couplings let it go. */
+/* The derivative of residual i by unknown j, projected onto the couplings. */
 static double slope_of(const struct resting *balance, size_t i, size_t j)
 {
     const struct plan *plan = &balance->state->model->plan;
@@ -97,7 +97,7 @@ static double slope_of(const struct resting *balance, size_t i, size_t j)
     return slope;
 }
 
-/* A prescribed coordinate, and a state whose rate nothing changes here, stay where they are. */
+/* A prescribed coordinate, and a user state whose rate does not depend on the unknowns, stay unchanged. */
 static void hold_inert(const struct resting *balance, gsl_matrix *J)
 {
     const size_t n = (size_t)balance->state->model->plan.n;
@@ -131,7 +131,6 @@ static int both(const gsl_vector *q, void *context, gsl_vector *f, gsl_matrix *J
     return slopes(q, context, J);
 }
 
-/* The size that accelerations have at a place where nothing balances: what zero is measured against. */
 double equilibrium_size(const struct fbd_state *state)
 {
     double most = vec_norm(state->model->scene->gravity);
@@ -146,11 +145,11 @@ static double imbalance(const gsl_vector *f)
     return most;
 }
 
-/* ---- let it down slowly: pseudo-transient continuation (Kelley and Keyes, SIAM J. Numer. Anal. 35, 1998)
+/* ---- pseudo-transient continuation (Kelley and Keyes, SIAM J. Numer. Anal. 35, 1998)
  *
  * Implicit Euler steps of dq/ds = F(q), (1/h - dF/dq) d = F, whose h grows as they get shorter, so that they
- * end as Newton's. With forces that have a potential this goes downhill in the sense of the masses, to where
- * the scene would come to rest, from however far. */
+ * end as Newton steps. With forces that have a potential this is a descent in the mass metric, to the
+ * position where the scene would come to rest, from any distance. */
 
 struct newton {
     size_t n;
@@ -182,7 +181,7 @@ static bool newton_new(struct newton *newton, size_t n)
     return true;
 }
 
-/* The step for h; false when there is none. */
+/* Compute the step for h; false if the matrix is singular. */
 static bool newton_step(struct newton *newton, double h)
 {
     size_t n = newton->n;
@@ -196,7 +195,7 @@ static bool newton_step(struct newton *newton, double h)
     return true;
 }
 
-/* The size of coordinate i, here or at the start: 1 rad, or the length that it is. */
+/* Scale of coordinate i at q: 1 for an angle, or its length. */
 static double size_of(const struct resting *balance, size_t i, double q)
 {
     const struct fbd_model *model = balance->state->model;
@@ -204,13 +203,13 @@ static double size_of(const struct resting *balance, size_t i, double q)
     return fmax(fabs(q), 1e-3);
 }
 
-/* Put what the state has, which is on the couplings, back into q. */
+/* Copy the state, which satisfies the couplings, to q. */
 static void take_coordinates(const struct resting *balance, gsl_vector *q)
 {
     for (size_t i = 0; i < q->size; i++) gsl_vector_set(q, i, balance->state->y[place_of(balance->state, i)]);
 }
 
-/* The work of the forces along the step, as far as the couplings let it go. */
+/* The work of the forces along the step, projected onto the couplings. */
 static double work_along(const struct resting *balance, const struct newton *newton)
 {
     size_t n = newton->n;
@@ -223,8 +222,9 @@ static double work_along(const struct resting *balance, const struct newton *new
     return work;
 }
 
-/* The step for h; its largest part over the 0.3 of its size that it may be, or infinity where it goes uphill:
- * beyond an h that unstable directions allow it would go to the balance that they leave. */
+/* Compute the step for h. Returns its largest component relative to the limit, 0.3 of its scale, or infinity
+ * where the step is an ascent: with too large an h unstable directions would lead to the unstable
+ * equilibrium. */
 static double stride(const struct resting *balance, struct newton *newton, double h)
 {
     double most = 0;
@@ -236,8 +236,8 @@ static double stride(const struct resting *balance, struct newton *newton, doubl
     return work_along(balance, newton) > 0 ? most : HUGE_VAL;
 }
 
-/* An h to begin with: a step of F alone goes no farther than 0.1, and half the way to where the slopes could
- * turn it round. */
+/* First h: a step of F alone is at most 0.1, and h is at most half the bound at which the derivatives could
+ * reverse it. */
 static double first_h(const struct newton *newton)
 {
     double most = imbalance(newton->f) / 0.1;
@@ -249,7 +249,7 @@ static double first_h(const struct newton *newton)
     return most > 0 ? 1 / most : 1;
 }
 
-/* From where the state is, or the place nearest to it that its ropes allow; returns the imbalance there. */
+/* Start from the state, or from the nearest position that its ropes allow; returns the imbalance there. */
 static double begin_down(struct resting *balance, struct newton *newton, double *h)
 {
     take_coordinates(balance, newton->q);
@@ -260,10 +260,10 @@ static double begin_down(struct resting *balance, struct newton *newton, double 
     return imbalance(newton->f);
 }
 
-/* One step, and the h of the next one; false when there is none that goes down. */
+/* One step, and h of the next one; false when there is no descent. */
 static bool step_down(struct resting *balance, struct newton *newton, double *h)
 {
-    const double shortest = 1e-300, longest = 1e300; /* a step that is infinite is never halved */
+    const double shortest = 1e-300, longest = 1e300; /* an infinite step cannot be halved */
     take_coordinates(balance, newton->q);
     both(newton->q, balance, newton->f, newton->J);
     struct instant at = state_instant(balance->state);
@@ -291,8 +291,7 @@ static bool let_down(struct resting *balance, struct newton *newton)
             if (!step_down(balance, newton, &h)) return false;
             began = ropes_take_up(balance->state);
             double after = imbalance(newton->f);
-            there =
-                !began && after <= 1e4 * zero && after >= before; /* rounding keeps it from getting better */
+            there = !began && after <= 1e4 * zero && after >= before; /* rounding prevents progress */
             before = after;
         }
         if (there && !ropes_let_go(balance->state)) return true;
@@ -301,8 +300,8 @@ static bool let_down(struct resting *balance, struct newton *newton)
     return before <= 1e4 * zero;
 }
 
-/* Newton would not go on from here by more than a hundredth of the size that coordinates had at the start:
- * else forces have only died out on the way to infinity (K/x^2). */
+/* A further Newton step is less than a hundredth of the scale that coordinates had at the start: otherwise
+ * forces only decay towards infinity (K/x^2). */
 static bool arrived(struct resting *balance, struct newton *newton)
 {
     size_t n = newton->n;
@@ -310,23 +309,23 @@ static bool arrived(struct resting *balance, struct newton *newton)
     take_coordinates(balance, newton->q);
     both(newton->q, balance, newton->f, newton->J);
     for (size_t i = 0; i < n * n; i++) slope = larger(slope, fabs(gsl_matrix_get(newton->J, i / n, i % n)));
-    if (slope == 0) return true;                         /* no force anywhere */
-    if (!newton_step(newton, 1e6 / slope)) return false; /* a little of 1/h for what can move freely */
+    if (slope == 0) return true;                         /* no force depends on position */
+    if (!newton_step(newton, 1e6 / slope)) return false; /* a small 1/h regularizes free coordinates */
     for (size_t i = 0; i < n; i++)
         if (!(fabs(newton->d[i]) <= 0.01 * size_of(balance, i, balance->start[i]))) return false;
     return true;
 }
 
-/* ---- the nearest of several */
+/* ---- the nearest of several equilibria */
 
-/* Newton from q, on to where it gets no better; the state is moved to the best place. */
+/* Newton's method from q until the residual no longer decreases; sets the state to the best point. */
 static bool find_balance_from(struct resting *balance, gsl_vector *q, gsl_multiroot_fdfsolver *solver)
 {
     enum { most_iterations = 200 };
     gsl_multiroot_function_fdf function = {forces, slopes, both, q->size, balance};
     int status = gsl_multiroot_fdfsolver_set(solver, &function, q);
     double least = imbalance(solver->f);
-    /* A balance already: what can move freely would be sent anywhere by roundings. */
+    /* Already an equilibrium: rounding would displace free coordinates arbitrarily. */
     bool there = least <= balance->zero;
     for (int i = 0; !there && i < most_iterations && status == GSL_SUCCESS && least > 0; i++) {
         status = gsl_multiroot_fdfsolver_iterate(solver);
@@ -338,13 +337,13 @@ static bool find_balance_from(struct resting *balance, gsl_vector *q, gsl_multir
     }
     set_coordinates(balance, q);
     state_evaluate(balance->state);
-    /* Where rounding keeps it from `zero`, the last digits of a position are at fault: still a balance. */
+    /* Residuals above `zero` may come from the rounding of positions: still an equilibrium. */
     return least <= 1e4 * balance->zero;
 }
 
-/* A start on a ridge has no way down (a rod held level: the slope of its moment is zero), and Newton may leap
- * from near it. So starts beside it are tried as well, +-0.1, 0.2, ... 1.6 rad and the same share of a
- * coordinate's size, and the balance nearest to the state counts. */
+/* At an unstable symmetric start the derivative may vanish (that of the moment of a horizontal rod), and
+ * Newton's method may leap from near it. So neighbouring starts are tried as well, +-0.1, 0.2, ... 1.6 rad,
+ * or this factor times the scale of a coordinate; the equilibrium nearest to the state is used. */
 static void set_start(gsl_vector *q, const struct fbd_model *model, const double *origin, int trial)
 {
     double share = trial == 0 ? 0 : ldexp(0.1, (trial - 1) / 2) * (trial % 2 ? -1 : 1);
@@ -379,7 +378,7 @@ static int search(struct resting *balance)
         if (!find_balance_from(balance, q, solver) || ropes_are_too_long(state)) continue;
         keep_place(state, there);
         double distance = distance_between(there, origin, n);
-        /* Of two that rounding tells apart the first one stays. */
+        /* Of two at equal distance to rounding, keep the first. */
         if (!(distance < nearest * (1 - 1e-9))) continue;
         nearest = distance;
         memcpy(best, there, n * sizeof *best);
@@ -403,8 +402,7 @@ static double reach_of(const struct fbd_state *state)
     return reach > 0 ? reach : 1;
 }
 
-/* Accelerations at rest where it starts are what others are measured against; false when they are not finite.
- */
+/* Set the scales from the accelerations at rest at the start; false when they are not finite. */
 static bool measure(struct resting *balance)
 {
     struct fbd_state *state = balance->state;
@@ -413,7 +411,7 @@ static bool measure(struct resting *balance)
     if (balance->share) state_project(state, false);
     state_evaluate(state);
     double size = equilibrium_size(state);
-    /* What starts in balance has accelerations of roundings alone, which are no measure. */
+    /* A start in equilibrium has accelerations at round-off level only, which are no scale. */
     balance->zero = fmax(1e-13 * size, 1e-15 * balance_size(state, balance->arrows));
     for (size_t i = 0; i < unknowns_of(balance); i++) balance->scale[i] = 1;
     for (size_t i = n; i < unknowns_of(balance); i++) {
@@ -459,7 +457,7 @@ static int balance_new(struct resting *balance, struct fbd_state *state)
     return measure(balance);
 }
 
-/* Back to where the search began, and to what held there. */
+/* Return to the start of the search and its modes. */
 static void go_back(struct resting *balance)
 {
     struct fbd_state *state = balance->state;
@@ -468,15 +466,13 @@ static void go_back(struct resting *balance)
     state_evaluate(state);
 }
 
-/* Where it comes to rest; where forces without a potential drive it round and round, the nearest balance. 1
- * found, 0 none, -1 out of memory. */
 int equilibrium_settle(struct fbd_state *state)
 {
     struct resting balance;
     struct newton newton = {0};
     int made = balance_new(&balance, state);
     if (made > 0 && !newton_new(&newton, unknowns_of(&balance))) made = -1;
-    bool downhill = state->model->plan.own == 0; /* states have no energy to go down with */
+    bool downhill = state->model->plan.own == 0; /* user states have no potential energy */
     int found = made > 0 ? downhill && let_down(&balance, &newton) && arrived(&balance, &newton) : made;
     if (made > 0 && found == 0) {
         go_back(&balance);
@@ -488,7 +484,7 @@ int equilibrium_settle(struct fbd_state *state)
     return found;
 }
 
-/* Where slack ropes end the ways to all that would balance without them, they are let down into these. */
+/* Where slack ropes prevent all equilibria found without them, descend until they are taut. */
 int equilibrium_search(struct fbd_state *state)
 {
     struct resting balance;

@@ -8,8 +8,8 @@
 #include "dynamics/tree_system.h"
 #include "expr/unit.h"
 
-/* Less than this is no change of component i of a state, in a mechanism of that length: some digits of it, or
- * the rounding of where it is. */
+/* Changes of component i of a state below this are ignored, in a mechanism of that length: some digits of it,
+ * or the rounding of the position. */
 static double least_change(const struct fbd_state *state, int i, double length)
 {
     const double digits = 1e-9, rounding = 64 * DBL_EPSILON;
@@ -18,7 +18,7 @@ static double least_change(const struct fbd_state *state, int i, double length)
     return digits * length + rounding * fabs(state->y[i]);
 }
 
-/* "rod.theta = -0.7, ...": what has to change; false when that is nothing but rounding. */
+/* "rod.theta = -0.7, ...": list the components that have to change; false when all change by rounding only. */
 static bool list_changes(struct text *text, const struct fbd_state *from, const struct fbd_state *to,
                          double length)
 {
@@ -29,7 +29,7 @@ static bool list_changes(struct text *text, const struct fbd_state *from, const 
         double least = least_change(from, i, length);
         if (fabs(to->y[i] - from->y[i]) <= least) continue;
         if (listed++ >= most_listed) continue;
-        const struct coordinate *c = &model->scene->coordinates[i % n]; /* a group has no labels */
+        const struct coordinate *c = &model->scene->coordinates[i % n]; /* an island has no labels */
         text_printf(text, "%s%s.%s = ", listed > 1 ? ", " : "", model->bodies[c->body].name,
                     i < n ? c->name : c->rate_name);
         text_number(text, fabs(to->y[i]) > 1e-3 * least ? to->y[i] : 0, 9);
@@ -38,17 +38,17 @@ static bool list_changes(struct text *text, const struct fbd_state *from, const 
     return listed > 0;
 }
 
-/* Of the coupling that a row is of. */
+/* Position in the file of the coupling of a row. */
 static struct pos place_of(const struct fbd_model *model, int row)
 {
     return model->scene->constraints[model->tree->couplings[model->tree->coupling_of_row[row]].constraint].at;
 }
 
-/* A row that is off by more than it may be. */
+/* A row whose residual exceeds its tolerance. */
 struct miss {
     int row;
-    double off, share; /* as a share of what it may be off by */
-    double length;     /* of what it joins */
+    double off, share; /* residual, and its ratio to the tolerance */
+    double length;     /* scale of the coupling */
 };
 
 static void note_miss(struct miss *miss, int row, double off, double most, double length)
@@ -58,7 +58,8 @@ static void note_miss(struct miss *miss, int row, double off, double most, doubl
     *miss = (struct miss){row, off, isnan(share) ? HUGE_VAL : share, length};
 }
 
-/* How large, and how fast, the trees are that a coupling joins: from the first link on, wherever in the world. */
+/* Extent and speed of the trees connected by a coupling: measured from the first link, wherever it is in the
+ * world. */
 struct size {
     const struct coupling *coupling;
     double extent, place, speed;
@@ -72,7 +73,7 @@ static bool joins_the_same(const struct coupling *a, const struct coupling *b)
     return true;
 }
 
-/* Couplings that follow each other often join the same trees. */
+/* Successive couplings often join the same trees. */
 static void find_size(const struct fbd_state *state, const struct coupling *coupling, struct size *size)
 {
     const struct tree *tree = state->model->tree;
@@ -88,9 +89,9 @@ static void find_size(const struct fbd_state *state, const struct coupling *coup
         }
 }
 
-/* What position row j is measured against: the trees, the arms at which they are joined, the length of a rod
- * or rope. Points alone that are to be one have no size; the digits of their places are all there is, and where they touch
- * what the contact is measured against. */
+/* The length scale of the position of row j: of the trees, the arms of its ports, the length of a rod or
+ * rope. Coincident points without these have no size: the scale is their distance from the origin, and for
+ * contacts also that of the contact. */
 static double length_of(const struct fbd_state *state, const struct coupling *coupling, int j,
                         const struct size *size)
 {
@@ -105,11 +106,11 @@ static double length_of(const struct fbd_state *state, const struct coupling *co
                                   : size->place;
 }
 
-/* The rows that are off the most, in position and in velocity. A slack rope may be too short, not too long.
- */
+/* Find the rows with the largest residuals, in position and in velocity. A slack rope may be shorter, but not
+ * longer. */
 static void find_misses(struct fbd_state *state, struct miss *position, struct miss *velocity)
 {
-    const double digits = 2e-6; /* six digits in a file are meant to fit */
+    const double digits = 2e-6; /* files have six digits */
     const double rounding = 64 * DBL_EPSILON;
     const struct tree *tree = state->model->tree;
     struct instant at = state_instant(state);
@@ -121,8 +122,8 @@ static void find_misses(struct fbd_state *state, struct miss *position, struct m
         const struct jet g = state->tree->rows[j].g;
         bool held = tree_takes_part(tree, &at, j);
         bool rubs = coupling->kind == constraint_capstan && j == coupling->first_row; /* slack, or too long */
-        bool on_line =
-            coupling->kind == constraint_roll && j == coupling->first_row; /* at the start, open or not */
+        bool on_line = coupling->kind == constraint_roll &&
+                       j == coupling->first_row; /* at the start, whatever its mode */
         if (!held && coupling->kind != constraint_rope && !on_line && !rubs) continue;
         find_size(state, coupling, &size);
         double length = length_of(state, coupling, j, &size), most = digits * length + rounding * size.place;
@@ -131,7 +132,7 @@ static void find_misses(struct fbd_state *state, struct miss *position, struct m
     }
 }
 
-/* Ropes that are too long are pulled taut, what rolls is put on its line. */
+/* Close ropes that exceed their length, and rolling couplings. */
 static void pull_taut(struct fbd_state *state)
 {
     const struct plan *plan = &state->model->plan;
@@ -151,7 +152,8 @@ static void add_miss(const struct fbd_model *model, const char *name, double off
     text_printf(text, "`%s` is off by %.3g %s%s", name, off, unit, by_velocity ? " in velocity" : "");
 }
 
-/* Two pins of one point. The distance of their other ends is the difference of their rows, wherever the point is. */
+/* Two pins of one point. The distance of their other ends is the difference of their rows, for any position
+ * of the point. */
 static bool pins_one_point(const struct fbd_state *state, const struct coupling *a, const struct coupling *b,
                            double *apart)
 {
@@ -169,7 +171,7 @@ static bool pins_one_point(const struct fbd_state *state, const struct coupling 
     return false;
 }
 
-/* The couplings that are still off where they have been brought as near to each other as they come: they exclude each
+/* List the couplings that are violated after the projection has minimized the violations: they exclude each
  * other. */
 static void list_excluded(struct fbd_state *state, double length, struct text *lack)
 {
@@ -201,8 +203,8 @@ static void list_excluded(struct fbd_state *state, double length, struct text *l
     }
 }
 
-/* What is wrong and what is next to it; false when that differs by rounding only, as where everything is at
- * rest but for rounding and speeds have no size to go by. */
+/* Describe the violation and the nearest consistent state; false when that differs by rounding only, as at
+ * rest, where speeds have no scale. */
 static bool tell(const struct fbd_state *state, struct fbd_state *other, const char *name,
                  const struct miss *miss, bool by_velocity, struct text *lack)
 {
@@ -227,13 +229,13 @@ static bool tell(const struct fbd_state *state, struct fbd_state *other, const c
     return differs;
 }
 
-/* What stands at place k of a rope's way. */
+/* Name of point k of a rope's path. */
 static const char *name_at(const struct fbd_model *model, const struct coupling *coupling, int k)
 {
     return coupling->end[k].body < 0 ? "the ground" : model->bodies[coupling->end[k].body].name;
 }
 
-/* Both ways round a disc leave it equally far to the side that the file names. */
+/* Both paths around a disc are equally far on the side that the file names. */
 static bool unclear_side(const struct fbd_state *state, int index, struct pos *at, struct text *lack)
 {
     const struct fbd_model *model = state->model;
@@ -289,7 +291,7 @@ bool fit_blocked(struct fbd_state *state, struct pos *at, struct text *lack)
     const struct fbd_model *model = state->model;
     const struct tree *tree = model->tree;
     if (!tree || tree->coupling_count == 0) return false;
-    state_misfit(state); /* puts the links in their places */
+    state_misfit(state); /* updates the positions of the links */
     for (int i = 0; i < tree->coupling_count; i++) {
         const struct coupling *coupling = &tree->couplings[i];
         if (beyond_end(state, i, at, lack)) return true;

@@ -7,8 +7,7 @@
 #include "dynamics/project.h"
 #include "dynamics/tree.h"
 
-static const double least_pivot =
-    1e-7; /* of the sizes of coordinates: below it is rounding of the projection */
+static const double least_pivot = 1e-7; /* of the sizes of coordinates; below is rounding */
 
 bool coordinate_is_driven(const struct fbd_model *model, size_t i)
 {
@@ -48,7 +47,7 @@ void independent_free(struct independent *independent)
     free(independent->share);
 }
 
-/* An angle counts by the arm that it turns: the size of the mechanism. */
+/* The size of an angle is 1, that of a length the size of the mechanism. */
 static void set_sizes(struct independent *independent, const struct fbd_state *state)
 {
     double reach = 0;
@@ -79,7 +78,7 @@ static bool is_taken(const struct independent *independent, size_t count, size_t
     return false;
 }
 
-/* The row to take next: the first in the file whose pivot is at least a tenth of the largest. */
+/* The next row: the first in the file whose pivot is at least a tenth of the largest. */
 static size_t choose_row(const struct independent *independent, size_t count)
 {
     const double much = 0.1;
@@ -96,7 +95,7 @@ static size_t choose_row(const struct independent *independent, size_t count)
     return row;
 }
 
-/* Make column k that of row i: 1 there, and 0 in all other columns. False without a pivot. */
+/* Eliminate: column k gets 1 in row i, all other columns 0. False without a pivot. */
 static bool eliminate(struct independent *independent, size_t k, size_t i)
 {
     size_t n = independent->n, column = k;
@@ -119,7 +118,7 @@ static bool eliminate(struct independent *independent, size_t k, size_t i)
     return true;
 }
 
-/* What is left when all have been taken is rounding. */
+/* Is the remainder at round-off level after all eliminations? */
 static bool is_exhausted(const struct independent *independent)
 {
     size_t column;

@@ -17,14 +17,14 @@
 #include "rest/independent.h"
 #include "rest/start.h"
 
-/* ---- the whole */
+/* ---- conditions */
 
 static bool is_coupled(const struct fbd_model *model)
 {
     return model->tree && model->tree->coupling_count > 0;
 }
 
-/* Are coordinates dependent, by couplings or as prescribed? */
+/* Are there dependent coordinates, by couplings or prescribed? */
 static bool is_reduced(const struct fbd_model *model)
 {
     bool driven = false;
@@ -32,7 +32,7 @@ static bool is_reduced(const struct fbd_model *model)
     return driven || is_coupled(model);
 }
 
-/* With a prescribed motion there is no state of rest, unless it is a place. */
+/* With a prescribed motion there is no state of rest, unless it is constant in time. */
 static bool refuse_driven(const struct fbd_state *state, fbd_errors *errors)
 {
     const struct fbd_model *model = state->model;
@@ -47,8 +47,9 @@ static bool refuse_driven(const struct fbd_state *state, fbd_errors *errors)
     return equilibrium_refuse_reels(model, errors);
 }
 
-/* What is at rest sticks to a surface at rest; under a surface that moves on it slips, and its friction is a
- * force like others. What rolls, or stands on its contacts, is held where it touches and may go round there. */
+/* Refuse friction that sticks at rest on a surface at rest; on a moving surface it slips, and its friction is
+ * a force like others. Rolling bodies, and bodies on contacts, are held at their contact point and may rotate
+ * about it. */
 static bool refuse_sticking(const struct fbd_state *state, fbd_errors *errors)
 {
     const struct fbd_model *model = state->model;
@@ -68,9 +69,9 @@ static bool refuse_sticking(const struct fbd_state *state, fbd_errors *errors)
     return false;
 }
 
-/* ---- holds at the equilibrium */
+/* ---- unilateral constraints at the equilibrium */
 
-/* The largest force of a coupling, and the weight of all that is jointed. */
+/* The largest force of a coupling, or the weight of all jointed bodies. */
 static double size_of_forces(const struct fbd_state *state)
 {
     const struct tree *tree = state->model->tree;
@@ -81,7 +82,7 @@ static double size_of_forces(const struct fbd_state *state)
     return most;
 }
 
-/* Taut ropes pull and what is closed presses; what could go either way has no linear motion. */
+/* Closed ropes and contacts must have positive forces; a constraint at its limit has no linear motion. */
 static bool refuse_limits(struct fbd_state *state, fbd_errors *errors)
 {
     const double nothing = 1e-9;
@@ -116,7 +117,7 @@ static bool refuse_limits(struct fbd_state *state, fbd_errors *errors)
     return true;
 }
 
-/* ---- slopes */
+/* ---- derivatives */
 
 static fbd_linearization *linearization_new(const struct fbd_model *model)
 {
@@ -138,12 +139,12 @@ static fbd_linearization *linearization_new(const struct fbd_model *model)
     return NULL;
 }
 
-/* What the slopes are taken by, and those of three places. */
+/* Data for the derivatives, and those at three positions. */
 struct looking {
     struct fbd_linearization *linear;
     struct fbd_state *state;
     struct independent independent; /* with couplings */
-    double *full;                   /* and the Jacobian of all coordinates, df/dt behind it */
+    double *full;                   /* with couplings: the Jacobian of all coordinates, df/dt behind it */
     double *origin, *before, *beside, *there;
 };
 
@@ -168,7 +169,7 @@ static bool looking_new(struct looking *looking, struct fbd_linearization *linea
     return looking->full && independent_new(&looking->independent, state);
 }
 
-/* One row of A from that of the Jacobian of all. */
+/* One row of A from that of the full Jacobian. */
 static void reduce_row(const struct independent *independent, size_t own, const double *full, double *row)
 {
     size_t n = independent->n, f = independent->count;
@@ -180,7 +181,7 @@ static void reduce_row(const struct independent *independent, size_t own, const 
     for (size_t i = 0; i < own; i++) row[2 * f + i] = full[2 * n + i];
 }
 
-/* A of the independent coordinates and the states from the Jacobian of all. */
+/* A of the independent coordinates and the user states from the full Jacobian. */
 static void reduce(const struct looking *looking)
 {
     const struct independent *independent = &looking->independent;
@@ -198,8 +199,8 @@ static void reduce(const struct looking *looking)
         reduce_row(independent, own, looking->full + (2 * n + i) * wide, A + (2 * f + i) * size);
 }
 
-/* The Jacobian at the state, and the largest slope that each acceleration has along a coordinate. False where
- * the independent coordinates are not independent. */
+/* Compute the Jacobian at the state, and the largest derivative of each acceleration by a coordinate. False
+ * where the chosen coordinates are not independent. */
 static bool slopes_at(struct looking *looking, double *most)
 {
     struct fbd_state *state = looking->state;
@@ -220,9 +221,9 @@ static bool slopes_at(struct looking *looking, double *most)
     return true;
 }
 
-/* Where the slope of a force dies out toward the equilibrium (f = -k x^3), Newton never quite arrives, and
- * what is left of the slope is no frequency: in the limit it is zero. Told by this, that the slope was larger
- * at the start, and is so already a little of the way back to there. */
+/* Where the derivative of a force vanishes at the equilibrium (f = -k x^3), Newton's method never reaches it
+ * exactly, and the remaining derivative is no frequency: the limit is zero. Criterion: the derivative is much
+ * smaller than at the start, and smaller than at a thousandth of the distance to it. */
 static void drop_dying_slopes(const struct looking *looking, fbd_errors *errors)
 {
     const double died_out = 1e-4, of_beside = 0.1;
@@ -242,7 +243,7 @@ static void drop_dying_slopes(const struct looking *looking, fbd_errors *errors)
 
 static void refuse_singular(const struct fbd_model *model, fbd_errors *errors)
 {
-    if (!is_coupled(model)) return; /* prescribed coordinates alone are never in one */
+    if (!is_coupled(model)) return; /* prescribed coordinates alone are never singular */
     const struct coupling *coupling = &model->tree->couplings[0];
     diag_add(
         errors, FBD_ERROR, "not-independent", model->scene->constraints[coupling->constraint].at,
@@ -252,7 +253,7 @@ static void refuse_singular(const struct fbd_model *model, fbd_errors *errors)
         coupling->name);
 }
 
-/* Which coordinates are independent at the equilibrium, where the state is. */
+/* Choose the independent coordinates at the equilibrium, which is the state. */
 static bool choose_coordinates(struct looking *looking, fbd_errors *errors)
 {
     struct fbd_linearization *linear = looking->linear;
@@ -279,7 +280,7 @@ static bool choose_coordinates(struct looking *looking, fbd_errors *errors)
     return true;
 }
 
-/* Keep, or put back, [q, z]. */
+/* Copy [q, z] of the state to `place`, or back. */
 static void move_place(struct fbd_state *state, double *place, bool back)
 {
     size_t n = (size_t)state->model->plan.n, own = (size_t)state->model->plan.own;
@@ -289,7 +290,8 @@ static void move_place(struct fbd_state *state, double *place, bool back)
         memcpy(back ? ours[k] : theirs[k], back ? theirs[k] : ours[k], counts[k] * sizeof *place);
 }
 
-/* From an equilibrium that the start is already, by a little of the size of each independent coordinate, and not alike. */
+/* For a start that is the equilibrium: displace each independent coordinate by a small multiple of its size,
+ * each by another one. */
 static void step_aside(const struct independent *independent, double little, double *q)
 {
     for (size_t k = 0; k < independent->count; k++) {
@@ -298,10 +300,10 @@ static void step_aside(const struct independent *independent, double little, dou
     }
 }
 
-/* The slopes where it starts, a little back from the equilibrium, and there, where the state stays. */
+/* The derivatives at the start, near the equilibrium, and at it, where the state stays. */
 static bool look_around(struct looking *looking)
 {
-    const double little = 1e-3; /* of the way back to the start */
+    const double little = 1e-3; /* relative to the distance to the start */
     struct fbd_state *state = looking->state;
     double *q = looking->linear->q, *from = looking->origin;
     move_place(state, from, true);
@@ -313,13 +315,13 @@ static bool look_around(struct looking *looking)
     }
     if (!away) step_aside(&looking->independent, little, from);
     move_place(state, from, true);
-    bool regular = slopes_at(looking, looking->beside); /* else there is less freedom beside it */
+    bool regular = slopes_at(looking, looking->beside); /* else the rank differs nearby */
     move_place(state, q, true);
     state_evaluate(state);
     return slopes_at(looking, looking->there) && regular; /* leaves the Jacobian in A */
 }
 
-/* 1, or what find_matrix says: -1 out of memory, -2 another branch holds there. */
+/* Result as of find_matrix: 1, -1 out of memory, -2 the branches of expressions differ at the equilibrium. */
 static int check_branches(const struct fbd_linearization *linear, const struct fbd_state *state,
                           fbd_errors *errors)
 {
@@ -336,7 +338,7 @@ static int check_branches(const struct fbd_linearization *linear, const struct f
     return holds ? 1 : -2;
 }
 
-/* Find the balance and A there; 1 found, 0 none near, -1 out of memory, -2 it is said why not. */
+/* Find the equilibrium and A there; 1 found, 0 none near, -1 out of memory, -2 refused, with a message. */
 static int find_matrix(struct fbd_linearization *linear, struct fbd_state *state, fbd_errors *errors)
 {
     struct looking looking;
@@ -354,7 +356,7 @@ static int find_matrix(struct fbd_linearization *linear, struct fbd_state *state
             drop_dying_slopes(&looking, errors);
     }
     if (found > 0) found = check_branches(linear, state, errors);
-    if (found > 0 && looking.full) { /* handed on */
+    if (found > 0 && looking.full) { /* ownership moves */
         linear->way = looking.independent.way;
         looking.independent.way = NULL;
     }
@@ -371,7 +373,7 @@ const char *linearization_name(const struct fbd_linearization *linear, size_t i)
     return i < f ? label->name : label->rate_name;
 }
 
-/* The balance, and every slope there. */
+/* Are the equilibrium, and all entries of A, finite? */
 static bool is_finite(const struct fbd_linearization *linear, struct fbd_state *state, fbd_errors *errors)
 {
     size_t size = linear->size;
@@ -389,7 +391,7 @@ static bool is_finite(const struct fbd_linearization *linear, struct fbd_state *
     return true;
 }
 
-/* `found` is 0 where there is no balance, or with `balanced` no eigenvalues; else memory is out. */
+/* `found` is 0 where there is no equilibrium, or with `balanced` no eigenvalues; else memory is out. */
 static void note_failure(const struct fbd_model *model, bool settled, int found, bool balanced,
                          fbd_errors *errors)
 {
@@ -415,7 +417,7 @@ static fbd_linearization *linearize(fbd_state *state, fbd_errors *errors)
     const struct fbd_model *model = state->model;
     diag_in_file(errors, model->scene->file);
     size_t n = (size_t)model->plan.n;
-    if (model->plan.mode_count > 0 || is_coupled(model)) /* modes of rest */
+    if (model->plan.mode_count > 0 || is_coupled(model)) /* the modes are those at rest */
         memset(state->y + n, 0, n * sizeof *state->y);
     bool settled = modes_settle(state, NULL);
     if (!start_question(state, settled, "the start", errors) || refuse_driven(state, errors) ||

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Questions of rest: what never comes to it, and where the scene does.
+ * Equilibrium of a scene: conditions, search and stability.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -18,9 +18,9 @@
 #include "rest/start.h"
 #include "rest/statics.h"
 
-/* ---- states of the file's own */
+/* ---- user states */
 
-/* A state whose rate no place and no state changes, as that of a clock. */
+/* Is the rate of a user state nonzero, and independent of positions and user states, as that of a clock? */
 static bool goes_on(const struct fbd_state *state, int own)
 {
     const struct plan *plan = &state->model->plan;
@@ -82,8 +82,8 @@ bool equilibrium_refuse_reels(const struct fbd_model *model, fbd_errors *errors)
     return false;
 }
 
-/* What has no single place of rest, or none: dry friction holds in a range of places, and a motion that is prescribed as a function of
- * the time does not rest. */
+/* Refuse scenes without a unique position of rest: dry friction sticks in a range of positions, and a motion
+ * prescribed as a function of time does not rest. */
 static bool refuse(const struct fbd_state *state, fbd_errors *errors)
 {
     const struct fbd_model *model = state->model;
@@ -106,7 +106,7 @@ static bool refuse(const struct fbd_state *state, fbd_errors *errors)
     return equilibrium_refuse_reels(model, errors);
 }
 
-/* Is it beyond the end of a table or a track, where nothing is? */
+/* Is the state beyond the end of a table or a track? */
 static bool is_beyond_an_end(const struct fbd_state *state)
 {
     const struct plan *plan = &state->model->plan;
@@ -157,7 +157,7 @@ static bool find_equilibrium(fbd_state *state, fbd_errors *errors)
     }
     if (equilibrium_refuse_states(state, errors)) return false;
     if (!start_question(state, false, "the start", errors))
-        return false; /* wherever it starts, it is let down */
+        return false; /* ropes and modes may be violated at the start */
     int found = equilibrium_settle(state);
     if (state->holds.found == holds_no_memory) found = -1;
     state->settled = false;
@@ -175,8 +175,8 @@ static bool find_equilibrium(fbd_state *state, fbd_errors *errors)
 /* Warn where the linear motion about the equilibrium grows. False when memory is out. */
 static bool warn_of_instability(const fbd_state *state, fbd_errors *errors)
 {
-    const double rounding = 1e-6; /* of the highest frequency: round-off parts a double eigenvalue zero */
-    fbd_errors *refusals = fbd_errors_new(); /* as where friction holds: nothing is said of these */
+    const double rounding = 1e-6; /* of the highest frequency: rounding splits a double eigenvalue zero */
+    fbd_errors *refusals = fbd_errors_new(); /* of scenes that cannot be linearized; not reported */
     fbd_state *there = state_new(state->model);
     if (there) state_copy(there, state);
     fbd_linearization *linear = there && refusals ? fbd_linearize(there, refusals) : NULL;

@@ -1,19 +1,19 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Ropes on the way to a place of rest: one that is slack becomes taut where it is too long for its length, one that is
- * taut goes slack where it would have to push.
+ * Ropes during the search for a position of rest: a slack rope becomes taut where it exceeds its length, a
+ * taut one becomes slack where its tension would be negative.
  */
 #ifndef FBD_REST_ROPES_H
 #define FBD_REST_ROPES_H
 
 #include "dynamics/state.h"
 
-/* At an evaluated state: is a rope slack; and is one of them too long? */
+/* At an evaluated state: is a rope slack; and does one exceed its length? */
 bool ropes_are_slack(const struct fbd_state *state);
 bool ropes_are_too_long(const struct fbd_state *state);
 
-/* Those that are too long become taut, those that would push go slack; true where there are such. The state has been
- * evaluated, and is to be again. */
+/* Close ropes that exceed their length; open ropes with negative tension. True where there are such. The
+ * state was evaluated before, and must be evaluated again. */
 bool ropes_take_up(struct fbd_state *state);
 bool ropes_let_go(struct fbd_state *state);
 

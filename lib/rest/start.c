@@ -30,7 +30,7 @@ bool start_finite(const struct fbd_state *state, struct lack *lack)
     return false;
 }
 
-/* Shapes that are in each other have no side from which they could meet. */
+/* Shapes that overlap have no side at which they could touch. */
 static bool overlap_lack(struct fbd_state *state, struct pos *at, struct text *why)
 {
     const struct fbd_model *model = state->model;
@@ -62,7 +62,7 @@ bool start_fits(struct fbd_state *state, struct fbd_state *other, bool modes, co
     return false;
 }
 
-/* Is it friction already? What rolls has its friction under the name of the coupling. */
+/* Is it friction already? The friction of a rolling coupling has the name of the coupling. */
 static bool is_friction(const struct load *load)
 {
     return load->kind == load_friction || load->kind == moment_friction || load->kind == load_rope ||
@@ -82,7 +82,7 @@ const char *unsettled_advice(const struct fbd_model *model, int load)
                       "`friction`";
 }
 
-/* A roll without limits has a friction that no normal force goes with: it could hold itself down. */
+/* A rolling coupling without limits has friction without a normal force: it could hold itself down. */
 static void contradiction_words(const struct fbd_model *model, int pair, const char *when, struct text *text)
 {
     const struct mode *hold = &model->plan.modes[pair];
@@ -146,7 +146,7 @@ static bool is_solved(struct fbd_state *state, struct lack *lack)
     return false;
 }
 
-/* Modes that are none for the forces that were found may be so since these are not told. */
+/* Modes may be inconsistent with the forces because the forces are too inaccurate. */
 static bool is_settled(struct fbd_state *state, bool settled, struct lack *lack)
 {
     if (settled) return true;
@@ -194,13 +194,14 @@ void start_contact_words(const struct fbd_model *model, const struct contact *co
     text_printf(text, " `%s` leaves its surface: the normal force would have to pull (N = ",
                 model->bodies[contact->body].name);
     text_number(text, N, 6);
-    /* The surface of a `roll`, known by its name and not by an entry of the body, has no other side. */
+    /* The surface of a `roll`, which is identified by its name and is no entry of the body, has no other
+     * side. */
     bool listed = !strchr(model->loads[contact->load].source->name, '.');
     text_add(text, listed ? "). Declare the normal force `two_sided` if it is a guide, or end the run before"
                           : "). What rolls is not held to its line: end the run before, by an event");
 }
 
-/* No surface has to pull. */
+/* No normal force of a surface is negative. */
 static bool rests_on_surfaces(const struct fbd_state *state, struct lack *lack)
 {
     const struct fbd_model *model = state->model;
@@ -224,7 +225,7 @@ static bool is_free_to_move(struct fbd_state *state, struct fbd_state *other, st
     return false;
 }
 
-/* The forces account for the motion. */
+/* The forces balance the accelerations. */
 static bool is_balanced(struct fbd_state *state, struct lack *lack)
 {
     struct arrow *arrows = block_alloc(diagram_most_arrows(state->model) * sizeof *arrows);
@@ -266,7 +267,7 @@ bool start_ready(struct fbd_state *state, struct fbd_state *other, const char *w
     *lack = (struct lack){0};
     if (state->holds.found == holds_no_memory) return false;
     if (!start_fits(state, other, settled, what, lack)) return false;
-    /* What slips is not closed; and where places have gone back, or branches are taken at speeds that are held. */
+    /* Settle again: the projection may have changed positions, and speeds of branches. */
     bool again = !settled || state->model->tree || state->model->plan.kink_count > 0;
     if (settled) state_project(state, false);
     if (again) settled = modes_settle(state, NULL);

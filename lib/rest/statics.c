@@ -12,7 +12,7 @@
 #include "fbd_study.h"
 #include "rest/start.h"
 
-/* ---- the start: it has to fit its couplings */
+/* ---- the start must satisfy its couplings */
 
 static bool fits(struct fbd_state *state, fbd_errors *errors)
 {
@@ -23,7 +23,7 @@ static bool fits(struct fbd_state *state, fbd_errors *errors)
     return false;
 }
 
-/* At rest, before the forces are found and after. */
+/* At rest, before and after the computation of forces. */
 static bool is_finite(const struct fbd_state *state, fbd_errors *errors)
 {
     struct lack lack = {0};
@@ -37,9 +37,9 @@ static bool put_to_rest(struct fbd_state *state, fbd_errors *errors)
     bool settled = rest_begin(state);
     if (settled && !fits(state, errors)) return false;
     if (settled && !is_finite(state, errors)) return false;
-    if (settled && rest_begin(state)) /* once more, where the start was brought to */
+    if (settled && rest_begin(state)) /* again at the projected state */
         return !statics_refuse_states(state, errors);
-    if (!is_finite(state, errors)) return false; /* nothing settles then */
+    if (!is_finite(state, errors)) return false; /* with these no modes settle */
     if (state->holds.found == holds_no_memory) {
         diag_out_of_memory(errors);
         return false;
@@ -49,9 +49,9 @@ static bool put_to_rest(struct fbd_state *state, fbd_errors *errors)
     return false;
 }
 
-/* ---- what is said about the solution */
+/* ---- results */
 
-/* The feature of shapes that touch whose force is limited; NULL when it is something else. */
+/* The contact feature of a limit; NULL if it belongs to another constraint. */
 static const struct coupling *touching_coupling(const struct fbd_model *model, const struct rest_limit *limit)
 {
     const struct plan *plan = &model->plan;
@@ -72,7 +72,7 @@ static const char *limit_name(struct fbd_statics *statics, const struct rest_lim
     int load =
         limit->kind == limit_normal ? plan->contacts[limit->index].load : plan->modes[limit->index].load;
     const char *name = model->loads[load].source->name;
-    for (int i = 0; model->tree && i < model->tree->coupling_count; i++) { /* of a rolling body */
+    for (int i = 0; model->tree && i < model->tree->coupling_count; i++) { /* of a rolling body, or a belt */
         const struct coupling *coupling = &model->tree->couplings[i];
         if (coupling->strands > 0 && coupling->load == load)
             return coupling->end[0].name[plan->contacts[limit->index].slot == coupling->slack_slot[1]];
@@ -90,8 +90,8 @@ static bool is_limit(const struct fbd_statics *statics, const char *name)
     return i < statics->limit_count;
 }
 
-/* One name each, since they are keys of the output: the pieces of a rope that is cut at pulleys are `cord`,
- * `cord_2`. NULL when memory is out. */
+/* Make names unique, since they are keys of the output: the pieces of a rope that is cut at pulleys are
+ * `cord`, `cord_2`. NULL when memory is out. */
 static const char *name_limit(struct fbd_statics *statics, const struct rest_limit *limit)
 {
     const char *name = limit_name(statics, limit), *made = name;
@@ -100,7 +100,7 @@ static const char *name_limit(struct fbd_statics *statics, const struct rest_lim
     return made;
 }
 
-/* Of the force, or of a bearing's moment. */
+/* Unit of the force, or of a bearing's moment. */
 static const char *limit_unit(const struct fbd_model *model, const struct rest_limit *limit)
 {
     bool si = model->scene->units == unit_si;
@@ -159,7 +159,7 @@ static bool solve(struct fbd_statics *statics)
     return solved;
 }
 
-/* What was found beside the forces of the diagrams. */
+/* Are the results besides the forces of the diagrams finite? */
 static bool is_known(const struct fbd_statics *statics, fbd_errors *errors)
 {
     struct nonfinite found;

@@ -1,16 +1,17 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Statics: the reactions that hold a scene at rest where it is.
+ * Statics: the reactions that hold a scene at rest in its position.
  *
- * The multipliers lambda of the constraints are the only unknowns: what joints pass on, what friction and
- * drives hold, follows from them (dynamics/statics.h), affinely. So
+ * The multipliers lambda of the constraints are the only unknowns: joint reactions, friction and drive forces
+ * are affine functions of them (dynamics/statics.h). So
  *
- *     E lambda = -Q_0     for the coordinates that nothing holds, by singular values (moments over a length);
+ *     E lambda = -Q_0     for the free coordinates, by singular values (moments over a length);
  *
- * where E has null vectors z the scene is statically indeterminate, and of all reactions r = r_0 + R lambda
- * those of the least sum of squares are taken (couples over the length), subject to N >= 0, |F| <= mu_s N and
- * T >= 0: a least-distance problem (least_distance.h) in the coordinates of the null space. What is left of
- * E lambda + Q_0 moves the scene; what would hold it is found by virtual work, from the null vectors of E^T.
+ * where E has null vectors z the scene is statically indeterminate, and the reactions r = r_0 + R lambda are
+ * chosen with the least sum of squares (couples over the length), subject to N >= 0, |F| <= mu_s N and T >=
+ * 0: a least-distance problem (least_distance.h) in the coordinates of the null space. A residual E lambda +
+ * Q_0 moves the scene; the forces that would balance it are found by virtual work, from the null vectors of
+ * E^T.
  */
 #ifndef FBD_REST_STATICS_H
 #define FBD_REST_STATICS_H
@@ -30,11 +31,11 @@ struct fbd_statics {
     const struct fbd_model *model;
     struct arena arena;
     struct fbd_state *state;       /* at rest; its F, lambda and slots are those of the solution */
-    size_t indeterminacy;          /* dimensions of the sets of reactions that balance */
-    size_t mobility;               /* ways to move that constraints, friction and drives leave */
+    size_t indeterminacy;          /* dimension of the set of reactions in equilibrium */
+    size_t mobility;               /* degrees of freedom left by constraints, friction and drives */
     bool within_limits;            /* normal forces, friction, tensions */
-    double force, length;          /* sizes: of the loads, of the arms */
-    double left;                   /* of Q, as a share of the size of the loads */
+    double force, length;          /* scales: of the loads, of the arms */
+    double left;                   /* residual of Q, relative to the size of the loads */
     struct rest_diagram *diagrams; /* by body */
     size_t unbalanced_count, limit_count, undetermined_count;
     fbd_unbalanced *unbalanced;
@@ -42,8 +43,8 @@ struct fbd_statics {
     const char **undetermined;
 };
 
-/* Does the body have an equation of moments? What slides on the ground or is a particle does not turn, and
- * takes whatever couple that needs without saying. */
+/* Does the body have an equation of moments? A body that slides on the ground, or is a particle, does not
+ * turn, and its couple is not listed. */
 static inline bool rest_turns(const struct model_body *body)
 {
     if (body->kind == motion_particle) return false;
@@ -58,16 +59,16 @@ static inline double rest_tension(const struct fbd_statics *statics, int couplin
     return -statics->state->tree->rows[of->first_row].lambda;
 }
 
-/* Say of a state of the file's own that it does not rest with the bodies. */
+/* Report a user state whose rate is not zero at rest. */
 bool statics_refuse_states(const struct fbd_state *state, fbd_errors *errors);
 
 /* The names of the reactions that equilibrium does not determine, into statics->undetermined. */
 bool rest_name_undetermined(struct fbd_statics *statics, const struct rest_system *system);
 
-/* Six digits in a file are meant to be in equilibrium: what is left, as a share of the largest load. */
+/* Residual, relative to the largest load, that counts as equilibrium in a file with six digits. */
 static const double rest_digits = 2e-6;
 
-/* The ways to move, what is left along them, and what would hold it, into statics->unbalanced. */
+/* Store the possible motions, the residual along them, and the balancing forces in statics->unbalanced. */
 bool rest_find_unbalanced(struct fbd_statics *statics, const struct rest_system *system);
 
 #endif

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * What statics says by name: the reactions that equilibrium does not determine, and what would hold a scene
- * that is not in equilibrium.
+ * Named results of statics: the indeterminate reactions, and the forces that would balance a scene that is
+ * not in equilibrium.
  */
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_linalg.h>
@@ -12,7 +12,7 @@
 #include "numeric/svd.h"
 #include "rest/statics.h"
 
-/* ---- reactions that are not determined */
+/* ---- indeterminate reactions */
 
 /* Does entry i of r change along the null vectors? */
 static bool varies(const struct rest_system *system, size_t i)
@@ -42,7 +42,7 @@ static const char *name_of_load(const struct fbd_model *model, const struct mode
     return otherwise;
 }
 
-/* What holds the coordinate of a joint: friction or a drive. */
+/* Name of the friction or drive that holds the coordinate of a joint. */
 static const char *holder_name(const struct fbd_statics *statics, const struct model_body *body)
 {
     struct instant at = state_instant(statics->state);
@@ -82,7 +82,7 @@ static void name_coupling(struct fbd_statics *statics, const struct rest_system 
         if (one) add_name(statics, "", coupling_force_name(tree, row), "");
         return;
     }
-    if (row > coupling->first_row) return; /* with the first */
+    if (row > coupling->first_row) return; /* named with the first row */
     bool other = varies(system, rest_entry_of_row(system, j + 1));
     if (one && other) add_name(statics, "", coupling->name, "");
     if (one != other) add_name(statics, "", coupling_row_name(tree, one ? row : row + 1), "");
@@ -100,9 +100,9 @@ bool rest_name_undetermined(struct fbd_statics *statics, const struct rest_syste
     return !statics->arena.failed;
 }
 
-/* ---- what would hold it: forces h along free coordinates with N^T h = -N^T Q, N the ways to move
+/* ---- balancing forces h along free coordinates with N^T h = -N^T Q, N the possible motions
  *
- * All of it scaled as E is, so that a moment counts as the force that it is on an arm of the length. */
+ * Scaled like E, so that a moment counts as a force at an arm of the length. */
 
 static void add_holding(struct fbd_statics *statics, const struct rest_system *system, size_t k, double h,
                         bool alone)
@@ -112,10 +112,10 @@ static void add_holding(struct fbd_statics *statics, const struct rest_system *s
         (fbd_unbalanced){label->name, label->force_unit, h / system->scale[k], alone};
 }
 
-/* A coordinate that moves less than a thousandth of the others is no place to hold them. */
+/* Coordinates that move less than a thousandth of the others are not used for a balancing force. */
 static const double hardly = 1e-3;
 
-/* Coordinates that nothing holds and nothing joins: each has to be held by itself. */
+/* Free coordinates without couplings: each has its own balancing force. */
 static void hold_each(struct fbd_statics *statics, const struct rest_system *system)
 {
     for (size_t k = 0; k < system->n; k++) {
@@ -124,7 +124,7 @@ static void hold_each(struct fbd_statics *statics, const struct rest_system *sys
     }
 }
 
-/* One way to move: a force along any coordinate that takes part would do. */
+/* A single possible motion: a force along any coordinate of it balances. */
 static void hold_alone(struct fbd_statics *statics, const struct rest_system *system, const size_t *free,
                        const struct svd *ways)
 {
@@ -139,7 +139,7 @@ static void hold_alone(struct fbd_statics *statics, const struct rest_system *sy
     }
 }
 
-/* Several: as many coordinates as there are ways, those that tell them apart best. */
+/* Several possible motions: as many coordinates, chosen by QR decomposition with pivoting. */
 static bool hold_together(struct fbd_statics *statics, const struct rest_system *system, const size_t *free,
                           const struct svd *ways)
 {
