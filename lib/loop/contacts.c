@@ -316,12 +316,13 @@ static void unstick(struct run *run, double interval)
     leave_switches(run);
     const struct fbd_model *model = run->model;
     struct instant at = state_instant(run->state);
+    const double *fastest = run->recent.anchor + plan_size(&model->plan) + model->plan.n;
     for (int pair = 0; pair < (int)model->plan.mode_count; pair++) {
         const struct mode *mode = &model->plan.modes[pair];
         bool slot = mode->kind == mode_tangent && coupling_is_guide(&tree_of(run)->couplings[mode->coupling]);
         if (!(slot || mode_is_joint_friction(mode)) || run->state->slip[pair] != stick) continue;
         double v = slip_velocity(model, pair, &at),
-               before = slot ? 0 : run->recent.anchor[3 * model->plan.n + mode->coordinate];
+               before = slot ? 0 : fastest[mode->coordinate];
         if (fabs(v) <= 1e-14 * before) continue;
         if (interval > 0 && fabs(v) * interval <= nobody_sees) continue;
         run->state->slip[pair] = v > 0 ? slip_plus : slip_minus;
