@@ -177,7 +177,7 @@ static bool has_canvas(struct desk *desk)
             desk->failures, FBD_ERROR, "no-canvas", (struct pos){0, 0},
             "write in the key `grading: {canvas: {origin: [200, 300], unit: 1 cm}}`: where the origin of the "
             "scene lies, and which length a pixel stands for",
-            "an answer is a drawing, and the key does not say where drawings lie");
+            "an answer is a drawing, and the key has no `canvas` for it");
     return false;
 }
 

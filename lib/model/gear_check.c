@@ -117,13 +117,13 @@ static void check_belt(struct builder *builder, const struct coupling *coupling)
     if (apart >= 0 && coupling->source->tension == 0)
         diag_add(builder->errors, FBD_ERROR, "missing-key", at,
                  "give it a `tension`, that of both strands at rest",
-                 "the axes of `%s` and `%s` keep their distance, so that no motion tells the tension of the "
-                 "belt `%s`",
+                 "the axes of `%s` and `%s` keep their distance, so that the motion does not determine the "
+                 "tension of the belt `%s`",
                  model->bodies[coupling->end[0].body].name, model->bodies[coupling->end[1].body].name,
                  coupling->name);
     if (apart < 0 && coupling->source->tension > 0)
         diag_add(builder->errors, FBD_ERROR, "conflicting-keys", at,
-                 "leave `tension` out: it follows from what pulls the axes apart",
+                 "leave `tension` out: it follows from the forces that separate the axes",
                  "the axes of `%s` and `%s` move against each other, and the belt `%s` keeps its length",
                  model->bodies[coupling->end[0].body].name, model->bodies[coupling->end[1].body].name,
                  coupling->name);

@@ -198,7 +198,7 @@ static const char *term_name(const struct match *match, size_t i)
 
 static void say_pair(const struct match *match, size_t i, size_t j, struct text *text)
 {
-    text_printf(text, "  the term `%s` is not what the equation has for it, `%s%s`\n", term_name(match, i),
+    text_printf(text, "  the term `%s` differs from that of the equation, `%s%s`\n", term_name(match, i),
                 sign_of(match, j), match->hand->summands[j].text);
 }
 

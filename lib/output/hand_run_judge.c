@@ -225,8 +225,8 @@ static bool say_verdict(struct judge *judge, struct text *text)
     }
     if (judge->count == 0 || !judge->moves) {
         text_printf(text, "  not checked: %s\n",
-                    judge->hand->kind == hand_of_impacts ? "no impact of the run changes what it names"
-                    : judge->count == 0                  ? "it claims to hold at no time of the run"
+                    judge->hand->kind == hand_of_impacts ? "no impact of the run changes a quantity in it"
+                    : judge->count == 0                  ? "its condition holds at no time of the run"
                                                          : "nothing that it names moves in the run");
         return false;
     }

@@ -266,7 +266,7 @@ static bool choose_coordinates(struct looking *looking, fbd_errors *errors)
         const bool coupled = is_coupled(linear->model);
         struct pos at = coupled ? linear->model->scene->constraints[tree->couplings[0].constraint].at
                                 : linear->model->bodies[0].source->motion.at;
-        diag_add(errors, FBD_ERROR, "sticks", at, "leave out what holds it, to see it move",
+        diag_add(errors, FBD_ERROR, "sticks", at, "leave out the friction or contact that holds it",
                  "nothing can move: %s`%s` among them, leave no freedom",
                  coupled ? "the couplings, " : "prescribed motions, that of ",
                  coupled ? tree->couplings[0].name : linear->model->bodies[0].name);

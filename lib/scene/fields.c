@@ -73,11 +73,10 @@ static const char *misplaced(fbd_errors *errors, const struct group *group, cons
         return diag_hint(errors, "it belongs to the motion, as in `motion: {%s: {%s: ...}}`", motion, key);
     if ((fields_has(group, "along") || fields_has(group, "at")) && fields_has(group, "on") &&
         (strcmp(key, "v") == 0 || strcmp(key, "omega") == 0))
-        return diag_hint(
-            errors,
-            "the rate at the start belongs to `initial: {%s: ...}`; what is prescribed is the place, as "
-            "an expression of t",
-            key);
+        return diag_hint(errors,
+                         "the rate at the start belongs to `initial: {%s: ...}`; prescribed is the "
+                         "coordinate, as an expression of t",
+                         key);
     if (group == &scene_group && fields_has(&body_group, key))
         return "it belongs to a body: indent it below the name of the body, under `bodies`";
     if (group == &scene_group && fields_has(&simulate_group, key)) return "it belongs under `simulate`";

@@ -46,7 +46,7 @@ static bool check_about_pivot(struct reader *reader, const struct body *body)
     for (size_t i = 0; i < body->part_count && body->motion.kind != motion_pivot; i++) {
         if (!body->parts[i].about_pivot) continue;
         diag_add(reader->errors, FBD_ERROR, "not-here", body->parts[i].about.at,
-                 "O is the axis of a `pivot`: say G, a point of the body or [x, y]",
+                 "O is the axis of a `pivot`: give G, a point of the body or [x, y]",
                  "`%s` has no pivot that `about: O` could mean", body->name);
         fine = false;
     }

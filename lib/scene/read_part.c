@@ -322,7 +322,7 @@ static bool read_single(struct reader *reader, int index)
 static bool check_no_single(struct reader *reader, const struct node *map)
 {
     static const char *const keys[] = {"mass", "shape", "inertia"};
-    const char *hint = "a body of parts has what its parts have: give it to one of them";
+    const char *hint = "the parts of a body have these keys: give it to one of them";
     bool fine = true;
     for (size_t i = 0; i < sizeof keys / sizeof *keys; i++)
         if (!fields_exclude(reader, map, "parts", keys[i], hint)) fine = false;

@@ -163,8 +163,8 @@ static bool check_share(struct reader *reader, const struct node *map, const cha
                  key, most);
     else
         diag_add(reader->errors, FBD_ERROR, "out-of-range", pair->value->at,
-                 "1e-13 is about what a run can keep; 1e-10 is the default tolerance",
-                 "`%s` is below what numbers resolve (2.2e-16)", key);
+                 "the smallest useful tolerance is about 1e-13; 1e-10 is the default tolerance",
+                 "`%s` is below the resolution of numbers (2.2e-16)", key);
     return false;
 }
 

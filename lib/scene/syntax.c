@@ -172,7 +172,7 @@ static bool explain_long_key(struct pos at, fbd_errors *errors)
     const int longest = 1024;
     if (at.column <= longest) return false;
     diag_add(errors, FBD_ERROR, "bad-key", at, "is a line end or a quote missing?",
-             "what stands before this colon is too long for a key");
+             "the text before this colon is too long for a key");
     return true;
 }
 

@@ -240,7 +240,7 @@ check 'nor is a pipe' exits 2 run --watch /dev/stdin
 check 'data to standard output are not written anew' exits 2 run --watch --csv - m.yaml
 check 'which is said too' says 'which only files can be' err
 spares() { # spares COMMAND...: refused since it would be written over data
-    exits 2 "$@" 2>err && says 'be written over what the model reads: push.csv' err
+    exits 2 "$@" 2>err && says 'overwrite a file that the model reads: push.csv' err
 }
 check 'outputs are never written over data that are read' spares "$program" --csv push.csv m.yaml
 check 'nor by fbd-cost' spares "$FBD_BUILD_ROOT/apps/fbd-cost" --budget 0.1 --json push.csv m.yaml

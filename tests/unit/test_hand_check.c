@@ -61,15 +61,15 @@ static const struct slip_of_the_pen slips[] = {
     {block, "m*v_dot*1e-310 = 7*f1 - m*g*sin(phi) - k*x",
      "differs at 288"}, /* over that inertia both overflow */
     {block, "m*v_dot = f1 - m*g*sin(phi) - mu*m*g*sign(v) - k*x",
-     "`friction` is not what the equation has for it, `-mu*m*g*sign(v)`|the factor cos(along) is missing"},
+     "`friction` differs from that of the equation, `-mu*m*g*sign(v)`|the factor cos(along) is missing"},
     {block, "m*v_dot + k*x = f1*cos(phi) - m*g*sin(phi) - mu*m*g*cos(phi)*sign(v)",
-     "`push` is not what the equation has for it, `f1*cos(phi)`|the factor cos(along) is too many"},
+     "`push` differs from that of the equation, `f1*cos(phi)`|the factor cos(along) is too many"},
     {block, "v_dot = f1/m - m*g*sin(phi)/1[kg] - mu*g*cos(phi)*sign(v) - k*x/m",
      "`-m*g*sin(phi)/1[kg]`|the factor m is too many"},
     {block, "m*v_dot = f1 - m*g*cos(phi) - mu*m*g*sin(phi)*sign(v) - k*x",
      "it has cos(along) where sin(along) belongs|it has sin(along) where cos(along) belongs"},
     {block, "m*v_dot = f1 - m*g*sin(phi) - mu*m*g*sign(v) + k*x",
-     "the factor cos(along) is missing|`spring` is not what the equation has for it, `k*x`|its sign is "
+     "the factor cos(along) is missing|`spring` differs from that of the equation, `k*x`|its sign is "
      "wrong"},
     {block, "v_dot = f1/m - g*sin(phi) - mu*g*cos(phi)*sign(v) - k*x/m + 1[m/s^2]",
      "`1[m/s^2]` is no force that the body lists"},
