@@ -54,7 +54,7 @@ static bool compile_sheet(struct drawing_page *page, fbd_errors *errors)
         diag_add(
             errors, FBD_ERROR, "no-sheet", (struct pos){0, 0},
             "the sheet is the key without forces, moments and derivations (`--handout` alone prints it): "
-            "what it names of them has to be named otherwise",
+            "its other parts must not name them",
             "the sheet without the key is no valid model: %.300s", error->message);
     else if (!page->sheet)
         diag_out_of_memory(errors);

@@ -90,7 +90,7 @@ static void check_gear(struct builder *builder, const struct coupling *coupling)
     if (apart < 0 || fabs(apart - needed) <= digits * size) return;
     diag_add(builder->errors, FBD_ERROR, "gear-distance", model->scene->constraints[coupling->constraint].at,
              r2 < 0 ? "move an axis, or change `radii`"
-                    : "move an axis, or change `radii`; of a wheel inside a ring say `inside: true`",
+                    : "move an axis, or change `radii`; for a wheel inside a ring give `inside: true`",
              "the axes of `%s` and `%s` are %.6g apart, where the radii %.6g and %.6g %s %.6g",
              model->bodies[coupling->end[0].body].name, model->bodies[coupling->end[1].body].name, apart, r1,
              fabs(r2), r2 < 0 ? "differ by" : "add up to", needed);

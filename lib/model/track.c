@@ -81,7 +81,7 @@ bool tracks_set(struct builder *builder)
             "let the curvature grow from one to the other (a table: `interpolation: cubic`), take a point "
             "for the "
             "body, or write `turn: false`",
-            "`%s` turns along its track, whose curvature jumps at %.6g: that takes a moment without bound",
+            "`%s` turns along its track, whose curvature jumps at %.6g: this requires an unbounded moment",
             body->name, link->track->curve->kink);
     }
     return true;

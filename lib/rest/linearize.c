@@ -108,7 +108,8 @@ static bool refuse_limits(struct fbd_state *state, fbd_errors *errors)
                         ? model->scene->constraints[model->tree->couplings[hold->coupling].constraint].at
                         : model->bodies[hold->body].source->at;
     diag_add(
-        errors, FBD_ERROR, "at-limit", at, "start nearer to the equilibrium, or load it so that it holds",
+        errors, FBD_ERROR, "at-limit", at,
+        "start nearer to the equilibrium, or change the loads so that contacts stay closed",
         "at the equilibrium `%s` is at the limit between holding and giving way: to one side the motion is "
         "another than to the other",
         hold->coupling >= 0 ? model->tree->couplings[hold->coupling].name : model->bodies[hold->body].name);

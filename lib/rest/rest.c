@@ -188,7 +188,7 @@ static bool warn_of_instability(const fbd_state *state, fbd_errors *errors)
     }
     if (growth > rounding * fastest)
         diag_add(errors, FBD_WARNING, "unstable-equilibrium", (struct pos){0, 0},
-                 "start beside it, with --at, to see where the scene comes to rest",
+                 "start at a neighbouring position, with --at, to find where the scene comes to rest",
                  "the equilibrium is unstable: a small deviation grows by a factor of e in %.3g s",
                  1 / growth);
     fbd_linearization_free(linear);

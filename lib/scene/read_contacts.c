@@ -103,7 +103,7 @@ static bool read_line_side(struct reader *reader, const struct node *list, int s
         return true;
     }
     diag_add(reader->errors, FBD_ERROR, "not-here", list->at,
-             constraint->contact.line ? "say `left` or `right` of its direction" : "leave `side` out",
+             constraint->contact.line ? "give `left` or `right` of its direction" : "leave `side` out",
              constraint->contact.line ? "no side of a vertical line is up"
                                       : "`side` is that of a line of the ground, and this is none");
     return false;

@@ -170,7 +170,7 @@ static bool check_share(struct reader *reader, const struct node *map, const cha
 
 static bool check_accuracy(struct reader *reader, const struct node *map, const struct simulate_keys *keys)
 {
-    static const char hint[] = "`accuracy` chooses the steps by itself";
+    static const char hint[] = "`accuracy` determines the steps";
     bool fine = check_share(reader, map, "tolerance", keys->tolerance, "1e-9 is careful, 1e-4 is quick");
     if (!check_share(reader, map, "accuracy", keys->accuracy, "1e-8 is careful, 1e-3 is quick")) fine = false;
     if (!fields_exclude(reader, map, "accuracy", "tolerance", hint)) fine = false;

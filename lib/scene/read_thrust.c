@@ -51,7 +51,7 @@ bool thrust_finish(struct entry *entry)
             entry_note(entry, "not-here", entry->chosen.at,
                        "give the mass as an expression: `mass: 100[kg] - 5[kg/s]*t`, or by a state; a given "
                        "force is `applied`",
-                       "`thrust` is of a body whose mass varies: no mass leaves this one or comes to it");
+                       "`thrust` needs a body of varying mass: the mass of this one is constant");
         return false;
     }
     if (!velocity) {

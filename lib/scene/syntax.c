@@ -23,7 +23,7 @@ static const struct explanation {
     {"did not find expected key", NULL, "this line fits nothing above it",
      "keys of one block start in the same column, and list entries do not mix with keys"},
     {"did not find expected '-' indicator", NULL, "a list goes on here without `-`",
-     "start each entry with `- `; what belongs to an entry is indented deeper than its `-`"},
+     "start each entry with `- `; the keys of an entry are indented deeper than its `-`"},
     {"did not find expected ',' or '}'", NULL, "a mapping in braces is not closed, or lacks a comma",
      "write {key: value, key: value}"},
     {"did not find expected ',' or ']'", NULL, "a list in brackets is not closed, or lacks a comma",
@@ -45,7 +45,7 @@ static const struct explanation {
     {"did not find expected node content", NULL, "a value is missing here",
      "is there a stray bracket, brace or comma?"},
     {"did not find expected <document start>", NULL, "the model ends before this line",
-     "is it indented as its neighbours, and does no stray bracket stand before it?"},
+     "is it indented as its neighbours, and is there no stray bracket before it?"},
     {"found undefined tag handle", NULL, "a tag (`!...`) that means nothing here",
      "delete it; quote text that starts with `!`"},
 };
