@@ -331,7 +331,9 @@ static bool can_be_watched(const struct options *options)
         const char *path = places[i].path;
         if (!path) continue;
         if (place_descriptor(path) >= 0 || (stat(path, &status) == 0 && !S_ISREG(status.st_mode)))
-            return usage("--watch writes its outputs anew each time, which only files can be, not ", path);
+            return usage(
+                "--watch writes its outputs again after each change, which is possible for files only, not ",
+                path);
     }
     return true;
 }

@@ -88,7 +88,7 @@ static bool has_points(struct fbd_key *key, fbd_errors *errors)
     if (key->most > 0) return true;
     diag_add(errors, FBD_ERROR, "nothing-to-grade", (struct pos){0, 0},
              "list the forces and moments that a right answer has, or derivations under `hand`",
-             "the key has nothing that brings points");
+             "the key has no entry with points");
     return false;
 }
 

@@ -113,9 +113,8 @@ static bool refuse_end_of_slot(struct run *run, int pair)
     }
     if (!beyond) return false;
     run_fail(run, FBD_BROKEN,
-             "at t = %.9g the point of the slot `%s` strikes the end of it, or comes back behind it. Make it "
-             "longer, or end "
-             "the run before, by an event",
+             "at t = %.9g the point of the slot `%s` hits the end of the slot, or returns behind it. Make it "
+             "longer, or end the run earlier by an event",
              run_time(run), coupling->name);
     return true;
 }

@@ -231,7 +231,7 @@ static bool fail_by_masses(struct run *run, const struct misfit *misfit)
     if (ratio <= masses_far_apart) return false;
     run_fail(
         run, FBD_FAILED,
-        "at t = %.9g the coupling `%s` cannot be closed any more (it is off by %.3g): the heaviest of the "
+        "at t = %.9g the coupling `%s` cannot be closed (its error is %.3g): the heaviest of the "
         "jointed bodies has %.2g times the mass of the lightest, and up to about 1e12 can be solved. Give "
         "the lightest one more mass",
         run_time(run), coupling_row_name(run->model->tree, misfit->row >= 0 ? misfit->row : 0),
@@ -287,12 +287,11 @@ void project_step(struct run *run)
     }
     if (nothing || left.position <= 1e3 * fmax(run->options.tolerance, 1e-12) * reach) return;
     if (!fail_by_masses(run, &misfit))
-        run_fail(
-            run, FBD_FAILED,
-            "at t = %.9g the coupling `%s` cannot be closed any more (it is off by %.3g): the mechanism is "
-            "at the end of its reach, or the tolerance is too large",
-            run_time(run), coupling_row_name(run->model->tree, misfit.row >= 0 ? misfit.row : 0),
-            misfit.position);
+        run_fail(run, FBD_FAILED,
+                 "at t = %.9g the coupling `%s` cannot be closed (its error is %.3g): the mechanism is at "
+                 "the end of its reach, or the tolerance is too large",
+                 run_time(run), coupling_row_name(run->model->tree, misfit.row >= 0 ? misfit.row : 0),
+                 misfit.position);
 }
 
 /* What rounding has left of such a speed would be taken for a side that it moves to. That nothing comes of it is told by its

@@ -262,9 +262,8 @@ static void refuse_rubbing(struct run *run)
         bool closed = coupling->surface < 0 || run->state->slip[coupling->surface] == stick;
         if (coupling->kind != constraint_capstan || !closed) continue;
         run_fail(run, FBD_BROKEN,
-                 "at t = %.9g an impact occurs while the rope `%s` is taut round its drum: how much of the "
-                 "impulse "
-                 "friction takes is not followed. End the run before, by an event",
+                 "at t = %.9g an impact occurs while the rope `%s` is taut round its drum: the friction in "
+                 "this impact cannot be computed. End the run earlier by an event",
                  run_time(run), coupling->name);
     }
 }

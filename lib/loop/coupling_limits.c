@@ -293,11 +293,10 @@ static void watch_passing(const struct end *end, struct time_dd *t)
         *t = time_dd_at(passing_time(end, side, from, passed));
         way_at(end, t->t);
         if (side < 0 && row->g.x < 0)
-            run_fail(
-                run, FBD_BROKEN,
-                "at t = %.9g the point of the slot `%s` comes back behind it. Make it longer, or end the run "
-                "before, by an event",
-                t->t, coupling_of(end)->name);
+            run_fail(run, FBD_BROKEN,
+                     "at t = %.9g the point of the slot `%s` returns behind it. Make it longer, or end the "
+                     "run earlier by an event",
+                     t->t, coupling_of(end)->name);
     }
     switcher_partial(run->stepper, *t, run->work.y, run->work.f);
 }

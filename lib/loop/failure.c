@@ -73,7 +73,7 @@ static bool explain_blocked_rope(struct run *run)
     bool blocked = next && fit_blocked(next, NULL, &why) && !why.failed;
     if (blocked)
         run_fail(run, FBD_FAILED,
-                 "at t = %.9g a rope reaches its pulley: %s, or end the run before by an event",
+                 "at t = %.9g a rope reaches its pulley: %s, or end the run earlier by an event",
                  run_time(run), why.data);
     text_free(&why);
     state_free(next);
@@ -167,10 +167,9 @@ void run_fail_progress(struct run *run, double gain)
 {
     run_fail(
         run, FBD_FAILED,
-        "at t = %.9g the run makes no progress: its last steps, as many as take some seconds, have gained "
-        "%.3g s. `%s` moves the fastest there. Something in the scene is much faster than the rest, or "
-        "forces "
-        "change back and forth: end the run before, by an event, or try a larger tolerance or `--method "
+        "at t = %.9g the run makes no progress: its steps of the last seconds of computing time advanced by "
+        "%.3g s. `%s` moves the fastest there. A motion in the scene is much faster than the rest, or forces "
+        "alternate: end the run earlier by an event, or try a larger tolerance or `--method "
         "rodas5p`",
         run_time(run), gain, body_of(run, fastest(run)));
 }

@@ -76,16 +76,15 @@ static void check_drive(struct run *run, const struct kink *kink, bool rope)
     double far = rope ? 0 : most[body->first], fast = rope ? 0 : most[body->first_rate];
     bool place = jumps(x[0], x[1], fmax(far, fabs(x[0]) + fabs(x[1])));
     if (!place && !jumps(v[0], v[1], fmax(fast, fabs(v[0]) + fabs(v[1])))) return;
-    run_fail(run, FBD_BROKEN,
-             "at t = %.9g the %s that is prescribed to `%s` jumps from %.6g to %.6g: that takes a force "
-             "without bound. "
-             "Round the corner off (a table: `interpolation: cubic`), or end the run before",
-             run_time(run),
-             rope    ? place ? "length" : "rate of the length"
-             : place ? "place"
-                     : "velocity",
-             rope ? model->loads[kink->load].source->name : body->name, place ? x[0] : v[0],
-             place ? x[1] : v[1]);
+    run_fail(
+        run, FBD_BROKEN,
+        "at t = %.9g the %s that is prescribed to `%s` jumps from %.6g to %.6g: this requires an unbounded "
+        "force. Round the corner off (a table: `interpolation: cubic`), or end the run earlier",
+        run_time(run),
+        rope    ? place ? "length" : "rate of the length"
+        : place ? "place"
+                : "velocity",
+        rope ? model->loads[kink->load].source->name : body->name, place ? x[0] : v[0], place ? x[1] : v[1]);
     memcpy(run->state->branch + kink->formula.branch, before, kink->count * sizeof *before);
     modes_hold(run->state); /* the last state is that before */
     state_evaluate(run->state);
@@ -214,11 +213,10 @@ void run_check_sides(struct run *run)
         if (N >= -slacks * press_slack(model, run->state->tree, mode->body)) continue;
         const struct instant at = state_instant(run->state);
         if (rest_is_open(model, &at)) continue; /* with forces that are shared, which keep their side */
-        run_fail(
-            run, FBD_FAILED,
-            "before t = %.9g `%s` jams: friction by `%s` feeds its own normal force, which grows without "
-            "bound. Less friction, or end the run before by an event",
-            run_time(run), model->bodies[mode->body].name, model->loads[mode->load].source->name);
+        run_fail(run, FBD_FAILED,
+                 "before t = %.9g `%s` jams: friction by `%s` increases its own normal force, which grows "
+                 "without bound. Reduce the friction, or end the run earlier by an event",
+                 run_time(run), model->bodies[mode->body].name, model->loads[mode->load].source->name);
         return;
     }
 }

@@ -57,7 +57,7 @@ static void check_directions(struct builder *builder, const struct model_body *b
         if (!along && !load->body_frame) continue;
         diag_add(builder->errors, FBD_ERROR, "not-here", load->at,
                  "give it an angle in the world, or let the body turn",
-                 "`%s` goes with the frame of `%s`, which does not turn along its track (`turn: false`)",
+                 "`%s` refers to the frame of `%s`, which does not turn along its track (`turn: false`)",
                  load->name, body->name);
     }
 }

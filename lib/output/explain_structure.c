@@ -22,7 +22,7 @@ static const char *words_for(enum structure structure)
     case structure_general:
     case structure_kinds: break;
     }
-    return "nothing in particular: the general method";
+    return "no special structure: the general method";
 }
 
 /* structure_kinds when memory is out. */

@@ -190,7 +190,7 @@ void event_detail(const struct fbd_model *model, const struct run_event *event, 
             snprintf(detail, size, "%.*s leaves its line", (int)strcspn(name, "."), name);
         return;
     case FBD_EVENT_LANDING:
-        format_into(detail, size, "%.*s is on its line again; the impact takes %.6g %s",
+        format_into(detail, size, "%.*s returns to its line; the impact takes %.6g %s",
                     (int)strcspn(name, "."), name, event->force, energy_unit(model));
         return;
     case FBD_EVENT_SWITCH:

@@ -43,7 +43,7 @@ bool equilibrium_refuse_states(struct fbd_state *state, fbd_errors *errors)
         if (!goes_on(state, i)) continue;
         diag_add(errors, FBD_ERROR, "not-at-rest", model->scene->own[i].rate.at,
                  "leave the state out, or simulate it",
-                 "the state `%s` is never at rest: nothing brings its rate to zero",
+                 "the state `%s` is never at rest: its rate is not zero at any position",
                  model->scene->own[i].name);
         return true;
     }
@@ -75,7 +75,7 @@ bool equilibrium_refuse_reels(const struct fbd_model *model, fbd_errors *errors)
         if (!coupling->reels) continue;
         diag_add(errors, FBD_ERROR, "not-independent",
                  model->scene->constraints[coupling->constraint].reel.at, "give it a constant `length`",
-                 "the length of the rope `%s` goes with the time: it is never at rest", coupling->name);
+                 "the length of the rope `%s` depends on time: it is never at rest", coupling->name);
         return true;
     }
     return false;

@@ -170,7 +170,7 @@ void start_contact_words(const struct fbd_model *model, const struct contact *co
     text_add(text, "at t = ");
     text_number(text, t, 9);
     if (belt->kind == load_belt) {
-        text_printf(text, " a strand of the belt `%s` goes slack: its tension is ", belt->name);
+        text_printf(text, " a strand of the belt `%s` becomes slack: its tension is ", belt->name);
         text_number(text, N, 6);
         text_add(text,
                  ". Increase its `tension`, or the force that separates its axes, or end the run earlier");
@@ -180,9 +180,8 @@ void start_contact_words(const struct fbd_model *model, const struct contact *co
         text_printf(text, " `%s` comes off its slot `%s`, which would have to pull (N = ",
                     model->bodies[contact->body].name, belt->name);
         text_number(text, N, 6);
-        text_add(text,
-                 "). Leave `side` out if it is held on both sides, press it on by a spring, or end the run "
-                 "before, by an event");
+        text_add(text, "). Leave `side` out if it is guided on both sides, add a spring that presses it on, "
+                       "or end the run earlier by an event");
         return;
     }
     text_printf(text, " `%s` leaves its surface: the normal force would have to pull (N = ",
@@ -190,7 +189,7 @@ void start_contact_words(const struct fbd_model *model, const struct contact *co
     text_number(text, N, 6);
     /* The surface of a `roll`, known by its name and not by an entry of the body, has no other side. */
     bool listed = !strchr(model->loads[contact->load].source->name, '.');
-    text_add(text, listed ? "). Declare the normal force `two_sided` if it is a guide, or end the run before"
+    text_add(text, listed ? "). Declare the normal force `two_sided` if it is a guide, or end the run earlier"
                           : "). A rolling body is not held to its line: end the run earlier by an event");
 }
 

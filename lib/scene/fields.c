@@ -173,7 +173,7 @@ static const char *translated(fbd_errors *errors, const struct group *group, con
 static const char *not_given(const struct group *group)
 {
     if (strcmp(group->name, "`gravity`") == 0)
-        return "its strength stands at the top of the file, as `gravity: 9.81`; in the list it is `gravity` "
+        return "its value belongs to the top of the file, as `gravity: 9.81`; in the list it is `gravity` "
                "alone";
     return NULL;
 }
@@ -211,7 +211,7 @@ static void note_unknown_key(struct reader *reader, const struct group *group, c
         hint = diag_hint(reader->errors, "put a blank after the colon: `%.*s: %s`", (int)(colon - pair->key),
                          pair->key, colon + 1);
     if (strstr(pair->key, "\xC2\xA0"))
-        hint = "it holds a no-break space (U+00A0), as pasted text does: type a blank in its place";
+        hint = "it contains a no-break space (U+00A0), as pasted text does: type a blank in its place";
     if (!hint) hint = behind_a_comma(map, pair);
     if (!hint) hint = not_given(group);
     if (!hint) hint = misplaced(reader->errors, group, pair->key);
@@ -392,7 +392,7 @@ static void note_several_keys(struct reader *reader, const struct kinds *kinds, 
     }
     const char *hint = diag_hint(reader->errors, "indent it deeper than `%s`, or write `%s: {%s: ...}`",
                                  kind->key, kind->key, other->key);
-    diag_add(reader->errors, FBD_ERROR, "unknown-key", other->at, hint, "`%s` stands beside `%s`, not in it",
+    diag_add(reader->errors, FBD_ERROR, "unknown-key", other->at, hint, "`%s` belongs beside `%s`, not in it",
              other->key, kind->key);
 }
 

@@ -57,7 +57,7 @@ static bool note_key_of_body(struct reader *reader, int index)
                            ? diag_hint(reader->errors, "indent it one level further, below `%s`", owner->key)
                            : "indent it one level further, below the name of a body";
     diag_add(reader->errors, FBD_ERROR, "unknown-key", pairs[index].at, hint,
-             "`%s` is a key of a body, and stands here as if it were a body", pairs[index].key);
+             "`%s` is a key of a body, but is here in the place of a body", pairs[index].key);
     return false;
 }
 

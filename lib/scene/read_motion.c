@@ -131,7 +131,7 @@ bool body_prescribed_read(struct reader *reader, int index)
         if (body->loads[i].kind != load_friction && body->loads[i].kind != moment_friction) continue;
         diag_add(reader->errors, FBD_ERROR, "not-here", body->loads[i].at,
                  "leave it out: the drive would only take that much more",
-                 "the motion of `%s` is prescribed: friction in its joint decides nothing", body->name);
+                 "the motion of `%s` is prescribed: friction in its joint has no effect on it", body->name);
         fine = false;
     }
     return fine;

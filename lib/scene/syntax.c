@@ -17,12 +17,12 @@ static const struct explanation {
     const char *problem, *context, *message, *hint;
 } explanations[] = {
     {"mapping values are not allowed", NULL, "a colon where no key can stand",
-     "does this line start in the column of its neighbours? text that holds `: ` needs quotes"},
+     "does this line start in the column of its neighbours? text with `: ` needs quotes"},
     {"could not find expected ':'", NULL, "this line is no `key: value`",
      "put a colon and a blank after a key, `- ` before a list entry"},
     {"did not find expected key", NULL, "this line fits nothing above it",
      "keys of one block start in the same column, and list entries do not mix with keys"},
-    {"did not find expected '-' indicator", NULL, "a list goes on here without `-`",
+    {"did not find expected '-' indicator", NULL, "a list continues here without `-`",
      "start each entry with `- `; the keys of an entry are indented deeper than its `-`"},
     {"did not find expected ',' or '}'", NULL, "a mapping in braces is not closed, or lacks a comma",
      "write {key: value, key: value}"},

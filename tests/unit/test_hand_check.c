@@ -74,7 +74,7 @@ static const struct slip_of_the_pen slips[] = {
     {block, "v_dot = f1/m - g*sin(phi) - mu*g*cos(phi)*sign(v) - k*x/m + 1[m/s^2]",
      "`1[m/s^2]` is no force that the body lists"},
     {block, "m*v_dot = f1 - m*g*sin(phi) - f1 - mu*m*g*cos(phi)*sign(v)",
-     "`-f1` takes back a term that is there|the term `spring` is missing"},
+     "`-f1` cancels a term of the equation|the term `spring` is missing"},
     {block, "m*v_dot = (f1 + 2*f1)/3 - m*g*sin(phi) - mu*m*g*cos(phi)*sign(v) - k*x - k*x - f1/7",
      "`-k*x` is counted twice|`-f1/7`"},
     {pendulum, "I_G*alpha = -m*g*L*sin(theta) - c*omega", "wrong reference point"},
