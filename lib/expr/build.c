@@ -9,7 +9,7 @@
 #include "expr/parts.h"
 #include "expr/steps.h"
 
-/* While it is being read, a program names its registers by kind; their numbers are known at the end. */
+/* While a program is being compiled, its registers are named by kind; their numbers are known at the end. */
 enum {
     of_variable = 0,
     of_constant = 0x4000,
@@ -33,8 +33,8 @@ struct operand build_variable(int slot, struct kind kind, struct pos at)
                             .at = at};
 }
 
-/* Room for one more in an array of the scratch arena, which keeps the outgrown copies until the end; growing
- * by half bounds them to a few times the final size. NULL when memory is out. */
+/* Make room for one more element of an array in the scratch arena, which keeps the old copies until the end;
+ * growth by half bounds them to a few times the final size. NULL when memory is out. */
 static void *grow(struct builder *builder, void *array, size_t count, size_t *room, size_t size)
 {
     if (count < *room) return array;
@@ -57,7 +57,7 @@ static size_t add_slot(struct builder *b, int slot)
     return b->slot_count++;
 }
 
-/* Not ==, which takes -0 for 0. */
+/* Compare bits: == does not distinguish -0 from 0. */
 static bool same_bits(double a, double b)
 {
     uint64_t x, y;
@@ -88,7 +88,7 @@ static int add_switch(struct builder *b, const struct instr *instr, bool time)
     return (int)b->switch_count++;
 }
 
-/* Beyond its limits a program is only read on for the sake of further messages: it is not kept. */
+/* True beyond the limits: then the text is read on for further messages only, and the program is discarded. */
 bool build_is_too_long(const struct builder *b)
 {
     return b->full || b->slot_count + b->constant_count + (size_t)b->deepest > frame_limit;
@@ -123,7 +123,7 @@ static unsigned short claim(struct builder *b, int base)
     return (unsigned short)(of_temporary | (base & register_mask));
 }
 
-/* What a part inherits from its parts. */
+/* Set the properties that a result inherits from its operands. */
 static void inherit(struct operand *whole, const struct operand *part)
 {
     whole->time = whole->time || part->time;
@@ -135,8 +135,8 @@ static void inherit(struct operand *whole, const struct operand *part)
     }
 }
 
-/* What is left of a sum, product or quotient of constants when it is rounded: the end of a pulse is start +
- * width, whose digits behind those of the start would be lost. */
+/* The rounding error of a sum, product or quotient of constants, kept as low part: the end of a pulse is
+ * start + width, whose digits beyond those of the start would be lost. */
 static double rest_of(enum op op, const struct operand *x, const struct operand *y)
 {
     struct double_double a = {x->value, x->rest}, b = {y->value, y->rest}, result = {0, 0};
@@ -151,7 +151,7 @@ static double rest_of(enum op op, const struct operand *x, const struct operand 
     return isfinite(result.x) ? result.rest : 0;
 }
 
-/* An operation on constants is done at once. */
+/* Fold an operation on constants. */
 static void fold(const struct instr *instr, const struct operand *x, const struct operand *y,
                  struct operand *result)
 {
@@ -191,12 +191,12 @@ struct operand build_operation(struct builder *b, int base, enum op op, int extr
     return build_instr(b, base, (struct instr){.op = (unsigned char)op, .extra = extra}, x, y, kind, at);
 }
 
-/* So many jumps are switches of their own. */
+/* Tables with at most this many points get a switch for each jump. */
 enum { most_own_jumps = 8 };
 
-/* A table of steps of the state, with few jumps: r_i = r_(i-1) + step(x - x_i) (y_i - r_(i-1)), so that each jump is a switch
- * like sign(x - x_i), at which a motion may stay (dynamics/sliding.h). One is the whole table, of which steps take the
- * value as it is. */
+/* True for a table of steps in the state with few points. It is built as r_i = r_(i-1) + step(x - x_i) (y_i -
+ * r_(i-1)), so that each jump is a switch like sign(x - x_i), at which a sliding mode may occur
+ * (dynamics/sliding.h). */
 static bool has_own_jumps(const struct table *table, const struct operand *x)
 {
     return table->interpolation == table_step && x->state &&
@@ -213,7 +213,7 @@ static struct operand build_jumps(struct builder *b, int base, const struct tabl
         double level = last ? table->after : table->c[4 * i];
         if (!last && value.place == place_constant && value.value == level) continue;
         struct operand edge = build_constant(table->x[i], own, at), next = build_constant(level, kind, at);
-        int room = base + 1; /* behind the argument */
+        int room = base + 1; /* after the register of the argument */
         struct operand far = build_operation(b, room + 1, op_subtract, 0, x, &edge, own, at);
         struct operand on =
             build_instr(b, room + 1, (struct instr){.op = op_step, .table = table}, &far, NULL, pure, at);
@@ -233,15 +233,14 @@ struct operand build_table(struct builder *b, int base, const struct table *tabl
 
 struct operand build_levels(struct builder *b, int base, const struct operand *x, double unit)
 {
-    const double stretch = 8; /* and the outermost levels are at 36 */
+    const double stretch = 8; /* so the outermost levels are at 36 */
     struct kind pure = {.failed = x->kind.failed};
     struct operand length = build_constant(stretch * unit, pure, x->at);
     if (x->place == place_constant || x->kind.failed) return *x;
     return build_operation(b, base, op_levels, 0, x, &length, x->kind, x->at);
 }
 
-/* ---- if: the side that is not chosen is jumped over, so that it costs nothing and its switches stay silent
- */
+/* ---- if: the side that is not chosen is jumped over, so it costs no time and its switches are inactive */
 
 void build_choice_start(struct builder *b, struct choice *choice, int base, const struct operand *condition)
 {
@@ -254,7 +253,7 @@ void build_choice_start(struct builder *b, struct choice *choice, int base, cons
     b->depth = base;
 }
 
-/* Bring a side to the common place of both, unless it was made there. */
+/* Copy the result of a side to the register of both, unless it is there already. */
 static void settle(struct builder *b, int base, const struct operand *side)
 {
     if (side->place != place_temporary) {
@@ -286,7 +285,7 @@ struct operand build_choice_second(struct builder *b, struct choice *choice, con
     const struct operand *chosen = condition->value != 0 ? first : second;
     struct operand result = {.kind = kind, .at = at};
     inherit(&result, condition);
-    /* A constant condition guards the other side: if(n > 0, 1/n, 0) is sound for n = 0. */
+    /* A constant condition guards the other side: if(n > 0, 1/n, 0) is valid for n = 0. */
     if (!decided || chosen == first) inherit(&result, first);
     if (!decided || chosen == second) inherit(&result, second);
     if (decided && first->place == place_constant && second->place == place_constant) {
@@ -336,7 +335,7 @@ static void locate_all(const struct builder *b, const int *sorted, struct instr 
 {
     for (size_t i = 0; i < b->operations; i++) {
         code[i] = b->code[i];
-        /* Jumps have no result, and an unconditional one no operands either; register 0 always exists. */
+        /* Jumps have no result, and unconditional ones no operands; register 0 always exists. */
         bool jump = code[i].op == op_jump, control = jump || code[i].op == op_jump_unless;
         code[i].to = control ? 0 : locate(b, sorted, b->code[i].to);
         code[i].a = jump ? 0 : locate(b, sorted, b->code[i].a);
@@ -344,7 +343,7 @@ static void locate_all(const struct builder *b, const int *sorted, struct instr 
     }
 }
 
-/* Most values of a scene are numbers: a program of one constant, which it holds itself. */
+/* Most values of a scene are numbers: programs of one constant, which is stored in the program itself. */
 static struct expr *finish_constant(const struct builder *b, struct expr *expr, const struct operand *result)
 {
     *expr = (struct expr){.constants = 1,

@@ -23,7 +23,7 @@ static struct kind failed_kind(struct parser *p)
     return (struct kind){.free = true, .failed = true};
 }
 
-/* What is read in vain after an error of syntax is not worth a note. */
+/* Note an error, unless an error of syntax has stopped the parser. */
 static void note(struct parser *p, const char *id, struct pos at, const char *hint, const char *message)
 {
     if (!p->stopped) diag_add(p->errors, FBD_ERROR, id, at, hint, "%s", message);
@@ -40,7 +40,7 @@ bool check_number(struct parser *p, const struct operand *a)
     return false;
 }
 
-/* Both are looked at, so that both are reported. */
+/* Check both, so that both are reported. */
 static bool check_numbers(struct parser *p, const struct operand *a, const struct operand *b)
 {
     bool first = check_number(p, a), second = check_number(p, b);
@@ -57,7 +57,7 @@ bool check_condition(struct parser *p, const struct operand *a)
 
 /* ---- equal dimensions */
 
-/* What might be missing: "stiffness [N/m] times length is force". */
+/* A hint at a possibly missing factor: "stiffness [N/m] times length is force". */
 static const char *missing_factor(struct parser *p, struct dim a, struct dim b)
 {
     enum unit_system units = p->scope->units;
@@ -111,7 +111,7 @@ struct kind check_product(struct parser *p, bool divide, const struct operand *a
                          .free = a->kind.free || b->kind.free};
 }
 
-/* dim^value for the fractions that exponents can hold: halves, thirds, quarters, sixths and twelfths. A third
+/* dim^value for the fractions that exponents can have: halves, thirds, quarters, sixths and twelfths. A third
  * has no exact double, hence the tolerance of some roundings. */
 static bool dim_real_power(struct dim dim, double value, struct dim *result)
 {

@@ -38,7 +38,7 @@ static struct span trim(struct span span)
     return span;
 }
 
-/* ---- a whole scalar that is a number and a unit: `30 deg`, `-5 lbf` */
+/* ---- a scalar that consists of a number and a unit: `30 deg`, `-5 lbf` */
 
 struct quantity {
     struct span number, unit; /* with the sign; the trimmed unit */
@@ -69,9 +69,9 @@ static struct operand quantity_operand(const struct quantity *quantity)
     return result;
 }
 
-/* ---- a number and nothing else */
+/* ---- a single number */
 
-/* One beyond all numbers is left to the parser, and its message. */
+/* False for a number out of range: the parser reports it. */
 static bool read_number(struct span span, struct operand *whole)
 {
     if (span.length == 0 || number_length(span.text, span.length) != span.length) return false;
@@ -85,7 +85,7 @@ bool compile_would_do(const struct parser *p, const char *text)
 {
     struct arena scratch = {0};
     struct expr_want want = *p->want;
-    want.in_braces = false; /* the expression shown is in quotes there */
+    want.in_braces = false; /* the hint shows the expression in quotes */
     fbd_errors *errors = fbd_errors_new();
     bool right = errors && expr_compile(&scratch, text, p->lexer.start, p->scope, &want, errors) != NULL;
     if (!errors || errors->out_of_memory || scratch.failed) diag_out_of_memory(p->errors);
@@ -94,8 +94,9 @@ bool compile_would_do(const struct parser *p, const char *text)
     return right;
 }
 
-/* The unit before a name that gives the expression the wanted dimension: its own, or none, since the bare number
- * before a variable takes any dimension. False for a constant alone of another dimension. */
+/* The unit of the number before a name such that the expression has the wanted dimension: the given one if it
+ * fits (a bare number before a variable takes any dimension), else the required one. False for a bare number
+ * before a constant of another dimension. */
 static bool unit_before(const struct parser *p, const struct quantity *q, size_t before, size_t name,
                         size_t end, bool over, char *text, size_t size)
 {
@@ -114,8 +115,8 @@ static bool unit_before(const struct parser *p, const struct quantity *q, size_t
     return fits || before > 0;
 }
 
-/* `4 N*t` is 4 newton times tonnes; who means the variable t writes `4[N/s]*t`. NULL when no name of the unit
- * is also a name of the scope, or when that would not do. */
+/* A hint for `4 N*t`, 4 newton times tonnes, if the variable t was meant: `4[N/s]*t`. NULL if no name in the
+ * unit is also a name of the scope, or if the replacement does not compile. */
 static const char *hint_of_name(const struct parser *p, const struct quantity *q)
 {
     char own[96] = "";
@@ -142,7 +143,7 @@ static const char *hint_of_name(const struct parser *p, const struct quantity *q
     return NULL;
 }
 
-/* `N/m/s` is N/(m*s). When a/(b/c) is what is wanted, that is what was meant. */
+/* `N/m/s` is N/(m*s). A hint if a/(b/c) has the wanted dimension. */
 static const char *hint_of_division(const struct quantity *q, const struct expr_want *want,
                                     fbd_errors *errors)
 {
@@ -190,7 +191,7 @@ static const char *hint_of_want(struct parser *p, const struct operand *got, con
                      (int)q->number.length, q->number.text, unit);
 }
 
-/* ---- does it fit? */
+/* ---- checks of the result */
 
 static bool check_dimension(struct parser *p, const struct operand *got, const struct quantity *quantity)
 {
@@ -315,7 +316,7 @@ static struct relation find_relation(const char *text, size_t length)
     return found;
 }
 
-/* Both sides were found good; a free one takes the dimension of the other. */
+/* Compare the dimensions of both sides, which compiled without errors; a free one takes that of the other. */
 static bool match_sides(struct expr *left, struct expr *right, struct pos at, enum unit_system units,
                         fbd_errors *errors)
 {

@@ -15,7 +15,7 @@ struct curve_jet curve_jet_at(const struct curve *curve, const struct curve_piec
     return jet;
 }
 
-/* ---- making one */
+/* ---- construction */
 
 static bool agree(struct vec a, struct vec b, double size)
 {
@@ -23,7 +23,7 @@ static bool agree(struct vec a, struct vec b, double size)
     return vec_norm(vec_sub(a, b)) <= rounding * size;
 }
 
-/* Where one piece ends and the next one begins. */
+/* Check continuity between a piece and the next one. */
 static enum curve_fault check_joint(struct curve *curve, int piece, double p)
 {
     const struct curve_piece *pieces = curve->pieces;
@@ -41,7 +41,7 @@ static enum curve_fault check_joint(struct curve *curve, int piece, double p)
     return curve_made;
 }
 
-/* The panels of all pieces, cut at p = 0 too, so that s = 0 is there to the last bit. */
+/* Fit the panels of all pieces, cut also at p = 0, so that s = 0 is exact there. */
 static enum curve_fault fit_all(struct curve *curve, const double *ends, struct panel_list *list,
                                 double *place)
 {
@@ -68,7 +68,7 @@ static double angle_between(struct vec a, struct vec b)
     return atan2(vec_cross(a, b), vec_dot(a, b));
 }
 
-/* Lengths and angles, counted from the first panel on; then s = 0 at p = 0. */
+/* Sum up lengths and angles of the panels, with s = 0 at p = 0. */
 static enum curve_fault count_up(struct curve *curve, double *place)
 {
     struct curve_panel *panels = curve->panels;
@@ -100,7 +100,7 @@ static enum curve_fault count_up(struct curve *curve, double *place)
     return curve_made;
 }
 
-/* Its ends as those of one that is closed. */
+/* Check that the ends of a closed curve meet. */
 static enum curve_fault check_closed(struct curve *curve, double *place)
 {
     const struct curve_piece *last = &curve->pieces[curve->piece_count - 1];
@@ -118,7 +118,7 @@ static enum curve_fault check_closed(struct curve *curve, double *place)
     return curve_made;
 }
 
-/* The pieces as a table of s, whose values are s itself: nothing is to be seen of it but where it switches. */
+/* The pieces as a table of s, whose values are s itself: only its switches are used. */
 static enum curve_fault make_ends(struct curve *curve, struct arena *arena, const char *name)
 {
     if (curve->closed && curve->piece_count == 1 && !curve->kinked) return curve_made;
@@ -186,9 +186,9 @@ enum curve_fault curve_make(struct curve *curve, struct arena *arena, const char
     return fault;
 }
 
-/* ---- asking */
+/* ---- evaluation */
 
-/* Where a length lies: its piece and panel, s within the first round, and how far it is beyond the end of the piece. */
+/* Piece and panel at an arc length, s within the first round, and the distance beyond the end of the piece. */
 struct spot {
     const struct curve_piece *piece;
     const struct curve_panel *panel;
@@ -251,7 +251,7 @@ static double parameter_of(const struct spot *spot)
     return spot->panel->p + spot->panel->wide * series_at(spot->panel->u, panel_order, within(spot));
 }
 
-/* On along the circle of curvature. */
+/* Continue along the circle of curvature. */
 static void go_beyond(struct curve_place *place, double ds)
 {
     double turn = place->bend * ds;
@@ -313,7 +313,7 @@ double curve_length_at(const struct curve *curve, double p)
     return wanted == 0 ? panel->s : panel->s + panel->length * (1 + x) / 2;
 }
 
-/* A panel is passed over by its length: no place of it is farther than that from another one. */
+/* A panel is skipped by its length, which bounds the distance between any two of its points. */
 double curve_nearer(const struct curve *curve, struct vec r, double distance)
 {
     double nearest = (double)NAN;

@@ -11,12 +11,12 @@ enum { panel_order = 24, panel_samples = 16 };
 
 struct curve_panel {
     double p, wide;        /* from p to p + wide */
-    double s, length;      /* likewise */
-    double angle;          /* of the direction where it begins, without jumps from panel to panel */
-    struct vec e, end;     /* that direction, and the one where it ends */
+    double s, length;      /* from s to s + length */
+    double angle;          /* of the direction at its start, continuous from panel to panel */
+    struct vec e, end;     /* directions at its start and end */
     double u[panel_order]; /* (p(s) - p) / wide as a series in s */
     double bend[panel_order];
-    struct vec at[panel_samples + 1]; /* places, evenly in p, to look for the nearest of them */
+    struct vec at[panel_samples + 1]; /* points, equidistant in p, for the search of the nearest one */
 };
 
 struct curve_piece {
@@ -24,7 +24,7 @@ struct curve_piece {
     const int *branch_x, *branch_y;
 };
 
-/* What the formulas say at p. */
+/* Values and derivatives of the formulas at p. */
 struct curve_jet {
     struct vec r, d, dd;
 };
@@ -41,20 +41,20 @@ static inline struct vec curve_jet_direction(const struct curve_jet *jet)
     return vec_scale(1 / vec_norm(jet->d), jet->d);
 }
 
-/* The sum of c_k T_k(x), half of c_0. */
+/* The sum of c_k T_k(x), with half of c_0. */
 double series_at(const double *c, int n, double x);
 /* The coefficients of its derivative. */
 void series_slopes(const double *c, int n, double *slopes);
 
-/* Find the pieces of a curve: where its formulas switch (curve_pieces.c). Their ends in p go to *ends, one more than
- * there are pieces. */
+/* Find the pieces of a curve, between the switches of its formulas (curve_pieces.c). *ends receives their
+ * ends in p, one more than there are pieces. */
 enum curve_fault curve_cut(struct curve *curve, struct arena *arena, double **ends, double *place);
 
 /* Cut one piece into panels (curve_panels.c). */
 struct panel_list {
     struct curve_panel *panels;
     int count, room;
-    long looks; /* stretches in which something might be hidden: a curve of too many is intricate */
+    long looks; /* number of intervals tested for hidden variation; too many make a curve intricate */
 };
 enum curve_fault curve_fit(const struct curve *curve, const struct curve_piece *piece, double from, double to,
                            struct panel_list *list, double *place);

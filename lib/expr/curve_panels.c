@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Panels: a stretch of p on which the speed |r'|, its inverse function p(s) and the curvature are series.
+ * Panels: intervals of p on which the speed |r'|, its inverse function p(s) and the curvature are series.
  */
 #include <float.h>
 #include <stdlib.h>
@@ -39,7 +39,7 @@ static double node(int j)
     return -cos(pi * (j + 0.5) / order);
 }
 
-/* cos(k phi) at node j, by which every series is fitted: to ask the library each time would be most of the work. */
+/* cos(k phi) at node j, tabulated because every fit uses it. */
 struct cosines {
     double at[order][order];
 };
@@ -68,24 +68,24 @@ static double most_from(const double *c, int first)
     return most;
 }
 
-/* Is the series at its end but for a share of `size`? */
+/* True if the last coefficients are at most `share` of `size`: the series has converged. */
 static bool ends(const double *c, double share, double size)
 {
     enum { looked_at = 3 };
     return most_from(c, order - looked_at) <= share * size;
 }
 
-/* A panel while it is fitted. */
+/* A panel during its fit. */
 struct draft {
     const struct curve *curve;
     const struct curve_piece *piece;
     const struct cosines *cosines;
     double from, wide;
     double speed[order],
-        length[order + 1];     /* series in p: |r'|, and the length from where the panel begins */
+        length[order + 1];     /* series in p: |r'|, and the length from the start of the panel */
     double x[order], y[order]; /* r' */
     double fastest;
-    long *looks; /* of all drafts of the curve: how often hides_something has looked at a stretch */
+    long *looks; /* of the whole curve: number of intervals tested by hides_something */
 };
 
 static bool fit_speed(struct draft *draft, double *bad)
@@ -115,7 +115,7 @@ static bool fit_speed(struct draft *draft, double *bad)
     return true;
 }
 
-/* Where the panel has the length s, in [-1, 1]. */
+/* The position in [-1, 1] at which the panel has the length s, by Newton's method. */
 static double place_of(const struct draft *draft, double s, double guess)
 {
     double x = guess;
@@ -130,7 +130,7 @@ static double place_of(const struct draft *draft, double s, double guess)
     return x;
 }
 
-/* To the last bit, 0 at the beginning and 1 at the end. */
+/* Make the series exactly 0 at the start and 1 at the end. */
 static void meet_ends(double *u)
 {
     double low = series_at(u, order, -1), high = series_at(u, order, 1) - 1;
@@ -144,10 +144,11 @@ static struct vec direction_at(const struct draft *draft, double x)
     return vec_scale(1 / vec_norm(d), d);
 }
 
-/* ---- what 24 nodes do not see
+/* ---- variation between the 24 nodes
  *
- * A bend that is much shorter than the panel lies between them. So r' is enclosed (interval.h) over stretches of the panel: one
- * over which it varies by little hides nothing; another is compared with the series at its middle, and halved. */
+ * A bend much shorter than the panel may lie between the nodes. So r' is enclosed (interval.h) over intervals
+ * of the panel: one over which it varies little hides nothing; any other is compared with the series at its
+ * middle, and halved. */
 
 /* r' over p +- radius. */
 static void enclose_slope(const struct draft *draft, double p, double radius, struct interval slope[2])
@@ -159,7 +160,7 @@ static void enclose_slope(const struct draft *draft, double p, double radius, st
     for (int i = 0; i < 2; i++) slope[i] = expr_enclose(formulas[i], &stretch, &y, branches[i]).rate;
 }
 
-/* Is r' another than its series says, at p? */
+/* True if r' differs from its series at p. */
 static bool differs(const struct draft *draft, double p)
 {
     const double seen = 1e-6;
@@ -169,8 +170,9 @@ static bool differs(const struct draft *draft, double p)
     return !(vec_norm(vec_sub(jet.d, series)) <= seen * draft->fastest);
 }
 
-/* Stretches are taken from the left; right halves wait on the stack, one of each depth. Where enclosures stay wide, as next to
- * a root, it is given up after so many: nothing is known then, and the panel is taken as it is. */
+/* True if the series of r' misses some variation. Intervals are processed from the left, with right halves on
+ * the stack, one of each depth. Where enclosures stay wide, as next to a root, the test ends after `most`
+ * intervals without a result, and the panel is accepted. */
 static bool hides_something(const struct draft *draft)
 {
     enum { deepest = 40, most = 2000 };
@@ -197,10 +199,10 @@ static bool hides_something(const struct draft *draft)
 
 /* ---- panels */
 
-/* Is the panel one? `share` is what its numbers leave of the digits. */
+/* Fit a panel; false if a series has not converged. `share` is the attainable relative accuracy. */
 static bool fit_panel(const struct draft *draft, double share, struct curve_panel *panel)
 {
-    const double lost = 1e4; /* by second derivatives */
+    const double lost = 1e4; /* accuracy lost by second derivatives */
     const double most_turn = 1.5;
     double u[order], bend[order], fastest = draft->fastest, x = -1;
     *panel = (struct curve_panel){.p = draft->from, .wide = draft->wide};
@@ -241,7 +243,7 @@ enum curve_fault curve_fit(const struct curve *curve, const struct curve_piece *
                            struct panel_list *list, double *place)
 {
     const double first_share = 8, digits = 1e-14, narrowest = 1e-9, still = 1e-3;
-    const long most_looks = 2000000; /* twice what spirals of so many panels take */
+    const long most_looks = 2000000; /* twice the number for spirals of so many panels */
     double range = curve->to - curve->from, wide = range / first_share, fastest = 0;
     double size = fmax(fabs(from), fabs(to));
     struct cosines cosines;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Pieces of a curve: stretches of p on which its formulas keep their branches (pieces.h).
+ * Pieces of a curve: intervals of p on which its formulas keep their branches (pieces.h).
  */
 #include "expr/curve_panel.h"
 #include "expr/pieces.h"

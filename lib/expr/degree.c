@@ -9,7 +9,7 @@ static enum expr_degree larger(enum expr_degree a, enum expr_degree b)
     return a > b ? a : b;
 }
 
-/* A function of constants is constant, whatever the function. */
+/* The degree of a nonlinear operation: constant if its operands are constant. */
 static enum expr_degree of_any(enum expr_degree a, enum expr_degree b)
 {
     return larger(a, b) == expr_constant_between ? expr_constant_between : expr_nonlinear;
@@ -21,7 +21,7 @@ static enum expr_degree of_table(const struct table *table, enum expr_degree a)
     return degree == 0 ? expr_constant_between : degree == 1 ? a : of_any(a, a);
 }
 
-/* The degree of a result from those of the operands; b is a where there is one operand. */
+/* The degree of a result from those of the operands; b is a for one operand. */
 static enum expr_degree degree_after(const struct instr *instr, enum expr_degree a, enum expr_degree b)
 {
     switch (instr->op) {
@@ -46,8 +46,8 @@ static enum expr_degree degree_after(const struct instr *instr, enum expr_degree
     }
 }
 
-/* The degrees of time and variables, those of slots beyond `last` as if they were not affine. True where the
- * program has sides that are not taken, so that registers may be those of either. */
+/* Set the degrees of time and variables; slots beyond `last` count as nonlinear. Returns true if the program
+ * has jumps: then a register may be written by either side of an `if`. */
 static bool begin(const struct expr *expr, int last, enum expr_degree degree[frame_limit])
 {
     size_t first = expr->uses_time;
@@ -61,7 +61,7 @@ static bool begin(const struct expr *expr, int last, enum expr_degree degree[fra
     return jumps;
 }
 
-/* Both sides of an `if` write the same register: the worse one counts. */
+/* Set the degree of a result. Both sides of an `if` write the same register: the higher degree counts. */
 static void take(const struct instr *instr, bool jumps, enum expr_degree *degree)
 {
     enum expr_degree result = degree_after(instr, degree[instr->a], degree[instr->b]);

@@ -3,8 +3,7 @@
 
 #include <limits.h>
 
-/* Beyond +-2700 powers an exponent saturates: no quantity of mechanics comes near, and an overflow would be
- * undefined. */
+/* Exponents saturate beyond +-2700: no quantity of mechanics comes near, and an overflow would be undefined. */
 static short exponent(int twelfths)
 {
     if (twelfths > SHRT_MAX) return SHRT_MAX;

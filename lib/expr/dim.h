@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Physical dimensions: powers of mass, length and time, and for states beside the motion of electric current and
+ * Physical dimensions: powers of mass, length and time, and for user states of electric current and
  * temperature.
  *
- * Plane angle carries no dimension (1 rad = 1), as in the SI. Exponents are kept in twelfths, so that square,
- * cube and fourth roots stay exact.
+ * Plane angle has no dimension (1 rad = 1), as in the SI. Exponents are in twelfths, so that square, cube and
+ * fourth roots are exact.
  */
 #ifndef FBD_EXPR_DIM_H
 #define FBD_EXPR_DIM_H

@@ -1,35 +1,35 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Derivatives by dual numbers: with every value v runs its rate d along a direction, by the chain rule
+ * Derivatives by dual numbers: each value v carries its rate d along a direction, by the chain rule
  *
- *     f' = f_a a' + f_b b',
+ *   f' = f_a a' + f_b b',
  *
- * and, for second derivatives, hyper-dual numbers (Fike and Alonso, AIAA 2011-886): with v run d/da, d/db and
+ * and, for second derivatives, hyper-dual numbers (Fike and Alonso, AIAA 2011-886): v carries d/da, d/db and
  * d2/(da db),
  *
- *     f_pq = f_a a_pq + f_b b_pq + f_aa a_p a_q + f_ab (a_p b_q + a_q b_p) + f_bb b_p b_q.
+ *   f_pq = f_a a_pq + f_b b_pq + f_aa a_p a_q + f_ab (a_p b_q + a_q b_p) + f_bb b_p b_q.
  *
- * Both are exact to rounding; no step size is chosen.
+ * Both are exact to rounding, without a step size.
  */
 #include <math.h>
 
 #include "expr/frame.h"
 
-/* The zeros of `along` are looked for only when they matter. */
+/* Zero factors (see `along`) are treated only if the plain result is NaN. */
 static inline double product_rate(double a, double b, double da, double db)
 {
     double rate = da * b + a * db;
     return isnan(rate) ? along(b, da) + along(a, db) : rate;
 }
 
-/* As is -f/b, which vanishes where the rate of b overflows before b does: 1/cosh(u)^2 at u = -355. */
+/* The same for a quotient. The factor -f/b may vanish where the rate of b overflows: 1/cosh(u)^2 at u = -355. */
 static inline double quotient_rate(double b, double f, double da, double db)
 {
     double rate = (da - f * db) / b;
     return isfinite(rate) ? rate : along(1 / b, da) + along(-f / b, db);
 }
 
-/* Values and rates of variables and constants stand in the frame already. */
+/* Run a program whose frame contains values and rates of variables and constants. */
 static double run_dual(const struct expr *expr, double *v, double *d, const int *branch, double *derivative)
 {
     struct slopes s;
@@ -109,7 +109,7 @@ static void step_hyper(const struct instr *i, const int *branch, struct hyper *h
     h->pq[i->to] = along(s.a, pq[0]) + along(s.b, pq[1]) + along(s.aa, p[0] * q[0]) +
                    along(s.ab, p[0] * q[1] + q[0] * p[1]) + along(s.bb, p[1] * q[1]);
     if (i->op != op_divide) return;
-    h->p[i->to] = quotient_rate(divisor, s.f, p[0], p[1]); /* to the bit what run_dual has */
+    h->p[i->to] = quotient_rate(divisor, s.f, p[0], p[1]); /* bitwise as in run_dual */
     h->q[i->to] = quotient_rate(divisor, s.f, q[0], q[1]);
 }
 

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Enclosures: a program run over intervals of time (interval.h). With the range of each value runs that of
- * its rate, by the chain rule of dual.c, and its value in the middle of the interval; the mean value theorem
- * then narrows the range at each operation.
+ * Enclosures: a program evaluated over intervals of time (interval.h). Each value carries its range, the
+ * range of its rate, by the chain rule of dual.c, and its value in the middle of the interval; the mean value
+ * theorem then narrows the range at each operation.
  *
- * What comes out is proved for the formula that the branches choose, for all functions of time whose values
- * and rates lie in the spans of the variables.
+ * The result is rigorous for the formula that the branches choose, for all functions of time whose values and
+ * rates lie in the enclosures of the variables.
  */
 #include <math.h>
 
@@ -46,7 +46,7 @@ static struct interval slope_of_piece(const struct table *table, double piece, s
     return f;
 }
 
-/* A branch past counting follows plain values, which have no smooth formula. */
+/* A branch beyond branch_limit uses plain values, which have no smooth formula. */
 static struct interval value_of_switch(const struct instr *i, int n, struct interval a, struct interval b)
 {
     if (n >= branch_limit || n <= -branch_limit) return interval_everything();
@@ -111,7 +111,7 @@ static struct interval square_of(struct interval a)
     return interval_whole_power(a, 2);
 }
 
-/* c / r, where r is never negative. */
+/* c / r for r >= 0. */
 static struct interval over(double c, struct interval r)
 {
     if (r.low > 0) return interval_scale(c, interval_divide(one, r));
@@ -135,7 +135,7 @@ static struct steepness of_switch(const struct instr *i, int n, struct interval 
     }
 }
 
-/* x/h and y/h are sine and cosine of an angle. */
+/* x/h or y/h, bounded by 1 as cosine and sine of an angle. */
 static struct interval share(struct interval part, struct interval h)
 {
     const struct interval unit = {-1, 1};
@@ -235,7 +235,7 @@ static void load(const struct expr *expr, const struct stretch *stretch, const s
     e->radius = stretch_radius(stretch);
 }
 
-/* The function that a switch watches: see kinks.c. */
+/* The switching function of a switch: see kinks.c. */
 static struct enclosure watched(const struct instr *i, const struct enclosing *e)
 {
     const struct enclosure *a = &e->frame[i->a], *b = &e->frame[i->b];
@@ -252,7 +252,7 @@ static struct enclosure watched(const struct instr *i, const struct enclosing *e
     return u;
 }
 
-/* The branch zero of sign and == has room for the rounding of u on both sides. */
+/* The branch zero of sign and == includes the rounding error of u on both sides. */
 static struct enclosure with_tolerance(struct enclosure u)
 {
     double tolerance = 16 * interval_width(u.middle) + DBL_MIN;
@@ -267,7 +267,7 @@ static struct enclosure knot_of(struct double_double knot)
     return (struct enclosure){range, none, range};
 }
 
-/* As note_margins in kinks.c. */
+/* Enclose the margins of note_margins in kinks.c. */
 static void enclose_margins(const struct instr *i, struct enclosing *e)
 {
     int n = e->branch[i->extra];
@@ -303,7 +303,7 @@ static void enclose(const struct instr *i, struct enclosing *e)
     e->frame[i->to] = f;
 }
 
-/* False where it is not known which way the program goes. */
+/* Run the program. False if the side of an `if` is undecided. */
 static bool run(const struct expr *expr, struct enclosing *e)
 {
     const struct instr *end = expr->code + expr->operations;

@@ -5,8 +5,8 @@
 #include "expr/parts.h"
 #include "expr/steps.h"
 
-/* Programs with jumps. The operations of most force laws are done in place; the others go through op_value,
- * whose call is small against the function of the mathematical library that it calls in turn. */
+/* Run a program with jumps. The operations of most force laws are inlined; the others go through op_value,
+ * whose call is cheap compared with the library function in it. */
 static double run_on_frame(const struct expr *expr, double t, const double *y, const int *branch)
 {
     double value[frame_limit];

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * What to say about a text that is no expression. The aim is the correction, not the grammar: `5 N + x` wants
+ * Messages for texts that are no expression. They show the correction, not the grammar: `5 N + x` needs
  * brackets, `2 x` a product sign, `9.81 ms-2` another spelling of the unit.
  */
 #include <stdio.h>
@@ -121,8 +121,8 @@ static size_t skip_blanks(const char *text, size_t length, size_t from)
     return from;
 }
 
-/* Is the rest behind a unit of `used` bytes a slip in the unit (`m/s2`, `ms-2`, `m^0.5`, `ft*lb`), rather
- * than the next operator of an expression? */
+/* True if the text behind a unit of `used` bytes is an error in the unit (`m/s2`, `ms-2`, `m^0.5`, `ft*lb`)
+ * rather than the next operator of an expression. */
 static bool unit_goes_wrong(const struct parser *p, const char *text, size_t length, size_t used)
 {
     size_t next = skip_blanks(text, length, used);
@@ -163,7 +163,7 @@ static const char *with_brackets(struct parser *p)
     return result ? diag_hint(p->errors, "%s%.*s", result, (int)(length - from), text + from) : NULL;
 }
 
-/* Inside braces a comma ends the text, also one between arguments: then a parenthesis stays open. */
+/* True if parentheses do not match: inside braces a comma ends the text, even one between arguments. */
 static bool is_torn(const struct parser *p)
 {
     int open = 0;
@@ -245,6 +245,6 @@ void explain_unknown_name(struct parser *p, struct token name)
     if (!text) return;
     diag_add(p->errors, FBD_ERROR, "unknown-name", name.at, name_hint(p, text, name.length),
              "nothing is called `%s` here", text);
-    /* What follows is the argument, which without parentheses would only give a second error. */
+    /* Stop: the argument without parentheses would only give a second error. */
     if (function_exists(text, name.length)) parse_halt(p);
 }

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Filling the frame of a program (see program.h) before its instructions run. Each part of a number that is
- * more than a double (a rate, a second derivative, a rounding bound) has an array of its own.
+ * Filling the frame of a program (see program.h) before its instructions run. Each component of a number that
+ * is more than a double (rate, second derivative, rounding bound) has an array of its own.
  */
 #ifndef FBD_EXPR_FRAME_H
 #define FBD_EXPR_FRAME_H

@@ -5,20 +5,20 @@
 
 #include "expr/parser.h"
 
-/* What a function asks of the dimensions of its arguments, and what it makes of them. */
+/* The dimensions of the arguments and of the result of a function. */
 enum rule {
     rule_pure,    /* a pure number to a pure number */
-    rule_rounded, /* a pure number, which stays free if it was */
-    rule_any,     /* anything to a pure number */
-    rule_kept,    /* anything to the same */
+    rule_rounded, /* a pure number, which stays free */
+    rule_any,     /* any dimension to a pure number */
+    rule_kept,    /* any dimension, kept */
     rule_root_2,
     rule_root_3,
     rule_same,  /* equal dimensions to the same */
     rule_ratio, /* equal dimensions to a pure number */
     rule_power,
-    rule_clamp, /* made of max and min */
-    rule_pulse, /* made of two steps */
-    rule_relay, /* of equal dimensions, to a pure number */
+    rule_clamp, /* composed of max and min */
+    rule_pulse, /* composed of two steps */
+    rule_relay, /* equal dimensions to a pure number */
     rule_if,
 };
 
@@ -89,7 +89,7 @@ const char *expr_function(size_t index)
     return index < function_count ? functions[index].name : NULL;
 }
 
-/* ---- calls that cannot be made */
+/* ---- errors in calls */
 
 static const char *const other_names[][2] = {
     {"arcsin", "asin"}, {"arccos", "acos"}, {"arctan", "atan"},  {"arctan2", "atan2"},  {"tg", "tan"},
@@ -147,7 +147,7 @@ static struct operand wrong_count(struct parser *p, const struct function *funct
 
 /* ---- operations */
 
-/* Whole exponents up to this are multiplied out; beyond, pow is as fast. */
+/* Limit of whole exponents that are multiplied out; beyond, pow is as fast. */
 enum { largest_whole_power = 32 };
 
 struct operand function_power(struct parser *p, int base, const struct operand *a, const struct operand *b,
@@ -170,13 +170,13 @@ struct operand function_power(struct parser *p, int base, const struct operand *
     return build_operation(p->builder, base, op_power, 0, a, &exponent, kind, at);
 }
 
-/* Is it as good as constant but for arguments of some size? */
+/* True for functions that vary only in a limited range of their argument. */
 static bool wakes_up(enum op op)
 {
     return op == op_exp || op == op_sinh || op == op_cosh || op == op_tanh;
 }
 
-/* min(max(u, low), high): the order of u and its bounds is what its two switches watch. */
+/* min(max(u, low), high): its two switches compare u with its bounds. */
 static struct operand build_clamp(struct builder *b, int base, const struct operand *args, struct kind kind,
                                   struct pos at)
 {
@@ -184,8 +184,7 @@ static struct operand build_clamp(struct builder *b, int base, const struct oper
     return build_operation(b, base, op_min, 0, &raised, &args[2], kind, at);
 }
 
-/* step(t - start) * (1 - step((t - start) - width)): start + width would round a short width to the digits
- * that are left behind those of the start. */
+/* step(t - start) * (1 - step((t - start) - width)): start + width would round a short width. */
 static struct operand build_pulse(struct builder *b, int base, const struct operand *args, struct kind kind,
                                   struct pos at)
 {
@@ -199,8 +198,8 @@ static struct operand build_pulse(struct builder *b, int base, const struct oper
     return build_operation(b, base, op_multiply, 0, &on, &not_off, pure, at);
 }
 
-/* A relay over ((u - low) - (high - u))/(high - low), which is -1 and 1 at the ends. Thresholds that vary are not to
- * cross: nothing times the square root of their distance is no number then, and ends the run. */
+/* A relay over ((u - low) - (high - u))/(high - low), which is -1 and 1 at the thresholds. Varying thresholds
+ * must not cross: the added term 0*sqrt(high - low) is then NaN, and ends the run. */
 static struct operand build_relay(struct parser *p, int base, const struct operand *args, struct kind kind,
                                   struct pos at)
 {
@@ -229,7 +228,7 @@ static struct operand build_relay(struct parser *p, int base, const struct opera
 
 /* ---- tables */
 
-/* A number without a unit takes the dimension of the points, and the other way round. */
+/* Call a table. A number without a unit takes the dimension of the points, and vice versa. */
 static struct operand build_lookup(struct parser *p, const struct table *table, int base,
                                    const struct operand *args, int count, struct token name)
 {
@@ -331,7 +330,7 @@ static struct operand build_call(struct parser *p, const struct function *functi
 
 /* ---- reading calls */
 
-/* Go past the `,` or `)` behind an argument; true when another argument follows. */
+/* Skip the `,` or `)` behind an argument; true when another argument follows. */
 static bool another_argument(struct parser *p)
 {
     bool comma = p->token.kind == token_comma;
@@ -358,7 +357,7 @@ static int read_arguments(struct parser *p, struct operand *args)
     return count;
 }
 
-/* Each side is built where the choice wants it, so the arguments cannot be read in one go. */
+/* Read an `if`. Each side is compiled between its jumps, so the arguments cannot be read in one go. */
 static struct operand read_if(struct parser *p, const struct function *function, int base, struct token name)
 {
     struct choice choice;
@@ -390,7 +389,7 @@ static struct operand read_if(struct parser *p, const struct function *function,
     return build_choice_second(p->builder, &choice, &second, kind, name.at);
 }
 
-/* `before(v)`: its value is that of the expression, whose names have another meaning. */
+/* `before(v)`: the value of the expression, whose names have another meaning. */
 static struct operand read_in_sense(struct parser *p, struct token name)
 {
     struct operand inside = parse_expression(p);

@@ -28,8 +28,7 @@ struct pos glyph_pos(const char *text, size_t offset, struct pos start)
     return at;
 }
 
-/* The micro sign U+00B5 and the letter mu look the same and mean different things; the letter is the likelier
- * one outside of a unit. */
+/* The micro sign U+00B5 and the letter mu look the same; outside of a unit the letter is more likely. */
 const char *glyph_plain(const char *text, size_t size)
 {
     static const char *const table[][2] = {
@@ -64,7 +63,9 @@ void glyph_refuse(fbd_errors *errors, const char *id, struct pos at, const char 
     }
     bool blank = size == 2 && memcmp(text, "\xC2\xA0", 2) == 0;
     const char *plain = glyph_plain(text, size);
+    const bool sum = size > 1 && (strncmp(text, "Σ", size) == 0 || strncmp(text, "∑", size) == 0);
     const char *hint = plain   ? diag_hint(errors, "write `%s`", plain)
+                       : sum   ? "write the sum out, and an equation behind it: `ΣF_x = F - f = m*a`"
                        : blank ? "this is a no-break space: write an ordinary blank"
                                : NULL;
     diag_add(errors, FBD_ERROR, id, at, hint, "`%.*s` cannot be used here", (int)size, text);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "expr/interval.h"
 
-/* Roundings that cover a function of the mathematical library. */
+/* Error bound of functions of the mathematical library, in units of DBL_EPSILON. */
 static const double library = 4;
 
 static const double pi = 3.14159265358979323846;
@@ -12,7 +12,7 @@ struct interval interval_divide(struct interval a, struct interval b)
     return interval_multiply(a, interval_widen(1 / b.high, 1 / b.low, 1));
 }
 
-/* x^n for x >= 0 and n >= 1 by multiplication, as the programs do it: the error grows with the number of
+/* x^n for x >= 0 and n >= 1 by multiplication, as in the programs: the error grows with the number of
  * products. */
 static double power_of(double x, int n)
 {
@@ -52,7 +52,8 @@ struct interval interval_power(struct interval a, struct interval b)
         struct interval logarithm = interval_rising(log, (struct interval){low, high}, 0, HUGE_VAL);
         return interval_rising(exp, interval_multiply(b, logarithm), -HUGE_VAL, HUGE_VAL);
     }
-    if (a.low < 0 && b.low == floor(b.low)) return interval_everything(); /* whole, but not known to be */
+    if (a.low < 0 && b.low == floor(b.low))
+        return interval_everything(); /* a whole exponent: also defined below zero */
     double from = pow(low, b.low), to = pow(high, b.low);
     return interval_widen(fmin(from, to), fmax(from, to), library);
 }
@@ -64,7 +65,7 @@ struct interval interval_hypot(struct interval a, struct interval b)
     return interval_widen(low, hypot(interval_size(a), interval_size(b)), library);
 }
 
-/* Is there a place x0 + 2 pi k in the range? To the rounding of that, in doubt yes. */
+/* True if the range contains a point x0 + 2 pi k, also if that is undecided by rounding. */
 static bool has_place(struct interval a, double x0)
 {
     const double turn = 2 * pi, rounding = 4 * DBL_EPSILON;
@@ -73,7 +74,7 @@ static bool has_place(struct interval a, double x0)
     return x0 + k * turn <= a.high + 2 * doubt;
 }
 
-/* A wave between its values at the ends, with its crest and trough where they lie within. */
+/* The range of a wave: its values at the ends, and its crest and trough if they are inside. */
 static struct interval wave(struct interval a, double from, double to, double crest)
 {
     if (!(interval_width(a) < 2 * pi)) return (struct interval){-1, 1};
@@ -83,7 +84,7 @@ static struct interval wave(struct interval a, double from, double to, double cr
     return ends;
 }
 
-/* sin and cos of an infinite end are never asked for. */
+/* sin and cos are not evaluated at infinite ends. */
 struct interval interval_sin(struct interval a)
 {
     if (!(interval_width(a) < HUGE_VAL)) return (struct interval){-1, 1};

@@ -1,16 +1,16 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Intervals: interval arithmetic, with ends rounded outward.
+ * Intervals: interval arithmetic with outward rounding.
  *
- * The result of an operation holds every value that the operation has for operands in their ranges. An end is
- * moved outward by a relative amount that is more than the rounding of the operation, and more than the error
- * of the mathematical library for the functions (4 units in the last place; glibc states at most 2 for those
- * in use). So zero stays zero, and what is exact stays within a rounding. Not covered: results below 1e-307,
- * whose rounding is absolute; they are zero for all purposes here.
+ * The result of an operation contains every value of the operation for operands in their ranges. An end is
+ * moved outward by a relative amount that exceeds the rounding error of the operation, and for functions that
+ * of the mathematical library (4 units in the last place; glibc states at most 2 for those in use). So zero
+ * stays zero, and exact results stay within one rounding. Not covered: results below 1e-307, whose rounding
+ * is absolute; they are zero for all purposes here.
  *
- * What is undefined for a part of an operand, as ln and sqrt below zero, is taken for the rest of it: there
- * the formula itself has no value, and a run that gets there ends. What is undefined or unbounded otherwise
- * has the range of everything.
+ * Where a function is undefined for a part of an operand, as ln and sqrt below zero, it is evaluated for the
+ * remaining part: elsewhere the formula itself has no value, and a run that gets there ends. Results that are
+ * undefined or unbounded otherwise have the range of everything.
  *
  * Source: R. E. Moore, R. B. Kearfott, M. J. Cloud, Introduction to Interval Analysis, SIAM 2009.
  */
@@ -40,7 +40,7 @@ static inline double interval_width(struct interval a)
     return a.high - a.low;
 }
 
-/* The largest size. */
+/* The largest magnitude. */
 static inline double interval_size(struct interval a)
 {
     return fmax(fabs(a.low), fabs(a.high));
@@ -51,7 +51,7 @@ static inline bool interval_has_zero(struct interval a)
     return a.low <= 0 && a.high >= 0;
 }
 
-/* Outward by `units` roundings; a NaN, from infinite ends, is everything. */
+/* Round outward by `units` roundings; NaN, from infinite ends, becomes everything. */
 static inline struct interval interval_widen(double low, double high, double units)
 {
     low -= units * DBL_EPSILON * fabs(low);
@@ -74,7 +74,7 @@ static inline struct interval interval_subtract(struct interval a, struct interv
     return interval_widen(a.low - b.high, a.high - b.low, 1);
 }
 
-/* Without NaN, which fmin and fmax would look for at the price of a call. */
+/* Without the NaN handling of fmin and fmax, which costs a call. */
 static inline double interval_lesser(double x, double y)
 {
     return x < y ? x : y;
@@ -85,13 +85,13 @@ static inline double interval_larger(double x, double y)
     return x > y ? x : y;
 }
 
-/* What zero is multiplied by does not matter: no value in a range is infinite, only its end. */
+/* Zero times an infinite end is zero: the values in a range are finite. */
 static inline double interval_product(double x, double y)
 {
     return x == 0 || y == 0 ? 0 : x * y;
 }
 
-/* Operands without width, as constants have, are common. */
+/* Operands of zero width, such as constants, are common. */
 static inline struct interval interval_multiply(struct interval a, struct interval b)
 {
     double p = interval_product(a.low, b.low), q = interval_product(a.high, b.high);
@@ -113,7 +113,7 @@ static inline struct interval interval_hull(struct interval a, struct interval b
     return (struct interval){fmin(a.low, b.low), fmax(a.high, b.high)};
 }
 
-/* Both bounds hold. Where rounding has put them apart, a stands. */
+/* The intersection; a if rounding made that empty. */
 static inline struct interval interval_meet(struct interval a, struct interval b)
 {
     double low = interval_larger(a.low, b.low), high = interval_lesser(a.high, b.high);
@@ -130,19 +130,19 @@ struct interval interval_tan(struct interval a);
 struct interval interval_atan2(struct interval y, struct interval x);
 struct interval interval_cosh(struct interval a);
 
-/* A function that rises over all of its domain [low, high], taken for what of `a` lies there. */
+/* An increasing function with the domain [low, high], for the part of `a` in it. */
 struct interval interval_rising(double (*f)(double), struct interval a, double low, double high);
 
 /* ---- functions of time */
 
-/* What is known of a function f on an interval [m - radius, m + radius] of time. The width of `middle` is a
- * bound of the rounding of f in the numbers that a program computes. */
+/* Bounds of a function f on a time interval [m - radius, m + radius]. The width of `middle` bounds the
+ * rounding error of f as a program computes it. */
 struct enclosure {
     struct interval value, rate; /* of f and of df/dt over the interval */
     struct interval middle;      /* of f(m) */
 };
 
-/* The interval, and a point m inside near its middle. */
+/* A time interval, and a point near its middle. */
 struct stretch {
     double from, to, middle;
 };
@@ -167,7 +167,7 @@ static inline struct enclosure enclosure_everything(void)
     return (struct enclosure){interval_everything(), interval_everything(), interval_everything()};
 }
 
-/* The mean value theorem: f lies in f(m) + f'([..]) [-radius, radius] as well, a bound whose excess falls
+/* The mean value theorem: f also lies in f(m) + f'([..]) [-radius, radius], a bound whose excess decreases
  * with the square of the radius. */
 static inline void enclosure_centre(struct enclosure *f, double radius)
 {

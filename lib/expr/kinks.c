@@ -1,40 +1,41 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Switches: where a formula changes, on which side a motion goes on, and how far the change is.
+ * Switches: where a formula changes, its branch after the change, and the margins to it.
  *
- * Each switch watches a smooth function u of the state: a for sign, abs, step and the roundings, a - b for
- * min, max and comparisons, a/b for mod and levels, 2a for square. A switch by sign has the branches u < 0, u > 0 and,
- * for sign and ==, u = 0. A rounding has the branches n with n + offset < u < n + offset + 1. A relay watches the
- * threshold at which it leaves its branch, a - 1 or a + 1; where it is between them its branch stays, whatever
- * that was.
+ * Each switch has a smooth switching function u of the state: a for sign, abs, step and the roundings, a - b
+ * for min, max and comparisons, a/b for mod and levels, 2a for square. A switch by sign has the branches u <
+ * 0, u > 0 and, for sign and ==, u = 0. A rounding has the branches n with n + offset < u < n + offset + 1.
+ * For a relay u is the distance to the threshold at which it leaves its branch, a - 1 or a + 1; between the
+ * thresholds its branch stays.
  *
- * Late in a run a time has few digits left behind the point, and u of a switch by time loses them: t - start,
- * t/period - n, the phase of a sine. So values are twofold numbers: the time is a moment, sums, products and
- * quotients keep their rounding error as a rest, and other functions pass it on by their slope,
+ * Late in a run a time has few digits behind the point, and u of a switch by time loses them: t - start,
+ * t/period - n, the phase of a sine. So values are double-double numbers: the time has a low part, sums,
+ * products and quotients keep their rounding error as low part, and other functions transfer it by their
+ * slope,
  *
- *     f(x + rest) = f(x) + f'(x) rest,    which is exact to rest^2 = eps^2 x^2.
+ *   f(x + rest) = f(x) + f'(x) rest,  which is exact to rest^2 = eps^2 x^2.
  *
- * Whether u is zero cannot be asked of rounded numbers. With each value therefore run its rate along the
- * motion and a bound of its rounding error, by the first-order propagation
+ * Whether u is zero cannot be decided from rounded values alone. Each value therefore carries its rate along
+ * the motion and a bound of its rounding error, by the first-order propagation
  *
- *     e(f) = |f_a| e(a) + |f_b| e(b) + own |f|,    e(t) = eps^2 t,  e(y) = eps y,  e(c) = eps^2 c
+ *   e(f) = |f_a| e(a) + |f_b| e(b) + own |f|,  e(t) = eps^2 t,  e(y) = eps y,  e(c) = eps^2 c
  *
- * (N. Higham, Accuracy and Stability of Numerical Algorithms, ch. 3); own is eps^2 for what keeps its rest,
- * else eps. Where |u| is within a few such bounds, the rate decides.
+ * (N. Higham, Accuracy and Stability of Numerical Algorithms, ch. 3); own is eps^2 for operations that keep
+ * their low part, else eps. Where |u| is within a few such bounds, the rate decides.
  */
 #include <float.h>
 #include <math.h>
 
 #include "expr/frame.h"
 
-/* Value and rest, the rate of the value, and the bound of its error. */
+/* High and low part of values, rate, and bound of the rounding error. */
 struct motion {
     double value[frame_limit], rest[frame_limit], rate[frame_limit], error[frame_limit];
 };
 
 static const double dd_rounding = DBL_EPSILON * DBL_EPSILON;
 
-/* The function that a switch watches, at one point of the motion. */
+/* The switching function of a switch at one point of the motion. */
 struct crossing {
     struct double_double exact;
     double u, rate, tolerance;
@@ -43,7 +44,7 @@ struct crossing {
 /* Called at each active switch in order, before it is evaluated. */
 typedef void visit(void *context, const struct instr *i, const struct motion *at, struct crossing crossing);
 
-/* `rounding` is that of the time and of constants. */
+/* Load the leaves; `rounding` is the relative error of the time and of constants. */
 static void load(const struct expr *expr, struct time_dd t, const double *y, double dt, const double *dy,
                  double rounding, struct motion *m)
 {
@@ -89,11 +90,12 @@ static struct crossing crossing_at(const struct instr *i, const int *branch, con
         rate *= 2;
         error *= 2;
     }
-    /* The bounds are of first order, so a few of them; never zero, so that u = 0 lies inside. */
+    /* The bounds are of first order, hence the factor; never zero, so that u = 0 lies inside. */
     return (struct crossing){u, dd_value(u), rate, 4 * error + DBL_MIN};
 }
 
-/* The rest of what an instruction makes, f its rounded value; false for one that keeps none. */
+/* The double-double result of an instruction with the rounded value f; false for operations without a low
+ * part. */
 static bool keep_rest(const struct instr *i, const struct motion *m, const int *branch, double f,
                       struct double_double *result)
 {
@@ -116,7 +118,7 @@ static bool keep_rest(const struct instr *i, const struct motion *m, const int *
     return isfinite(f) && isfinite(result->x + result->rest);
 }
 
-/* Does the operation give its operand, or a whole number, as it is? */
+/* True for operations whose result is an operand or a whole number, without rounding. */
 static bool is_without_rounding(unsigned op)
 {
     return op == op_copy || op == op_negate || (op >= op_and && op <= op_not) ||
@@ -140,7 +142,7 @@ static void step_motion(const struct instr *i, const int *branch, struct motion 
     m->value[i->to] = keeps ? kept.x : s.f;
     m->rest[i->to] = keeps ? kept.rest : isfinite(rest) ? rest : 0;
     m->rate[i->to] = rate;
-    /* At an infinite slope (sqrt at 0) the first order says nothing. */
+    /* At an infinite slope (sqrt at 0) the first-order bound is infinite, and is dropped. */
     m->error[i->to] = isfinite(error) ? error + own : own;
 }
 
@@ -215,7 +217,7 @@ void expr_margins(const struct expr *expr, struct time_dd t, const double *y, do
     run(expr, branch, &motion, note_margins, &context);
 }
 
-/* ---- what they watch */
+/* ---- switching functions */
 
 struct switchings {
     double *u, *rates, *rounding;
@@ -334,7 +336,8 @@ static void resolve(const struct expr *expr, struct time_dd t, const double *y, 
     memcpy(before, branch, expr->switches * sizeof *before);
     for (size_t k = 0; k < expr->switches; k++)
         if ((!keep || !keep[k]) && expr->switch_at[k].op != op_relay) branch[k] = 0;
-    /* Who asks without an event means 0.7 by the double next to it, and so where three times that is. */
+    /* Without an event the time is any double, such as that nearest to 0.7, and 3*t - 2.1 is zero to
+     * rounding. */
     load(expr, t, y, dt, dy, keep ? dd_rounding : DBL_EPSILON, &motion);
     run(expr, branch, &motion, choose_branch, &context);
 }

@@ -40,7 +40,7 @@ static bool refuse(const struct lexer *lexer, const char *hint, const char *mess
     return false;
 }
 
-/* ---- characters that are no tokens */
+/* ---- invalid characters */
 
 struct foreign {
     const char *text, *hint;
@@ -67,7 +67,7 @@ static const struct foreign foreigners[] = {
     {"]", "a unit is written `[N]`, right after its number"},
 };
 
-/* A micro sign in `5 µs`, which else is the letter. */
+/* True for a micro sign in a unit, as in `5 µs`; elsewhere it is the letter. */
 static bool is_micro(const struct lexer *lexer)
 {
     const char *rest = lexer->text + lexer->offset;
@@ -100,7 +100,7 @@ static bool refuse_character(const struct lexer *lexer)
 
 /* ---- tokens */
 
-/* Pass over `size` bytes, which are `token`. */
+/* Consume `size` bytes as `token`. */
 static bool take(struct lexer *lexer, struct token *token, enum token_kind kind, size_t size)
 {
     *token = (struct token){.kind = kind, .start = lexer->offset, .length = size, .at = lexer->at};

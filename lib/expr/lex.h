@@ -11,7 +11,7 @@ enum token_kind {
     token_end,
     token_number,
     token_name, /* letters, digits, underscores and inner dots; also and, or, not */
-    token_unit, /* [ ... ]; it stands at the bracket, start and length are those of the text inside */
+    token_unit, /* [ ... ]; positioned at the bracket; start and length are those of the text inside */
     token_plus,
     token_minus,
     token_times,
@@ -37,10 +37,10 @@ struct token {
 struct lexer {
     const char *text;
     size_t length;
-    struct pos start; /* the place of text[0] */
+    struct pos start; /* position of text[0] */
     fbd_errors *errors;
-    size_t offset; /* where the next token is sought */
-    struct pos at; /* the place of text[offset] */
+    size_t offset; /* start of the next token */
+    struct pos at; /* position of text[offset] */
 };
 
 void lex_start(struct lexer *lexer, const char *text, size_t length, struct pos start, fbd_errors *errors);

@@ -22,7 +22,48 @@ bool writing_ambiguous(struct writing *w, size_t offset, const char *first, cons
     return hint && writing_refuse(w, "ambiguous-notation", offset, hint, "this can be read in two ways");
 }
 
-/* ---- the whole */
+/* ---- headings */
+
+/* The bytes of the first of these words with which the text begins; 0 for none. */
+static size_t word_length(const char *text, const char *const *words, size_t count)
+{
+    for (size_t i = 0; i < count; i++)
+        if (strncmp(text, words[i], strlen(words[i])) == 0) return strlen(words[i]);
+    return 0;
+}
+
+#define WORD_LENGTH(text, words) word_length((text), (words), sizeof(words) / sizeof *(words))
+
+/* Does an equation follow: is there a sign of equality outside brackets? */
+static bool is_equation(const char *text)
+{
+    int depth = 0;
+    for (; *text && !(depth == 0 && *text == '='); text++) {
+        if (strchr("([{", *text)) depth++;
+        if (strchr(")]}", *text)) depth--;
+    }
+    return *text != 0;
+}
+
+/* The bytes of a heading before an equation, which only says which sum it is: `ΣF_x = T - f = m*a`, `+↑ \sum M_A: ...`. The
+ * sum has a letter and at most an index. 0 for none. */
+static size_t heading_length(const char *text)
+{
+    static const char *const senses[] = {" ", "$", "+", "(", ")", "→", "←", "↑", "↓", "↺", "↻", "⟲", "⟳"};
+    static const char *const sums[] = {"Σ", "∑", "\\sum", "\\Sigma", "sum "}, *const letters[] = {"F", "M"};
+    const char *at = text;
+    for (size_t n = 1; n > 0; at += n) n = WORD_LENGTH(at, senses);
+    const size_t sum = WORD_LENGTH(at, sums);
+    for (at += sum; *at == ' '; at++) continue;
+    const size_t letter = sum ? WORD_LENGTH(at, letters) : 0;
+    if (letter == 0) return 0;
+    at += strcspn(at, "=:+-*/(");
+    if (*at != '=' && *at != ':') return 0;
+    at += 1 + strspn(at + 1, " ");
+    return is_equation(at) ? (size_t)(at - text) : 0;
+}
+
+/* ---- the whole text */
 
 static bool compiles(const struct writing *w, const char *text)
 {
@@ -65,8 +106,11 @@ bool notation_read(struct arena *arena, const char *text, struct pos at, const s
     w.errors = errors;
     w.equation = equation;
     *notation = (struct notation){.text = text};
-    const bool plain = compiles(&w, text);
-    const char *made = plain || scratch.failed ? text : writing_make(&w, &stretches);
+    w.start = equation ? heading_length(text) : 0;
+    const struct notation_stretch whole = {.from = w.start, .length = w.length - w.start};
+    stretches = &whole;
+    const bool plain = compiles(&w, text + w.start);
+    const char *made = plain || scratch.failed ? text + w.start : writing_make(&w, &stretches);
     if (!plain && made && w.doubtful && !compiles(&w, made)) {
         w.products = true;
         const char *other = writing_make(&w, &others);

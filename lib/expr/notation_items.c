@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * A notation to items: numbers, names, signs, brackets, and LaTeX commands.
+ * Splits a notation into items: numbers, names, signs, brackets, and LaTeX commands.
  */
 #include <string.h>
 
@@ -39,10 +39,10 @@ static bool add(struct writing *w, enum item_kind kind, size_t length, const cha
 struct word {
     const char *word;
     enum item_kind kind;
-    const char *text; /* NULL: as it stands there; "" : nothing */
+    const char *text; /* NULL: unchanged; "": removed */
 };
 
-/* Longest first; blanks and what is left out are item_end. */
+/* Longest first; removed signs are item_end. */
 static const struct word signs[] = {
     {"**", item_power, "^"},    {"<=", item_break, NULL},     {">=", item_break, NULL},
     {"<>", item_other, NULL},   {"!=", item_other, NULL},     {"||", item_other, NULL},
@@ -122,7 +122,7 @@ static const struct word commands[] = {
     {"thinspace", item_end, ""},
 };
 
-/* What is left out, up to `end`; `gap`: a blank for it. */
+/* Skip the source up to `end`; `gap`: replace it by a blank. */
 static bool leave_out(struct writing *w, size_t end, bool gap)
 {
     w->gap |= gap;
@@ -146,7 +146,7 @@ static bool add_magnitude(struct writing *w, size_t length)
     return leave_out(w, writing_skip(w, w->offset), false);
 }
 
-/* `\left[`, `\bigl[`, `\left.`: the bracket is a parenthesis, the point nothing. */
+/* `\left[`, `\bigl[`, `\left.`: the bracket is a parenthesis, the point is removed. */
 static bool take_delimiter(struct writing *w, size_t length)
 {
     char last = w->text[w->offset + length - 1], side = '\0'; /* \left, \bigl; \right, \bigr */
@@ -174,7 +174,7 @@ static bool refuse_command(struct writing *w, size_t length)
     } const known[] = {{"pm", "write one equation for each sign"},
                        {"mp", "write one equation for each sign"},
                        {"vec", "write one equation for each component"},
-                       {"sum", "write the sum out, term by term"},
+                       {"sum", "write the sum out, and an equation behind it: `\\sum F_x = F - f = m a`"},
                        {"int", "an equation of motion has no integral: differentiate it"},
                        {"approx", "write `=`"},
                        {"ne", "a comparison is written `<`, `>` or `=`"}};
@@ -196,7 +196,7 @@ static bool take_root(struct writing *w, size_t length)
                           "this root has no name");
 }
 
-/* A command that is a sign ends with a blank, which is kept where one stands before it too. */
+/* A blank ends the command of a sign; it is kept if there is one before the sign, too. */
 static bool take_operator(struct writing *w, const struct word *word, size_t length)
 {
     bool gap = w->gap;
@@ -219,7 +219,7 @@ static bool take_command(struct writing *w, size_t length)
 
 /* ---- numbers */
 
-/* Behind a sign of degrees at `offset`; `offset` when there is none. */
+/* The byte behind a degree sign at `offset`; `offset` if there is none. */
 static size_t behind_degrees(const struct writing *w, size_t offset)
 {
     static const char *const degrees[] = {"°", "º", "^\\circ", "^{\\circ}", "^{\\,\\circ}", "\\degree"};
@@ -228,7 +228,8 @@ static size_t behind_degrees(const struct writing *w, size_t offset)
     return offset;
 }
 
-/* An upright unit behind a number, as `9.81\,\mathrm{m/s^2}`: the text in braces; 0 for none. */
+/* The byte behind an upright unit after a number, as `9.81\,\mathrm{m/s^2}`, with the text in braces; 0 for
+ * none. */
 static size_t upright_unit(const struct writing *w, size_t offset, const char **unit, size_t *length)
 {
     struct unit read;
@@ -300,7 +301,8 @@ static size_t side_end(const struct writing *w)
     return end;
 }
 
-/* The length of the quantity that all of this side is, or 0. Where that makes no sense, it is a product: `2 m g`. */
+/* The length of the quantity if all of this side is one, else 0. With `products` such a side is read as a
+ * product: `2 m g`. */
 static size_t quantity_length(struct writing *w)
 {
     struct unit unit;
@@ -318,7 +320,7 @@ static size_t quantity_length(struct writing *w)
     return w->products ? 0 : end - w->offset;
 }
 
-/* ---- all */
+/* ---- all items */
 
 static bool take_equals(struct writing *w)
 {
@@ -344,7 +346,7 @@ static bool take_symbol(struct writing *w)
     size_t start = w->offset;
     w->offset = end > w->length ? w->length : end;
     if (run.failed || run.count == 0) return writing_add(w, item_other, start, w->offset, NULL) != NULL;
-    run.atoms[0].start = start; /* with accents and braces around */
+    run.atoms[0].start = start; /* including accents and braces */
     run.atoms[run.count - 1].end = w->offset;
     return run_add(w, &run, w->offset);
 }
@@ -402,7 +404,7 @@ bool writing_read_items(struct writing *w)
     return done && writing_add(w, item_end, w->length, w->length, NULL) != NULL;
 }
 
-/* ---- what stands where */
+/* ---- queries of items */
 
 const struct item *item_behind_group(const struct item *item)
 {

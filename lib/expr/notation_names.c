@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Which names of the scope the symbols of a notation are.
+ * Finds the names of the scope that the symbols of a notation stand for.
  *
- * A symbol that is a name as it is spelled is that name. Else it may be another spelling of one (`N_1` of N1, `a_x` of
- * ax, `F_N` of the force N, `x_A` of A.x), and else several names without a sign between (`mgL`).
+ * A symbol that is a name as spelled is that name. Else it may be another spelling of one (`N_1` of N1, `a_x`
+ * of ax, `F_N` of the force N, `x_A` of A.x), and else several names without a sign between (`mgL`).
  */
 #include <string.h>
 
@@ -28,16 +28,16 @@ bool name_is_known(const struct writing *w, const char *name, struct dim *dim)
 
 /* ---- one name */
 
-/* The ways to spell a name, those that are known. */
+/* The known names among the spellings of a symbol. */
 struct matches {
     const struct writing *w;
     const char *suffix; /* of a derivative */
-    bool force;         /* those of forces alone */
+    bool force;         /* forces only */
     struct spelled found[2];
-    int count; /* different ones */
+    int count; /* number of different ones */
 };
 
-/* `a` `middle` `b` with the suffix behind. */
+/* Try the name `a` `middle` `b` followed by the suffix. */
 static void try_name(struct matches *matches, const char *a, size_t length, const char *middle, const char *b)
 {
     struct spelled name = {{0}};
@@ -65,7 +65,8 @@ static bool is_plain_name(const char *text)
     return *text != '\0' && *text != '_' && *text != '.' && !is_digit(*text);
 }
 
-/* Spellings with one `_` more or less; the letter of a force with its name below; a coordinate of a body. */
+/* Try spellings with one `_` more or less, the symbol of a force with its name as subscript, and a coordinate
+ * of a body. */
 static void try_others(struct matches *matches, const char *name, size_t greek)
 {
     size_t length = strlen(name), digits = length;
@@ -100,7 +101,7 @@ static void try_others(struct matches *matches, const char *name, size_t greek)
     }
 }
 
-/* The atoms from `first` to `end` as the language spells them, without marks; false when they are no name. */
+/* Spell the atoms from `first` to `end` as a name, without marks; false if they are no name. */
 static bool spell(const struct run *run, size_t first, size_t end, struct spelled *name, int *marks)
 {
     size_t length = 0;
@@ -122,7 +123,7 @@ static const char *suffix_of(int marks)
     return marks == 0 ? "" : marks == 1 ? "_dot" : marks == 2 ? "_ddot" : NULL;
 }
 
-/* The known name that these atoms are: 0 none, 1 one, 2 one of several. */
+/* Find the known names of these atoms: 0 none, 1 one, 2 several. */
 static int match(const struct writing *w, const struct run *run, size_t first, size_t end,
                  struct spelled names[2])
 {
@@ -142,7 +143,7 @@ static int match(const struct writing *w, const struct run *run, size_t first, s
 static const char *const usual[][2] = {
     {"arcsin", "asin"}, {"arccos", "acos"}, {"arctan", "atan"}, {"sgn", "sign"}, {"signum", "sign"}};
 
-/* The function that these atoms are; NULL for none. */
+/* The function named by these atoms; NULL if none. */
 static const char *function_of(const struct run *run, size_t first, size_t end)
 {
     int marks;
@@ -156,7 +157,7 @@ static const char *function_of(const struct run *run, size_t first, size_t end)
     return NULL;
 }
 
-/* May its argument stand without brackets? */
+/* True if the argument may be without brackets. */
 static bool takes_bare(const char *function)
 {
     static const char *const bare[] = {"sin",  "cos",  "tan", "asin", "acos", "atan", "sinh",
@@ -173,10 +174,11 @@ enum { most_pieces = most_atoms };
 struct split {
     const struct writing *w;
     const struct run *run;
-    size_t pieces[most_pieces], kept[2][most_pieces]; /* where they end: of the one at hand, of two found */
+    size_t pieces[most_pieces],
+        kept[2][most_pieces]; /* ends of the names: of the current split, of two found */
     size_t count, found;
-    bool called; /* a bracket stands behind the last */
-    int looked;  /* limit of the work */
+    bool called; /* a bracket follows the last name */
+    int looked;  /* remaining number of trials */
     bool known[most_atoms][most_atoms + 1], asked[most_atoms][most_atoms + 1];
 };
 
@@ -193,7 +195,7 @@ static bool is_piece(struct split *split, size_t first, size_t end)
     return split->known[first][end];
 }
 
-/* `vx` where there is none is no product: it is the component of a vector that the body does not have. */
+/* `vx` is not split into a product: it is the component of a vector that the body does not have. */
 static bool is_component(const struct run *run, size_t before, size_t first)
 {
     char a = run->atoms[before].text[0], b = run->atoms[first].text[0];
@@ -222,7 +224,7 @@ static void try_pieces(struct split *split, size_t first)
 
 /* ---- items */
 
-/* Does a bracket stand behind? */
+/* True if a bracket follows. */
 static bool is_called(const struct writing *w, size_t end)
 {
     size_t at = writing_skip(w, end), size = command_length(w, at);
@@ -239,7 +241,7 @@ static bool is_table(const struct writing *w, const char *name)
     return table.table || table.failed;
 }
 
-/* Does a sense of names begin with the brackets behind `end`? Then up to where they close. */
+/* True if the brackets behind `end` begin a sense of names; it ends where they close. */
 static bool begins_sense(struct writing *w, const char *name, size_t end)
 {
     int depth = 0;
@@ -251,7 +253,7 @@ static bool begins_sense(struct writing *w, const char *name, size_t end)
     return true;
 }
 
-/* The source of these atoms if it is spelled so already, else what the language writes. */
+/* Add an item for these atoms: the source if it is spelled like `text`, else `text`. */
 static bool add_item(struct writing *w, enum item_kind kind, const struct run *run, size_t first, size_t end,
                      const char *text)
 {
@@ -300,7 +302,7 @@ static bool add_product(struct writing *w, const struct split *split)
     return true;
 }
 
-/* What is not known: the parser of expressions says so, of the name as the language spells it. */
+/* Add an unknown name, spelled as in the language; the parser of expressions reports it. */
 static bool add_unknown(struct writing *w, const struct run *run, bool called)
 {
     struct spelled name = {{0}};

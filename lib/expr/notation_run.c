@@ -71,7 +71,7 @@ static bool is_upright(const struct writing *w, size_t offset)
     return command_is_one_of(w, offset, words, sizeof words / sizeof *words);
 }
 
-/* The Greek letter that a command is. */
+/* The Greek letter of a command, or NULL. */
 static const char *greek_command(const struct writing *w, size_t offset)
 {
     static const char *const letters[][2] = {
@@ -133,7 +133,7 @@ static const struct sign *find_sign(const struct writing *w, size_t offset, cons
 
 #define FIND_SIGN(w, offset, signs) find_sign((w), (offset), (signs), sizeof(signs) / sizeof *(signs))
 
-/* The Greek letter at `offset`, and its bytes. */
+/* The Greek letter at `offset`, and its size in bytes. */
 static const char *greek_letter(const struct writing *w, size_t offset, size_t *size)
 {
     *size = glyph_size(w->text + offset, w->length - offset);
@@ -162,7 +162,7 @@ static void mark(struct run *run, int count, size_t end)
 
 static size_t read_part(const struct writing *w, size_t offset, struct run *run);
 
-/* What stands in braces, blanks and commas left out; behind the brace. Letters alone, or a command. */
+/* Read letters or commands in braces, without blanks and commas; returns the byte behind the brace. */
 static size_t read_braced(const struct writing *w, size_t offset, struct run *run)
 {
     size_t at = offset + 1;
@@ -178,7 +178,7 @@ static size_t read_braced(const struct writing *w, size_t offset, struct run *ru
     return at + 1;
 }
 
-/* One letter, digit, command or group, as an argument in LaTeX is. */
+/* Read an argument as in LaTeX: one letter, digit, command or group. */
 static size_t read_argument(const struct writing *w, size_t offset, struct run *run)
 {
     size_t at = skip_blanks(w, offset);
@@ -186,7 +186,7 @@ static size_t read_argument(const struct writing *w, size_t offset, struct run *
     return w->text[at] == '{' ? read_braced(w, at, run) : read_part(w, at, run);
 }
 
-/* Behind the letter, digit or command at `offset`; `offset` when there is none. */
+/* Read the letter, digit or command at `offset`; returns the byte behind it, or `offset` if there is none. */
 static size_t read_part(const struct writing *w, size_t offset, struct run *run)
 {
     size_t size = command_length(w, offset), behind;
@@ -224,7 +224,7 @@ static size_t read_part(const struct writing *w, size_t offset, struct run *run)
     return behind;
 }
 
-/* Behind primes and dots at `offset`. */
+/* Read primes and dots at `offset`; returns the byte behind them. */
 static size_t read_marks(const struct writing *w, size_t offset, struct run *run)
 {
     for (;;) {
@@ -245,7 +245,7 @@ static size_t read_marks(const struct writing *w, size_t offset, struct run *run
     }
 }
 
-/* Behind subscripts as characters of their own at `offset`. */
+/* Read subscript characters at `offset`; returns the byte behind them. */
 static size_t read_lowered(const struct writing *w, size_t offset, struct run *run)
 {
     const struct sign *sign = FIND_SIGN(w, offset, lowered);
@@ -296,7 +296,7 @@ static size_t read_d(const struct writing *w, size_t offset)
     return 0;
 }
 
-/* Behind the exponent 2 at `offset`; `offset` when there is none. */
+/* The byte behind an exponent 2 at `offset`; `offset` if there is none. */
 static size_t read_square(const struct writing *w, size_t offset)
 {
     static const char *const words[] = {"^{2}", "^2", "**2", "²"};

@@ -1,19 +1,20 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * The items of a notation to the text of an expression.
+ * Writes the items of a notation as the text of an expression.
  *
- * Items are written one by one as they stand; what is added is the sign of products, brackets, and what stands for
- * LaTeX. Precedence is the language's own. Where a product without a sign stands behind a quotient, or behind the
- * argument of a function that has no brackets, the text has two readings: the one that is written, and one with a part
- * of it in brackets (struct doubt).
+ * Items are written one by one unchanged; product signs, brackets, and the equivalents of LaTeX are added.
+ * Precedence is that of the language. If a product without a sign follows a quotient, or the argument of a
+ * function without brackets, the text has two readings: the one that is written, and one with a part of it in
+ * brackets (struct doubt).
  */
 #include <string.h>
 
 #include "expr/notation_work.h"
 #include "expr/parser.h"
 
-/* Two readings of a product, in bytes of what was written: A is `begin` to its end, B has the part from `open` to the
- * end in brackets; of a function whose argument ended at `close`, B has that bracket at the end. */
+/* Two readings of a product, in bytes of the written text: A is `begin` to its end, B has the part from
+ * `open` to the end in brackets; for a function whose argument ended at `close`, B has that bracket at the
+ * end. */
 struct doubt {
     bool set;
     size_t at; /* in the source */
@@ -30,22 +31,22 @@ struct writer {
     int nesting;
 };
 
-/* What was written last, on one level of brackets. Offsets are those of the text that is written. */
+/* State of the text written last, on one level of brackets. Offsets are those of the written text. */
 struct level {
-    bool begun;    /* a product has begun, */
-    bool complete; /* and an operand ends here: */
+    bool begun;    /* a product has begun */
+    bool complete; /* the last item completed an operand */
     enum {
         last_other,
         last_number,
         last_exponent, /* a number behind ^ */
-        last_function, /* whose argument has no brackets */
+        last_function, /* with an argument without brackets */
     } last;
-    size_t product;         /* where the product begins, */
-    size_t operand;         /* its last operand, */
-    size_t divisor;         /* what stands behind its last `/`; 0 for none */
-    bool numbers;           /* it is made of numbers alone */
-    bool bars, between;     /* it has a magnitude, and a factor behind that */
-    size_t exponent, close; /* where the last exponent begins; the bracket of the last function */
+    size_t product;         /* start of the product */
+    size_t operand;         /* start of its last operand */
+    size_t divisor;         /* start of its last divisor; 0 for none */
+    bool numbers;           /* it consists of numbers only */
+    bool bars, between;     /* it contains a magnitude, and a factor behind that */
+    size_t exponent, close; /* start of the last exponent; closing bracket of the last function */
     struct doubt doubt;
 };
 
@@ -69,7 +70,7 @@ static void put_sign(struct writer *writer, const char *sign)
     put(writer, sign, strlen(sign), writer->item->start, 0);
 }
 
-/* Blanks before the item, as they are in the source where nothing else is among them. */
+/* Write the gap before the item: the blanks of the source, or one blank if other text was removed. */
 static void put_gap(struct writer *writer)
 {
     const struct item *item = writer->item;
@@ -108,7 +109,7 @@ static const char *bracketed(const struct writer *writer, const struct doubt *do
                         (int)(end - doubt->close - 1), made + doubt->close + 1);
 }
 
-/* The product ends: its two readings are known. */
+/* End the product; note its two readings, if any. */
 static void end_product(struct writer *writer, struct level *level)
 {
     const struct doubt *doubt = &level->doubt;
@@ -120,7 +121,7 @@ static void end_product(struct writer *writer, struct level *level)
     *level = (struct level){.numbers = true};
 }
 
-/* The product begins here, if it has not yet. */
+/* Begin an operand, and a product if none has begun. */
 static void begin_operand(struct writer *writer, struct level *level)
 {
     level->operand = writer->text.length;
@@ -133,7 +134,7 @@ static void doubt_it(struct level *level, const struct item *item, size_t begin,
     if (!level->doubt.set) level->doubt = (struct doubt){true, item->start, begin, open, close};
 }
 
-/* `5 N`, where N is a name as well as the unit of what it names. */
+/* Note `5 N` as ambiguous if N is both a name and the unit of that quantity. */
 static void refuse_unit(struct writer *writer, const struct level *level, const struct item *item)
 {
     struct arena *arena = writer->w->arena;
@@ -143,7 +144,7 @@ static void refuse_unit(struct writer *writer, const struct level *level, const 
                       arena_printf(arena, "%.*s[%.*s]", digits, number, length, name));
 }
 
-/* An operand follows another one. */
+/* Write the product sign between two operands. */
 static void put_product(struct writer *writer, struct level *level)
 {
     const struct item *item = writer->item;
@@ -178,7 +179,7 @@ static void pass(struct writer *writer)
     writer->item++;
 }
 
-/* A group in brackets; in braces, where one item needs none, without. */
+/* Write a group in brackets; a single item in braces needs none, unless `always`. */
 static void write_group(struct writer *writer, bool always)
 {
     const struct item *open = writer->item;
@@ -200,7 +201,7 @@ static void write_group(struct writer *writer, bool always)
     writer->nesting--;
 }
 
-/* An argument as LaTeX takes it: a group, or what stands there. */
+/* Write an argument of a LaTeX command: a group, a number or a name. */
 static void write_argument(struct writer *writer)
 {
     if (writer->item->kind == item_open)
@@ -212,7 +213,7 @@ static void write_argument(struct writer *writer)
                        "a group in braces is missing");
 }
 
-/* `\frac12` is a half: of a number that follows each digit is an argument. */
+/* `\frac12` is one half: each digit of a number is an argument. */
 static bool write_digits(struct writer *writer)
 {
     const struct item *item = writer->item;
@@ -254,7 +255,7 @@ static void write_magnitude(struct writer *writer)
     pass(writer);
 }
 
-/* What stands behind `^`. */
+/* Write the exponent behind `^`. */
 static void write_exponent(struct writer *writer)
 {
     while (writer->item->kind == item_sign) put_item(writer);
@@ -281,7 +282,7 @@ static void write_power(struct writer *writer, struct level *level)
 
 static void write_function(struct writer *writer, struct level *level);
 
-/* The argument of a function without brackets: a sign, a number, one operand. */
+/* Write the argument of a function without brackets: a sign, a number, one operand. */
 static void write_bare(struct writer *writer, struct level *level)
 {
     struct level inner = {.complete = false};
@@ -309,7 +310,7 @@ static void write_bare(struct writer *writer, struct level *level)
     put_sign(writer, ")");
 }
 
-/* `sin^2`, and not `sin^{-1}` or what is no exponent. */
+/* Accept `sin^2`; refuse `sin^{-1}` and invalid exponents. */
 static void check_exponent(struct writer *writer, const struct item *power)
 {
     const struct item *first = power[1].kind == item_open ? power + 2 : power + 1;
@@ -348,7 +349,7 @@ static void write_function(struct writer *writer, struct level *level)
     writer->nesting--;
 }
 
-/* `x(t)` is x, or x times t. */
+/* Note `x(t)` as ambiguous: x, or x times t. */
 static void check_of_time(struct writer *writer, const struct item *name)
 {
     const struct item *item = name + 1;
@@ -363,7 +364,7 @@ static void check_of_time(struct writer *writer, const struct item *name)
     writing_ambiguous(writer->w, item->start, spelled, arena_printf(writer->w->arena, "%s*t", spelled));
 }
 
-/* `e^x` where no name is e. */
+/* Write `e^x` as exp(x) if no name is e. */
 static bool write_exponential(struct writer *writer)
 {
     const struct item *item = writer->item;
@@ -465,7 +466,7 @@ static void write_items(struct writer *writer, enum item_kind until)
 static void write_all(struct writer *writer)
 {
     write_items(writer, item_end);
-    while (writer->item->kind == item_close && !writer->w->failed) { /* closes nothing */
+    while (writer->item->kind == item_close && !writer->w->failed) { /* without an opening bracket */
         put_item(writer);
         write_items(writer, item_end);
     }
@@ -473,9 +474,10 @@ static void write_all(struct writer *writer)
 
 const char *writing_make(struct writing *w, const struct notation_stretch **stretches)
 {
-    struct writer writer = {.w = w};
+    struct writer writer = {.w = w, .behind = w->start};
     const char *made = NULL;
-    w->offset = w->count = w->room = 0;
+    w->offset = w->start;
+    w->count = w->room = 0;
     w->gap = w->foreign = false;
     if (writing_read_items(w)) {
         writer.item = w->items;

@@ -33,11 +33,11 @@ size_t number_length(const char *text, size_t length)
     return at;
 }
 
-/* More digits than these never decide the rounding by their value, only by whether one of them is not zero:
- * the longest exact decimal halfway between two doubles has 767 significant digits. */
+/* Further digits affect the rounding only by whether one of them is not zero: the longest exact decimal
+ * halfway between two doubles has 767 significant digits. */
 enum { most_digits = 770, widest_exponent = 1000000 };
 
-/* The whole number that the first `count` characters of `text` write, times 10^exponent. */
+/* The whole number given by the first `count` characters of `text`, times 10^exponent. */
 struct decimal {
     char text[most_digits + 16]; /* room for the exponent behind the digits */
     int count, exponent;
@@ -68,8 +68,9 @@ static int read_exponent(const char *text, size_t length)
     return negative ? -value : value;
 }
 
-/* Whole numbers up to 2^53 and powers of ten up to 10^22 are doubles, so that their product or quotient is the number
- * rounded once (Clinger, How to read floating point numbers accurately, PLDI 1990): most numbers of files. */
+/* Whole numbers up to 2^53 and powers of ten up to 10^22 are exact doubles, so that their product or quotient
+ * is rounded once (Clinger, How to read floating point numbers accurately, PLDI 1990). This covers most
+ * numbers of files. */
 static bool read_short(const struct decimal *d, double *value)
 {
     enum { most_exact = 15, most_power = 22 };
@@ -83,8 +84,8 @@ static bool read_short(const struct decimal *d, double *value)
     return true;
 }
 
-/* The number is rewritten as whole digits and an exponent. strtod then rounds correctly and never meets a
- * decimal point, the only thing of a plain number that depends on the locale. */
+/* The number is rewritten as whole digits and an exponent: strtod then rounds correctly, and needs no decimal
+ * point, the only part of a plain number that depends on the locale. */
 double number_value(const char *text, size_t length)
 {
     struct decimal d = {.count = 0, .exponent = 0};

@@ -15,7 +15,7 @@ double whole_power(double x, int n)
     return n < 0 ? 1 / product : product;
 }
 
-/* NaN in any operand must come out: a comparison would hide it. */
+/* NaN in any operand is propagated; a plain comparison would lose it. */
 static double lesser(double x, double y)
 {
     return x < y ? x : x >= y ? y : x + y;
@@ -36,8 +36,8 @@ static double step(double x)
     return x >= 0 ? 1 : x < 0 ? 0 : x;
 }
 
-/* fmod(x, y), exact as that is. The C library's takes a step for each bit of the quotient, microseconds for mod(x, 1e-300): here
- * eleven bits a step, of integers of 53 bits each. */
+/* fmod(x, y), exact. The C library's takes a step for each bit of the quotient, microseconds for mod(x,
+ * 1e-300); here a step reduces eleven bits, with integers of 53 bits. */
 static double remainder_of(double x, double y)
 {
     enum { digits = 53, spare = 11 };
@@ -51,7 +51,8 @@ static double remainder_of(double x, double y)
     return copysign(ldexp((double)rest, of_y - digits), x);
 }
 
-/* The remainder with the sign of y. It is exact; only the turn to the sign of y may round (then up to y itself). */
+/* The remainder with the sign of y. It is exact; only the change to the sign of y may round (then up to y
+ * itself). */
 static double modulo(double x, double y)
 {
     double rest = remainder_of(x, y);

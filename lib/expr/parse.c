@@ -6,7 +6,7 @@
 static struct operand parse_or(struct parser *p);
 static struct operand parse_unary(struct parser *p);
 
-/* ---- steps */
+/* ---- parser state */
 
 void parse_halt(struct parser *p)
 {

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
  * The parts of reading an expression: grammar (parse.c), functions (function.c), dimensions (check.c), and
- * what to say about a text that is no expression (explain.c).
+ * messages for a text that is no expression (explain.c).
  *
- * After an error of dimension or name, reading goes on with an operand of kind `failed`, so that all such
- * errors of a text are found at once. After an error of syntax it stops: the current token becomes token_end
- * and nothing more is said.
+ * After an error of dimension or name, reading continues with an operand of kind `failed`, so that all such
+ * errors of a text are reported at once. After an error of syntax it stops: the current token becomes
+ * token_end, and no further errors are noted.
  */
 #ifndef FBD_EXPR_PARSER_H
 #define FBD_EXPR_PARSER_H
@@ -15,7 +15,7 @@
 
 struct parser {
     struct lexer lexer;
-    struct token token; /* the one to be looked at next */
+    struct token token; /* the next token */
     struct builder *builder;
     const struct scope *scope;
     const struct expr_want *want;
@@ -26,10 +26,10 @@ struct parser {
 
 enum { nesting_limit = 100, most_arguments = 8 };
 
-/* Read the whole text as one expression. Look at `failed` for the outcome. */
+/* Read the whole text as one expression. `failed` is the outcome. */
 struct operand parse_all(struct parser *parser);
 
-/* The same, from within: a condition or sum in parentheses or an argument. */
+/* Read a condition or sum in parentheses or an argument. */
 struct operand parse_expression(struct parser *parser);
 
 /* Go to the next token. */
@@ -41,16 +41,16 @@ void parse_stop(struct parser *parser, const char *id, struct pos at, const char
 /* Stop after an error of syntax that was noted already. */
 void parse_halt(struct parser *parser);
 
-/* The result of whatever failed. */
+/* The operand that results from an error. */
 struct operand parse_failed(struct parser *parser, struct pos at);
 
-/* One level deeper (parentheses, signs, exponents); false, with an error, when that is too deep. */
+/* Enter a level (parentheses, signs, exponents); false, with an error, when that is too deep. */
 bool parse_enter(struct parser *parser);
 void parse_leave(struct parser *parser);
 
 /* ---- compile.c */
 
-/* Is a text right where this expression stands? */
+/* True if `text` would be a valid expression in the place of this one. */
 bool compile_would_do(const struct parser *parser, const char *text);
 
 /* ---- function.c */
@@ -85,31 +85,31 @@ struct kind check_power(struct parser *parser, const struct operand *a, const st
 /* A root of degree 2 or 3. */
 struct kind check_root(struct parser *parser, const struct operand *a, int degree);
 
-/* An argument of `function` that must be a pure number or may adapt. */
+/* An argument of `function` that must be a pure number or free. */
 struct kind check_pure(struct parser *parser, const struct operand *a, const char *function);
 
-/* A bare number beyond one turn, as `30` for `30 deg`. */
+/* True for a bare number beyond one turn, as `30` for `30 deg`. */
 bool check_is_bare_angle(const struct operand *a);
 
-/* Warn of one that an angle is compared with. */
+/* Warn of such a number compared with an angle. */
 void check_note_bare_angle(fbd_errors *errors, struct pos at, double value);
 
-/* Number or condition; false with an error when it is the other one. */
+/* Check for a number or a condition; false with an error when it is the other one. */
 bool check_number(struct parser *parser, const struct operand *a);
 bool check_condition(struct parser *parser, const struct operand *a);
 
 /* ---- explain.c: errors of syntax */
 
-/* The current token cannot stand here; `wanted` says what could, as "an operator" or "`)`". */
+/* Note that the current token cannot stand here; `wanted` names a valid one, as "an operator" or "`)`". */
 void explain_unexpected(struct parser *parser, const char *wanted);
 
-/* The current token, a name, follows the number `number` without an operator. */
+/* Note that the current token, a name, follows the number `number` without an operator. */
 void explain_name_after_number(struct parser *parser, struct token number);
 
-/* Nothing is called `name` here. */
+/* Note an unknown name. */
 void explain_unknown_name(struct parser *parser, struct token name);
 
-/* True when `name[0..length)` may be used here, as far as the scope tells. */
+/* True when the scope lists `name[0..length)`, or for t and pi. */
 bool explain_is_known(const struct scope *scope, const char *name, size_t length);
 
 #endif

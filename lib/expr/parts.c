@@ -4,7 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-/* ---- finding the shape: what each register stands for, as far as it has this form */
+/* ---- recognition: the form of each register, if it is a sum of parts */
 
 struct sum {
     int count; /* 0: not of this form */
@@ -16,7 +16,7 @@ static bool is_constant(const struct sum *sum)
     return sum->count == 1 && sum->parts[0].kind == part_power && sum->parts[0].power == 0;
 }
 
-/* u, or u^n, without a factor. */
+/* True for u or u^n, without a factor. */
 static bool is_power(const struct sum *sum)
 {
     return sum->count == 1 && sum->parts[0].kind == part_power && sum->parts[0].power > 0 &&
@@ -44,7 +44,7 @@ static struct sum leaf(const struct expr *expr, size_t reg)
 
 static const struct sum no_sum = {.count = 0};
 
-/* (a + b + ...) + c: a sum on the right would be added up in another order. */
+/* (a + b + ...) + c. A sum on the right is refused: it would change the order of additions. */
 static struct sum add(const struct sum *x, const struct sum *y, double sign)
 {
     struct sum sum = *x;
@@ -120,7 +120,7 @@ static struct sum apply(const struct instr *instr, const struct sum *x, const st
 
 bool parts_make(struct expr *expr, struct arena *scratch, struct arena *arena)
 {
-    enum { most_operations = 32 }; /* more cannot end in so few parts */
+    enum { most_operations = 32 }; /* more cannot give so few parts */
     size_t leaves = (expr->uses_time ? 1 : 0) + expr->variables + expr->constants;
     if (leaves == expr->constants || expr->operations > most_operations) return true;
     struct sum *sums = ARENA_ARRAY(scratch, leaves + expr->operations, struct sum);

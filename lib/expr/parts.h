@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Parts: the form of the commonest force laws, which needs no program at run time.
+ * Parts: the form of the most common force laws, which is evaluated without a program.
  *
- *     sum of c u^n, c sin(w u + p) and c cos(w u + p),    u being t, a coordinate or a rate
+ *   sum of c u^n, c sin(w u + p) and c cos(w u + p),  u being t, a coordinate or a rate
  *
- * as in F*sin(w*t), -k*x - k3*x^3, a*t + b*v. Only what has this shape as it is written is taken: nothing is
- * multiplied out or put in another order, so the bits are those of the program.
+ * as in F*sin(w*t), -k*x - k3*x^3, a*t + b*v. Only formulas written in this form are accepted: terms are not
+ * multiplied out or reordered, so the results are bitwise those of the program.
  */
 #ifndef FBD_EXPR_PARTS_H
 #define FBD_EXPR_PARTS_H
@@ -24,7 +24,7 @@ struct expr_part {
     double w, p;
 };
 
-/* Give a finished program its parts, in `arena`, if it has that shape. False when memory is out. */
+/* Set the parts of a finished program, in `arena`, if it has that form. False when memory is out. */
 bool parts_make(struct expr *expr, struct arena *scratch, struct arena *arena);
 
 static inline double part_power_of(double u, int n)
@@ -51,7 +51,7 @@ static inline double part_variable(const struct expr *expr, const struct expr_pa
     return part->variable < 0 ? t : y[expr->slots[part->variable] - 1];
 }
 
-/* Here, to be a part of the loop that asks for it. */
+/* In the header, to be inlined into the calling loop. */
 static inline double parts_run(const struct expr *expr, double t, const double *y)
 {
     const struct expr_part *part = expr->parts, *end = part + expr->part_count;

@@ -6,12 +6,12 @@
 
 #include "expr/interval.h"
 
-/* The formulas, and room for one of them at a time. */
+/* The formulas, and scratch memory. */
 struct substeps {
     const struct expr *const *formulas;
     size_t count;
     int slot, *branch; /* of all */
-    double *y, *on;    /* slot: the variable, and the direction in which it goes */
+    double *y, *on;    /* slot: the variable, and its direction */
     struct enclosure *spans, *margins;
 };
 
@@ -22,7 +22,7 @@ static size_t switches_of(const struct substeps *walk)
     return switches;
 }
 
-/* Do all of them depend on the one slot alone? */
+/* True if no formula depends on anything but the slot. */
 static bool is_of_one(const struct substeps *walk)
 {
     for (size_t i = 0; i < walk->count; i++) {
@@ -63,7 +63,7 @@ static void resolve(struct substeps *walk, double at)
             expr_resolve(walk->formulas[i], time_dd_at(0), walk->y, 0, walk->on, NULL, branch);
 }
 
-/* Does no switch turn between two values of the variable, for sure? */
+/* True if enclosures prove that no switch changes between two values of the variable. */
 static bool is_one(struct substeps *walk, double from, double to)
 {
     const int *branch = walk->branch;
@@ -74,7 +74,7 @@ static bool is_one(struct substeps *walk, double from, double to)
         if (switches > 0)
             expr_enclose_margins(walk->formulas[i], &stretch, walk->spans, branch, walk->margins);
         for (size_t k = 0; k < 2 * switches; k++) {
-            /* What is zero all along, as mod(0*s, 1), stays where it is. */
+            /* A margin that is identically zero, as in mod(0*s, 1), does not change. */
             const struct interval margin = walk->margins[k].value;
             if (!(margin.low > 0 || (margin.low == 0 && margin.high == 0))) return false;
         }
@@ -103,7 +103,7 @@ static double piece_end(struct substeps *walk, double from, double to, double na
 
 static int cut(struct substeps *walk, double from, double to, int most, double *ends)
 {
-    /* Below the smallest normal number halves are no halves any more, and in the end nothing: the search would not end. */
+    /* Below the smallest normal number halving is inexact and ends at zero: the search would not terminate. */
     const double narrow = fmax(4 * DBL_EPSILON * fmax(fabs(from), fabs(to)), DBL_MIN);
     int pieces = 0, nothing = 0;
     ends[0] = from;
@@ -112,14 +112,14 @@ static int cut(struct substeps *walk, double from, double to, int most, double *
         if (pieces == most || nothing > most) return pieces_too_many;
         resolve(walk, at);
         double next = piece_end(walk, at, to, narrow);
-        /* The start lies on a switch that was taken for the other side: the stretch up to it is nothing. Many of these
-         * are a function that is at its switch to rounding. */
+        /* The start lies on a switch that was resolved to the other side: the interval up to it is empty.
+         * Many in succession mean a function that is at its switch to rounding. */
         bool is_piece = next - at > 2 * narrow;
         nothing = is_piece ? 0 : nothing + 1;
         if (is_piece) ends[++pieces] = next;
         at = next;
     }
-    if (pieces == 0) pieces = 1; /* all of it is next to nothing */
+    if (pieces == 0) pieces = 1; /* the whole range is that narrow */
     ends[pieces] = to;
     return pieces;
 }
@@ -131,7 +131,7 @@ int pieces_cut(const struct expr *const *formulas, size_t count, int slot, doubl
     ends[0] = from;
     ends[1] = to;
     if (switches_of(&walk) == 0 || !is_of_one(&walk)) return 1;
-    if (!isfinite(to - from)) { /* its halves are as long */
+    if (!isfinite(to - from)) { /* halving does not shorten it */
         ends[most] = from;
         return pieces_too_many;
     }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Poles: where a formula may become infinite, and how far that is. Each division, and each power with a
+ * Poles: where a formula may become infinite, and the distance to that. Each division, and each power with a
  * negative exponent, has a divisor that must not be zero.
  */
 #include <math.h>
@@ -13,7 +13,7 @@ static bool is_constant(const struct expr *expr, size_t reg)
     return reg >= first && reg < first + expr->constants;
 }
 
-/* The register that a pole of this instruction divides by; false if it has none that varies. */
+/* The register of the divisor of this instruction; false if it has no varying one. */
 static bool divides_by(const struct expr *expr, const struct instr *i, size_t *divisor)
 {
     bool pole = i->op == op_divide || (i->op == op_whole_power && i->extra < 0);
@@ -40,7 +40,7 @@ void expr_divisors(const struct expr *expr, double t, const double *y, double dt
     size_t pole = 0, divisor;
     frame_values(expr, t, y, value);
     frame_rates(expr, dt, dy, rate);
-    /* What an `if` leaves out is passed over in one go, its poles with it. */
+    /* The side of an `if` that is not chosen is skipped, with its poles. */
     const struct instr *next = expr->code;
     for (const struct instr *i = expr->code; i < end; i++) {
         bool active = i >= next, has_pole = divides_by(expr, i, &divisor);

@@ -4,11 +4,11 @@
  *
  * A program works on one frame of registers:
  *
- *     variables (t first when it is used, then slots ascending) | constants | temporaries
+ *   variables (t first when it is used, then slots ascending) | constants | temporaries
  *
- * Evaluation fills the first two parts and runs down the instructions, each of which reads two registers and
- * writes one temporary. Leaves cost no instruction, and the frame holds whatever kind of number is wanted:
- * doubles, dual numbers, hyper-dual numbers, or values with rates and rounding bounds.
+ * Evaluation fills the first two parts and executes the instructions, each of which reads two registers and
+ * writes one temporary. Leaves cost no instruction, and the frame may contain any kind of number: doubles,
+ * dual numbers, hyper-dual numbers, or values with rates and rounding bounds.
  */
 #ifndef FBD_EXPR_PROGRAM_H
 #define FBD_EXPR_PROGRAM_H
@@ -19,7 +19,7 @@
 enum {
     frame_limit = 1024,        /* registers: 32 KB of stack for hyper-dual numbers */
     operation_limit = 4096,    /* instructions */
-    branch_limit = 2147483647, /* a branch at +-this is past counting: see switch_branch */
+    branch_limit = 2147483647, /* a branch at +-this is not counted: see switch_branch */
     most_levels = 5            /* the branches of op_levels are -5 to 5 */
 };
 
@@ -57,7 +57,7 @@ enum op {
     op_sign,
     op_abs,
     op_step,
-    op_relay, /* 1 from a = 1 up until a = -1 is passed down, from there on -1: its branch is its memory */
+    op_relay, /* 1 from a = 1 upwards until a falls below -1, then -1: its branch is its memory */
     op_min,
     op_max,
     op_less,
@@ -77,25 +77,26 @@ enum op {
     /* A switch with one branch for each piece of a table (table.h). */
     op_table,
 
-    /* a, as it is, with one branch for each stretch of a that is b long, the middle one around 0, and beyond the
-     * outermost ones none: argument of what wakes up within a few of them and is asleep beside (build_levels). */
+    /* The value a, with one branch for each interval of a of the length b, the middle one around 0, the
+     * outermost ones unbounded: argument of a function that varies within a few of them only (build_levels).
+     */
     op_levels,
 
-    /* Control: go on `extra` instructions further down. */
+    /* Control: skip `extra` instructions. */
     op_jump,
     op_jump_unless, /* when a is 0 */
 };
 
 struct instr {
     unsigned char op;
-    unsigned short to, a, b; /* registers; b is a where there is one operand */
+    unsigned short to, a, b; /* registers; b is a for one operand */
     int extra;
     const struct table *table; /* of op_table */
 };
 
 struct expr_switch {
     enum op op;
-    bool time;                 /* depends on nothing but t */
+    bool time;                 /* depends on t alone */
     const struct table *table; /* of op_table */
 };
 
@@ -105,24 +106,24 @@ struct expr_part;
 struct expr {
     const struct instr *code;
     size_t operations;
-    const struct expr_part *parts; /* for plain values: a sum of simple parts (parts.h), */
+    const struct expr_part *parts; /* for plain values: a sum of simple parts (parts.h) */
     int part_count;
-    const struct step *steps; /* else steps (steps.h); NULL where the frame serves */
+    const struct step *steps; /* else steps (steps.h); NULL: run on the frame */
     size_t step_count;
     bool uses_time;
     size_t variables; /* without t */
     const int *slots; /* of the variables, ascending */
     size_t constants;
     const double *constant;
-    const double *constant_rest; /* what is left of them (base/double_double.h); NULL without instructions */
-    double single;               /* where `constant` points to when the program is one number */
+    const double *constant_rest; /* their low parts (base/double_double.h); NULL without instructions */
+    double single;               /* storage of `constant` when the program is one number */
     size_t result;               /* its register */
     size_t switches;
     const struct expr_switch *switch_at;
 
     struct dim dim;
     bool bare;
-    bool angle, bare_angle; /* an angle alone; a bare number beyond one turn (check_is_bare_angle) */
+    bool angle, bare_angle; /* a single angle; a bare number beyond one turn (check_is_bare_angle) */
 };
 
 /* ---- the formulas of the operations, in ops.c and slopes.c */
@@ -132,7 +133,7 @@ static inline bool op_is_switch(unsigned op)
     return op >= op_sign && op <= op_levels;
 }
 
-/* What a switch watches is a/b. */
+/* True if the switching function is a/b. */
 static inline bool op_is_by_quotient(unsigned op)
 {
     return op == op_mod || op == op_levels;
@@ -143,7 +144,7 @@ static inline bool op_is_by_sign(unsigned op)
     return op >= op_sign && op <= op_equal;
 }
 
-/* True for the switches whose branch follows the sign of a difference, a - b. */
+/* True if the switching function is a - b. */
 static inline bool op_is_by_difference(unsigned op)
 {
     return op >= op_min && op <= op_equal;
@@ -158,27 +159,27 @@ static inline double switch_offset(unsigned op)
     return op == op_ceil ? -1 : op == op_round || op == op_levels ? -0.5 : 0;
 }
 
-/* The branch within the outermost levels. */
+/* Limit a branch to the outermost levels. */
 static inline double levels_clamp(double n)
 {
     return n > most_levels ? most_levels : n < -most_levels ? -most_levels : n;
 }
 
-/* Does a branch of a rounding end below (0), above (1)? */
+/* True if a branch of a rounding has an end below (0) or above (1). */
 static inline bool switch_has_end(unsigned op, int n, int end)
 {
     return op != op_levels || (end ? n < most_levels : n > -most_levels);
 }
 
-/* The value of an operation that is no control, at plain values (no branches). */
+/* The value of an operation other than control, at plain values (no branches). */
 double op_value(const struct instr *instr, double x, double y);
 
 /* The branch of a switch at plain values, as a double because that of a floor may be beyond the range of an
  * int. */
 double op_plain_branch(const struct instr *instr, double x, double y);
 
-/* The branch of a switch: the given one, or the plain one when there is none, or when it is past counting
- * (then the steps are below the resolution of the numbers anyway). */
+/* The branch of a switch: the given one, or the plain one when there is none, or when it is beyond
+ * branch_limit (then the steps are below the resolution of the numbers). */
 double switch_branch(const struct instr *instr, double x, double y, const int *branch);
 
 /* The smooth formula of branch `n` of a switch. */
@@ -189,12 +190,12 @@ struct slopes {
     double f, a, b, aa, ab, bb;
 };
 
-/* Slopes of an operation that is no control. Where a derivative does not exist but a finite value is harmless
+/* Slopes of an operation other than control. Where a derivative does not exist but a finite value is harmless
  * (hypot at the origin), it is 0; infinite ones (sqrt at 0) are infinite. */
 void op_slopes(const struct instr *instr, double x, double y, const int *branch, struct slopes *slopes);
 
-/* slope * rate, where an exact zero wins over what is infinite or missing: sqrt(x) of a constant x = 0 does
- * not change, and a factor 0 hides an infinite rate, as in x*sqrt(x) at 0. */
+/* slope * rate, where an exact zero takes precedence over infinity and NaN: sqrt(x) of a constant x = 0 does
+ * not change, and a factor 0 cancels an infinite rate, as in x*sqrt(x) at 0. */
 static inline double along(double slope, double rate)
 {
     return slope == 0 || rate == 0 ? 0 : slope * rate;

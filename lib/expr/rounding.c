@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * How far rounding takes what a formula gives, its variables taken as exact: the first-order propagation of kinks.c,
+ * Bound of the rounding error of a formula with exact variables, by the first-order propagation of kinks.c,
  *
- *     e(f) = |f_a| e(a) + |f_b| e(b) + own |f|,
+ *   e(f) = |f_a| e(a) + |f_b| e(b) + own |f|,
  *
- * with half a unit in the last place for each operation that is rounded correctly, and a whole one for functions of the
- * mathematical library.
+ * with half a unit in the last place for each operation that is rounded correctly, and one unit for functions
+ * of the mathematical library.
  */
 #include <float.h>
 #include <math.h>

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Derivatives of the operations, by hand: f(x, y), its first partial derivatives a = df/dx and b = df/dy, and
- * the second ones aa, ab, bb.
+ * Derivatives of the operations: f(x, y), its first partial derivatives a = df/dx and b = df/dy, and the
+ * second ones aa, ab, bb.
  */
 #include <math.h>
 
@@ -32,7 +32,7 @@ static void slopes_of_power(double x, double y, struct slopes *s)
     s->ab = pow(x, y - 1) * (1 + y * l);
 }
 
-/* f = hypot(x, y). At the origin, a cone, every slope between -1 and 1 would do. */
+/* f = hypot(x, y). At the origin, a cone, the slopes are set to 0. */
 static void slopes_of_hypot(double x, double y, struct slopes *s)
 {
     double h = hypot(x, y);

@@ -14,7 +14,7 @@ static double any(const struct instr *instr, double x, double y, const int *bran
     return op_value(instr, x, y);
 }
 
-/* Where an operand is does not change, so the branch is foreseen; the value is one load away. */
+/* The place of an operand never changes, so the branch is predicted, and the value costs one load. */
 static inline double fetch(const struct step_operand *operand, const struct expr *expr, double t,
                            const double *y, const double *kept)
 {
@@ -66,13 +66,13 @@ double steps_run(const struct expr *expr, double t, const double *y, const int *
 #undef A
 #undef B
 
-/* ---- making */
+/* ---- construction */
 
 struct maker {
     const struct expr *expr;
     struct step *steps;
     size_t count;
-    int latest;   /* the register that the accumulator holds, or -1 */
+    int latest;   /* the register in the accumulator, or -1 */
     bool refused; /* the program does not fit */
 };
 
@@ -98,11 +98,11 @@ static struct step_operand operand(struct maker *maker, size_t reg)
 
 static void emit(struct maker *maker, struct step step)
 {
-    assert(maker->steps); /* steps_make has seen to it */
+    assert(maker->steps); /* checked by steps_make */
     maker->steps[maker->count++] = step;
 }
 
-/* How often a register is read behind instruction `at`, before another result takes its place. */
+/* Number of reads of a register behind instruction `at`, before it is overwritten. */
 static int reads_behind(const struct expr *expr, const struct instr *at, size_t reg)
 {
     int reads = 0;
@@ -138,7 +138,7 @@ static bool is_binary(unsigned op)
     }
 }
 
-/* The step for x op a, a op x and a op b; step_any where there is none. */
+/* The steps for x op a, a op x and a op b; step_any if there is none. */
 struct forms {
     enum step_op on, from, pair;
 };
@@ -167,7 +167,7 @@ static enum step_op unary_form(const struct instr *instr)
     }
 }
 
-/* Its operand, as it is. */
+/* Load the operand into the accumulator. */
 static void add_same(struct maker *maker, const struct instr *instr)
 {
     struct step_operand a = operand(maker, instr->a);
@@ -179,7 +179,7 @@ static void add_same(struct maker *maker, const struct instr *instr)
 static void add_unary(struct maker *maker, const struct instr *instr)
 {
     add_same(maker, instr);
-    /* `any` reads a second operand even where the operation has none. */
+    /* `any` reads a second operand even if the operation has none. */
     struct step step = {.op = unary_form(instr), .a = {.place = at_time}, .instr = instr};
     struct step *before = &maker->steps[maker->count - 1];
     if (before->op == step_product && (step.op == step_sin || step.op == step_cos))
@@ -239,10 +239,10 @@ bool steps_make(struct expr *expr, struct arena *scratch, struct arena *arena)
         else
             add_unary(&maker, instr);
         maker.latest = instr->to;
-        if (reads_behind(expr, instr, instr->to) > 1) /* as in pulse and clamp */
+        if (reads_behind(expr, instr, instr->to) > 1) /* read again later, as in pulse and clamp */
             emit(&maker, (struct step){.op = step_keep, .a = operand(&maker, instr->to)});
     }
-    if (maker.latest < 0) /* a leaf by itself */
+    if (maker.latest < 0) /* a single leaf */
         emit(&maker, (struct step){.op = step_load, .a = operand(&maker, expr->result)});
     else if ((size_t)maker.latest != expr->result)
         maker.refused = true;

@@ -2,18 +2,18 @@
  *
  * Steps: the form in which a program without jumps is run for plain values.
  *
- * The frame of program.h serves every kind of number, but for doubles most of its cost is moving them. Here
- * one accumulator holds the latest result, operands are read where they are (the constants of the program,
- * the caller's state, t, or a kept result), and common pairs of operations are one step: a product of two
- * leaves, the sine of a product, adding a product. Every step does the operations of the program in the same
- * order, so the bits of the value are the same.
+ * The frame of program.h supports every kind of number, but for doubles most of its cost is moving them. Here
+ * an accumulator contains the latest result, operands are read in place (the constants of the program, the
+ * caller's state, t, or a kept result), and common pairs of operations are one step: a product of two leaves,
+ * the sine of a product, adding a product. The operations and their order are those of the program, so the
+ * results are bitwise the same.
  */
 #ifndef FBD_EXPR_STEPS_H
 #define FBD_EXPR_STEPS_H
 
 #include "expr/program.h"
 
-enum { most_kept = 16 }; /* results that wait at one time; a program with more runs on the frame */
+enum { most_kept = 16 }; /* results kept at one time; a program with more runs on the frame */
 
 /* In the comments x is the accumulator, a and b are the operands of the step. */
 enum step_op {
@@ -58,8 +58,8 @@ struct step {
     const struct instr *instr; /* of step_any and step_any_from */
 };
 
-/* Give a finished program its steps, in `arena`. It gets none when it is a constant, has jumps or keeps too
- * much: then the frame serves. False when memory is out. */
+/* Set the steps of a finished program, in `arena`. A program that is a constant, has jumps or keeps too many
+ * results gets none and runs on the frame. False when memory is out. */
 bool steps_make(struct expr *expr, struct arena *scratch, struct arena *arena);
 
 double steps_run(const struct expr *expr, double t, const double *y, const int *branch);

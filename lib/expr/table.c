@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* ---- making */
+/* ---- construction */
 
 static const gsl_interp_type *type_of(enum table_interpolation interpolation, enum table_beyond beyond)
 {
@@ -28,7 +28,7 @@ size_t table_least(enum table_interpolation interpolation, enum table_beyond bey
     return least < 2 ? 2 : least;
 }
 
-/* c_0 and c_1 by differences: an even slope between points, or none. */
+/* Set c_0 and c_1: linear between points, or constant for steps. */
 static void make_lines(struct table *table, const double *y)
 {
     bool steps = table->interpolation == table_step;
@@ -39,7 +39,8 @@ static void make_lines(struct table *table, const double *y)
     }
 }
 
-/* The derivatives at the start of each piece are GSL's; the last coefficient closes the piece at its end. */
+/* The derivatives at the start of each piece are GSL's; the last coefficient makes the piece continuous at
+ * its end. */
 static bool make_spline(struct table *table, const double *y)
 {
     size_t count = table->count;
@@ -123,7 +124,7 @@ static size_t search(const struct table *table, double x)
     return low < table->count - 1 ? low : table->count - 2;
 }
 
-/* A rounding beyond its last knot a table with an end has not ended yet. */
+/* Tolerance of the ends with table_error: within rounding beyond its last knot a table has not ended. */
 static double slack(const struct table *table)
 {
     const double rounding = 1e-12;
@@ -145,7 +146,7 @@ double table_piece(const struct table *table, double x)
     return (double)search(table, x);
 }
 
-/* The piece of the first period, and the periods before it. */
+/* The piece within the first period, and the number of periods before it. */
 static size_t within(const struct table *table, double piece, double *periods)
 {
     double pieces = (double)(table->count - 1);
@@ -239,7 +240,7 @@ int table_degree(const struct table *table)
     return table->interpolation == table_step ? 0 : table->interpolation == table_linear ? 1 : 3;
 }
 
-/* Do two numbers agree but for the rounding of terms as large as `size`? */
+/* True if two numbers agree up to the rounding of terms of magnitude `size`. */
 static bool agree(double a, double b, double size)
 {
     const double rounding = 1e-10;

@@ -1,21 +1,22 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Tables: functions of one argument given by points, as measured data are.
+ * Tables: functions of one argument given by points, such as measured data.
  *
  * Between two knots x_i and x_(i+1) a table is a polynomial in u = x - x_i,
  *
- *     f = c_0 + u (c_1 + u (c_2 + u c_3)),
+ *   f = c_0 + u (c_1 + u (c_2 + u c_3)),
  *
- * and that polynomial is its piece i, also beyond the ends of the piece. So a table is a switch like floor (expr.h):
- * the branch is the piece, evaluation with a given branch is smooth and costs no search, and no step of an integrator
- * straddles a knot. Piece -1 is before the first knot and piece count - 1 from the last one on; with `repeat` the
- * pieces are counted on through all periods, piece p + k (count - 1) being piece p, k periods later.
+ * and that polynomial is its piece i, also beyond the ends of the piece. So a table is a switch like floor
+ * (expr.h): the branch is the piece, evaluation with a given branch is smooth and needs no search, and no
+ * step of an integrator contains a knot. Piece -1 is before the first knot and piece count - 1 from the last
+ * one on; with `repeat` the pieces are numbered through all periods, piece p + k (count - 1) being piece p, k
+ * periods later.
  *
- * The coefficients of cubic (natural, or periodic with `repeat`), Akima and Steffen splines are those of GSL's
- * gsl_interp, taken from its derivatives at the knots; c_3 is what makes ends meet.
+ * The coefficients of cubic (natural, or periodic with `repeat`), Akima and Steffen splines are those of
+ * GSL's gsl_interp, from its derivatives at the knots; c_3 follows from continuity.
  *
- * Sources: C. de Boor, A Practical Guide to Splines, 1978; H. Akima, J. ACM 17 (1970) 589; M. Steffen, Astron.
- * Astrophys. 239 (1990) 443.
+ * Sources: C. de Boor, A Practical Guide to Splines, 1978; H. Akima, J. ACM 17 (1970) 589; M. Steffen,
+ * Astron. Astrophys. 239 (1990) 443.
  */
 #ifndef FBD_EXPR_TABLE_H
 #define FBD_EXPR_TABLE_H
@@ -26,14 +27,14 @@
 #include "base/double_double.h"
 #include "expr/dim.h"
 
-/* Pieces of periods are counted this far; beyond, a table has no value. */
+/* Pieces of periods are numbered up to this; beyond, a table has no value. */
 enum { table_most_pieces = 2147483647 };
 
 enum table_interpolation {
     table_linear,
     table_step,    /* f(x_i) from x_i on */
     table_cubic,   /* natural cubic spline: continuous up to the second derivative */
-    table_akima,   /* continuous with the first derivative, and calm beside steps */
+    table_akima,   /* continuous first derivative, without overshoot beside steps */
     table_steffen, /* likewise, and monotonic between points */
 };
 
@@ -47,37 +48,37 @@ enum table_beyond {
 struct table {
     const char *name;
     struct dim x_dim, y_dim;
-    bool x_free, y_free; /* given without units: any dimension will do */
+    bool x_free, y_free; /* given without units: any dimension is accepted */
     enum table_interpolation interpolation;
     enum table_beyond beyond;
     size_t count;                /* knots */
     double *x;                   /* count, ascending */
-    double *c;                   /* 4 for each of the count - 1 pieces between */
+    double *c;                   /* 4 for each of the count - 1 pieces */
     double before, after;        /* the values beyond the ends */
-    double per_knot;             /* knots for each unit of x, if they are about even: where to look first */
+    double per_knot;             /* knots per unit of x, if equidistant: first guess of the search */
     struct double_double period; /* of `repeat` */
 };
 
 enum table_status {
     table_made,
     table_no_memory,
-    table_too_few,   /* points for this interpolation: see table_least */
+    table_too_few,   /* fewer points than table_least */
     table_open,      /* `repeat` of a spline whose ends differ */
     table_too_steep, /* differences of points overflow */
 };
 
-/* The number of points that an interpolation needs at least. */
+/* The minimum number of points of an interpolation. */
 size_t table_least(enum table_interpolation interpolation, enum table_beyond beyond);
 
-/* Make a table of `count` points. x ascends strictly, and all is finite. `interpolation` and `beyond` are set
- * before; `x` and `c` are allocated, see table_drop. */
+/* Make a table of `count` points. x ascends strictly, and all values are finite. The caller sets
+ * `interpolation` and `beyond`; `x` and `c` are allocated, see table_drop. */
 enum table_status table_make(struct table *table, size_t count, const double *x, const double *y);
 void table_drop(struct table *table);
 
-/* The piece in which `x` lies; 0 for no number. In O(1) where the knots are about even, else in O(log count). */
+/* The piece that contains `x`; 0 for NaN. In O(1) if the knots are about equidistant, else in O(log count). */
 double table_piece(const struct table *table, double x);
 
-/* Where a piece begins and ends; -HUGE_VAL and HUGE_VAL for what has no end. */
+/* The ends of a piece; -HUGE_VAL and HUGE_VAL if it has none. */
 void table_ends(const struct table *table, double piece, struct double_double *low,
                 struct double_double *high);
 
@@ -88,20 +89,20 @@ struct table_polynomial {
 };
 struct table_polynomial table_polynomial(const struct table *table, double piece);
 
-/* Its value at x, and the first two derivatives. */
+/* The value of a piece at x; table_slopes also gives the first two derivatives. */
 double table_value(const struct table *table, double piece, double x);
-/* The rounding of that value, and of its argument in it. */
+/* Bound of the rounding error of that value, including that of x. */
 double table_rounding(const struct table *table, double piece, double x);
 void table_slopes(const struct table *table, double piece, double x, double *f, double *d, double *dd);
 
-/* Is the piece beyond an end with table_error? */
+/* True if the piece is beyond an end with table_error. */
 bool table_has_ended(const struct table *table, double piece);
 
 /* The degree of the pieces: 0, 1 or 3. */
 int table_degree(const struct table *table);
 
-/* How many derivatives are continuous where `piece` begins, up to 2: -1 where the value jumps, 0 at a corner. Found by
- * the numbers, so points in a line have none. */
+/* The number of derivatives that are continuous at the start of `piece`, up to 2: -1 where the value jumps, 0
+ * at a corner. Determined numerically, so collinear points count as smooth. */
 int table_smoothness(const struct table *table, double piece);
 
 #endif

@@ -8,8 +8,8 @@
 #include "expr/unit_table.h"
 
 enum {
-    deepest = 20,         /* parentheses within parentheses */
-    highest_exponent = 12 /* no unit of mechanics has more, and factors stay finite */
+    deepest = 20,         /* nested parentheses */
+    highest_exponent = 12 /* sufficient for units of mechanics, and factors stay finite */
 };
 
 struct reader {
@@ -21,7 +21,7 @@ struct reader {
     int depth;
 };
 
-/* A part of a unit, with its factor kept as a quotient so that exact ratios stay exact. */
+/* A part of a unit, with its factor as a quotient so that exact ratios stay exact. */
 struct part {
     struct dim dim;
     struct unit_ratio factor;
@@ -66,7 +66,7 @@ static bool refuse(const struct reader *r, const char *hint, const char *message
     return false;
 }
 
-/* ---- what went wrong */
+/* ---- errors */
 
 static size_t letters_before(const struct reader *r)
 {
@@ -82,7 +82,7 @@ static size_t digits_from(const struct reader *r, size_t at)
     return n;
 }
 
-/* `ms-2` and `s-1` lack the `^`; `N-m` takes a hyphen for the product. */
+/* Refuse a minus: `ms-2` and `s-1` lack the `^`; `N-m` has a hyphen for the product. */
 static bool refuse_minus(const struct reader *r)
 {
     int before = (int)letters_before(r);
@@ -116,7 +116,7 @@ static bool refuse_digit(const struct reader *r)
                   "a number cannot stand in a unit");
 }
 
-/* Something stands where a unit, or nothing more, is needed. */
+/* Refuse a character in place of a unit or of the end. */
 static bool refuse_character(const struct reader *r)
 {
     char c = peek(r);
@@ -207,7 +207,7 @@ static bool read_exponent(struct reader *r, struct part *result)
     double over = whole_power(result->factor.over, exponent),
            under = whole_power(result->factor.under, exponent);
     result->factor = negative ? (struct unit_ratio){under, over} : (struct unit_ratio){over, under};
-    /* A whole power of a saturated dimension may be out of range; there is no unit with such a dimension. */
+    /* A power of a saturated dimension may be out of range; no unit has such a dimension. */
     if (!dim_power(result->dim, negative ? -exponent : exponent, 1, &result->dim))
         return refuse(r, NULL, "the exponent is too large");
     return true;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * From dimensions to words: the name of a quantity, its coherent unit, and units that fit it.
+ * Names of dimensions: the quantity, its coherent unit, and common units.
  */
 #include <stdio.h>
 #include <string.h>
@@ -10,7 +10,7 @@
 struct quantity {
     struct dim dim;
     const char *name;
-    const char *si, *us; /* the coherent unit where it is not composed by rule */
+    const char *si, *us; /* the coherent unit if not composed by rule */
     const char *examples;
 };
 
@@ -139,8 +139,8 @@ void unit_name(struct dim dim, enum unit_system system, char *buffer, size_t siz
         return;
     }
     const char *length = system == unit_si ? "m" : "ft";
-    /* What holds one mass and a time below the line is thought of as a force times something (N*m, N*s/m,
-     * N/m^3); without such a time, as a mass (kg*m^2, kg/m^3). */
+    /* A unit with mass to the first power and a negative power of time is composed of a force (N*m, N*s/m,
+     * N/m^3); otherwise of a mass (kg*m^2, kg/m^3). */
     if (dim.mass == dim_unit && dim.time < 0) {
         struct power by_force[] = {{system == unit_si ? "N" : "lbf", dim_unit},
                                    {length, dim.length - dim_unit},

@@ -114,10 +114,9 @@ const struct unit_row *unit_row(size_t index)
     return index < row_count ? &table[index] : NULL;
 }
 
-/* ---- what people write instead */
+/* ---- hints for common spellings */
 
-/* Where the nearest spelling would mislead (`mph` is no `mg`, `lb` may be a force or a mass) the answer is
- * given here. */
+/* Hints for words whose nearest spelling would mislead (`mph` is no `mg`, `lb` may be a force or a mass). */
 static const char *const habits[][2] = {
     {"lb", "`lbf` for a force, `lbm` for a mass"},
     {"lbs", "`lbf` for a force, `lbm` for a mass"},
@@ -191,7 +190,7 @@ static const char *const habits[][2] = {
     {"T", "write `V*s/m^2`"},
 };
 
-/* Words for units, each also with an `s` for the plural, and in any case. */
+/* Words for units, each also with an `s` for the plural, without regard to case. */
 static const char *const words[][2] = {
     {"meter", "m"},        {"metre", "m"},       {"centimeter", "cm"},  {"centimetre", "cm"},
     {"millimeter", "mm"},  {"millimetre", "mm"}, {"kilometer", "km"},   {"kilometre", "km"},

@@ -2,31 +2,33 @@
  *
  * Impact of rigid bodies at one point, with dry friction, in closed form.
  *
- * In the time of an impact nothing moves and no other force counts, so velocities change with the normal
- * impulse p alone. With W the answer of both bodies to unit impulses at the point (the inverse of its mass),
+ * During an impact positions do not change and finite forces are negligible, so velocities change with the
+ * normal impulse p alone. With W the response of both bodies to unit impulses at the point (the inverse
+ * effective mass),
  *
  *     dv_n = (W_nn + W_nt f) dp,   dv_t = (W_nt + W_tt f) dp,   f = d tau / dp
  *
- * where f = -mu sign(v_t) while the point slips, and f = -W_nt / W_tt, within mu, while it sticks. So the way
- * of (v_n, v_t) is a line that breaks where v_t reaches zero: there it sticks, or slips back, or, where the
- * tangent pulls that much, on (Routh's diagram: Routh, Elementary Rigid Dynamics, 1897, art. 193).
- * Compression ends where v_n = 0; restitution where
+ * where f = -mu sign(v_t) while the point slips, and f = -W_nt / W_tt, within mu, while it sticks. So the
+ * path of (v_n, v_t) is a line with a corner where v_t reaches zero: there it sticks, reverses its slip, or,
+ * where the coupling W_nt is too large, slips on (Routh's diagram: Routh, Elementary Rigid Dynamics, 1897,
+ * art. 193). Compression ends where v_n = 0; restitution where
  *
- *     stronge   the normal impulse has given back e^2 of the work that compression took (Stronge, Impact
- *               Mechanics, section 3.3.3): with any friction no energy is made
+ *     stronge   the normal impulse has returned e^2 of the work of compression (Stronge, Impact
+ *               Mechanics, section 3.3.3): no energy is gained with any friction
  *     poisson   the normal impulse is 1 + e times that of compression
- *     newton    v_n = -e v_n before: with friction that may take more energy than there was
+ *     newton    v_n = -e v_n before: with friction that may gain energy
  *
- * One law asks for nothing within the impact:
+ * One law does not resolve the phases of the impact:
  *
  *     moreau    v_n = -e v_n before, and the impulse of friction is that of the velocity after, -mu p sign(v_t),
  *               or within mu p where v_t = 0 then (Moreau, Unilateral Contact and Dry Friction in Finite
- *               Freedom Dynamics, 1988), as in simulators that step over impacts. It differs from newton where
- *               the point slips back.
+ *               Freedom Dynamics, 1988), as in time-stepping simulators. It differs from newton where
+ *               the slip reverses.
  *
- * What one coordinate moves, against what gives no way - a rod on a pivot and the ground, or what a drive moves - has W of rank
- * one: (v_n, v_t) stays on a line, which friction that holds cannot leave. At rest on the ground both come to nothing
- * at once, and nothing is given back where friction locks it; on what moves on no impulse may end the approach (jams).
+ * If one coordinate moves against an immovable body - a rod on a pivot and the ground, or a driven body - W
+ * has rank one: (v_n, v_t) stays on a line, which sticking friction cannot leave. Against the ground both
+ * vanish at the same time, without restitution where friction locks the point; against a moving body possibly
+ * no impulse ends the approach (jams).
  */
 #ifndef FBD_HOLDS_IMPACT_H
 #define FBD_HOLDS_IMPACT_H
@@ -48,12 +50,12 @@ struct impact_point {
     enum impact_law law;
 };
 
-/* What the tangent does in the impact, last. */
+/* The tangential motion at the end of the impact. */
 enum impact_slip {
     impact_slips,
     impact_sticks,
     impact_reverses,
-    impact_jams /* no impulse does what the law says: there is none */
+    impact_jams /* no impulse satisfies the law */
 };
 
 struct impact {
@@ -64,7 +66,7 @@ struct impact {
     enum impact_slip slip;
 };
 
-/* The impact with v_n < 0 before; with v_n >= 0 there is none, and nothing changes. */
+/* The impact with v_n < 0 before; with v_n >= 0 there is no impact, and velocities are unchanged. */
 struct impact impact_at_point(const struct impact_point *point, double v_n, double v_t);
 
 #endif

@@ -1,15 +1,15 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Modes that are nearly right, put right one after the other.
+ * Principal pivoting from modes that are nearly consistent.
  */
 #ifndef FBD_HOLDS_MEND_H
 #define FBD_HOLDS_MEND_H
 
 #include "holds/holds.h"
 
-/* From the modes that there are: what breaks its law changes its mode, the first of all each time (Murty's rule, which
- * comes to an end where friction does not couple too much: Cottle, Pang and Stone, section 4.2). holds_lost where that
- * does not come to modes that agree; modes and forces are others then. */
+/* Start from the present modes; change the mode of the first constraint that violates its law, repeatedly
+ * (Murty's rule, which is finite if friction couples weakly: Cottle, Pang and Stone, section 4.2). holds_lost
+ * where no consistent modes are reached; modes and forces are then undefined. */
 enum holds_found holds_mend(struct hold_problem *problem);
 
 #endif

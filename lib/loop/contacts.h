@@ -44,7 +44,7 @@ struct striker {
     bool rubs;       /* it has a row along its surface, too, in which there may be friction */
     double v_n, v_t; /* before */
     double reel;     /* of a rope: how fast it grows by itself */
-    bool stays;      /* no contact, and let go by an impact, for so little that it is kept (zeno.c) */
+    bool stays;      /* no contact; opened with a speed so small that it stays closed (zeno.c) */
 };
 
 /* A contact at the place of another one, of the same two links and with the same normal: a corner that several parts of a
@@ -88,10 +88,10 @@ struct contacts_work {
     struct bounces tugs;     /* of ropes that get taut, and what lands, in turn */
     bool *asleep;            /* of each meeting: too far apart for the step */
     int *touched;            /* of each meeting: how many features touched, at the last look */
-    double *deep;   /* of each meeting: how deep it was left open, at a corner that another side is next to */
-    bool *touching; /* of each coupling: scratch */
-    bool *moves;    /* and: for zeno_rest.c */
-    bool *was_closed; /* of each coupling, when it was looked at last */
+    double *deep;            /* of each contact pair: overlap left open at a corner next to another side */
+    bool *touching;          /* of each coupling: scratch */
+    bool *moves;             /* and: for zeno_rest.c */
+    bool *was_closed;        /* of each coupling, when it was looked at last */
     struct fbd_state *trial;
     double speed; /* the largest of the shapes that have touched so far */
     struct impact_record
@@ -176,10 +176,11 @@ bool contacts_strike(struct run *run, int count);
 bool contacts_solve_impact(struct run *run, int count);
 void contacts_apply_impulses(struct run *run, int count);
 
-/* What an impact has brought to rest on others, and has been closed, is so to the digit: impulses are known to 1e-13. */
+/* After an impact and its closings: set the velocities of closed contacts to exactly zero; impulses have an
+ * accuracy of 1e-13. */
 void contacts_hold_speeds(struct run *run, int count);
 
-/* Does striker i leave its surface by the impact, by more than rounding? */
+/* Does impact constraint i separate after the impact, by more than rounding? */
 bool contacts_part(const struct run *run, int i);
 
 /* What leaves by the velocities in work->v after an impact, or as it is without one, is open; what stays slips or

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * The impact of all that touches: its points, what answers to them, and what it does to the motion.
+ * The impact of all touching contacts: its points, the response to impulses, and the change of the motion.
  */
 #include <float.h>
 #include <string.h>
@@ -38,7 +38,7 @@ double contacts_restitution(struct run *run, int meeting, double approach)
 
 static bool set_point(struct run *run, int i)
 {
-    const double no_limit = 1e6; /* so that what rolls without one stops to slip at once */
+    const double no_limit = 1e6; /* stops the slip of rolling without a limit */
     struct contacts_work *work = &run->contacts;
     const struct striker *striker = &work->strikers[i];
     const struct coupling *coupling = &tree_of(run)->couplings[striker->coupling];
@@ -54,9 +54,9 @@ static bool set_point(struct run *run, int i)
     return work->points[i].e >= 0;
 }
 
-/* ---- friction of slides, and in slots, that the impulses press on their guides */
+/* ---- friction of slides, and in slots, by impulses on their guides */
 
-/* Those that rub, on a guide across which there may be impulses. */
+/* Collect the frictional guides which may get a normal impulse. */
 static void find_slides(struct run *run)
 {
     const struct plan *plan = &run->model->plan;
@@ -70,7 +70,7 @@ static void find_slides(struct run *run)
     }
 }
 
-/* Is the guide of slide i pressed by what strikes, or by the friction of a slide that is? */
+/* Is the guide of slide i loaded by an impact, or by the friction of a slide that is? */
 static bool is_pressed(const struct contacts_work *work, int rows, int i, const int *pressed)
 {
     const double rounding = 1e-12; /* of a unit impulse */
@@ -81,7 +81,7 @@ static bool is_pressed(const struct contacts_work *work, int rows, int i, const 
     return false;
 }
 
-/* Leave out slides that no impulse presses on: what they rub with does not jump. True when there were some. */
+/* Leave out slides whose guides get no impulse: their friction force stays finite. True when there were some. */
 static bool leave_out_slides(struct contacts_work *work, int rows)
 {
     int *pressed = work->modes, before = -1, found = 0, kept = 0;
@@ -119,8 +119,8 @@ static void find_answers(struct run *run, int rows)
     impulse_answers(run->state, &lines, work->modes, work->W, work->B, work->answers);
 }
 
-/* Can point i move along its surface? A body on a slide that meets another on it, or a wall across it, cannot: what the
- * direction of its surface leaves there are the squares of roundings, and impulses of friction over these would be any. */
+/* Can point i move along its surface? Not where a body on a slide meets another on it, or a wall across it:
+ * W_tt there is the square of a rounding of the direction, and impulses of friction would be arbitrary. */
 static bool moves_along(const struct contacts_work *work, int all, int i)
 {
     const double rounding = 1e-20; /* of W: a slope of 1e-10 */
@@ -128,8 +128,8 @@ static bool moves_along(const struct contacts_work *work, int all, int i)
     return work->strikers[i].rubs && own[all + 1] > rounding * own[0];
 }
 
-/* The way in which point i slips on, where it cannot be moved along its surface: on what a drive moves, say. What rests there by
- * all but rounding shares no friction that is known. */
+/* The direction in which point i continues to slip, where no impulse moves it along its surface: on a driven
+ * body, for example. For a point at rest to rounding the friction impulse is indeterminate: 0. */
 static int slips_on(const struct contacts_work *work, int count, int i)
 {
     const double rounding = 1e-9; /* of the speeds */
@@ -138,7 +138,8 @@ static int slips_on(const struct contacts_work *work, int count, int i)
     return !work->strikers[i].rubs || fabs(v_t) <= rounding * most ? 0 : v_t > 0 ? 1 : -1;
 }
 
-/* Rows 2 i and 2 i + 1, of which what does not rub has one; the normal of a rope points the other way. Slides come behind. */
+/* Rows 2 i and 2 i + 1; both are the same without friction. The normal of a rope has the opposite sign.
+ * Slides follow. */
 static void set_answers(struct run *run, int count)
 {
     struct contacts_work *work = &run->contacts;
@@ -171,7 +172,7 @@ static void set_answers(struct run *run, int count)
     }
 }
 
-/* The impulse of row i of the strikers; a rope pulls the other way, and has one row. */
+/* The impulse of row i of the strikers; that of a rope has the opposite sign, and a single row. */
 static double impulse_of(const struct contacts_work *work, int i)
 {
     const struct striker *striker = &work->strikers[i / 2];
@@ -181,9 +182,9 @@ static double impulse_of(const struct contacts_work *work, int i)
 
 /* ---- work of drives
  *
- * What has a prescribed motion does not give way: its drive takes up the impulse, and does work by it. */
+ * A prescribed motion does not change: its drive takes up the impulse, and does work by it. */
 
-/* The work of a unit impulse of a row on what link `driven` carries along, by the motion that is prescribed to it. */
+/* The work of a unit impulse of a row on the bodies carried by link `driven`, by its prescribed motion. */
 static double carried_work(const struct run *run, const struct row *row, int driven)
 {
     const struct tree *tree = tree_of(run);
@@ -202,7 +203,7 @@ static double carried_work(const struct run *run, const struct row *row, int dri
     return sum;
 }
 
-/* The impulses of strikers on what drive `friction` moves. */
+/* The work of a drive against the impulses on the bodies that it carries. */
 static double drive_work(const struct run *run, const struct mode *mode, int count)
 {
     const struct contacts_work *work = &run->contacts;
@@ -215,7 +216,7 @@ static double drive_work(const struct run *run, const struct mode *mode, int cou
     return sum;
 }
 
-/* What the impulses have taken from the bodies along their contacts and ropes. */
+/* The energy that the impulses take from the bodies at contacts and ropes. */
 static double taken_by(const struct contacts_work *work, int count)
 {
     const double *P = work->P, *v = work->v;
@@ -238,9 +239,9 @@ const struct mode *run_only_drive(const struct run *run, int *moving)
     return only;
 }
 
-/* The only drive that moves has done what kinetic energy has changed by, less what the impulses have taken and friction of
- * slides, `rubbed`, has done. Of several each has done what the impulses on all that it carries tell, as if that kept its
- * motion on it. */
+/* A single moving drive does the work that balances the change of kinetic energy, the energy taken by the
+ * impulses and the work `rubbed` of friction. With several moving drives, each does the work against the
+ * impulses on all bodies that it carries, as if it kept its motion alone. */
 static void note_drives(struct run *run, int count, double change, double rubbed)
 {
     const struct plan *plan = &run->model->plan;
@@ -253,7 +254,7 @@ static void note_drives(struct run *run, int count, double change, double rubbed
     }
 }
 
-/* How the impulses of others divide round a drum is not followed. */
+/* The division of impulses around a drum (capstan) is not modelled. */
 static void refuse_rubbing(struct run *run)
 {
     const struct tree *tree = tree_of(run);
@@ -268,7 +269,7 @@ static void refuse_rubbing(struct run *run)
     }
 }
 
-/* The largest speed that one of the impulses gives a link of its own [m/s]. */
+/* The largest speed change of a free link by one of the impulses [m/s]. */
 static double given_to(const struct run *run, int count, const struct tree_link *link)
 {
     const struct contacts_work *work = &run->contacts;
@@ -280,8 +281,9 @@ static double given_to(const struct run *run, int count, const struct tree_link 
     return most;
 }
 
-/* What impulses bring to rest on others has speeds of rounding, as its accelerations are (tree.c): with the square of
- * the number of those that strike, of the speeds that impulses alone would give. Carried on they would be a drift. */
+/* Set velocities at round-off level to zero for bodies stopped by contacts, as for their accelerations
+ * (tree.c): the level is count^2 times epsilon times the largest speed change by a single impulse. Otherwise
+ * they would drift. */
 static void drop_rounding(struct run *run, int count)
 {
     const struct tree *tree = tree_of(run);
@@ -297,8 +299,9 @@ static void drop_rounding(struct run *run, int count)
     }
 }
 
-/* So has what slides or turns and is brought to rest, or to the speed of the surface that it rubs on: to the rounding of the
- * answers to the impulses, which slopes of 1e-13 (impulse_answers) make larger from coupling to coupling. */
+/* The same for sliding or turning bodies that stop, or reach the speed of the surface of their friction:
+ * within the rounding of the responses to impulses, which slopes of 1e-13 (impulse_answers) amplify from
+ * coupling to coupling. */
 static void stop_rounding(struct run *run, int count)
 {
     const double rounding = 1e-10;
@@ -320,7 +323,7 @@ static void stop_rounding(struct run *run, int count)
     }
 }
 
-/* What the friction of slides has come to: their slips, and the work that it does, which is returned. */
+/* Set the slips of the slides after the impact, and return the work of their friction. */
 static double end_slips(struct run *run, int rows)
 {
     double all = 0;
@@ -412,7 +415,7 @@ bool contacts_solve_impact(struct run *run, int count)
     enum impacts_end end = impacts_solve(&impacts);
     if (end != impacts_done) {
         if (!work->plastic || end == impacts_no_memory)
-            fail_impact(run, end, impacts.law); /* a jam says more */
+            fail_impact(run, end, impacts.law); /* in a plastic one the caller reports a jam */
         return false;
     }
     double size = 0;

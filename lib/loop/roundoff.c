@@ -13,30 +13,35 @@
 #include "loop/error_scale_init.h"
 #include "loop/run.h"
 
-/* Relative round-off error of the directions and arms of a row: round-off times distance from the origin over length. A
- * difference of two positions, with a share of the round-off of long sums. */
+/* A difference of two positions has the round-off of their distance from the origin, with a share of that of long sums. */
+static const double share_of_difference = 1.0 / 64;
+
+/* The largest distance of the ports of a row from the origin. */
+static double distance_of_ports(const struct row *row, const struct tree_state *links)
+{
+    double away = 0;
+    for (int k = 0; k < row->port_count; k++)
+        away = fmax(away, vec_norm(vec_add(links[row->ports[k].link].p, row->ports[k].arm)));
+    return away;
+}
+
+/* Relative round-off error of the direction of a rod or rope. Other rows have directions that their links have. */
 static double turned_by_places(const struct row *row, const struct tree_state *links)
 {
-    const double share = 1.0 / 64;
-    double away = 0, reach = 0;
-    struct vec first = {0, 0};
-    for (int k = 0; k < row->port_count; k++) {
-        const struct port *port = &row->ports[k];
-        struct vec point = vec_add(links[port->link].p, port->arm);
-        if (k == 0) first = point;
-        away = fmax(away, vec_norm(point));
-        reach = fmax(reach, vec_norm(vec_sub(point, first)));
-        if (port->link > 0) reach = fmax(reach, vec_norm(port->arm));
-    }
-    return reach > 0 ? share * away / reach : 0;
+    const struct port *a = &row->ports[0], *b = &row->ports[row->port_count - 1];
+    const double length =
+        vec_norm(vec_sub(vec_add(links[a->link].p, a->arm), vec_add(links[b->link].p, b->arm)));
+    return length > 0 ? share_of_difference * distance_of_ports(row, links) / length : 0;
 }
 
 /* How much the links from the ground to each have turned in all: an angle in the world is their sum, and has
- * its rounding. A force between two links has the larger one: `turned` has room for all links twice. */
+ * its rounding. A force between two links has the larger one. A contact, roll or slot finds its point from the other link: its
+ * arm has the round-off of that place. `turned` has room for all links three times: for the angle of each, for the larger
+ * one, and for the distance from the origin times share_of_difference. */
 static void measure_turns(struct run *run, const struct instant *at)
 {
     const struct tree *tree = run->model->tree;
-    double *own = run->roundoff.turned, *sides = own + tree->count;
+    double *own = run->roundoff.turned, *sides = own + tree->count, *places = sides + tree->count;
     /* Where couplings bring states back, directions have the rounding of a radian, turned or not: places are
      * known to that share of the arms that lead to them. */
     own[0] = tree->row_count > 0 ? 1 : 0;
@@ -47,6 +52,7 @@ static void measure_turns(struct run *run, const struct instant *at)
             own[tree->links[i].parent] + (turns ? fabs(run->state->y[body->first + body->count - 1]) : 0);
     }
     memcpy(sides, own, (size_t)tree->count * sizeof *sides);
+    memset(places, 0, (size_t)tree->count * sizeof *places);
     for (int i = 1; i < tree->count; i++) {
         double *parent = &sides[tree->links[i].parent];
         *parent = fmax(*parent, own[i]);
@@ -54,13 +60,17 @@ static void measure_turns(struct run *run, const struct instant *at)
     for (int j = 0; j < tree->row_count; j++) {
         if (!tree_takes_part(tree, at, j)) continue;
         const struct row *row = &at->tree->rows[j];
+        const struct coupling *coupling = &tree->couplings[tree->coupling_of_row[j]];
+        const bool finds_point = !coupling->law->length && coupling->kind != constraint_pin;
+        const double away = finds_point ? share_of_difference * distance_of_ports(row, at->tree->links) : 0;
         double most = 0;
         for (int k = 0; k < row->port_count; k++)
             if (port_turns(&row->ports[k])) most = fmax(most, own[row->ports[k].link]);
-        most += turned_by_places(row, at->tree->links);
+        if (coupling->law->length) most += turned_by_places(row, at->tree->links);
         for (int k = 0; k < row->port_count; k++) {
-            double *side = &sides[row->ports[k].link];
-            *side = fmax(*side, most);
+            const int link = row->ports[k].link;
+            sides[link] = fmax(sides[link], most);
+            places[link] = fmax(places[link], away);
         }
     }
 }
@@ -114,11 +124,11 @@ static void measure_cancelled(struct run *run, const struct instant *at)
 /* The size of what has been added up for the share of an arrow in each coordinate of a jointed body. A moment
  * is small where the force points at O, and still has the rounding of its products, and of the angle. */
 static void add_jointed(const struct model_body *body, const struct tree_state *link, double angle,
-                        const struct arrow *arrow, double *gross)
+                        double place, const struct arrow *arrow, double *gross)
 {
     struct vec f = arrow->force, arm = vec_sub(arrow->point, link->p);
     double size = vec_norm(f), moment = fabs(arm.x * f.y) + fabs(arm.y * f.x) + fabs(arrow->couple);
-    moment += angle * size * vec_norm(arm);
+    moment += (angle * vec_norm(arm) + place) * size;
     double along = fabs(link->e.x * f.x) + fabs(link->e.y * f.y) + angle * size;
     double across = fabs(link->e.x * f.y) + fabs(link->e.y * f.x) + angle * size;
     if (body->count > 0) gross[0] += body->kind == motion_pivot ? moment : along;
@@ -134,16 +144,16 @@ static void add_gross_forces(struct run *run, int b, const struct instant *at, d
     size_t count = (link > 0 ? diagram_list : diagram_fill)(run->model, b, at, run->state->a,
                                                             run->state->slots, run->work.arrows);
     const struct tree *tree = run->model->tree;
-    double angle = tree && link > 0 ? run->roundoff.turned[tree->count + link] : 0;
+    double angle = tree && link > 0 ? run->roundoff.turned[tree->count + link] : 0,
+           place = tree && link > 0 ? run->roundoff.turned[2 * tree->count + link] : 0;
     for (size_t i = 0; i < count; i++) {
         if (link > 0)
-            add_jointed(body, &at->tree->links[link], angle, &run->work.arrows[i], gross);
+            add_jointed(body, &at->tree->links[link], angle, place, &run->work.arrows[i], gross);
         else
             for (int k = 0; k < body->count; k++) gross[k] += fabs(run->work.arrows[i].share[k]);
     }
-    const double share = 1.0 / 64;
     for (int k = 0; k < body->count; k++)
-        gross[k] += share * run->roundoff.cancelled[2 * b + coordinate_turns(body, k)];
+        gross[k] += share_of_difference * run->roundoff.cancelled[2 * b + coordinate_turns(body, k)];
 }
 
 /* ---- formulas of applied forces (load_rounding.h) */
@@ -366,7 +376,7 @@ static size_t links_of(const struct fbd_model *model)
 
 size_t roundoff_size(const struct fbd_model *model)
 {
-    return 4 * plan_rates(&model->plan) + 2 * links_of(model) + 2 * model->body_count +
+    return 4 * plan_rates(&model->plan) + 3 * links_of(model) + 2 * model->body_count +
            plan_size(&model->plan);
 }
 
@@ -396,7 +406,7 @@ void roundoff_init(struct run *run, double *memory)
     roundoff->largest = roundoff->accelerations + rates;
     roundoff->formulas = roundoff->largest + rates;
     roundoff->turned = roundoff->formulas + rates;
-    roundoff->cancelled = roundoff->turned + 2 * links_of(run->model);
+    roundoff->cancelled = roundoff->turned + 3 * links_of(run->model);
     roundoff->nothing = roundoff->cancelled + 2 * run->model->body_count;
     roundoff->heeds_time = heeds_time(run->model);
 }

@@ -37,9 +37,9 @@ struct run_options {
     double tolerance;
     double step; /* fixed size, or 0 */
     const struct method *method;
-    bool automatic; /* switch to the stiff method and back as the motion demands */
-    bool structure; /* use what the plan shows: see structure.h; with `automatic` it may choose the method */
-    bool apart;     /* a companion's: other steps than a run without this makes, where events set them */
+    bool automatic;                /* switch to the stiff method and back as the motion demands */
+    bool structure;                /* exploit the structure of the plan (structure.h) */
+    bool apart;                    /* of a companion: where events set steps, they differ */
     const struct fbd_state *start; /* where it begins, a state of the whole; NULL for the start of the file */
 };
 
@@ -50,8 +50,7 @@ struct run_event {
     int own;               /* a switch in the rate of this state, or -1 */
     int branch;            /* of a switch */
     size_t group, order;   /* of an ensemble, and its place in the log of that group */
-    double force, limit;   /* friction: the force after the event (that holds or slides) and the static limit;
-                  contact: the normal force and its rounding; rest: `limit` is the number of impacts */
+    double force, limit;   /* friction: after the event; static limit. Contact: N; its rounding */
     struct impact_record impact;
 };
 
@@ -88,7 +87,7 @@ struct progress {
 struct ending {
     fbd_outcome outcome;
     char reason[reason_size];
-    const char *refusal; /* the id of what its start lacks (start.h), and the place; else NULL */
+    const char *refusal; /* of a start: id of the reason (start.h), and position; or NULL */
     struct pos refusal_at;
 };
 
@@ -101,8 +100,8 @@ struct snap {
 /* What events are looked for with, beside the watchers. */
 struct event_search {
     struct scan timed, moving;
-    bool *reads;  /* for each group of moving functions which components of the course it reads */
-    bool *wanted; /* those of the groups that are searched at present */
+    bool *reads;                 /* for each group of moving functions: the components that it reads */
+    bool *wanted;                /* those of the groups that are searched at present */
     bool paced, paced_by_motion; /* sampled functions may change as fast as formulas do, of the motion too */
     bool follows_places;         /* the course has places in the world */
     bool leads;                  /* there are drives or surfaces that may lead (impose_drives) */
@@ -112,12 +111,11 @@ struct event_search {
 
 /* Round-off levels of accelerations: see roundoff.c. */
 struct roundoff {
-    double *accelerations; /* plan_rates: what they, and rates of states, are known to */
-    double *largest;       /* plan_rates: the largest for which that has been found */
-    bool heeds_time;       /* a force, or the rate of a state, names the time */
-    double *along;  /* plan_rates: how accelerations and the rates of states change along the motion, when the
-                              rest of this was set */
-    double *turned; /* twice the links of the tree */
+    double *accelerations;      /* plan_rates: what they, and rates of states, are known to */
+    double *largest;            /* plan_rates: the largest for which that has been found */
+    bool heeds_time;            /* a force, or the rate of a state, names the time */
+    double *along;              /* plan_rates: rates of change along the motion at the last update */
+    double *turned;             /* three times the links of the tree */
     double *cancelled;          /* for each body a force and its moment */
     double *formulas;           /* n: what rounding within formulas does to accelerations */
     double *nothing;            /* plan_size: what has been nothing beside the largest motion, at a start */
@@ -146,10 +144,8 @@ struct recent {
     int crowd, turns; /* how many at that instant; how often normal forces have changed their sides there */
     struct time_dd moment; /* the start, or when events happened last */
     double interval[2];    /* between the last three of these; infinite before there are three */
-    double *
-        anchor; /* 2 plan_size: the state around which events have happened lately; the largest |y_i| before the
-                       last step */
-    int around; /* how many */
+    double *anchor; /* 2 plan_size: the state around which the last events happened; the largest |y_i| */
+    int around;     /* how many */
 };
 
 struct run {
@@ -364,7 +360,7 @@ void roundoff_init(struct run *run, double *memory);
 /* How many steps may be made before that has to be looked at for their number alone. */
 unsigned long roundoff_steps(const struct run *run);
 
-/* The time as it is told: what is nothing beside the first step is a rounding of the start. */
+/* The time for messages: 0 where it is negligible compared with the first step. */
 double run_time(const struct run *run);
 
 /* End the run where it gains no time for its work. (progress.c) */

@@ -13,26 +13,25 @@ struct family {
     bool *jointed;
 };
 
+static void mark(bool *jointed, int body)
+{
+    if (body != ground_body) jointed[body] = true;
+}
+
 static void mark_jointed(const struct fbd_model *model, bool *jointed)
 {
     const struct scene *scene = model->scene;
     for (size_t b = 0; b < scene->body_count; b++) {
-        int parent = scene->bodies[b].motion.parent;
-        if (scene->bodies[b].motion.prescribed.expr || scene->bodies[b].motion.curve ||
-            scene->bodies[b].mass.expr)
-            jointed[b] = true;
-        if (parent == ground_body) continue;
-        jointed[b] = true;
-        jointed[parent] = true;
+        const struct motion *motion = &scene->bodies[b].motion;
+        const int parent = motion->parent;
+        if (motion->prescribed.expr || motion->curve || scene->bodies[b].mass.expr) jointed[b] = true;
+        if (parent != ground_body) jointed[b] = jointed[parent] = true;
     }
     for (size_t c = 0; c < scene->force_coupling_count; c++)
-        for (int end = 0; end < 2; end++)
-            if (scene->force_couplings[c].body[end] != ground_body)
-                jointed[scene->force_couplings[c].body[end]] = true;
+        for (int end = 0; end < 2; end++) mark(jointed, scene->force_couplings[c].body[end]);
     for (size_t c = 0; c < scene->constraint_count; c++)
         for (int end = 0; end < scene->constraints[c].end_count; end++)
-            if (scene->constraints[c].body[end] != ground_body)
-                jointed[scene->constraints[c].body[end]] = true;
+            mark(jointed, scene->constraints[c].body[end]);
 }
 
 static bool find_family(struct fbd_model *model, struct family *family)

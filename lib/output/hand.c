@@ -355,6 +355,7 @@ static bool write_verdict(const struct hand_check *check, struct text *text)
     if (agree == states) {
         text_printf(text, "  agrees at %zu random states (worst difference %.1e of the terms)\n", states,
                     worst);
+        hand_say_zeros(check, text);
         return true;
     }
     /* With friction an equation without `when` may claim one direction of motion, that of the start if it slips there. */
@@ -371,7 +372,7 @@ static bool write_verdict(const struct hand_check *check, struct text *text)
         return true;
     }
     text_printf(text, "  differs at %zu of %zu random states\n", states - agree, states);
-    hand_diagnose(check, none.states > 0 ? 0 : plus.states > 0 ? 1 : -1, text);
+    hand_diagnose(check, none.agree < none.states ? 0 : plus.agree < plus.states ? 1 : -1, text);
     return false;
 }
 

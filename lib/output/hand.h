@@ -126,6 +126,10 @@ void hand_form_at(const struct fbd_state *state, int b, int index, const struct 
  * explains it. */
 void hand_diagnose(const struct hand_check *check, int slip, struct text *text);
 
+/* Name the summands of a line that are zero at all samples, where there are several: the line would hold with any of their
+ * factors and signs. */
+void hand_say_zeros(const struct hand_check *check, struct text *text);
+
 /* Say by which slip of the pen a line differs: the first that explains it at all states that have slip `slip`
  * (hand_blame.c). False where none does. */
 bool hand_blame(const struct hand_check *check, int slip, struct text *text);

@@ -215,6 +215,29 @@ static bool inertia_is_right(const struct hand_check *check, int slip)
     return true;
 }
 
+static bool is_zero_throughout(const struct hand_check *check, size_t summand)
+{
+    const double rounding = 1e-12;
+    for (size_t i = 0; i < check->count; i++)
+        if (fabs(check->samples[i].summands[summand]) > rounding * check->samples[i].size) return false;
+    return true;
+}
+
+void hand_say_zeros(const struct hand_check *check, struct text *text)
+{
+    const struct hand *hand = &check->model->scene->bodies[check->body].hands[check->index];
+    size_t list[most_summands], count = 0;
+    for (size_t j = 0; j < hand->summand_count; j++)
+        if (!expr_is_constant(hand->summands[j].expr) && is_zero_throughout(check, j)) list[count++] = j;
+    if (count < 2) return;
+    text_add(text, "  the states tell nothing of the factors and signs of `");
+    for (size_t j = 0; j < count; j++) {
+        if (j > 0) text_add(text, "`, `");
+        text_shown(text, hand->summands[list[j]].text);
+    }
+    text_add(text, "`: zero throughout\n");
+}
+
 void hand_diagnose(const struct hand_check *check, int slip, struct text *text)
 {
     const struct hand *hand = &check->model->scene->bodies[check->body].hands[check->index];

@@ -42,7 +42,8 @@ static double coupling_size(const struct fbd_model *model, const struct coupling
     for (int i = 0; i < row->port_count; i++)
         if (row->ports[i].end == place->end) normal = vec_add(normal, row->ports[i].force);
     if (place->part == 0) return row->lambda * vec_norm(normal);
-    return vec_cross(normal, arrow->force) / vec_norm(normal);
+    const double length = vec_norm(normal); /* zero where bodies are apart */
+    return length > 0 ? vec_cross(normal, arrow->force) / length : 0;
 }
 
 /* Of a spring or damper between points: positive as it pulls. */

@@ -61,7 +61,7 @@ static bool list_agents(struct hand_run *run)
 
 /* ---- works and impulses */
 
-static const struct arrow *arrow_of(struct hand_run *run, const struct hand_force *force)
+const struct arrow *hand_run_arrow(struct hand_run *run, const struct hand_force *force)
 {
     struct instant at = state_instant(run->state);
     diagram_fill(run->model, force->name.body, &at, run->state->a, run->state->slots, run->named.arrows);
@@ -84,8 +84,7 @@ static bool is_of_one_body(const struct fbd_model *model, int load)
     return false;
 }
 
-/* May it have an impulse in an impact? */
-static bool is_impulsive(const struct fbd_model *model, int load)
+bool hand_run_is_impulsive(const struct fbd_model *model, int load)
 {
     if (load < 0 || (size_t)load >= model->coupled_count) return true;
     const struct load *source = model->loads[load].source;
@@ -111,13 +110,13 @@ static int load_of(struct hand_run *run, const struct hand_sum *sum, size_t i)
 {
     struct coupling_place place;
     const struct hand_force *force = sum->forces[i];
-    const struct arrow *arrow = arrow_of(run, force);
+    const struct arrow *arrow = hand_run_arrow(run, force);
     const int load = arrow->load;
     const bool of_coupling = coupling_of_force(run->model, force->name.body, arrow->name, &place);
     const int of_all = load < 0 && of_coupling ? run->model->tree->couplings[place.coupling].load : load;
     size_t own = 0, before = 0;
     for (size_t k = 0; of_all >= 0 && k < sum->count; k++) {
-        const bool same = arrow_of(run, sum->forces[k])->load == of_all;
+        const bool same = hand_run_arrow(run, sum->forces[k])->load == of_all;
         own += same;
         before += same && k < i;
     }
@@ -174,22 +173,6 @@ static bool integrate(struct hand_run *run, double from, double to)
         add_rates(run, half * gauss[k]);
     }
     return true;
-}
-
-/* The work and impulse of a single coupling or joint in an impact are not known. */
-static void lose_integrals(struct hand_run *run, const double *before, const double *after)
-{
-    const struct fbd_model *model = run->model;
-    for (size_t k = 0; k < model->absolute_count; k++) {
-        const struct hand_sum *sum = &run->named.of[k];
-        for (size_t i = 0; is_integral(run->model, k) && !run->by_ledger[k] && i < sum->count; i++) {
-            const struct model_body *body = &model->bodies[sum->forces[i]->name.body];
-            const size_t first = (size_t)body->first_rate, size = (size_t)body->count * sizeof *before;
-            if (is_impulsive(model, arrow_of(run, sum->forces[i])->load) &&
-                memcmp(before + first, after + first, size) != 0)
-                run->integrals[k] = NAN;
-        }
-    }
 }
 
 /* ---- shots */
@@ -268,6 +251,18 @@ static const double *struck_before(struct hand_run *run)
     return struck;
 }
 
+/* What stands before the impacts at the end of the last step, and their impulses. */
+static bool add_impact(struct hand_run *run, struct run_shot *shot)
+{
+    const size_t n = run->model->scene->coordinate_count;
+    const struct ensemble *ensemble = run->ensemble;
+    if (!look_before(run)) return false;
+    write_names(run, struck_before(run), shot->before);
+    memcpy(run->before, run->state->y + n, n * sizeof *run->before);
+    return ensemble_look(run->ensemble, ensemble->t, run->state) &&
+           hand_run_add_impact(run, run->before, ensemble_state(run->ensemble)->y + n);
+}
+
 /* At the end of the last step, or within it. */
 static bool take_shot(struct hand_run *run, double t, bool impact, size_t event)
 {
@@ -278,11 +273,7 @@ static bool take_shot(struct hand_run *run, double t, bool impact, size_t event)
     shot->impact = impact;
     shot->event = event;
     if (!ledger_within(&run->ledger, run->ensemble, t, run->works)) return false;
-    if (impact && !look_before(run)) return false;
-    if (impact) {
-        write_names(run, struck_before(run), shot->before);
-        lose_integrals(run, shot->before, ensemble_state(run->ensemble)->y);
-    }
+    if (impact && !add_impact(run, shot)) return false;
     if (!ensemble_look(run->ensemble, t, run->state)) return false;
     write_names(run, NULL, shot->y);
     memcpy(shot->done, run->integrals + run->model->absolute_count,
@@ -381,6 +372,7 @@ static bool make_room(struct hand_run *run)
     run->place = ARENA_ARRAY(&run->arena, model->body_count, int);
     run->by_ledger = ARENA_ARRAY(&run->arena, model->absolute_count + 1, bool);
     run->works = ARENA_ARRAY(&run->arena, 3 * model->load_count + 1, double);
+    run->before = ARENA_ARRAY(&run->arena, model->scene->coordinate_count + 1, double);
     run->state = state_new(model);
     if (run->arena.failed || !run->state || !hand_named_find(model, &run->arena, &run->named)) return false;
     run->struck = run->works + model->load_count;

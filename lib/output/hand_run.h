@@ -8,7 +8,8 @@
  * line (energy_explained).
  *
  * The work of a force that acts on one body alone is taken from the ledger, impacts included. Impulses, and the work of a
- * coupling or joint on one of its bodies, are integrated here; in an impact these are not known.
+ * coupling or joint on one of its bodies, are integrated here; in an impact those of contacts and ropes follow from the jump
+ * of the velocities (hand_run_impacts.c), those of joints and pins are not known.
  */
 #ifndef FBD_OUTPUT_HAND_RUN_H
 #define FBD_OUTPUT_HAND_RUN_H
@@ -56,12 +57,25 @@ struct hand_run {
     double *integrals; /* of each absolute that is no work of the ledger, then agent_parts of each agent */
     bool *by_ledger;   /* of each absolute: its works are those of the ledger */
     double *works, *struck; /* of each load: works at a shot; those of impacts up to the begin of its step */
+    double *before;         /* the velocities before an impact */
+    struct hand_impact *impact; /* room for hand_run_add_impact; NULL before the first */
     bool no_memory;
 };
 
 /* Run a model and keep its shots. False when memory is out, or with a note: there is no end of the run, ... */
 bool hand_run_make(struct hand_run *run, const struct fbd_model *model, fbd_errors *errors);
 void hand_run_free(struct hand_run *run);
+
+/* The arrow of a force at run->state. */
+const struct arrow *hand_run_arrow(struct hand_run *run, const struct hand_force *force);
+
+/* May a load, or with -1 a reaction, have an impulse in an impact? */
+bool hand_run_is_impulsive(const struct fbd_model *model, int load);
+
+/* Add the impulses and works of an impact at the place of run->state to run->integrals that are not of the ledger, given the
+ * velocities of all coordinates; NAN where they are not known. run->state is used up. False when memory is out
+ * (hand_run_impacts.c). */
+bool hand_run_add_impact(struct hand_run *run, const double *before, const double *after);
 
 /* Mark the bodies that an expression names, in any sense. */
 void hand_run_mark(const struct fbd_model *model, const struct expr *expr, bool *bodies);

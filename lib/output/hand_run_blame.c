@@ -234,9 +234,26 @@ static bool comes_from_outside(const struct judge *judge, const struct run_shot 
     return false;
 }
 
+static bool names_impulse(const struct judge *judge)
+{
+    const struct fbd_model *model = judge->run->model;
+    const int first = 1 + (int)plan_size(&model->plan) + hand_slots; /* in the present sense */
+    const struct expr *sides[] = {judge->hand->left, judge->hand->right};
+    for (int side = 0; side < 2; side++) {
+        const int *slots;
+        const size_t count = sides[side] ? expr_variables(sides[side], &slots) : 0;
+        for (size_t i = 0; i < count; i++) {
+            const int k = slots[i] - first;
+            if (k < 0 || k >= (int)model->absolute_count) continue;
+            if (model->absolutes[k].kind == absolute_impulse) return true;
+        }
+    }
+    return false;
+}
+
 static void blame_impact(const struct judge *judge, const struct run_shot *shot, struct text *text)
 {
-    if (counts(judge, by_x) && comes_from_outside(judge, shot)) {
+    if (counts(judge, by_x) && comes_from_outside(judge, shot) && !names_impulse(judge)) {
         text_add(text, "  an impulse from outside acts there: ");
         judge_say_impact(judge, shot, text);
         text_add(text, "\n");
@@ -271,7 +288,7 @@ void judge_diagnose(struct judge *judge, struct text *text)
         text_add(text, "\n");
         blame_impact(judge, shot, text);
     } else if (kind == hand_of_impacts) {
-        bool outside = counts(judge, by_x) && comes_from_outside(judge, shot);
+        const bool outside = counts(judge, by_x) && comes_from_outside(judge, shot) && !names_impulse(judge);
         if (outside || !blame_summand(judge, false, text)) blame_impact(judge, shot, text);
     } else if (kind == hand_conserved) {
         bool found = blame_agents(judge, 1, text);

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * The names of the couplings: as given; the kind, of the only one of a kind that has none; where there are several, the
- * kind with the bodies which they join, `rod_crank_slider`, all alike, and numbered where that is taken, too.
- * Names that are taken are kept sorted: a scene may have a hundred thousand couplings, and as many forces whose names
- * they must not bear.
+ * Names of the couplings: the given name; or the kind, if only one of that kind has no name; else the kind
+ * with the names of its bodies, `rod_crank_slider`, for all of them, numbered if that is taken, too. Used
+ * names are kept sorted: a scene may have a hundred thousand couplings, and as many forces whose names are
+ * not available.
  */
 #include "scene/coupling_names.h"
 
@@ -13,8 +13,8 @@
 static const char *const reactions[] = {"pin", "guide", "weld"};
 enum { reaction_count = sizeof reactions / sizeof *reactions };
 
-/* A name that is taken, by the coupling `index`; a force that stands in the diagram of a body has it before
- * any coupling has. */
+/* A used name, with the index of its coupling; -1 for a force of a body, which takes precedence over
+ * couplings. */
 struct taken {
     const char *name;
     ptrdiff_t index;
@@ -37,7 +37,7 @@ static int compare_key(const void *key, const void *element)
     return strcmp(key, ((const struct taken *)element)->name);
 }
 
-/* Forces of joints have their names, and so have the loads of the bodies: a coupling cannot be called so. */
+/* Names of joint forces and of loads are not available for couplings. */
 static bool collect(struct reader *reader, const struct coupling_name *given, size_t count,
                     struct taken_names *taken)
 {
@@ -49,7 +49,7 @@ static bool collect(struct reader *reader, const struct coupling_name *given, si
     for (size_t i = 0; i < reaction_count; i++)
         taken->names[taken->count++] = (struct taken){reactions[i], -1};
     for (size_t b = 0; b < scene->body_count; b++)
-        if (reader->drafts[b].motion_keys.prescribed) /* what a prescribed motion takes */
+        if (reader->drafts[b].motion_keys.prescribed) /* the force of a prescribed motion */
             taken->names[taken->count++] = (struct taken){"drive", -1};
     for (size_t b = 0; b < scene->body_count; b++)
         for (size_t i = 0; i < scene->bodies[b].load_count; i++)
@@ -65,7 +65,7 @@ static const struct taken *find(const struct taken_names *taken, const char *nam
     return bsearch(name, taken->names, taken->count, sizeof *taken->names, compare_key);
 }
 
-/* Who has the name first: a force, or the first of the couplings that give it. */
+/* The first owner of a name: a force, or the first coupling with that name. */
 static const struct taken *first_of(const struct taken_names *taken, const char *name)
 {
     const struct taken *one = find(taken, name);
@@ -93,14 +93,14 @@ static bool check_given(struct reader *reader, const struct taken_names *taken,
     return false;
 }
 
-/* ---- names for those that have none */
+/* ---- names for couplings without one */
 
 static const char *body_name(const struct reader *reader, int body)
 {
     return body == ground_body ? "ground" : reader->scene->bodies[body].name;
 }
 
-/* `rod_crank_slider`: those of whom the kind alone is taken, in the order of these names and then of the file. */
+/* List `rod_crank_slider` for each coupling without a name, sorted by that base and then by file order. */
 static bool list_bases(struct reader *reader, const struct coupling_name *names, size_t count,
                        struct taken_names *bases)
 {
@@ -117,7 +117,7 @@ static bool list_bases(struct reader *reader, const struct coupling_name *names,
     return bases->names != NULL;
 }
 
-/* The base, or the first number behind it that is free. Numbers of different bases never make the same name. */
+/* The base, or the base with the first free number. Numbered names of different bases never coincide. */
 static const char *numbered(struct reader *reader, const char *base, int *number,
                             const struct taken_names *taken, const struct taken_names *bases)
 {
@@ -144,7 +144,7 @@ static bool name_by_bodies(struct reader *reader, struct coupling_name *names, s
     return true;
 }
 
-/* Is it the only one of its kind that has no name? `unnamed`: how many there are, by kind. */
+/* True if it is the only one of its kind without a name. `unnamed`: their number by kind. */
 static bool is_alone(const size_t *unnamed, const struct coupling_name *name)
 {
     return !name->name && unnamed[name->kind - coupling_kinds.kinds] == 1;

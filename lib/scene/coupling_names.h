@@ -12,8 +12,8 @@ struct coupling_name {
     int body[2]; /* at its first and last end, or ground_body */
 };
 
-/* Give a name of its own to each coupling that has none. False, and noted, where a given one is taken by a
- * force of a body, the loads being named, or by an earlier coupling. */
+/* Name each coupling that has no name. The loads must have been named. False, with a note, if a given name is
+ * that of a force of a body or of an earlier coupling. */
 bool couplings_name(struct reader *reader, struct coupling_name *names, size_t count);
 
 #endif

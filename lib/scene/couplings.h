@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * What the files that read couplings share. All return false after noting what is wrong.
+ * Declarations shared by the files that read couplings. All return false after noting an error.
  */
 #ifndef FBD_SCENE_COUPLINGS_H
 #define FBD_SCENE_COUPLINGS_H
@@ -8,7 +8,7 @@
 #include "scene/language.h"
 #include "scene/reader.h"
 
-/* All ends; at least one of them moves, and no two that follow each other are on the same body. */
+/* Read all ends; at least one of them moves, and no two subsequent ones are on the same body. */
 bool coupling_ends_read(struct reader *reader, const struct node *list, const char *what, size_t least,
                         size_t most, struct constraint *constraint);
 
@@ -20,7 +20,7 @@ bool body_turns(const struct body *body);
 /* The circle at end k: its centre, and its radius if that is not given (0). The body turns. */
 bool coupling_circle_set(struct reader *reader, struct constraint *constraint, int k, double radius);
 
-/* Two points; two bodies that turn, with their circles; and the rest of the kinds (read_couplings.c). */
+/* Two points; two turning bodies with their circles; and the remaining kinds (read_couplings.c). */
 bool points_read(struct reader *reader, const struct coupling_keys *keys, struct constraint *constraint);
 bool wheels_read(struct reader *reader, const struct coupling_keys *keys, struct constraint *constraint);
 bool rack_read(struct reader *reader, const struct coupling_keys *keys, struct constraint *constraint);
@@ -29,7 +29,7 @@ bool roll_read(struct reader *reader, const struct coupling_keys *keys, struct c
 /* A point on a line or curve (read_slot.c). */
 bool slot_read(struct reader *reader, const struct coupling_keys *keys, struct constraint *constraint);
 
-/* A rope with all that its discs say (read_ropes.c). */
+/* A rope with its discs (read_ropes.c). */
 bool rope_read(struct reader *reader, const struct coupling_keys *keys, struct constraint *constraint);
 
 #endif

@@ -15,7 +15,7 @@ enum { most_columns = 10000, most_complaints = 20 };
 
 /* ---- headings */
 
-/* What stands between the last `open` and the `close` behind it. */
+/* The text between the last `open` and the `close` behind it. */
 static bool find_brackets(struct span whole, char open, char close, struct span *inside)
 {
     size_t start = whole.length;
@@ -26,7 +26,8 @@ static bool find_brackets(struct span whole, char open, char close, struct span 
     return true;
 }
 
-/* A unit may stand behind the name wherever other words are; parentheses may hold such words. */
+/* Split a heading into name and unit. A unit in parentheses counts only if it is a valid unit: they may hold
+ * other words. */
 struct heading heading_read(const char *text, size_t length)
 {
     struct span whole = trim((struct span){text, length}), unit;
@@ -45,11 +46,11 @@ struct heading heading_read(const char *text, size_t length)
 /* ---- lines and cells */
 
 struct data_reader {
-    struct span rest; /* what is not read yet */
-    int line;         /* number of the last one read */
-    int first;        /* the line below the headings */
-    char separator;   /* ' ' for blanks of any number */
-    size_t width;     /* cells of the first row */
+    struct span rest; /* the unread text */
+    int line;         /* number of the line read last */
+    int first;        /* the line after the headings */
+    char separator;   /* ' ' for any number of blanks */
+    size_t width;     /* number of cells of the first row */
     fbd_errors *errors;
     size_t complaints;
 };
@@ -68,7 +69,7 @@ static bool next_line(struct data_reader *reader, struct span *line)
     return true;
 }
 
-/* The first of these that stands outside of quotes. */
+/* The first of `;`, tab, `,` that occurs outside of quotes; else a blank. */
 static char separator_of(struct span line)
 {
     static const char order[] = ";\t,";
@@ -103,7 +104,7 @@ static bool next_cell(char separator, struct span *line, struct span *cell)
     return true;
 }
 
-/* A number; with `;` or tabs between cells its comma is a decimal one. */
+/* Read a number. With `;` or tabs as separators a comma is a decimal comma. */
 static bool read_number(char separator, struct span cell, double *value)
 {
     char plain[64];
@@ -114,7 +115,7 @@ static bool read_number(char separator, struct span cell, double *value)
     return expr_number(plain, cell.length, value);
 }
 
-/* A row with a number in it is no row of headings; what else is in it may be a slip. */
+/* A row that contains a number is not a row of headings, even if other cells are malformed. */
 static bool has_number(char separator, struct span line)
 {
     struct span cell;
@@ -124,8 +125,8 @@ static bool has_number(char separator, struct span line)
     return false;
 }
 
-/* Are all rows from `line` on numbers? The text of a file that is not a table is not shown: the author of the model may
- * have no right to read it. */
+/* True if all rows from `line` on are numbers. The text of a file that is not a table is not shown in
+ * messages: the author of the model may have no right to read it. */
 static bool is_table(struct data_reader reader, struct span line)
 {
     struct span cell;
@@ -144,16 +145,16 @@ static struct pos place_of(const struct data_reader *reader, struct span line, c
     return glyph_pos(line.text, (size_t)(at - line.text), (struct pos){reader->line, 1});
 }
 
-/* ---- which columns */
+/* ---- choice of columns */
 
 struct titles {
     struct span cells[most_columns];
     size_t count;
-    struct data_reader reader; /* behind them, and the line that it has read last */
+    struct data_reader reader; /* state after the headings, with the line read last */
     struct span row;
 };
 
-/* Between blanks a unit is a cell of its own, and belongs to the name before it. */
+/* If blanks separate cells, a unit is a cell of its own: append it to the preceding name. */
 static void read_titles(char separator, struct span line, struct titles *titles)
 {
     struct span cell, *last = NULL;
@@ -173,7 +174,7 @@ static struct span name_of(const struct heading *heading)
     return (struct span){heading->name, heading->name_length};
 }
 
-/* How often a heading is `wanted`, as a whole or by its name; *index is the first. */
+/* Number of headings equal to `wanted`, as a whole or by name; *index is the first. */
 static size_t count_matches(const struct titles *titles, struct span wanted, bool whole, size_t *index)
 {
     struct heading sought = heading_read(wanted.text, wanted.length);
@@ -229,14 +230,14 @@ static bool find_column(const struct titles *titles, const char *path, const cha
 
 /* ---- rows */
 
-/* `message` may be NULL, when memory is out. */
+/* Note an error, up to most_complaints. `message` may be NULL, when memory is out. */
 static void complain(struct data_reader *reader, struct pos at, const char *hint, const char *message)
 {
     if (reader->complaints++ < most_complaints)
         diag_add(reader->errors, FBD_ERROR, "table-format", at, hint, "%s", message ? message : "");
 }
 
-/* As instruments write them into a row of their own. */
+/* True for a unit: instruments write a row of them. */
 static bool is_unit(struct span cell)
 {
     struct unit read;
@@ -260,7 +261,7 @@ static void read_cell(struct data_reader *reader, struct span line, struct span 
                        cell.length > 0 ? "must hold a number" : "is empty here"));
 }
 
-/* More cells than the first row has, as where a decimal comma parts a number: what they mean is open. */
+/* Note a row with more cells than the first one: a decimal comma may have split a number. */
 static void check_rest(struct data_reader *reader, struct span line, struct span rest, size_t count)
 {
     struct span cell;
@@ -332,9 +333,9 @@ static bool read_rows(struct data_reader *reader, struct span line, const size_t
 
 /* ---- the file */
 
-/* The first line with something to read, and what stood before it. */
+/* The first line that is neither empty nor a comment. */
 struct opening {
-    struct span line, remark; /* the last line with `#` before it; text NULL when there is none */
+    struct span line, remark; /* remark: the last `#` line before it; text NULL without one */
     int remark_line;
 };
 
@@ -350,7 +351,7 @@ static bool open_rows(struct data_reader *reader, struct opening *opening)
     return false;
 }
 
-/* Find the headings: *line is then the first row of numbers. */
+/* Find the headings; then `line` is the first row of numbers. */
 static bool open_titles(struct data_reader *reader, struct opening *opening, struct titles *titles,
                         struct pos *titles_at)
 {
@@ -387,7 +388,7 @@ static bool choose_columns(const struct titles *titles, const char *path, const 
     return false;
 }
 
-/* The columns that are asked for; what is wrong with the choice is said of the model file. */
+/* Choose the requested columns. Errors of the choice are errors of the model file. */
 static bool find_columns(struct data_reader *reader, const struct titles *titles, const char *path,
                          const char *const wanted[2], const struct pos wanted_at[2], const char *model_file,
                          size_t which[2])
@@ -426,7 +427,7 @@ static bool read_text(struct data_reader *reader, const char *path, const char *
     return fine;
 }
 
-/* A file that can be opened, and no pipe, terminal or device, which would make a model wait. */
+/* Check that the path is a regular file: a pipe, terminal or device would block. */
 static bool is_plain_file(const char *path, struct pos at, fbd_errors *errors)
 {
     struct stat info;

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * What follows from an entry of forces: the direction to a point, the moment of a force that acts beside its
- * body, the forces of drag in a wind. Each is an expression like those of the file, put together as text over
- * the names of the file and a few of its own, so that it has exact derivatives, switches and divisions as
- * these have: where the distance to a point becomes zero, the division by it is found.
+ * Expressions derived from an entry of forces: the direction to a point, the moment of a force with an
+ * offset, drag in wind. Each is compiled from text over the names of the file and internal ones, so that it
+ * has exact derivatives, switches and divisions as the expressions of the file: where the distance to a point
+ * becomes zero, the division by it is found.
  */
 #include "base/text.h"
 #include "scene/load_entry.h"
@@ -13,7 +13,7 @@
 
 enum { most_terms = 16 };
 
-/* The names of its own start with `t.`, which no name of the file does: t is the time. */
+/* Internal names start with `t.`, which no name of the file does: t is the time. */
 struct derived {
     struct entry *entry;
     struct text text;
@@ -34,7 +34,7 @@ static void add_term(struct derived *derived, struct symbol symbol)
 {
     int i = 0;
     while (i < derived->count && !is_same(&derived->terms[i], &symbol)) i++;
-    assert(i < most_terms); /* two places, an offset, a size, an angle */
+    assert(i < most_terms); /* two positions, an offset, a size, an angle */
     derived->terms[i] = symbol;
     if (i == derived->count) derived->count++;
     text_printf(&derived->text, "t.%c", 'a' + i);
@@ -55,7 +55,7 @@ static void add_place(struct derived *derived, int body, const struct point *poi
         add_term(derived, name_of_place(derived->entry->reader, body, &place, kind));
 }
 
-/* A value of the file: its number, or its text. */
+/* A value of the file: its number if constant, else its text. */
 static void add_value(struct derived *derived, const struct node *node, const struct value *value,
                       enum quantity quantity)
 {
@@ -92,8 +92,8 @@ static struct table_symbol look_up_table(void *context, const char *name, struct
     return file->table(file->context, name, at);
 }
 
-/* Each text in it compiled by itself: what can go wrong is that they are too long together, or that there are
- * too many places in the world. */
+/* Compile the text. Its parts have been compiled before, so the only errors left are excessive length and too
+ * many positions in the world. */
 static bool compile_text(struct derived *derived, enum quantity quantity, fbd_errors *errors,
                          struct value *value)
 {
@@ -120,7 +120,7 @@ static bool compile_text(struct derived *derived, enum quantity quantity, fbd_er
 
 static bool compile(struct derived *derived, enum quantity quantity, struct value *value)
 {
-    fbd_errors *errors = fbd_errors_new(); /* warnings were given where the texts stand */
+    fbd_errors *errors = fbd_errors_new(); /* warnings were given for the parts */
     bool compiled = compile_text(derived, quantity, errors, value);
     fbd_errors_free(errors);
     text_free(&derived->text);
@@ -130,7 +130,7 @@ static bool compile(struct derived *derived, enum quantity quantity, struct valu
 
 /* ---- toward a point */
 
-/* From where the force acts to where it points, along x or y. */
+/* The vector from the point of application to the target, along x or y. */
 static void add_gap(struct derived *derived, enum absolute_kind kind)
 {
     const struct entry *entry = derived->entry;
@@ -180,7 +180,7 @@ static bool is_of_name(char c)
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '.';
 }
 
-/* The text of a force, with the distance in the place of its name. */
+/* The text of a force with `distance` replaced by its expression. */
 static void add_with_distance(struct derived *derived, const struct node *node)
 {
     static const char name[] = "distance";
@@ -199,10 +199,11 @@ static void add_with_distance(struct derived *derived, const struct node *node)
     text_add(&derived->text, ")");
 }
 
-/* On a slide of the ground: how far along its line the target is at x = 0, where that is on the line itself. */
+/* On a slide of the ground: true if the target lies on the line of the point of application; *from_zero is
+ * then the distance to the target at x = 0. */
 static bool is_on_line(const struct entry *entry, double *from_zero)
 {
-    const double on_it = 1e-12; /* of the lengths at hand */
+    const double on_it = 1e-12; /* relative to the lengths involved */
     const struct load *load = &entry->keys.load;
     const struct motion *motion = entry->motion;
     if (!entry_is_slide(entry) || motion->parent != ground_body) return false;
@@ -216,7 +217,7 @@ static bool is_on_line(const struct entry *entry, double *from_zero)
     return fabs(vec_cross(e, T) - P.y) <= on_it * size;
 }
 
-/* There the force turns round where the body passes the target: a switch, as one that is written out. */
+/* On its line the force reverses where the body passes the target: multiply by sign(), a switch. */
 static bool derive_on_line(struct entry *entry, double from_zero, bool distance_named)
 {
     struct derived derived = {.entry = entry};
@@ -245,9 +246,9 @@ bool derive_toward(struct entry *entry, bool distance_named)
     return load->target == ground_body || derive_angle(entry, "-", &load->return_angle);
 }
 
-/* ---- beside the body */
+/* ---- force with an offset */
 
-/* A component of the force in its own frame: along x (0) or y (1). */
+/* A component of the force in the frame of the force: along x (0) or y (1). */
 static void add_component(struct derived *derived, int part, bool distance_named)
 {
     const struct entry *entry = derived->entry;
@@ -274,7 +275,8 @@ static void add_component(struct derived *derived, int part, bool distance_named
     }
 }
 
-/* The offset in the frame of the force, along x (0) or y (1): in the body's it turns back. */
+/* The offset in the frame of the force, along x (0) or y (1). `turns`: that is the body frame, so rotate
+ * back. */
 static void add_arm(struct derived *derived, int part, bool turns)
 {
     const struct entry *entry = derived->entry;
@@ -310,14 +312,15 @@ bool derive_couple(struct entry *entry, bool distance_named)
     return compile(&derived, a_moment, &load->couple);
 }
 
-/* ---- one value times or over another: distributed loads, constant power */
+/* ---- a value multiplied or divided: distributed loads, constant power */
 
 bool derive_value(struct entry *entry, const char *key, const struct value *value, enum quantity quantity,
                   const char *behind, enum quantity wanted, struct value *result)
 {
     struct derived derived = {.entry = entry};
     const struct node *node = node_of(entry, key);
-    add_value(&derived, node ? node : entry->chosen.node, value, quantity); /* or in the place of all keys */
+    add_value(&derived, node ? node : entry->chosen.node, value,
+              quantity); /* the value may replace the mapping of keys */
     text_add(&derived.text, behind);
     return compile(&derived, wanted, result);
 }
@@ -334,7 +337,7 @@ bool derive_scaled(struct entry *entry, double size)
 
 /* ---- drag in a wind */
 
-/* The velocity through the air along x or y. */
+/* The velocity relative to the air along x or y. */
 static void add_through_air(struct derived *derived, int part)
 {
     const struct entry *entry = derived->entry;
@@ -373,7 +376,7 @@ bool derive_wind(struct entry *entry)
     return true;
 }
 
-/* ---- mass that leaves or comes */
+/* ---- mass flow */
 
 static void add_mass_rate(struct derived *derived)
 {

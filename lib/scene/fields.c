@@ -44,7 +44,7 @@ static size_t list_keys(const struct group *group, const char **keys)
     return count;
 }
 
-/* ---- keys that do not belong */
+/* ---- hints for unknown keys */
 
 static bool is_kind(const struct kinds *kinds, const char *name)
 {
@@ -53,7 +53,7 @@ static bool is_kind(const struct kinds *kinds, const char *name)
     return false;
 }
 
-/* The first of several kinds that has a key, or NULL. */
+/* The first kind that has a key, or NULL. */
 static const char *kind_with(const struct kinds *kinds, const char *key)
 {
     for (size_t i = 0; i < kinds->count; i++)
@@ -61,7 +61,7 @@ static const char *kind_with(const struct kinds *kinds, const char *key)
     return NULL;
 }
 
-/* A key that stands one level too high, as slips of indentation leave it; NULL when it is none of those. */
+/* A hint for a key one level too high, as by wrong indentation; else NULL. */
 static const char *misplaced(fbd_errors *errors, const struct group *group, const char *key)
 {
     if (group == &body_group && is_kind(&force_kinds, key))
@@ -84,7 +84,7 @@ static const char *misplaced(fbd_errors *errors, const struct group *group, cons
     return NULL;
 }
 
-/* Names of keys in textbooks and other programs, with hints for those of another meaning. */
+/* Names of keys in textbooks and other programs, with a hint where the meaning differs. */
 static const char *const usual_keys[][3] = {
     {"mu_s", "static"},
     {"mu_k", "kinetic"},
@@ -156,7 +156,7 @@ static const char *const usual_keys[][3] = {
     {"action", "then"},
 };
 
-/* What textbooks and other programs call a key of this group; NULL when the word is not one of theirs. */
+/* A hint if `word` is a common name of a key of this group; else NULL. */
 static const char *translated(fbd_errors *errors, const struct group *group, const char *word)
 {
     for (size_t i = 0; i < sizeof usual_keys / sizeof *usual_keys; i++) {
@@ -169,7 +169,7 @@ static const char *translated(fbd_errors *errors, const struct group *group, con
     return NULL;
 }
 
-/* What a force that has no size of its own is given nevertheless. */
+/* A hint for keys given to `gravity`, which has none. */
 static const char *not_given(const struct group *group)
 {
     if (strcmp(group->name, "`gravity`") == 0)
@@ -181,7 +181,7 @@ static const char *not_given(const struct group *group)
 static const char in_quotes[] =
     "a comma separates entries inside braces: put the expression in quotes, as `\"min(1, 2)\"`";
 
-/* Does an entry before this one open a parenthesis that it does not close? */
+/* True if an entry before this one opens a parenthesis that it does not close. */
 static bool is_torn(const struct node *map, const struct pair *pair)
 {
     int open = 0;
@@ -191,7 +191,8 @@ static bool is_torn(const struct node *map, const struct pair *pair)
     return open > 0;
 }
 
-/* A comma inside braces ends an entry: what comes behind it is a key without a value. */
+/* A hint for a key without a value that follows a comma inside braces: the comma was meant as part of the
+ * value. */
 static const char *behind_a_comma(const struct node *map, const struct pair *pair)
 {
     if (pair->value->kind != node_null) return NULL;
@@ -355,7 +356,7 @@ static const struct kind *find_kind(struct reader *reader, const struct kinds *k
 {
     enum { most_kinds = 16 };
     const char *names[most_kinds];
-    assert(kinds->count <= most_kinds); /* they are tables of our own */
+    assert(kinds->count <= most_kinds); /* built-in tables */
     for (size_t i = 0; i < kinds->count; i++) {
         names[i] = kinds->kinds[i].name;
         if (strcmp(names[i], name) == 0) return &kinds->kinds[i];
@@ -368,7 +369,8 @@ static const struct kind *find_kind(struct reader *reader, const struct kinds *k
     return NULL;
 }
 
-/* A mapping with several keys: two kinds at once, or what belongs to a kind beside it instead of inside. */
+/* Note an error for a mapping with several keys: two kinds at once, or a key of a kind beside it instead of
+ * inside. */
 static void note_several_keys(struct reader *reader, const struct kinds *kinds, const struct node *map)
 {
     const struct pair *kind = NULL, *other = NULL;

@@ -112,7 +112,7 @@ static const struct field line_fields[] = {
 
 const struct group line_group = {"a line", NULL, FIELDS(line_fields), NULL, 0, "a straight line"};
 
-/* lib/integrate/method.c has what they do. */
+/* The methods are in lib/integrate/method.c. */
 const struct choice method_choices[] = {
     {"auto", 0, "chosen by the structure and the stiffness of the scene"},
     {"rk8pd", 1, "explicit Runge-Kutta of order 8"},

@@ -2,10 +2,10 @@
  *
  * Language: every key of a model file as data.
  *
- * A group is a mapping with known keys; a field is one of them: its key, its type, its physical dimension,
- * and where its value goes in the plain structure that belongs to the group. One reader (fields.h) serves all
- * groups, so that unknown, missing and mistyped keys are answered alike everywhere. Whatever is more than one
- * key at a time (which keys exclude each other, what depends on the motion) stays in the read_*.c files.
+ * A group is a mapping with known keys; a field is one of them: its key, type, physical dimension, and the
+ * member of the plain structure of the group that receives its value. One reader (fields.h) serves all
+ * groups, so that unknown, missing and mistyped keys give the same messages everywhere. Checks that involve
+ * several keys (which keys exclude each other, dependence on the motion) are in the read_*.c files.
  */
 #ifndef FBD_SCENE_LANGUAGE_H
 #define FBD_SCENE_LANGUAGE_H
@@ -23,26 +23,25 @@ enum field_type {
     field_flag,    /* bool */
     field_choice,  /* int, one of the field's choices */
     field_number,  /* double: a constant of the field's quantity */
-    field_value,   /* struct value: may vary with whatever the scope of the group names */
+    field_value,   /* struct value: may vary with the names of the scope */
     field_vector,  /* struct vec: a pair [x, y] of the field's quantity */
     field_any,     /* const struct node *, read by its own code */
     field_scalar,  /* const struct node *, one piece of text */
     field_list,    /* const struct node * */
     field_map,     /* const struct node * */
     field_ignored, /* read by other programs */
-    field_later,   /* has no meaning in this version (`not-supported`); `doc` says what to do */
+    field_later,   /* no meaning in this version (`not-supported`); `doc` is the hint */
 };
 
 enum field_flag_bits {
     required = 1,
     positive = 2,       /* above zero (`out-of-range`) */
     not_negative = 4,   /* zero or above */
-    slips = 8,          /* may name `slip`, */
-    slips_not = 16,     /* which is 0 here */
-    may_vary = 32,      /* a number; where it is none but varies it is infinite, and to be read again */
-    may_be_empty = 128, /* without a value it is as if the key was not there */
-    stored = 64, /* reading stores the number and asks of it on which side of 0 and 1 it lies, nothing else:
-                         what varies may be put in its place (patch.h) */
+    slips = 8,          /* may name `slip` */
+    slips_not = 16,     /* may name `slip`, which is 0 */
+    may_vary = 32,      /* a number; if varying it is infinite, and read again later */
+    may_be_empty = 128, /* without a value it is ignored */
+    stored = 64,        /* reading only stores the number and tests its side of 0 and 1 (patch.h) */
 };
 
 struct choice {
@@ -51,7 +50,7 @@ struct choice {
     const char *doc;
 };
 
-/* What the entries of a list or mapping are; `one_value`: it is no collection, or of entries of any kind. */
+/* Type of the entries of a list or mapping; `one_value`: no collection, or one with entries of any kind. */
 enum entries {
     one_value,    /* one mapping, of `group` */
     each_group,   /* mappings of `group` */
@@ -80,7 +79,7 @@ struct field {
 
 struct group {
     const char *name;  /* in messages: "a body", "`simulate`" */
-    const char *brief; /* the key that is meant when a single value stands in place of the mapping, or NULL */
+    const char *brief; /* key of a single value that replaces the mapping, or NULL */
     const struct field *fields;
     size_t count;
     const struct group *base; /* more fields, at `base_offset` of the structure; or NULL */
@@ -88,12 +87,12 @@ struct group {
     const char *doc;
 };
 
-/* One of several groups, chosen by the key that stands before it: `slide: {...}`, `spring: {...}`. */
+/* One of several groups, chosen by its key: `slide: {...}`, `spring: {...}`. */
 struct kind {
     const char *name;
     int value;
     const struct group *group;
-    unsigned motions;      /* bits 1 << motion_kind: where it makes sense */
+    unsigned motions;      /* bits 1 << motion_kind: motions that allow it */
     const char *elsewhere; /* hint for other motions */
     const struct law *law; /* of forces and moments */
 };
@@ -171,7 +170,7 @@ enum { event_goes_on, event_stops };
 
 enum { impacts_simultaneous, impacts_propagate };
 
-/* What a part and a body without parts have in common. */
+/* Keys of a part, and of a body without parts. */
 struct part_keys {
     double mass;
     int shape, axis;
@@ -191,7 +190,7 @@ struct inertia_keys {
     const struct node *about;
 };
 
-/* What every motion says of its place; each kind has some of them. */
+/* Keys of the position of a joint; each kind of motion has some of them. */
 struct motion_keys {
     double along, angle;
     const struct node *on, *through, *line, *at, *point, *prescribed, *low, *high;
@@ -204,10 +203,10 @@ struct motion_keys {
 struct initial_keys {
     double q[most_coordinates_of_a_body], v[most_coordinates_of_a_body];
     bool assemble;
-    const struct node *p, *x; /* on a track: where, by its parameter */
+    const struct node *p, *x; /* on a track: the position by its parameter */
 };
 
-/* Likewise. */
+/* In the same order. */
 struct exact_keys {
     struct value q[most_coordinates_of_a_body], v[most_coordinates_of_a_body];
 };
@@ -221,21 +220,21 @@ struct load_keys {
     int side, frame;
 };
 
-/* `at` of an applied force, where it is more than a point. */
+/* `at` of an applied force as a mapping. */
 struct place_keys {
     const struct node *point, *offset;
 };
 
 enum { frame_world, frame_body };
 
-/* What `around` says. */
+/* Keys of `around`. */
 struct around_keys {
     const struct node *on;
     double radius, turns;
     struct value mu_s, mu_k;
 };
 
-/* One entry of `wound`. */
+/* Keys of an entry of `wound`. */
 struct wound_keys {
     const struct node *on;
     int side; /* enum wound_side */
@@ -245,14 +244,14 @@ struct wound_keys {
 /* The side of a line on which a contact keeps its body. */
 enum contact_side { contact_side_start, contact_side_up, contact_side_left, contact_side_right };
 
-/* Kinds of couplings: those of loads, and beyond them those of constraints. */
+/* Kinds of couplings: those of loads; from here on those of constraints. */
 enum { coupling_constraint = 100 };
 
 struct hand_keys {
     const struct node *equation, *conserved, *when, *about, *impact;
 };
 
-/* A value is the place in the table; 0 is `auto`. */
+/* The value is the index in the table; 0 is `auto`. */
 extern const struct choice method_choices[];
 
 extern const struct group scene_group, ground_group, line_group, simulate_group, output_group, event_group;
@@ -263,12 +262,12 @@ extern const struct group *const grading_points_group, *const grading_canvas_gro
 extern const struct group body_group, part_group, inertia_group, hand_group, place_group;
 extern const struct group initial_groups[], exact_groups[]; /* by enum motion_kind */
 extern const struct kinds motion_kinds, force_kinds, moment_kinds, coupling_kinds;
-extern const struct kind *const contact_kind; /* among the couplings, or in a list of its own */
+extern const struct kind *const contact_kind; /* among the couplings, or in the list `contacts` */
 
-/* The keys that describe shapes, one by one, NULL behind the last: has this shape (enum shape_kind) the key? */
+/* The keys of shapes by index, NULL behind the last; *taken: this shape (enum shape_kind) has the key. */
 const char *shape_dimension(size_t index, int shape, bool *taken);
 
-/* ---- how a table is written: one row for each key, `at` being the offset in the structure */
+/* ---- macros for the rows of a table, one row for each key; `at` is the offset in the structure */
 
 #define FIELD_PLAIN(key, type, quantity, flags, at, doc)                                                     \
     {                                                                                                        \

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "scene/language.h"
 
-/* ---- what a body is */
+/* ---- body and parts */
 
 static const struct choice shapes[] = {
     {"point", shape_point, "all mass in one point"},
@@ -98,7 +98,7 @@ const struct group body_group = {
     offsetof(struct body_keys, part),
     "a rigid body: its shape and mass, its motion, the forces and moments on it"};
 
-/* ---- how it moves */
+/* ---- motion */
 
 #define MOTION(member) offsetof(struct motion_keys, member)
 #define ON_ROW                                                                                               \
@@ -193,7 +193,7 @@ static const struct kind motions[] = {
 
 const struct kinds motion_kinds = {"motion", FIELDS(motions)};
 
-/* ---- where it starts */
+/* ---- initial values */
 
 #define POSITION(index, key)                                                                                 \
     FIELD_NUMBER(offsetof(struct initial_keys, q[index]), key, a_length, stored, "position at t = 0")
@@ -233,7 +233,7 @@ const struct group initial_groups[] = {
     [motion_track] = {"`initial` of a track", NULL, FIELDS(track_initial), NULL, 0, "state at t = 0"},
 };
 
-/* ---- where it is known to be */
+/* ---- exact solutions */
 
 #define KNOWN(where, key, quantity)                                                                          \
     FIELD_VALUE(offsetof(struct exact_keys, where), key, quantity, 0, "as an expression of t")

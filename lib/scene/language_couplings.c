@@ -4,7 +4,7 @@
 
 #define COUPLING(member) offsetof(struct coupling_keys, member)
 
-/* What every coupling has. */
+/* The key of every coupling. */
 static const struct field name_fields[] = {
     FIELD_NAME(COUPLING(name), "name", "its name in all output; default its kind"),
 };

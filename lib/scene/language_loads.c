@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * The laws of forces and moments: what a file lists under `forces` and `moments`, each as one row. To add one whose
+ * The laws of forces and moments: the entries of `forces` and `moments`, each as one row. To add one whose
  * force is a formula: its fields, a function that makes the formula (derive_value) and its row.
  */
 #include "scene/language.h"
@@ -182,8 +182,8 @@ static const struct field power_fields[] = {
 static const struct group power_group =
     LOAD_GROUP("`power`", "value", power_fields, "a drive of given power: the force P/v, the moment P/omega");
 
-/* f v = P, M omega = P: the formula has a division by the rate, where the force is infinite. The power is that on
- * the body, so the rate has to be its velocity in the world. */
+/* f v = P, M omega = P: the formula divides by the rate, and the force is infinite where that is zero. The
+ * rate has to be the velocity in the world, so that P is the power on the body. */
 static bool power_finish(struct entry *entry)
 {
     const struct value P = entry->keys.load.value;
@@ -356,7 +356,7 @@ static const struct kind moments[] = {
 
 const struct kinds moment_kinds = {"moment", FIELDS(moments)};
 
-/* ---- what is not listed */
+/* ---- laws that are not listed */
 
 static const struct {
     enum load_kind form;

@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Law: what a file calls a force or moment, as one row of a table (language_loads.c).
+ * Law: a force or moment of the model language, as one row of a table (language_loads.c).
  *
- * A law has a form, its load_kind, which says how its force is computed: from a formula of the file, as a spring
- * between points, as drag at a point, as the slope of a potential, ... Wrench, variation, potential and degree are
- * those of the form. What a law adds is how it is read and what it is called: a constant power is the form of an
- * applied force whose formula is P/v, with derivatives, potential, degree and divisions as any formula has them.
+ * A law has a form, its load_kind, which determines how its force is computed: from a formula of the file, as
+ * a spring between points, as drag at a point, as the slope of a potential, ... Wrench, variation, potential
+ * and degree are those of the form. The law adds its keys and names: a constant power is the form of an
+ * applied force whose formula is P/v, with derivatives, potential, degree and divisions as any formula has
+ * them.
  */
 #ifndef FBD_SCENE_LAW_H
 #define FBD_SCENE_LAW_H
@@ -14,10 +15,10 @@
 
 struct entry;
 
-/* Where it acts: on the body, from outside, or between the body and the one that it moves on. */
+/* Where it acts: on the body, from outside, or between the body and its parent. */
 enum law_place { acts_on_body, acts_in_joint, acts_in_joint_without_end };
 
-/* Does it go with the velocity? */
+/* Dependence on the velocity. */
 enum law_rate { rate_by_formulas, rate_always, rate_never };
 
 struct law {
@@ -26,25 +27,26 @@ struct law {
     const char *letter;  /* in symbols, as T; NULL: its name */
     enum law_place place;
     enum law_rate rate;
-    bool follows;         /* from all the others: as what a surface gives, or a rope */
-    bool written_as_c;    /* by --emit-c: it is refused there until somebody has looked */
-    bool of_constraint;   /* not listed by itself: it stands for a coupling */
-    const char *work;     /* why it has no potential, whatever its keys and formulas say; or NULL */
-    const char *singular; /* what is said of it where it is infinite, or NULL */
+    bool follows;         /* a reaction: it follows from the other forces */
+    bool written_as_c;    /* supported by --emit-c */
+    bool of_constraint;   /* not listed under `forces`: it represents a coupling */
+    const char *work;     /* reason why it has no potential, independent of its keys and formulas; or NULL */
+    const char *singular; /* message where it is infinite, or NULL */
 
-    /* What is more than one key at a time, and what follows from the keys; or NULL. */
+    /* Checks that involve several keys, and values derived from the keys; or NULL. */
     bool (*finish)(struct entry *entry);
 
-    /* Along the coordinate that it acts on, in a few symbols, `#` for the coordinate, `@` for its rate and `$` for the
-     * letter of the axis; and where it acts `between` two points. NULL: none, or one that depends on its keys. */
+    /* The component along its coordinate in a few symbols, `#` for the coordinate, `@` for its rate and `$`
+     * for the letter of the axis; and the law where it acts `between` two points. NULL: none, or one that
+     * depends on its keys. */
     const char *formula;
     const char *between;
 
-    /* Can it act across a slide in the direction `along`? NULL: no. */
+    /* True if it can act across a slide in the direction `along`. NULL: never. */
     bool (*across)(const struct load *load, struct vec gravity, double along);
 };
 
-/* The law of a form that nobody has read from a list: of a coupling. */
+/* The law of a load that was not read from a list, as that of a coupling. */
 const struct law *law_of_form(enum load_kind form);
 
 static inline const struct law *load_law(const struct load *load)

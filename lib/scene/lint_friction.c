@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Warnings of surfaces: of a line of which no side is up, and of one that nothing presses on, where friction is zero.
+ * Warnings of surfaces: a vertical line with `side: up`, and a surface without a normal force, where friction
+ * is zero.
  */
 #include "scene/reader.h"
 #include "scene/start_angle.h"
 
-/* Does a force act across a slide in the direction `along`, as far as can be told? */
+/* True if a force may act across a slide in the direction `along`. */
 static bool acts_across(const struct scene *scene, const struct load *load, double along)
 {
     const struct law *law = load_law(load);
@@ -19,12 +20,13 @@ static const struct load *normal_of(const struct body *body)
     return NULL;
 }
 
-/* Does a slide move along the lines of all bodies that carry it? Then none of them presses on it. */
+/* True if a slide moves along the lines of all bodies that carry it, so that none of them exerts a normal
+ * force. */
 static bool is_carried_along(const struct scene *scene, size_t b)
 {
     const double parallel = 1e-12;
     const struct motion *motion = &scene->bodies[b].motion;
-    double turned = 0; /* its line, from that of the carrier */
+    double turned = 0; /* angle from the line of the carrier */
     if (motion->kind != motion_slide) return false;
     while (motion->parent != ground_body) {
         turned += motion->along;
@@ -35,8 +37,8 @@ static bool is_carried_along(const struct scene *scene, size_t b)
     return true;
 }
 
-/* Mark the bodies that others may press on their surface: their parent moves across it, they carry one, or they are
- * joined. */
+/* Mark bodies on whose surface others may exert a normal force: the parent moves across it, they carry a
+ * body, or they have couplings. */
 static void mark_joined(const struct scene *scene, bool *joined)
 {
     for (size_t b = 0; b < scene->body_count; b++) {
@@ -53,7 +55,8 @@ static void mark_joined(const struct scene *scene, bool *joined)
             if (scene->constraints[c].body[end] >= 0) joined[scene->constraints[c].body[end]] = true;
 }
 
-/* A hint, with what a level line has as `along` where it counts from the line of a carrier that is not level, as on a lift. */
+/* A hint, with the value of `along` of a level line if `along` counts from the line of a carrier that is not
+ * level, as on a lift. */
 static const char *with_carrier(struct reader *reader, size_t b, const char *hint)
 {
     const double level = 1e-12;
@@ -68,10 +71,10 @@ static const char *with_carrier(struct reader *reader, size_t b, const char *hin
         scene->bodies[parent].name, degrees, -degrees);
 }
 
-/* No side of a vertical line is up. A guide needs none. */
+/* Warn of `side: up` on a vertical line. A two-sided guide has no side. */
 static void note_no_side_up(struct reader *reader, size_t b, const struct load *normal)
 {
-    const double upright = 1e-12; /* as where the side is chosen, in model/compile.c */
+    const double upright = 1e-12; /* same limit as in model/compile.c, where the side is chosen */
     if (normal->side != side_up || fabs(vec_unit(start_angle(reader->scene, (int)b)).x) > upright) return;
     diag_add(reader->errors, FBD_WARNING, "no-side-up", normal->at,
              with_carrier(reader, b,
@@ -87,7 +90,7 @@ bool lint_friction_note(struct reader *reader)
         const struct load *normal = body->motion.kind == motion_slide ? normal_of(body) : NULL;
         if (normal) note_no_side_up(reader, b, normal);
     }
-    if (vec_norm(scene->gravity) == 0) return true; /* said on purpose */
+    if (vec_norm(scene->gravity) == 0) return true; /* intended */
     bool *joined = ARENA_ARRAY(reader->arena, scene->body_count, bool);
     if (!joined) return false;
     mark_joined(scene, joined);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * One entry of `forces` or `moments` while it is read: what the files that read it share.
+ * One entry of `forces` or `moments` while it is read, shared by the files that read it.
  */
 #ifndef FBD_SCENE_LOAD_ENTRY_H
 #define FBD_SCENE_LOAD_ENTRY_H
@@ -16,7 +16,7 @@ struct entry {
     const struct motion *motion; /* NULL when it is not known */
     struct chosen chosen;
     struct load_keys keys;
-    const struct node *offset; /* of its place, along the axes of the world, or NULL */
+    const struct node *offset; /* of its point of application, along the axes of the world, or NULL */
     struct scope scope;
 };
 
@@ -36,16 +36,16 @@ static inline bool entry_exclude(struct entry *entry, const char *key, const cha
     return fields_exclude(entry->reader, entry->chosen.node, key, other, hint);
 }
 
-/* Does it move along a line or curve, whose direction forces may take? */
+/* True if the body moves along a line or curve, which gives forces their direction. */
 static inline bool entry_is_slide(const struct entry *entry)
 {
     return entry->motion && (entry->motion->kind == motion_slide || entry->motion->kind == motion_track);
 }
 
-/* Where it acts: `at`. */
+/* The point of application: `at`. */
 bool entry_place_read(struct entry *entry);
 
-/* What laws need beyond their keys: the column `finish` of their table. */
+/* Checks of laws beyond their keys: the column `finish` of their table. */
 bool link_finish(struct entry *entry);
 bool normal_finish(struct entry *entry);
 bool friction_finish(struct entry *entry);
@@ -59,33 +59,32 @@ bool drag_finish(struct entry *entry);
 /* A distributed load as its resultant (read_distributed.c). */
 bool distributed_finish(struct entry *entry);
 
-/* The force of mass that leaves or comes (read_thrust.c). */
+/* The force of a mass flow (read_thrust.c). */
 bool thrust_finish(struct entry *entry);
 
-/* A pair of values, as [2 m/s, "sin(t)"]; `hint` says how it is written. */
+/* A pair of values, as [2 m/s, "sin(t)"]; `hint` shows the notation. */
 bool entry_pair_read(struct entry *entry, const struct node *node, const char *what, enum quantity quantity,
                      const char *hint, struct value *x, struct value *y);
 
-/* ---- what follows from the entry (derived.c), compiled from text over the names of the file
+/* ---- expressions derived from the entry (derived.c), compiled from text over the names of the file
  *
- * False when memory is out or, with a note, when a text of the file is too long to be used in another.
- */
+ * False when memory is out or, with a note, when the expressions are too long together. */
 
-/* The direction to `load.target` and `load.end`, and that of the reaction; `value` in terms of the distance where
- * it names that. */
+/* The direction to `load.target` and `load.end`, and that of the reaction; also `value` if it names the
+ * distance. */
 bool derive_toward(struct entry *entry, bool distance_named);
 
-/* The moment about the point of the body of a force that acts beside it. */
+/* The moment of a force with an offset about its point of the body. */
 bool derive_couple(struct entry *entry, bool distance_named);
 
 /* The size of a force, `size` times its factor. */
 bool derive_scaled(struct entry *entry, double size);
 
-/* The value of `key`, with what stands behind it as in "/v": a formula of the wanted quantity. */
+/* The value of `key` followed by the text `behind`, such as "/v": a formula of the quantity `wanted`. */
 bool derive_value(struct entry *entry, const char *key, const struct value *value, enum quantity quantity,
                   const char *behind, enum quantity wanted, struct value *result);
 
-/* Of a thrust: its size along its direction by the exhaust, or what follows from the velocity of the mass in the world,
+/* Of a thrust: its size from the exhaust speed, or its force from the velocity of the mass in the world,
  * along the line of a slide or, where `velocity` is a pair, as components. */
 bool derive_exhaust(struct entry *entry);
 bool derive_entering(struct entry *entry, const struct value *along, const struct value *x,

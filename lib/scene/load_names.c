@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * The names of the loads of a body: as given, or their kind, numbered where that is taken.
+ * Names of the loads of a body: the given name, or the kind, numbered if that is taken.
  */
 #include "scene/reader.h"
 
@@ -25,8 +25,8 @@ static int compare_key(const void *key, const void *element)
     return strcmp(key, ((const struct given_name *)element)->name);
 }
 
-/* Is it how the force of the body's joint is called, what its prescribed motion takes, or the energy that goes with its
- * mass? */
+/* True for the name of the force of the body's joint, of its prescribed motion, or of the energy of its
+ * varying mass. */
 static bool is_of_joint(const struct reader *reader, int index, const char *name)
 {
     static const char *const forces[] = {[motion_slide] = "guide",
@@ -42,7 +42,7 @@ static bool is_of_joint(const struct reader *reader, int index, const char *name
     return kind != motion_planar && strcmp(name, forces[kind]) == 0;
 }
 
-/* Every load is a column of the output beside the coordinates of its body. */
+/* Check given names: each load is a column of the output beside the coordinates of its body. */
 static bool check_given(struct reader *reader, int index, const struct given_name *names, size_t count)
 {
     bool fine = true;
@@ -69,12 +69,12 @@ static bool check_given(struct reader *reader, int index, const struct given_nam
     return fine;
 }
 
-/* The row of its law among both tables; a force and a moment of one name share the row of the force, as they share
- * their counter. */
+/* The name of its law, and the row of its counter; a force and a moment of one name share the row of the
+ * force. */
 static const char *law_name(const struct load *load, size_t *row)
 {
     const struct kinds *const all[] = {&force_kinds, &moment_kinds};
-    const char *name = ""; /* every load has a law that is in one of them */
+    const char *name = ""; /* the law is in one of the tables */
     for (int k = 0; k < 2 && !*name; k++)
         for (size_t i = 0; i < all[k]->count && !*name; i++)
             if (all[k]->kinds[i].law == load->law) name = all[k]->kinds[i].name;
@@ -83,7 +83,7 @@ static const char *law_name(const struct load *load, size_t *row)
     return name;
 }
 
-/* `applied`, `applied_2`, ...: the first from `*number` on that the file does not use itself. */
+/* `applied`, `applied_2`, ...: the first from `*number` on that the file does not use. */
 static const char *next_name(struct reader *reader, const char *kind, int *number,
                              const struct given_name *names, size_t count)
 {

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * What a scene is made of (scene.h): values, points, inertia, motions, and what acts.
+ * The parts of a scene (scene.h): values, points, inertia, motions and loads.
  */
 #ifndef FBD_SCENE_LOADS_H
 #define FBD_SCENE_LOADS_H
@@ -25,7 +25,7 @@ struct point {
     enum point_kind {
         point_absent, /* not given */
         point_fixed,  /* `where` */
-        point_G,      /* the centre of mass, which the model knows */
+        point_G,      /* the centre of mass, computed by the model */
     } kind;
     struct vec where;
     struct pos at;
@@ -57,7 +57,7 @@ struct part {
     enum shape_kind shape;
     char axis;
     double mass;         /* negative for a hole */
-    double length;       /* rod, cylinders; 0 when not needed and not given */
+    double length;       /* rod, cylinders; 0 if not given */
     double radius;       /* sphere, disc, ring; outer radius of a hollow cylinder */
     double inner_radius; /* hollow cylinder */
     double side[3];      /* prism: a, b, c */
@@ -65,9 +65,9 @@ struct part {
     double angle;        /* of the shape's x axis in the body frame [rad] */
     double inertia;      /* shape_given: moment of inertia ... */
     struct point about;  /* ... about this point (point_G: about its own centre) */
-    bool about_pivot;    /* ... or about the point that sits on the pivot */
-    double rim;          /* shape_given, where it rolls: its radius, for drawings; 0 when it does not, */
-    struct vec hub;      /* about this centre */
+    bool about_pivot;    /* ... or about the point on the pivot */
+    double rim;          /* shape_given that rolls: its radius, for drawings, about `hub`; else 0 */
+    struct vec hub;      /* centre of the rim */
 };
 
 /* ---- motion */
@@ -88,19 +88,18 @@ enum { ground_body = -1 };
 struct motion {
     enum motion_kind kind;
     struct pos at;
-    int parent;   /* body that it moves on, or ground_body */
+    int parent;   /* parent body, or ground_body */
     double along; /* slide: direction of +x in the parent frame; weld: angle of the body frame [rad] */
     struct vec
-        through; /* slide: where x = 0; pivot: the axis O; weld: the joint; track: where the curve has its
-                           origin; all in the parent frame */
+        through; /* slide: where x = 0; pivot: axis O; weld: the joint; track: origin of the curve; in the parent frame */
     struct value
         prescribed;   /* slide, pivot, track: the coordinate as a function of t; expr NULL when it is free */
-    struct vec point; /* pivot, weld, track: the point of the body that sits there, in the body frame */
+    struct vec point; /* pivot, weld, track: the point of the body at the joint, in the body frame */
     const struct curve *curve; /* track: in the parent frame, from `through` */
     bool turns;                /* track: the x axis of the body frame is its tangent */
 };
 
-/* ---- what acts */
+/* ---- loads */
 
 enum load_kind {
     load_gravity,
@@ -116,14 +115,14 @@ enum load_kind {
     moment_damper,
     moment_friction,
     moment_potential,
-    load_drive,   /* not listed: what a prescribed motion takes */
+    load_drive,   /* not listed: the force of a prescribed motion */
     load_rope,    /* not listed: a rope under `couplings`, see struct constraint */
     load_contact, /* not listed: a contact, likewise */
     load_belt,    /* not listed: a belt, likewise */
-    load_carried, /* not listed: no force, but the energy that comes and goes with a mass that varies */
+    load_carried, /* not listed: no force, but the energy carried by a varying mass */
 };
 
-/* A distributed load along a line: how long that is, and how far from its start the resultant acts. */
+/* A distributed load along a line: its length, and the distance of the resultant from its start. */
 struct spread {
     double length, center;
 };
@@ -133,7 +132,7 @@ struct law;
 /* One entry of `forces` or `moments`. Fields that a kind does not use are zero. */
 struct load {
     enum load_kind kind;
-    const struct law *law; /* of which this is the form; NULL: see load_law */
+    const struct law *law; /* its law; NULL: see load_law */
     const char *name;      /* unique within the body */
     struct pos at;
 
@@ -141,19 +140,19 @@ struct load {
      * Moment: `value`. */
     struct value value, angle, fx, fy;
     bool body_frame;    /* angle and components turn with the body */
-    struct point point; /* where it acts on the body; absent: at G */
+    struct point point; /* point of application; absent: G */
 
-    /* applied force: where it acts, from `point` along the axes of the world, which do not turn with the body
-     * (expr NULL: at `point` itself), and the moment about `point` that follows. */
+    /* Applied force: offset of the point of application from `point` along the axes of the world, which do
+     * not turn with the body (expr NULL: none), and the resulting moment about `point`. */
     struct value offset_x, offset_y, couple;
-    bool
-        conservative; /* applied force or moment: its work is counted as potential energy, where it has one */
-    const char *toward;   /* where it points to, as the file says; `angle` follows from that. NULL: nowhere */
-    struct spread spread; /* of a distributed load, whose resultant this is; length 0: of no such load */
-    bool reaction;        /* what the body that it points to feels in return: `NAME.force` of body NAME */
-    int target;           /* while the file is read: the body that it points to, or ground_body, */
-    struct point end;     /* the point of it, */
-    struct value return_angle; /* and where the reaction points to */
+    bool conservative; /* applied force or moment: its work is potential energy, if it has a potential */
+    const char
+        *toward; /* the point that it is directed to, as in the file, which determines `angle`; or NULL */
+    struct spread spread;      /* of a distributed load, whose resultant this is; else length 0 */
+    bool reaction;             /* reaction to a force of another body: `NAME.force` of body NAME */
+    int target;                /* while the file is read: the body that it is directed to, or ground_body */
+    struct point end;          /* point of that body */
+    struct value return_angle; /* direction of the reaction */
 
     /* spring, damper: toward `anchor`, a point of the ground; without one, along the body's own coordinate */
     struct point anchor;
@@ -161,11 +160,11 @@ struct load {
     double free_length; /* spring with an anchor; neutral coordinate without */
     double coefficient; /* damper: N s/m or N m s/rad */
 
-    bool reels; /* rope: its length goes with the time, which takes or gives work */
+    bool reels; /* rope: its length varies with time, which does work */
 
     double linear, quadratic; /* drag: N s/m, N s^2/m^2 */
-    /* The wind that it is in, if any. What follows is in `fx` and `fy`: the part of linear drag that is beyond
-     * the drag in still air, c w, and the whole of any other, -(c + k |v - w|) (v - w). */
+    /* The wind, if any. The resulting force is in `fx` and `fy`: for linear drag the difference to the drag
+     * in still air, c w; for any other the whole drag, -(c + k |v - w|) (v - w). */
     struct value wind_x, wind_y;
 
     /* friction: coefficients (force) or limits in N m (moment) */
@@ -179,7 +178,7 @@ struct load {
         side_up,
         side_left,
         side_right
-    } side;         /* normal: which side of +x the surface pushes to */
+    } side;         /* normal: side of +x to which the surface pushes */
     bool two_sided; /* normal: a guide that also pulls */
 };
 
@@ -193,13 +192,13 @@ static inline bool load_has_wind(const struct load *load)
     return load->wind_x.expr != NULL;
 }
 
-/* Drag as in still air: all of it, or the linear one beside what a wind adds. */
+/* True if it has a term of drag in still air: without wind, or if linear. */
 static inline bool load_drags_still_air(const struct load *load)
 {
     return !load_has_wind(load) || load->quadratic == 0;
 }
 
-/* The formulas that what acts depends on, each of which may be absent. */
+/* All formulas of a load; each may be absent. */
 enum { most_formulas_of_a_load = 11 };
 
 static inline void load_formulas(struct load *load, struct value *formulas[static most_formulas_of_a_load])

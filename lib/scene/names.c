@@ -81,7 +81,7 @@ static bool matches(const char *name, const char *a, const char *b)
     return strcmp(name, a) == 0 || strcmp(name, b) == 0;
 }
 
-/* A coordinate, rate or (in a derivation, of the body at hand) acceleration of `body`. */
+/* A coordinate or rate of `body`. */
 static struct symbol coordinate_symbol(const struct names *names, int body, const char *name)
 {
     const struct scene *scene = names->reader->scene;
@@ -89,7 +89,7 @@ static struct symbol coordinate_symbol(const struct names *names, int body, cons
     const struct coordinate_names *list;
     int count = coordinates_of(owner->motion.kind, &list);
     size_t n = scene->coordinate_count, first = (size_t)owner->first;
-    bool constant = names->place == place_constant; /* slots do not exist yet, and are not needed */
+    bool constant = names->place == place_constant; /* slots are not numbered yet, and not needed */
     for (int i = 0; i < count; i++) {
         const struct coordinate_names *c = &list[i];
         size_t k = (size_t)i;
@@ -101,12 +101,11 @@ static struct symbol coordinate_symbol(const struct names *names, int body, cons
     return unknown;
 }
 
-/* The slot of a place in the world, the same one for every mention. */
 struct symbol names_absolute(struct reader *reader, enum place place, const struct absolute *wanted)
 {
     struct scene *scene = reader->scene;
     size_t k = 0;
-    reader->varies = true; /* the slot is numbered in this reading */
+    reader->varies = true; /* the slot number is valid for this reading only */
     for (; k < scene->absolute_count; k++) {
         const struct absolute *known = &scene->absolutes[k];
         if (known->body == wanted->body && known->kind == wanted->kind && known->part == wanted->part &&
@@ -140,7 +139,7 @@ struct symbol names_absolute(struct reader *reader, enum place place, const stru
     return coordinate(dim, 1 + scene_size(scene) + hand_slots + k, wanted->kind == absolute_angle);
 }
 
-/* The mass `m` of a body: of one that varies what it is now, which has a rate `m_dot`. */
+/* The mass `m` of a body, and its rate `m_dot` if it varies. */
 struct symbol mass_symbol(const struct names *names, int body, const char *name)
 {
     const struct draft *draft = &names->reader->drafts[body];
@@ -163,7 +162,7 @@ struct symbol name_of_place(struct reader *reader, int body, const struct point 
     return names_absolute(reader, place_load, &absolute);
 }
 
-/* `angle`, `x`, `y` and their rates in the world; with `of_point` not `angle`. */
+/* `angle`, `x`, `y` and their rates in the world; with `of_point` without `angle`. */
 static bool absolute_kind_of(const char *name, bool of_point, enum absolute_kind *kind)
 {
     static const struct {
@@ -203,14 +202,13 @@ bool names_point(const struct body *owner, const char *name, size_t length, stru
     return false;
 }
 
-/* What stands behind `body.` and is no coordinate: `angle`, `x` (of the frame's origin), `G.x`, `right.vy`.
- */
+/* A name behind `body.` that is no coordinate: `angle`, `x` (of the frame's origin), `G.x`, `right.vy`. */
 static struct symbol absolute_symbol(const struct names *names, int body, const char *name)
 {
     struct reader *reader = names->reader;
     const struct body *owner = &reader->scene->bodies[body];
     struct absolute absolute = {.body = body, .point = {.kind = point_fixed}};
-    const char *dot = strrchr(name, '.'); /* points of parts have dots themselves */
+    const char *dot = strrchr(name, '.'); /* points of parts contain dots, too */
     if (!dot) {
         if (!absolute_kind_of(name, false, &absolute.kind)) return unknown;
         return names_absolute(reader, names->place, &absolute);
@@ -281,14 +279,14 @@ static struct symbol own_symbol(const struct names *names, const char *name)
     return coordinate_symbol(names, names->body, name);
 }
 
-/* The speed on the surface. Of a rolling body, whose coefficients are read before it is known itself
- * (read_couplings.c), the constraint counts. */
+/* The slip speed. Coefficients of a rolling body are read before the body is known (read_couplings.c): the
+ * constraint identifies it. */
 static struct symbol slip_symbol(struct names *names)
 {
     struct reader *reader = names->reader;
     bool roll = names->body == ground_body;
     names->slip_named = true;
-    reader->varies = true; /* the same text at rest is another expression */
+    reader->varies = true; /* the same text has another meaning at rest */
     if (names->slip == slip_resting)
         return (struct symbol){.kind = symbol_constant, .dim = coordinate_dim(names->slip_angular, 1)};
     struct absolute slip = {.body = names->body,
@@ -299,7 +297,7 @@ static struct symbol slip_symbol(struct names *names)
     return names_absolute(reader, names->place, &slip);
 }
 
-/* `slip` where there is none to speak of. */
+/* `slip` outside of coefficients of friction. */
 static struct symbol misplaced_slip(const struct names *names, struct pos at)
 {
     diag_add(names->reader->errors, FBD_ERROR, "not-here", at,
@@ -308,12 +306,12 @@ static struct symbol misplaced_slip(const struct names *names, struct pos at)
     return failed_before;
 }
 
-/* The distance to the point that a force points to. What it is follows when all else of the force is known
- * (derived.c); until then any length that varies stands for it. */
+/* The distance to the point that a force is directed to. Its expression is derived when the force is known
+ * (derived.c); until then any varying length represents it. */
 static struct symbol distance_symbol(struct names *names, struct pos at)
 {
     names->distance_named = true;
-    names->reader->varies = true; /* to be noticed in every reading */
+    names->reader->varies = true; /* must be noticed in every reading */
     if (names->distance_known) return variable(DIM_LENGTH, 0);
     diag_add(names->reader->errors, FBD_ERROR, "not-here", at,
              "elsewhere write it out, as `hypot(a.G.x - b.G.x, a.G.y - b.G.y)`",
@@ -321,7 +319,6 @@ static struct symbol distance_symbol(struct names *names, struct pos at)
     return failed_before;
 }
 
-/* What the assembly knows: see enum hand_slot. */
 struct symbol hand_symbol(const struct names *names, const char *name)
 {
     static const struct {
@@ -364,7 +361,7 @@ static struct symbol other_symbol(const struct names *names, const char *name)
     return unknown;
 }
 
-/* `v0`, `cart.x0`: a coordinate or rate at the start of the run, where nothing else is called so. */
+/* `v0`, `cart.x0`: a coordinate or rate at the start of the run, unless the name has another meaning. */
 static struct symbol initial_symbol(const struct names *names, const char *name)
 {
     const struct reader *reader = names->reader;
@@ -379,8 +376,8 @@ static struct symbol initial_symbol(const struct names *names, const char *name)
     return symbol;
 }
 
-/* In a derivation what nothing else is called may be a force of the diagram; and the body at hand needs no name before what
- * goes with its points and its angle. */
+/* In a derivation an unknown name may be a force of the diagram; and points and the angle of the current body
+ * need no prefix. */
 static struct symbol or_force(const struct names *names, const char *name, struct symbol symbol)
 {
     if (names->place != place_hand || symbol.kind != symbol_unknown) return symbol;
@@ -405,7 +402,7 @@ static struct symbol time_symbol(const struct names *names)
     return time;
 }
 
-/* A parameter; or an input, which is none: it may change while the motion goes on. */
+/* A parameter; or an input, which is not constant: it may change during a run. */
 static struct symbol constant_symbol(struct names *names, size_t index, struct pos at)
 {
     struct reader *reader = names->reader;
@@ -441,11 +438,12 @@ static struct symbol name_now(struct names *names, const char *name, struct pos 
     struct symbol other = is_declared(names, name) ? force_symbol(names, name)
                                                    : or_force(names, name, other_symbol(names, name));
     if (other.kind == symbol_constant)
-        reader->varies = reader->names_varying = true; /* who knows what it was made of */
+        reader->varies = reader->names_varying = true; /* its origin is not tracked */
     return other;
 }
 
-/* In `before(...)` and the like the same name is that of another time. */
+/* Look up a name. Inside `initial(...)`, `before(...)` and `after(...)` it is shifted to the slot of that
+ * time. */
 static struct symbol look_up(void *context, const char *name, struct pos at)
 {
     struct names *names = context;

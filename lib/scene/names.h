@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Names: what an expression of a model file may speak of, depending on where it stands.
+ * Names: the names that an expression of a model file may use, depending on its place.
  *
- * A name is looked up in this order: coordinates of the body at hand, parameters, then what the place offers:
- * g everywhere, m in loads, the whole equation of motion in a derivation. So parameters shadow all but the
- * coordinates, whose names are reserved. `body.x` is a coordinate of any body.
+ * A name is looked up in this order: coordinates of the current body, parameters, then the names of the
+ * place: g everywhere, m in loads, the whole equation of motion in a derivation. So parameters shadow all
+ * names but those of coordinates, which are reserved. `body.x` is a coordinate of any body.
  */
 #ifndef FBD_SCENE_NAMES_H
 #define FBD_SCENE_NAMES_H
@@ -24,86 +24,86 @@ struct coordinate_names {
 /* The coordinates of a motion; returns their number. */
 int coordinates_of(enum motion_kind kind, const struct coordinate_names **names);
 
-/* True for t, pi and the names of coordinates and rates, which nothing else may bear. */
+/* True for t, pi and the names of coordinates and rates, which are reserved. */
 bool name_is_reserved(const char *name);
 
-/* Note `bad-name` when `name` is no identifier. `what` is what it names ("a body"), or NULL. */
+/* Note `bad-name` when `name` is no identifier. `what` is the named thing ("a body"), or NULL. */
 bool name_check(fbd_errors *errors, const char *name, struct pos at, const char *what);
 
 enum place {
-    place_constant, /* parameters and g; t, coordinates and inputs are known, to be refused as varying */
+    place_constant, /* parameters and g; t, coordinates and inputs are recognized, and refused as varying */
     place_load,     /* also t, coordinates, m */
-    place_event,    /* t, coordinates; those of the only body without its name */
+    place_event,    /* t, coordinates; of a single body also without its name */
     place_contact,  /* also the speed of approach, in the slot of the first acceleration */
-    place_exact,    /* t and m, but no coordinates: it says what these are */
-    place_hand,     /* also accelerations and what the assembly knows */
+    place_exact,    /* t and m, but no coordinates */
+    place_hand,     /* also accelerations and the names of enum hand_slot */
 };
 
-/* What `slip` is in the expression at hand. */
+/* The meaning of `slip` in the current expression. */
 enum slip_name {
     slip_unknown,
-    slip_moving,  /* the speed on the surface: coefficients of kinetic friction */
-    slip_resting, /* 0, as at rest: coefficients of static friction */
+    slip_moving,  /* slip speed: coefficients of kinetic friction */
+    slip_resting, /* 0: coefficients of static friction */
 };
 
 struct names {
     struct reader *reader;
     enum place place;
-    int body; /* whose coordinates need no prefix, or ground_body */
+    int body; /* its coordinates need no prefix; or ground_body */
     enum slip_name slip;
-    bool slip_angular;     /* it is an angular speed */
-    bool slip_named;       /* it was looked up */
-    bool tried;            /* a constant, unless it names what varies; `s` of a track may be that */
-    bool along;            /* `s` is the place along a distributed load, in slot 1 */
-    enum hand_sense sense; /* in a derivation: when, */
-    enum absolute_kind
-        of_force;      /* and what the name of a force stands for: absolute_force, or its work or impulse */
-    const char *curve; /* the parameter of a curve, for hints; NULL elsewhere */
-    bool distance_known, distance_named; /* of the size of a force toward a point; it was looked up */
+    bool slip_angular;           /* it is an angular speed */
+    bool slip_named;             /* it was looked up */
+    bool tried;                  /* to find out whether a constant varies: `s` of a track is a name, too */
+    bool along;                  /* `s` is the position along a distributed load, in slot 1 */
+    enum hand_sense sense;       /* in a derivation: the time of its names */
+    enum absolute_kind of_force; /* meaning of the name of a force: absolute_force, or its work or impulse */
+    const char *curve;           /* the parameter of a curve, for hints; NULL elsewhere */
+    bool distance_known,
+        distance_named; /* `distance` is allowed (in the size of a force toward a point); it was looked up */
     const char **known;
     size_t known_count;
 };
 
-/* Where a point of a body is in the world, as a variable. */
+/* The position of a point of a body in the world, as a variable. */
 struct symbol name_of_place(struct reader *reader, int body, const struct point *point,
                             enum absolute_kind kind);
 
-/* The variable of a place in the world, or of what else is evaluated with a state, the same one for every mention. */
+/* The variable of a quantity of struct absolute, the same one at every use. */
 struct symbol names_absolute(struct reader *reader, enum place place, const struct absolute *wanted);
 
-/* The point of a body that is called so: G, O of a pivot, one with a name; false for none. */
+/* Find a point of the body by its name: G, O of a pivot, or a named one; false if there is none. */
 bool names_point(const struct body *owner, const char *name, size_t length, struct point *point);
 
 /* In a derivation: the acceleration `a_x` of the centre of mass of a body, `P.a_y` of a point of it, also `a_Py`, `angle_ddot`,
  * and the moment of inertia `I_P` about it (names_force.c). */
 struct symbol hand_place_symbol(const struct names *names, int body, const char *name);
 
-/* m_2, I_G2, L_2 of the second body of several, as the program's own equations have them (names_force.c). */
+/* m_2, I_G2, L_2 of the second body of several, as in the program's own equations (names_force.c). */
 struct symbol hand_numbered_symbol(const struct names *names, const char *name);
 
 /* The mass of a body, `m`, and its rate, `m_dot`. */
 struct symbol mass_symbol(const struct names *names, int body, const char *name);
 
-/* A force of the diagrams in a derivation: of the body at hand, or `body.name` (names_force.c). */
+/* A force of the diagrams in a derivation: of the current body, or `body.name` (names_force.c). */
 struct symbol force_symbol(const struct names *names, const char *name);
 
-/* The senses of names in a derivation, for struct scope (names_force.c). */
+/* Enter `initial`, `before`, `after`, `work` or `impulse` in a derivation, for struct scope (names_force.c). */
 bool names_sense(void *names, const char *word);
 
-/* Does it stand in `work(...)` or `impulse(...)`, for that? */
+/* True inside `work(...)` or `impulse(...)`. */
 bool names_take_force(const struct names *names);
 
-/* Is it one of the `symbols` of the file, in a derivation? */
+/* True for one of the `symbols` of the file, in a derivation. */
 bool is_declared(const struct names *names, const char *name);
 
-/* What the assembly knows for a derivation: see enum hand_slot. */
+/* A name of enum hand_slot in a derivation. */
 struct symbol hand_symbol(const struct names *names, const char *name);
 
-/* All names and all tables that may be used, for hints (names_known.c). */
+/* All names and all tables that are allowed, for hints (names_known.c). */
 size_t names_list(void *context, const char *const **list);
 size_t names_list_tables(void *context, const char *const **list);
 
-/* Are these `symbols` names that nothing else has, each of a force or a list of them? */
+/* Check that each of these `symbols` has an unused name and is a force or a list of forces. */
 bool symbols_check(struct reader *reader, const struct node *symbols);
 
 /* A scope for expr_compile; `names` must live as long. */

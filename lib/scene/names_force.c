@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * What a derivation by hand may name of the accelerations of a body, and the forces and moments of its diagram. Which there are, only a compiled model has:
- * without their list a derivation with a name that is not known otherwise is left out, and read again (hand_forces.h).
+ * Names in derivations by hand: accelerations of bodies, and forces and moments of the diagrams. Only a
+ * compiled model has the list of forces: without it a derivation with an otherwise unknown name is skipped,
+ * and read again later (hand_forces.h).
  */
 #include <stdlib.h>
 #include <string.h>
@@ -11,7 +12,7 @@
 
 static const struct symbol unknown = {.kind = symbol_unknown};
 
-/* Is it this name, underscores apart? */
+/* True if the names are equal without underscores. */
 static bool is_letter(const char *letter, const char *name)
 {
     for (;; letter++, name++) {
@@ -22,7 +23,7 @@ static bool is_letter(const char *letter, const char *name)
     }
 }
 
-/* push_x of push.x */
+/* True for push_x as another form of push.x. */
 static bool is_component(const char *component, const char *name)
 {
     const size_t length = strlen(component);
@@ -78,7 +79,8 @@ bool names_sense(void *context, const char *word)
     return false;
 }
 
-/* Is it the name of a component, or of the place where a force acts? Work is that of a whole force. */
+/* True for the name of a component, or of a coordinate of the point of application. Work is that of a whole
+ * force. */
 static bool is_part(const struct force_name *force)
 {
     const char *dot = strrchr(force->name, '.'), last = force->name[strlen(force->name) - 1];
@@ -86,7 +88,7 @@ static bool is_part(const struct force_name *force)
            (dot && (strcmp(dot, ".x") == 0 || strcmp(dot, ".y") == 0));
 }
 
-/* Work is done by forces, too, whose size has no sign: the name of their component stands for them. */
+/* Find a force. For work also forces without a signed size are found, by the name of their x component. */
 static const struct force_name *find(const struct names *names, int body, const char *name)
 {
     const struct force_name *one = find_in(names->reader, body, name);
@@ -96,7 +98,7 @@ static const struct force_name *find(const struct names *names, int body, const 
     return component ? find_in(names->reader, body, component) : NULL;
 }
 
-/* The body of `body.name`, and the name; the body at hand for any other. */
+/* The body of `body.name`, and the name behind the dot; the current body for any other name. */
 static int split_name(const struct names *names, const char **name)
 {
     const struct scene *scene = names->reader->scene;
@@ -111,7 +113,7 @@ static int split_name(const struct names *names, const char **name)
     return names->body;
 }
 
-/* `body.name`, of another body. */
+/* A force `body.name` of another body. */
 static const struct force_name *find_dotted(const struct names *names, const char *name)
 {
     const char *own = name;
@@ -161,14 +163,14 @@ static struct symbol slot_of(const struct names *names, const struct absolute *f
     return symbol;
 }
 
-/* ---- symbols of the file's own */
+/* ---- symbols declared in the file */
 
-/* The only size of that name: where it is the same number on all bodies that have it. */
+/* The force of that name on the first body that has it: a size is the same on all bodies. */
 static const struct force_name *find_anywhere(const struct names *names, const char *name)
 {
     const struct reader *reader = names->reader;
     const size_t length = strlen(name);
-    if (length > 2 && name[length - 2] == '.') return NULL; /* a component is of one body */
+    if (length > 2 && name[length - 2] == '.') return NULL; /* components depend on the body */
     for (size_t b = 0; b < reader->scene->body_count; b++) {
         const struct force_name *one = find(names, (int)b, name);
         if (one) return one;
@@ -176,7 +178,7 @@ static const struct force_name *find_anywhere(const struct names *names, const c
     return NULL;
 }
 
-/* What stands in `symbols`, of the body or at the top level. */
+/* The value of `name` under `symbols`, of the body or at the top level. */
 static const struct node *declared(const struct names *names, const char *name)
 {
     const struct node *own = names->reader->drafts[names->body].keys.symbols;
@@ -227,7 +229,7 @@ static bool add_force(const struct names *names, const struct node *item, struct
 static struct symbol sum_symbol(const struct names *names, const char *name, const struct force_sum *sum,
                                 struct dim dim)
 {
-    const char *key = arena_printf(names->reader->arena, "=%s", name); /* no name of a diagram */
+    const char *key = arena_printf(names->reader->arena, "=%s", name); /* distinct from names of diagrams */
     const struct absolute force = {.body = names->body,
                                    .point = {.kind = point_fixed},
                                    .kind = absolute_force,
@@ -276,7 +278,8 @@ bool symbols_check(struct reader *reader, const struct node *symbols)
 
 /* ---- numbered bodies */
 
-/* Of several bodies in the order of the file: m_2, L_2, I_O2, I_G2 in the lines of the second, and the mass in all lines. */
+/* With several bodies in the order of the file: m_2, L_2, I_O2, I_G2 in the derivations of the second, and
+ * the mass in all derivations. */
 struct symbol hand_numbered_symbol(const struct names *names, const char *name)
 {
     static const char *const bases[] = {"m_", "L_", "I_O", "I_G"};
@@ -297,9 +300,9 @@ struct symbol hand_numbered_symbol(const struct names *names, const char *name)
     return unknown;
 }
 
-/* ---- both */
+/* ---- forces and declared symbols */
 
-/* Is it a normal force or friction of the contact or roll `name`: `floor.normal`, `floor.friction_2`? */
+/* True for a normal force or friction of the contact or roll `name`: `floor.normal`, `floor.friction_2`. */
 static bool is_of_contact(const struct force_name *force, const char *name)
 {
     const size_t length = strlen(name);
@@ -309,7 +312,7 @@ static bool is_of_contact(const struct force_name *force, const char *name)
     return word > 0 && (part[word] == '\0' || (part[word] == '_' && !strchr(part, '.')));
 }
 
-/* The work of a contact or a roll is that of all its normal forces and friction on the body. */
+/* The work of a contact or roll: the sum over all its normal forces and friction on the body. */
 static struct symbol contact_symbol(const struct names *names, const char *name)
 {
     const struct reader *reader = names->reader;

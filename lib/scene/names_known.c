@@ -7,7 +7,7 @@
 #include "scene/names.h"
 #include "scene/reader.h"
 
-enum { most_known = 200 }; /* enough for a suggestion, and bounded for a scene of many bodies */
+enum { most_known = 200 }; /* sufficient for a suggestion, and bounded for scenes of many bodies */
 
 static void know(struct names *names, const char *name)
 {
@@ -28,7 +28,7 @@ static void know_coordinates(struct names *names, int body, bool dotted)
     }
 }
 
-/* Those of the diagram, and letters that stand for a size. */
+/* Forces of the diagram, and letters of their sizes. */
 static void know_forces(struct names *names)
 {
     const struct reader *reader = names->reader;

@@ -28,7 +28,7 @@ struct pos node_place(const struct node *scalar, size_t offset)
         at.column += (int)offset;
         return at;
     }
-    /* Walk the text and its origin together: a run of white space in the one is a run in the other. */
+    /* Advance in text and source together: a run of white space in one corresponds to a run in the other. */
     const char *text = scalar->text, *origin = scalar->origin;
     for (size_t i = 0; i < offset && *text && origin < scalar->end; i++) {
         unsigned code;

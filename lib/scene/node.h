@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Node: a model file as a tree, with the place of every value and every key.
+ * Node: a model file as a tree, with the position of every value and every key.
  *
  * The tree is built from libyaml's events, so that depth, size and aliases are bounded while reading. A value
- * that is used by several aliases is one node; `size` counts what a walk through all of them would meet, and
- * the budget on it makes every walk short.
+ * that is used by several aliases is one node; `size` counts the nodes of a walk through all uses, and its
+ * limit bounds every walk.
  */
 #ifndef FBD_SCENE_NODE_H
 #define FBD_SCENE_NODE_H
@@ -33,17 +33,17 @@ struct node {
     size_t size;  /* nodes in it, itself included, aliases expanded */
     size_t count; /* of items or pairs; 0 for a scalar */
 
-    /* scalar; nothing for a collection */
+    /* members of a scalar; zero for a collection */
     const char *text; /* terminated, holds no zero byte */
-    size_t length;    /* bytes */
-    bool quoted;      /* written in quotes or as a block: text, whatever it looks like */
+    size_t length;    /* in bytes */
+    bool quoted;      /* in quotes or as a block: always text */
     bool in_braces;   /* without quotes inside braces or brackets: it holds no bracket, brace or comma */
-    bool many_lines;  /* `text` was put together from several lines */
+    bool many_lines;  /* `text` was folded from several lines */
 
-    union { /* a large file has many nodes, and none needs both */
+    union { /* in a union, to save memory in large files */
         struct {
-            struct pos text_at; /* scalar: where text[0] stands: after the quote, or in the block */
-            const char *origin; /* many_lines: text[0] in the file, which reaches to ... */
+            struct pos text_at; /* scalar: position of text[0], after the quote or in the block */
+            const char *origin; /* many_lines: text[0] in the file, up to ... */
             const char *end;    /* ... here */
         };
         struct {
@@ -60,17 +60,17 @@ struct pair {
     const struct node *value; /* never NULL */
 };
 
-/* Read a file. NULL with notes when it is no YAML or goes beyond a limit: `yaml-syntax`, `tab-indent`,
+/* Read a file. NULL with notes if it is no YAML or exceeds a limit: `yaml-syntax`, `tab-indent`,
  * `empty-file`, `second-document`, `too-deep`, `too-many-nodes`, `alias-budget`, `alias-cycle`,
- * `unknown-anchor`. Slips that leave a tree are noted too, and the tree goes on without them:
- * `duplicate-key` (the first stays), `bad-key`, `merge-key`, `tag`. Memory comes from `arena`; the text of
- * the source must live as long as the tree. */
+ * `unknown-anchor`. Errors that allow a tree are noted too, and their nodes left out: `duplicate-key` (the
+ * first is kept), `bad-key`, `merge-key`, `tag`. Memory comes from `arena`; the text of the source must live
+ * as long as the tree. */
 const struct node *node_read(struct arena *arena, const struct source *source, fbd_errors *errors);
 
 /* The pair of a mapping with this key, or NULL; takes O(log count). `map` may be NULL or another kind. */
 const struct pair *node_find(const struct node *map, const char *key);
 
-/* Where character `offset` of the text of a scalar stands in the file, also when the text was folded from
+/* The position in the file of character `offset` of the text of a scalar, also if the text was folded from
  * several lines. (Escapes in double quotes are not undone: columns behind one are approximate.) */
 struct pos node_place(const struct node *scalar, size_t offset);
 

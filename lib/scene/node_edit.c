@@ -16,7 +16,7 @@ static struct node *copy_of(struct arena *arena, const struct node *node)
     return copy;
 }
 
-/* Sizes and heights bound walks; what is put in comes from trees that were bounded. */
+/* Sizes and heights bound walks. Inserted nodes come from bounded trees. */
 static void measure(struct node *node)
 {
     node->size = 1;

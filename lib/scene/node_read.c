@@ -10,7 +10,7 @@
 
 struct anchor {
     const char *name;
-    const struct node *node; /* NULL while the node is being read: an alias to it would be a circle */
+    const struct node *node; /* NULL while the node is being read: an alias to it is circular */
 };
 
 struct builder {
@@ -19,17 +19,17 @@ struct builder {
     struct arena *arena;
     fbd_errors *errors;
     size_t nodes, aliased;
-    int braces;         /* braces and brackets that are open */
-    struct node *spare; /* of a key that has been read: the next node takes its room */
+    int braces;         /* number of open braces and brackets */
+    struct node *spare; /* node of the last key, whose memory is reused by the next node */
 
-    /* Children of the collections that are open; each takes its own from the end when it closes. */
+    /* Children of all open collections; each takes its own from the end when it closes. */
     struct pair *pending;
     size_t pending_count, pending_capacity;
 
     struct anchor *anchors;
     size_t anchor_count;
 
-    /* The start of a line of the source; lines are asked for in ascending order. */
+    /* The start of the current line of the source; line numbers are requested in ascending order. */
     const char *line_start;
     int line;
 };
@@ -79,7 +79,7 @@ static struct node *new_node(struct builder *builder, enum node_kind kind, struc
 
 /* ---- scalars */
 
-/* The first byte of line `line`; lines must be asked for in ascending order. */
+/* The first byte of line `line`; lines must be requested in ascending order. */
 static const char *line_at(struct builder *builder, int line)
 {
     const char *end = builder->source->text + builder->source->length;
@@ -88,7 +88,7 @@ static const char *line_at(struct builder *builder, int line)
     return builder->line_start;
 }
 
-/* The content of a block scalar starts at the first character that is no blank below its `|` or `>`. */
+/* The content of a block scalar starts at the first character that is not blank below its `|` or `>`. */
 static void find_block_text(struct builder *builder, struct node *node)
 {
     const char *end = builder->source->text + builder->source->length;
@@ -121,7 +121,7 @@ static int characters(const char *text, size_t length)
     return count;
 }
 
-/* An anchor stands before the value, and the event starts at it; the value is found from the end. */
+/* The position of a value behind an anchor: the event starts at the anchor, so count back from its end. */
 static struct pos behind_anchor(const yaml_event_t *event, int length, bool quoted)
 {
     struct pos end = syntax_place(event->end_mark);
@@ -169,7 +169,7 @@ static struct anchor *find_anchor(struct builder *builder, const char *name)
     return NULL;
 }
 
-/* Open an anchor; `*index` is its place, for closing it. A later anchor of the same name hides this one. */
+/* Open an anchor; `*index` is its number, for closing it. A later anchor of the same name hides this one. */
 static bool open_anchor(struct builder *builder, const char *name, struct pos at, size_t *index)
 {
     if (builder->anchor_count == node_most_anchors) {
@@ -208,7 +208,7 @@ static const struct node *read_alias(struct builder *builder, const yaml_event_t
                  "aliases multiply the file to more than %d values", node_most_aliased);
         return NULL;
     }
-    const int scalar_depth = node_most_depth + 1; /* of what the innermost collection holds */
+    const int scalar_depth = node_most_depth + 1; /* depth of the entries of the innermost collection */
     if (depth + anchor->node->height - 1 > scalar_depth) {
         diag_add(builder->errors, FBD_ERROR, "too-deep", at, NULL,
                  "with this alias the file is nested more than %d deep", node_most_depth);
@@ -256,7 +256,7 @@ static int compare_pairs(const void *a, const void *b)
     return order != 0 ? order : (p > q) - (p < q);
 }
 
-/* Sort by key and take out what repeats an earlier key. */
+/* Sort by key and remove pairs that repeat an earlier key. */
 static bool sort_pairs(struct builder *builder, struct node *map)
 {
     map->sorted = ARENA_ARRAY(builder->arena, map->count, struct pair *);
@@ -287,7 +287,7 @@ static bool sort_pairs(struct builder *builder, struct node *map)
     return true;
 }
 
-/* True when `key` can be a key; notes why not. */
+/* True if `key` is a valid key; else a note is added. */
 static bool check_key(struct builder *builder, const struct node *key)
 {
     if (key->kind != node_scalar) {
@@ -312,7 +312,7 @@ static bool check_key(struct builder *builder, const struct node *key)
     return true;
 }
 
-/* Of a key only its text and place are kept. */
+/* Read a key. Only its text and position are kept. */
 static bool read_key(struct builder *builder, const yaml_event_t *event, int depth, struct node *key)
 {
     if (event->type != YAML_SCALAR_EVENT || event->data.scalar.anchor || event->data.scalar.tag) {
@@ -398,7 +398,7 @@ static const char *anchor_of(const yaml_event_t *event)
     return (const char *)anchor;
 }
 
-/* The node that starts with `event`, which stays the caller's. NULL when reading cannot go on. */
+/* The node that starts with `event`, which the caller deletes. NULL when reading cannot continue. */
 static const struct node *read_node(struct builder *builder, const yaml_event_t *event, int depth)
 {
     struct pos at = syntax_place(event->start_mark);
@@ -418,7 +418,7 @@ static const struct node *read_node(struct builder *builder, const yaml_event_t 
 
 /* ---- the file */
 
-/* Pass the events before the root; false when there is none. */
+/* Skip the events before the root; false when there is none. */
 static bool read_start(struct builder *builder, yaml_event_t *event)
 {
     for (;;) {
@@ -434,7 +434,7 @@ static bool read_start(struct builder *builder, yaml_event_t *event)
     }
 }
 
-/* Pass the events after the root, which must end the file. */
+/* Skip the events after the root, which must end the file. */
 static bool read_end(struct builder *builder)
 {
     for (;;) {

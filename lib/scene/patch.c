@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* ---- noting what is compiled */
+/* ---- recording compiled expressions */
 
 void record_compiled(const struct reader *reader, const struct node *node, const struct expr *expr)
 {
@@ -15,7 +15,7 @@ void record_compiled(const struct reader *reader, const struct node *node, const
     if (record->count == record->room) {
         size_t room = record->room ? 2 * record->room : 32;
         struct site *sites = ARENA_ARRAY(&record->exprs, room, struct site);
-        if (!sites) return; /* noticed by the arena */
+        if (!sites) return; /* the arena records the failure */
         if (record->count) memcpy(sites, record->sites, record->count * sizeof *sites);
         record->sites = sites;
         record->room = room;
@@ -33,7 +33,7 @@ void record_site(const struct reader *reader, const struct expr *expr, unsigned 
 {
     struct record *record = reader->record;
     struct site *site = record->count ? &record->sites[record->count - 1] : NULL;
-    if (!site || site->expr != expr) return; /* compiled in an earlier reading: it does not vary */
+    if (!site || site->expr != expr) return; /* compiled in an earlier reading, so it does not vary */
     site->patched = !names->slip_named && !names->distance_named && !names->along;
     site->constants = names == &reader->constant_names;
     site->flags = flags;
@@ -71,9 +71,9 @@ static bool read_with(struct reading *reading, const struct document *document,
     return fine;
 }
 
-/* ---- where values are stored */
+/* ---- finding the stored values */
 
-/* A word of the scene that is the value of a site, or the pointer to its expression. */
+/* A word of the scene that contains the value of a site, or the pointer to its expression. */
 struct stored_word {
     uint64_t *word;
     size_t site;
@@ -82,11 +82,11 @@ struct stored_word {
 
 struct patch {
     struct reading reading;
-    struct override *own; /* as the readings had them */
+    struct override *own; /* copy used by the readings */
     size_t count;
     struct stored_word *words;
     size_t word_count, word_room;
-    size_t absolutes; /* places in the world that expressions name */
+    size_t absolutes; /* number of absolutes of the scene */
     struct arena exprs;
     fbd_errors *errors;
 };
@@ -103,7 +103,7 @@ static bool is_number(const struct site *site)
     return site->expr && expr_is_constant(site->expr);
 }
 
-/* NOLINTNEXTLINE(readability-non-const-parameter): it is written to, later */
+/* NOLINTNEXTLINE(readability-non-const-parameter): written later */
 static bool add_word(struct patch *patch, uint64_t *word, size_t site, bool pointer)
 {
     if (patch->word_count == patch->word_room) {
@@ -122,7 +122,7 @@ struct comparison {
     const struct reading *beside;
 };
 
-/* Is it the place in the other reading of what `word` points to? */
+/* True if `twin` points to the same place in the other reading as `word` in this one. */
 static bool same_place(const struct reading *a, const struct reading *b, uint64_t word, uint64_t twin)
 {
     uintptr_t other = arena_twin(&a->scene->arena, &b->scene->arena, (uintptr_t)word);
@@ -130,7 +130,7 @@ static bool same_place(const struct reading *a, const struct reading *b, uint64_
     return other && other == twin;
 }
 
-/* The sum of the parts' masses, as reading them makes it. */
+/* The sum of the masses of the parts, in the same order as the reader adds them. */
 static double mass_of_parts(const struct body *body)
 {
     double mass = 0;
@@ -145,14 +145,14 @@ static bool is_mass(const struct reading *reading, const uint64_t *word)
     return false;
 }
 
-/* NOLINTNEXTLINE(readability-non-const-parameter): as arena_compare asks for */
+/* NOLINTNEXTLINE(readability-non-const-parameter): type required by arena_compare */
 static bool in_derived(void *context, uint64_t *word, uint64_t twin)
 {
     const struct comparison *comparison = context;
     return same_place(&comparison->patch->reading, comparison->beside, *word, twin);
 }
 
-/* A word that is not the same in the two readings. */
+/* Explain a word that differs between the two readings; false if it is not the value of a site. */
 static bool in_scene(void *context, uint64_t *word, uint64_t twin)
 {
     struct comparison *comparison = context;
@@ -170,7 +170,7 @@ static bool in_scene(void *context, uint64_t *word, uint64_t twin)
     return is_mass(&patch->reading, word);
 }
 
-/* What has no place in the arena. */
+/* Compare the members of the scene itself, which are not in the arena. */
 static bool compare_top(struct comparison *comparison)
 {
     uint64_t *words = (uint64_t *)comparison->patch->reading.scene;
@@ -181,7 +181,7 @@ static bool compare_top(struct comparison *comparison)
     return true;
 }
 
-/* ---- may it be patched? */
+/* ---- conditions for patching */
 
 enum side { below_zero, at_zero, up_to_one, beyond_one, at_no_side };
 
@@ -194,7 +194,7 @@ static enum side side_of(double value)
                         : at_no_side;
 }
 
-/* Do two expressions look the same to all who ask without evaluating them? */
+/* True if two expressions have the same properties except for their values. */
 static bool same_kind(const struct expr *a, const struct expr *b)
 {
     if (expr_is_constant(a) != expr_is_constant(b) || expr_is_bare(a) != expr_is_bare(b) ||
@@ -209,7 +209,8 @@ static bool same_kind(const struct expr *a, const struct expr *b)
            expr_poles(a) == expr_poles(b) && expr_degree(a) == expr_degree(b);
 }
 
-/* The parameter that an expression is nothing but, through definitions that are nothing but others; -1 for none. */
+/* The parameter that an expression consists of, followed through definitions that consist of another
+ * parameter; -1 if it is any other expression. */
 static long name_of(const struct reader *reader, const struct site *site)
 {
     size_t index;
@@ -229,7 +230,8 @@ static long name_of(const struct reader *reader, const struct site *site)
                                           .outside = reader->definitions[index].override});
 }
 
-/* Two sites with the same values both times have to be the same quantity: their words cannot be told apart. */
+/* True unless two sites have equal values in both readings and are different quantities: their words could
+ * not be distinguished. */
 static bool told_apart(const struct reading *a, const struct reading *b, size_t i, size_t k)
 {
     const struct site *of_a = a->record.sites, *of_b = b->record.sites;
@@ -259,7 +261,7 @@ static bool check_sites(const struct reading *a, const struct reading *b)
     return true;
 }
 
-/* Do the masses of bodies follow from those of their parts, as they stand? */
+/* True if the masses of all bodies equal the sums of the masses of their parts. */
 static bool check_masses(const struct reading *reading)
 {
     for (size_t b = 0; b < reading->scene->body_count; b++)
@@ -280,7 +282,8 @@ static bool find_words(struct patch *patch, const struct reading *beside)
 
 /* ---- making and freeing */
 
-/* Sites are compared with each other, and words with sites: beyond some hundred that takes longer than to read. */
+/* Limit of the quadratic comparison of sites with each other and with words: beyond some hundred sites
+ * reading anew is faster. */
 enum { most_sites = 500 };
 
 static bool make(struct patch *patch, const struct document *document, const struct override *overrides,
@@ -328,7 +331,7 @@ void patch_free(struct patch *patch)
     free(patch);
 }
 
-/* ---- other values */
+/* ---- applying other values */
 
 static const struct expr *compile(struct patch *patch, struct site *site, const struct override *overrides)
 {
@@ -352,15 +355,15 @@ static void store(const struct patch *patch, size_t site, const struct expr *exp
     }
 }
 
-/* The masses of whole bodies, which expressions may name. */
+/* Update the masses of bodies, which expressions may name. */
 static void add_masses(struct reading *reading)
 {
     for (size_t b = 0; b < reading->scene->body_count; b++)
         reading->reader.drafts[b].mass = mass_of_parts(&reading->scene->bodies[b]);
 }
 
-/* In the order in which they were compiled, so that what names others finds their new values. Where one is refused
- * the scene keeps a part of them, until it takes others. */
+/* Compile and store the varying sites in the order of the reading, so that later ones use the new values of
+ * earlier ones. After a failure the scene is partly changed until the next successful call. */
 static bool renew(struct patch *patch, const struct override *overrides)
 {
     struct record *record = &patch->reading.record;
@@ -377,7 +380,7 @@ static bool renew(struct patch *patch, const struct override *overrides)
     return true;
 }
 
-/* Notes, even warnings, are for the reader to give. */
+/* Any note, even a warning, requires a full reading, which reports it. */
 static bool is_quiet(struct patch *patch)
 {
     if (patch->errors->count == 0 && !patch->errors->out_of_memory) return true;

@@ -10,8 +10,8 @@ static bool same_site(const struct program_site *a, const struct program_site *b
            a->want.constant == b->want.constant && a->want.condition == b->want.condition;
 }
 
-/* The place of a site, or the free one where it would be: open addressing, the hash being that of the node's
- * address by Fibonacci (Knuth, The Art of Computer Programming 3, 6.4). */
+/* The entry of a site, or the free entry for it: open addressing with Fibonacci hashing of the node's address
+ * (Knuth, The Art of Computer Programming 3, 6.4). */
 static struct program *locate(const struct programs *programs, const struct program_site *site)
 {
     uint64_t hash = (uint64_t)(uintptr_t)site->node * UINT64_C(0x9E3779B97F4A7C15) >> 32;
@@ -28,7 +28,7 @@ const struct program *programs_find(const struct programs *programs, const struc
     return program->site.node ? program : NULL;
 }
 
-/* Outgrown tables stay in the arena: together they are no larger than the last. */
+/* Double the table. Old tables stay in the arena: together they are no larger than the last. */
 static bool grow(struct programs *programs)
 {
     const struct programs old = *programs;

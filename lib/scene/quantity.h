@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * The kinds of number that a model file holds, by the names that mechanics has for them.
+ * The physical quantities of the numbers in a model file.
  */
 #ifndef FBD_SCENE_QUANTITY_H
 #define FBD_SCENE_QUANTITY_H
@@ -9,7 +9,7 @@
 
 enum quantity {
     a_number, /* pure */
-    an_angle, /* pure too, but a bare number beyond one turn is suspect */
+    an_angle, /* pure; a bare number beyond one turn is suspect */
     a_mass,
     a_length,
     a_time,

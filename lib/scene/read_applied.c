@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Applied forces and drag: where they act, where they point to, what they move through.
+ * Applied forces and drag: point of application, direction, wind.
  */
 #include "scene/load_entry.h"
 #include "scene/values.h"
@@ -18,7 +18,7 @@ bool entry_pair_read(struct entry *entry, const struct node *node, const char *w
     return value_formula(entry->reader, node->items[1], what, quantity, 0, &entry->scope, y) && first;
 }
 
-/* ---- where it acts */
+/* ---- point of application */
 
 static const char offset_hint[] = "write for example `offset: [0.1 m, 0]`, along the axes of the world";
 
@@ -70,7 +70,7 @@ static bool fill_component(struct entry *entry, const char *key, struct value *v
     return value->expr != NULL;
 }
 
-/* A size needs a direction; on a slide it has one. */
+/* A force given by its size needs a direction; a slide has one. */
 static bool check_direction(struct entry *entry)
 {
     if (entry_has(entry, "angle") || entry_has(entry, "toward") || !entry->motion || entry_is_slide(entry))
@@ -82,7 +82,7 @@ static bool check_direction(struct entry *entry)
     return false;
 }
 
-/* [x, y] on the ground, or the end of a coupling. */
+/* Read `toward`: [x, y] on the ground, or the end of a coupling. */
 static bool read_toward(struct entry *entry)
 {
     struct load *load = &entry->keys.load;
@@ -106,7 +106,7 @@ static bool read_toward(struct entry *entry)
     return false;
 }
 
-/* What goes with a size alone does not go with components. */
+/* Components exclude the keys of a size with direction. */
 static bool check_form(struct entry *entry, bool components, bool pair)
 {
     const char *hint = "give its size (and angle) or its components";
@@ -123,7 +123,7 @@ static bool check_form(struct entry *entry, bool components, bool pair)
            entry_exclude(entry, "toward", "frame", "the direction to a point is the same in any frame");
 }
 
-/* What follows from what was read. */
+/* Derive direction and moment from the entry. */
 static bool derive(struct entry *entry, const struct names *names)
 {
     struct load *load = &entry->keys.load;
@@ -131,7 +131,7 @@ static bool derive(struct entry *entry, const struct names *names)
     return !load_is_placed(load) || derive_couple(entry, names->distance_named);
 }
 
-/* What is missing may be what a key was meant for that has been refused. */
+/* True if an unknown key was refused: the missing key may have been meant by it, so no second note is given. */
 static bool has_unknown_key(const struct entry *entry)
 {
     const struct node *node = entry->chosen.node;

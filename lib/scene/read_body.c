@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Bodies: the first pass over each reads what it is and how it moves, so that every body's coordinates are
- * known when the second reads what acts on it.
+ * Bodies: the first pass reads inertia and motion of each body, so that the coordinates of all bodies are
+ * known when the second pass reads the loads.
  */
 #include "scene/fields.h"
 #include "scene/reader.h"
@@ -38,7 +38,7 @@ static bool check_body_name(struct reader *reader, const struct body *body)
     return false;
 }
 
-/* A key of a body that stands among the bodies by wrong indentation: `forces` in the column of `block`. */
+/* True for a key of a body that is among the bodies by wrong indentation: `forces` in the column of `block`. */
 static bool is_key_of_body(const struct pair *pair)
 {
     const struct node *node = pair->value;
@@ -68,7 +68,7 @@ static bool is_special_point(const char *name)
     return strcmp(name, "G") == 0 || strcmp(name, "O") == 0;
 }
 
-/* The points that the file names come first; those of the shapes follow (read_part.c). */
+/* Read the points given in the file; those of the shapes follow (read_part.c). */
 static bool read_given_points(struct reader *reader, int index)
 {
     struct body *body = &reader->scene->bodies[index];
@@ -110,7 +110,7 @@ static void note_unknown_point(struct reader *reader, int index, const struct no
              body->name, value_found(reader, node));
 }
 
-/* A point that may be missing only because of what was noted before. */
+/* True if a point may be missing because of an error noted before. */
 static bool is_excused(const struct draft *draft, const char *name)
 {
     bool pivot = strcmp(name, "O") == 0 && !draft->motion_known;
@@ -143,7 +143,7 @@ bool body_point_read(struct reader *reader, int index, const struct node *node, 
     return false;
 }
 
-/* ---- the whole body, first pass */
+/* ---- first pass */
 
 static size_t most_points(const struct draft *draft)
 {
@@ -173,7 +173,7 @@ bool body_read(struct reader *reader, int index)
     body->points = ARENA_ARRAY(reader->arena, most_points(draft), struct named_point);
     if (!body->points) return false;
     if (!read_given_points(reader, index)) fine = false;
-    /* Parts may state their inertia about the pivot, and the pivot may be a point of a part. */
+    /* After the given points, before the motion: the pivot may be a point of a part. */
     draft->faulty_parts = !body_parts_read(reader, index);
     if (draft->faulty_parts) fine = false;
     return fine;

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * What an entry of `parameters` or `inputs` says beside its value.
+ * Entries of `parameters` and `inputs`: description and range.
  *
- * Inputs come from outside while a motion goes on. Between two moments at which it may change an input is a constant,
- * so it is read as a parameter is (read_parameters.c); but what a body is and where it starts cannot name it, and no
- * more can a prescribed motion, which would jump with it.
+ * Inputs come from outside during a run. Between two changes an input is constant, so it is read like a
+ * parameter (read_parameters.c). But geometry, inertia and initial values cannot name it, nor can a
+ * prescribed motion, which would jump with it.
  */
 #include "scene/fields.h"
 #include "scene/reader.h"

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Contacts: what meets what. A body as a whole meets with all its shapes; a named point is a corner.
+ * Contacts. A body without a point is in contact with all its shapes; a named point is a corner.
  */
 #include "scene/coupling_names.h"
 #include "scene/reader.h"
@@ -10,7 +10,7 @@
 #include <math.h>
 #include <string.h>
 
-/* A line, polygon or point of the ground. */
+/* Read a line, polygon or point of the ground as the second end. */
 static bool read_surface(struct reader *reader, const struct node *name, struct constraint *constraint)
 {
     struct contact_law *contact = &constraint->contact;
@@ -30,7 +30,7 @@ static bool read_surface(struct reader *reader, const struct node *name, struct 
     return true;
 }
 
-/* `body` or `body.point` at end k. */
+/* Read `body` or `body.point` as end k. */
 static bool read_side(struct reader *reader, const struct node *node, int k, struct constraint *constraint)
 {
     if (ground_end_refuse(reader, node, "between", true)) return false;
@@ -47,7 +47,7 @@ static bool is_ground(const struct node *node)
            (strncmp(node->text, "ground.", strlen("ground.")) == 0 || strcmp(node->text, "ground") == 0);
 }
 
-/* A whole body has to have a shape that can meet something. */
+/* A body without a point needs a shape. */
 static bool has_shape(struct reader *reader, const struct constraint *constraint, int k)
 {
     if (constraint->body[k] == ground_body || constraint->point[k].kind != point_absent) return true;
@@ -89,7 +89,7 @@ static bool check_restitution(struct reader *reader, const struct value *e)
     return false;
 }
 
-/* The side of a line of the ground; on a vertical one none is up. */
+/* Read the side of a line of the ground; a vertical line has no side `up`. */
 static bool read_line_side(struct reader *reader, const struct node *list, int side,
                            struct constraint *constraint)
 {
@@ -109,7 +109,7 @@ static bool read_line_side(struct reader *reader, const struct node *list, int s
     return false;
 }
 
-/* A limit of zero holds nothing: what has it is smooth, as where no friction is listed. */
+/* True for a coefficient of zero, which is equivalent to no friction. */
 static bool is_none(const struct value *mu)
 {
     return mu->expr && expr_is_constant(mu->expr) && expr_value(mu->expr) == 0;
@@ -156,14 +156,14 @@ size_t stops_count(const struct reader *reader)
     return count;
 }
 
-/* `max` above `min`, e at most 1, and a coordinate that is free. */
+/* Check that `max` is above `min`, e at most 1, and the coordinate not prescribed. */
 static bool check_stops(struct reader *reader, size_t b, const double limit[2])
 {
     const struct body *body = &reader->scene->bodies[b];
     const struct draft *draft = &reader->drafts[b];
     const struct node *high = stop_of(reader, b, 1), *low = stop_of(reader, b, 0);
     const struct node *told = high ? high : low;
-    assert(told); /* it has a stop */
+    assert(told); /* the body has a stop */
     struct pos at = told->at;
     if (body->motion.prescribed.expr) {
         diag_add(reader->errors, FBD_ERROR, "not-here", at, "leave it out",

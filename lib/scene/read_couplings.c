@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Couplings: what joins two bodies beside what they move on. Each is declared once and stands in the diagrams
+ * Couplings: connections of two bodies beside their joints. Each is declared once and appears in the diagrams
  * of both.
  */
 #include "scene/coupling_names.h"
@@ -49,7 +49,7 @@ bool coupling_end_read(struct reader *reader, const struct node *node, const cha
 
 static bool read_between(struct reader *reader, const struct node *list, struct force_coupling *coupling)
 {
-    if (!list) return false; /* noted */
+    if (!list) return false; /* noted before */
     if (list->count != 2) {
         diag_add(reader->errors, FBD_ERROR, "wrong-type", list->at, "write [a.P, b.Q]",
                  "`between` needs two ends, not %zu", list->count);
@@ -84,7 +84,7 @@ static bool refuse_count(struct reader *reader, const struct node *list, const c
 bool coupling_ends_read(struct reader *reader, const struct node *list, const char *what, size_t least,
                         size_t most, struct constraint *constraint)
 {
-    if (!list) return false; /* noted */
+    if (!list) return false; /* noted before */
     if (list->count < least || list->count > most)
         return refuse_count(reader, list, what,
                             least == most ? "write [a.P, b.Q]" : "between 2 and 8 places");
@@ -164,13 +164,13 @@ bool wheels_read(struct reader *reader, const struct coupling_keys *keys, struct
 bool rack_read(struct reader *reader, const struct coupling_keys *keys, struct constraint *constraint)
 {
     if (!coupling_ends_read(reader, keys->between, "between", 2, 2, constraint)) return false;
-    if (!strchr(keys->between->items[1]->text, '.')) /* a body alone: its x axis, not its centre of mass */
+    if (!strchr(keys->between->items[1]->text, '.')) /* without a point: its x axis, not its centre of mass */
         constraint->point[1] = (struct point){.kind = point_fixed, .at = constraint->at};
     return needs_body(reader, constraint, 0) && needs_body(reader, constraint, 1) &&
            coupling_circle_set(reader, constraint, 0, keys->radius);
 }
 
-/* The coefficients were read before it was known which body rubs. */
+/* Set the body of slip speeds: the coefficients were read before the body was known. */
 static void place_slips(struct reader *reader, const struct constraint *constraint)
 {
     struct scene *scene = reader->scene;
@@ -179,7 +179,7 @@ static void place_slips(struct reader *reader, const struct constraint *constrai
         if (scene->absolutes[i].roll == roll) scene->absolutes[i].body = constraint_first_body(constraint);
 }
 
-/* What is given under one key says the other coefficient as well. */
+/* A coefficient given by one key determines the other one. */
 static bool share_friction(struct reader *reader, const struct node *node, const struct scope *scope,
                            struct coupling_keys *keys)
 {
@@ -193,7 +193,7 @@ static bool share_friction(struct reader *reader, const struct node *node, const
     return true;
 }
 
-/* What has no shape looks like what rolls. */
+/* A rolling body without shape is drawn by the circle that rolls. */
 static void set_rim(struct reader *reader, const struct constraint *constraint)
 {
     struct body *body = &reader->scene->bodies[constraint->body[0]];
@@ -204,7 +204,7 @@ static void set_rim(struct reader *reader, const struct constraint *constraint)
     part->hub = center->kind == point_fixed ? center->where : body_centre_of_mass(body);
 }
 
-/* `on`: a line of the ground, or a body, whose x axis through its origin is the line. */
+/* `on` is a line of the ground, or a body: then the line is the x axis of its frame. */
 bool roll_read(struct reader *reader, const struct coupling_keys *keys, struct constraint *constraint)
 {
     const struct node *on = keys->on;
@@ -242,7 +242,7 @@ static bool read_constraint(struct reader *reader, const struct chosen *chosen,
 
 /* ---- the list */
 
-/* What stands in a list of couplings, or, as a contact, in their own. */
+/* Read an entry of `couplings`, or of `contacts`. */
 static bool read_coupling(struct reader *reader, const struct node *node, bool contact,
                           struct coupling_name *name)
 {
@@ -257,7 +257,8 @@ static bool read_coupling(struct reader *reader, const struct node *node, bool c
     bool fine = fields_read(reader, chosen.kind->group, chosen.node, chosen.at, &scope, &keys);
     *name = (struct coupling_name){keys.name, chosen.kind, chosen.at, {ground_body, ground_body}};
     if (chosen.kind->value >= coupling_constraint) {
-        /* `slip` is that of the constraint that comes next: it counts when all that names it has been read. */
+        /* `slip` refers to the next constraint by its number: count that only after both coefficients are
+         * read. */
         if (!fine || !share_friction(reader, chosen.node, &scope, &keys)) return false;
         struct constraint *constraint = &scene->constraints[scene->constraint_count++];
         if (!read_constraint(reader, &chosen, &keys, constraint)) return false;

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Distributed loads: a force per length w(s) along a line of the body, as its resultant where that acts:
+ * Distributed loads: a force per length w(s) along a line of the body, replaced by its resultant:
  *
- *     F = integral of w ds,   s_F = integral of s w ds / F,   from `from` towards `to`.
+ *   F = integral of w ds,   s_F = integral of s w ds / F,   from `from` towards `to`.
  *
- * On a rigid body they are the same, with every reaction. The integrals are made once, by adaptive quadrature, which
- * closes in on what varies fast, from piece to piece of w between its kinks and jumps.
+ * On a rigid body the two are equivalent, including all reactions. The integrals are computed once, by
+ * adaptive quadrature over the pieces of w between its kinks and jumps.
  */
 #include <math.h>
 
@@ -30,7 +30,7 @@ static double integrand_at(double s, void *context)
     return integrand->moment == of_size ? fabs(w) : integrand->moment == of_arm ? s * w : w;
 }
 
-/* A w without a value gives NAN. */
+/* Integrate w, s w or |w|. The result is NAN if w has no value somewhere. */
 static void integrate(const struct expr *w, enum moment_of moment, double length, double *integral,
                       double *error)
 {
@@ -41,12 +41,12 @@ static void integrate(const struct expr *w, enum moment_of moment, double length
     int pieces = pieces_cut(&w, 1, 1, 0, length, most_pieces, ends);
     struct quadrature sum = quadrature_over(&function, ends, pieces, most_halves);
     *integral = sum.integral;
-    *error = pieces > 0 ? sum.error : HUGE_VAL; /* more pieces than that are not looked at one by one */
+    *error = pieces > 0 ? sum.error : HUGE_VAL; /* more pieces than most_pieces */
 }
 
-/* ---- the file */
+/* ---- reading */
 
-/* Of the body; G is known from its parts. */
+/* Read an end of the line, a point of the body; G follows from its parts. */
 static bool read_end(struct entry *entry, const struct node *node, const char *what, struct vec *where)
 {
     struct point point;
@@ -56,7 +56,7 @@ static bool read_end(struct entry *entry, const struct node *node, const char *w
     return true;
 }
 
-/* Its value at one end where that is one number, or at both. */
+/* Compile `value`: w(s), or one end value of a trapezoid. */
 static const struct expr *read_density(struct entry *entry, const struct node *node)
 {
     struct reader *reader = entry->reader;
@@ -82,7 +82,7 @@ static const struct expr *read_density(struct entry *entry, const struct node *n
     return NULL;
 }
 
-/* A trapezoid. */
+/* A trapezoidal load, given by its values at both ends. */
 static bool take_ends(struct entry *entry, const struct node *pair, double length, double *force, double *arm,
                       double *size)
 {
@@ -128,7 +128,7 @@ static bool take_integrals(struct entry *entry, const struct node *node, double 
     return false;
 }
 
-/* Where the resultant acts, or that there is none. */
+/* Set the point of application of the resultant, or note that there is none. */
 static bool place(struct entry *entry, struct vec from, struct vec to, double force, double arm, double size)
 {
     const double nothing = 1e-12;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * The solution of a body, where it is known: what errors are measured against.
+ * The exact solution of a body, if given; errors are computed from it.
  */
 #include "scene/fields.h"
 #include "scene/reader.h"

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * How answers are graded that are held against this file as a key (lib/grade).
+ * How answers are graded with this file as the key (lib/grade).
  */
 #include <errno.h>
 #include <stdlib.h>
@@ -12,7 +12,7 @@
 
 enum { most_digits = 8 };
 
-/* A number with what stands behind it as its unit. */
+/* Split a text into a number and the unit behind it. */
 static bool read_end(const struct node *node, double *number, const char **unit)
 {
     char *end = NULL;
@@ -36,7 +36,7 @@ static const struct parameter *find_parameter(const struct reader *reader, const
     return NULL;
 }
 
-/* Both ends are values that the parameter can have. */
+/* Check that both ends are valid values of the parameter. */
 static bool read_values(struct reader *reader, const struct node *ends, const struct parameter *parameter)
 {
     for (size_t i = 0; i < 2; i++) {
@@ -120,7 +120,7 @@ bool grading_read(struct reader *reader, const struct node *node)
     const struct pair *pair = node_find(reader->root, "grading");
     struct grading_keys keys;
     struct grading *grading = &keys.grading;
-    memset(&keys, 0, sizeof keys); /* also between its fields: scenes are compared word by word (patch.c) */
+    memset(&keys, 0, sizeof keys); /* also padding: scenes are compared word by word (patch.c) */
     keys.digits = 2;
     grading->given = node != NULL;
     grading->tolerance = 0.01;

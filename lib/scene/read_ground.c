@@ -8,7 +8,7 @@
 
 #include <string.h>
 
-/* The names of the keys of `map`, for a hint. */
+/* A hint with the nearest key of `map`; `none` if it is empty. */
 static const char *hint_names(struct reader *reader, const struct node *map, const char *wrong,
                               const char *none)
 {
@@ -141,7 +141,7 @@ static void reverse(struct polygon *polygon)
     }
 }
 
-/* Every corner turns left, and all of them turn once round. */
+/* True if every corner turns left and the total angle is one turn. */
 static bool is_convex(const struct polygon *polygon)
 {
     const double round = 6.283185307179586;

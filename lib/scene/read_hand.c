@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Derivations by hand: equations over the coordinates and what the assembly knows.
+ * Derivations by hand: equations over the coordinates and the names of enum hand_slot.
  */
 #include <string.h>
 
@@ -33,9 +33,9 @@ static bool read_equation(struct reader *reader, const struct node *node, const 
     return false;
 }
 
-/* ---- when it holds */
+/* ---- validity of an equation */
 
-/* Has the name of a slot, without `before` or `after`, a value at an impact? What jumps has two, forces none. */
+/* True if a slot without `before` or `after` has one value at an impact. Velocities have two, forces none. */
 static bool stands_at_impacts(const struct scene *scene, size_t slot)
 {
     const size_t n = scene->coordinate_count, size = scene_size(scene);
@@ -48,11 +48,11 @@ static bool stands_at_impacts(const struct scene *scene, size_t slot)
            kind == absolute_inertia || kind == absolute_work || kind == absolute_impulse;
 }
 
-/* What the names in a line ask for. */
+/* Kinds of names in an equation. */
 struct senses {
     bool of[hand_senses];
     bool work;  /* or an impulse */
-    bool jumps; /* a name that is no number at an impact */
+    bool jumps; /* a name without a unique value at an impact */
 };
 
 static void note_senses(const struct scene *scene, const struct expr *expr, struct senses *senses)
@@ -68,7 +68,7 @@ static void note_senses(const struct scene *scene, const struct expr *expr, stru
     }
 }
 
-/* Of which kind it is follows from its names. */
+/* Set the kind of an equation, which follows from its names. */
 static bool set_kind(struct reader *reader, const struct node *impact, struct hand *hand)
 {
     struct senses senses = {{false}, false, false};
@@ -94,7 +94,7 @@ static bool set_kind(struct reader *reader, const struct node *impact, struct ha
     return !message;
 }
 
-/* Where the sign of an equation stands: outside all brackets. */
+/* Position of the equals sign outside of all brackets. */
 static size_t equals_sign(const char *text)
 {
     int depth = 0;
@@ -106,8 +106,8 @@ static size_t equals_sign(const char *text)
     return strlen(text);
 }
 
-/* Compile the summands of one side, which is known to be good: what there is to say of it was said. `sign` is
- * that of the side once all stands on the right. */
+/* Compile the summands of one side, which was compiled as a whole before: only memory can fail. `sign` is
+ * that of the side after moving all summands to the right. */
 static bool add_summands(struct reader *reader, const char *text, size_t length, double sign,
                          const struct scope *scope, struct hand *hand)
 {
@@ -130,7 +130,7 @@ static bool add_summands(struct reader *reader, const char *text, size_t length,
     return fine;
 }
 
-/* An equation of very many summands is left whole. */
+/* Split an equation into its summands; one with more than most_summands stays whole. */
 static bool split_equation(struct reader *reader, const struct scope *scope, struct hand *hand)
 {
     size_t left = equals_sign(hand->text), length = strlen(hand->text);
@@ -160,9 +160,9 @@ static const struct expr *read_condition(struct reader *reader, const struct nod
     return when;
 }
 
-/* ---- the point about which it has moments */
+/* ---- point of reference of moments */
 
-/* A place `name.x`, `name.y` of the world, by what an equation may name. */
+/* Set the reference point by the expressions `name.x`, `name.y`. */
 static bool name_place(struct reader *reader, const char *name, const struct scope *scope, struct hand *hand)
 {
     const struct expr_want want = {.dim = DIM_LENGTH, .what = "about"};
@@ -182,7 +182,8 @@ static bool ground_place(struct reader *reader, const struct pair *pair, struct 
     return point->valid && hand->about[0] && hand->about[1];
 }
 
-/* A point of the body, of the ground, of another body, or where a force of the diagram acts. */
+/* Read a point of the body, of the ground, of another body, or the point of application of a force of the
+ * diagram. */
 static bool read_about(struct reader *reader, int index, const struct node *node, const struct scope *scope,
                        struct hand *hand)
 {
@@ -263,7 +264,7 @@ bool body_hand_read(struct reader *reader, int index)
         bool left = reader->scene->hands_left;
         reader->scene->hands_left = left || left_before;
         if (left)
-            *hand = (struct hand){.text = NULL}; /* is read again when the names of forces are known */
+            *hand = (struct hand){.text = NULL}; /* read again when the names of forces are known */
         else if (read)
             body->hand_count++;
         else

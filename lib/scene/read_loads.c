@@ -26,7 +26,7 @@ static bool finish_anchored_spring(struct entry *entry)
     return fine;
 }
 
-/* Its other end is on a body, by name or by a point of one: that takes a coupling. */
+/* True, with a note, if `to` names a body or a point of one: then the spring must be a coupling. */
 static bool ends_on_body(struct entry *entry)
 {
     const struct node *to = entry->keys.to;
@@ -70,14 +70,14 @@ bool link_finish(struct entry *entry)
 
 /* ---- friction, drag */
 
-/* The text of a coefficient; a bare one stands in place of the keys. */
+/* The node of a coefficient; a single value may replace the mapping. */
 static const struct node *coefficient_node(const struct entry *entry, const char *key)
 {
     const struct pair *pair = node_find(entry->chosen.node, key);
     return pair ? pair->value : entry->chosen.node;
 }
 
-/* What is given under one key says the other coefficient as well. */
+/* A coefficient given by one key determines the other one. */
 static bool share_coefficient(struct entry *entry, const char *key, const struct value *given,
                               enum slip_name slip, struct value *other)
 {
@@ -100,7 +100,6 @@ static bool share_friction(struct entry *entry, bool single)
     return load->mu_s.expr && load->mu_k.expr;
 }
 
-/* One coefficient stands for both. */
 bool friction_finish(struct entry *entry)
 {
     struct load *load = &entry->keys.load;
@@ -133,7 +132,7 @@ bool moment_spring_finish(struct entry *entry)
     return true;
 }
 
-/* Its slope is taken with respect to coordinates. */
+/* V is differentiated by coordinates, so it may depend on them alone. */
 bool potential_finish(struct entry *entry)
 {
     const struct value *V = &entry->keys.load.potential;
@@ -177,7 +176,7 @@ static bool read_entry(struct entry *entry, const struct kinds *kinds, const str
     return (!load->law->finish || load->law->finish(entry)) && fine;
 }
 
-/* Note a second weight, a second surface, friction without a surface. */
+/* Note duplicate weight or normal force, and friction without a normal force. */
 static bool check_together(struct reader *reader, int index)
 {
     const struct body *body = &reader->scene->bodies[index];
@@ -211,7 +210,7 @@ static size_t entry_count(const struct node *list)
     return !list ? 0 : list->kind == node_list ? list->count : 1;
 }
 
-/* A list, or a single entry in its place. */
+/* An entry of a list, or the single entry that replaces it. */
 static const struct node *entry_at(const struct node *list, size_t index)
 {
     return list->kind == node_list ? list->items[index] : list;
@@ -237,7 +236,7 @@ bool body_loads_read(struct reader *reader, int index)
             bool read = read_entry(&entry, kinds[list], entry_at(lists[list], i));
             if (!read) fine = false;
             if (!entry.chosen.kind) continue;
-            /* A faulty load still counts: friction finds its normal, names are checked. */
+            /* Keep a faulty load for later checks: friction finds its normal, names are checked. */
             const struct pair *name = node_find(entry.chosen.node, "name");
             given[body->load_count] = entry.keys.name;
             places[body->load_count] = name ? name->value->at : entry.chosen.at;

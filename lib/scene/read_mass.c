@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * A mass that varies: rockets, tanks, chains. The body keeps its shape; its density is what changes, so that its centre
- * of mass stays and its moment of inertia goes with the mass. What leaves or comes has the velocity of the body, unless
- * a `thrust` says otherwise (Meshchersky's equation: m dv/dt = sum of forces + dm/dt u, with u the velocity of that
- * mass relative to the body).
+ * A varying mass: rockets, tanks, chains. The body keeps its shape; its density varies, so that its centre of
+ * mass is fixed and its moment of inertia is proportional to the mass. The mass that leaves or enters has the
+ * velocity of the body, unless a `thrust` defines another one (Meshchersky's equation: m dv/dt = sum of
+ * forces + dm/dt u, with u the velocity of that mass relative to the body).
  */
 #include <math.h>
 
@@ -11,7 +11,8 @@
 #include "scene/reader.h"
 #include "scene/values.h"
 
-/* Coordinates and states have rates that are known before any acceleration is; what depends on rates has not. */
+/* Note a dependence on rates: the rate of the mass is needed before accelerations, so it may depend on time,
+ * coordinates and states only. */
 static bool check_slots(struct reader *reader, const struct node *node, const struct expr *mass)
 {
     const struct scene *scene = reader->scene;
@@ -28,7 +29,7 @@ static bool check_slots(struct reader *reader, const struct node *node, const st
     return true;
 }
 
-/* Where the mass comes to nothing is found as other divisions by zero are. */
+/* Compile 1/m: its division by zero detects a vanishing mass. */
 static bool derive_inverse(struct reader *reader, const struct node *node, const struct scope *scope,
                            struct body *body)
 {
@@ -37,7 +38,7 @@ static bool derive_inverse(struct reader *reader, const struct node *node, const
     text_add(&text, "1/(");
     text_add_bytes(&text, node->text, node->length);
     text_add(&text, ")");
-    fbd_errors *errors = fbd_errors_new(); /* the text is right as it stands */
+    fbd_errors *errors = fbd_errors_new(); /* the text compiled before: only memory can fail */
     if (text.failed || !errors)
         diag_out_of_memory(reader->errors);
     else
@@ -73,7 +74,7 @@ bool body_mass_read(struct reader *reader, int index)
     return check_slots(reader, node, body->mass.expr) && derive_inverse(reader, node, &scope, body);
 }
 
-/* When all states and starts are known. */
+/* Evaluate varying masses at the start, when all states and initial values are known. */
 bool masses_start(struct reader *reader)
 {
     struct scene *scene = reader->scene;
@@ -88,7 +89,7 @@ bool masses_start(struct reader *reader)
         if (!body->mass.expr || !body->complete) continue;
         double mass = body->parts[0].mass = expr_eval(body->mass.expr, 0, y, NULL);
         if (mass > 0 && isfinite(mass)) continue;
-        scene->bodies[b].parts[0].mass = 1; /* and no more to say of it */
+        scene->bodies[b].parts[0].mass = 1; /* avoids further notes */
         diag_add(reader->errors, FBD_ERROR, "out-of-range", body->mass.at,
                  "let it start with a small mass above zero",
                  "the `mass` of `%s` is %g at the start: it must be above zero", body->name, mass);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Motion: the coordinates of a body, where they are counted from, and their values at t = 0.
+ * Motion: the coordinates of a body, their reference, and their values at t = 0.
  */
 #include "scene/fields.h"
 #include "scene/reader.h"
@@ -16,7 +16,7 @@ struct vec body_centre_of_mass(const struct body *body)
         mass += body->parts[i].mass;
         moment = vec_add(moment, vec_scale(body->parts[i].mass, body->parts[i].center));
     }
-    /* One part keeps its centre to the last bit. */
+    /* the exact centre of a single part, without rounding */
     return body->part_count == 1 ? body->parts[0].center : vec_scale(1 / mass, moment);
 }
 
@@ -39,7 +39,7 @@ static bool read_own_point(struct reader *reader, int index, const struct motion
     return true;
 }
 
-/* A moment of inertia stated about the pivot needs one. */
+/* Note `about: O` on a body without a pivot. */
 static bool check_about_pivot(struct reader *reader, const struct body *body)
 {
     bool fine = true;
@@ -93,7 +93,8 @@ bool body_initial_read(struct reader *reader, int index)
     return fine;
 }
 
-/* A prescribed coordinate: a function of time alone. It leaves nothing to `initial`, and to dry friction. */
+/* Read a prescribed coordinate, a function of time alone. It excludes `initial` and dry friction in the
+ * joint. */
 bool body_prescribed_read(struct reader *reader, int index)
 {
     struct body *body = &reader->scene->bodies[index];

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Parameters, inputs and gravity: constants that are evaluated when they are first named, so that they may stand in
- * any order. What is being evaluated is chained on the stack; naming it again closes a circle.
+ * Parameters, inputs and gravity: constants that are evaluated at their first use, so that they may stand in
+ * any order. Definitions being evaluated are chained on the stack; naming one of them again is a circular
+ * definition.
  */
 #include "expr/number.h"
 #include "scene/reader.h"
@@ -12,8 +13,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Evaluation recurses once for each definition that stands after its use. The limit keeps the stack small for
- * any file; definitions in the order of their use never meet it. */
+/* Evaluation recurses once for each definition that stands after its use. The limit bounds the stack;
+ * definitions in the order of their use do not recurse. */
 enum { deepest_chain = 40 };
 
 /* ---- names */
@@ -23,7 +24,7 @@ static int compare_names(const void *a, const void *b)
     return strcmp(*(const char *const *)a, *(const char *const *)b);
 }
 
-/* Notes on a value from outside name the option in place of the file. */
+/* Notes on a value from outside name the option instead of the file. */
 static const char *enter_override(struct reader *reader, const struct override *override)
 {
     const char *file = reader->errors->file;
@@ -43,7 +44,7 @@ static const struct pair *pair_of(const struct reader *reader, size_t index)
                               : &reader->inputs->pairs[index - parameters];
 }
 
-/* The place of `name` in a mapping, which may be NULL; false when it is not there. */
+/* Index of `name` in a mapping, which may be NULL; false if not found. */
 static bool find_in(const struct node *map, const char *name, size_t *index)
 {
     const struct pair *pair = map ? node_find(map, name) : NULL;
@@ -122,7 +123,7 @@ static bool check_parameter_name(struct reader *reader, const struct pair *pair,
     return false;
 }
 
-/* One entry of `parameters` or `inputs`: its name is known, its value is not asked for yet. */
+/* Define one entry of `parameters` or `inputs`, without evaluating it. */
 static void define(struct reader *reader, size_t index)
 {
     const struct pair *pair = pair_of(reader, index);
@@ -169,7 +170,7 @@ void definition_note_circle(struct reader *reader, const char *name, struct pos 
              "parameters define one another in a circle: %s%.40s", path, name);
 }
 
-/* Enter the definition of `name`; false with a note when it is too deep. */
+/* Enter the definition of `name`; false with a note when the chain is too long. */
 bool definition_open(struct reader *reader, struct open_definition *open, const char *name, struct pos at)
 {
     if (reader->open_depth == deepest_chain) {
@@ -196,7 +197,7 @@ static const struct expr *compile_parameter(struct reader *reader, const struct 
     return fine ? value.expr : NULL;
 }
 
-/* A value given from outside: text without a place in the file. */
+/* Compile a value from outside: text without a position in the file. */
 const struct expr *override_compile(struct reader *reader, const struct override *override)
 {
     const struct node node = {.kind = override->value[0] ? node_scalar : node_null,
@@ -210,7 +211,8 @@ const struct expr *override_compile(struct reader *reader, const struct override
     return expr;
 }
 
-/* A pure number that the file does not give as a bare one was written with a unit of angle, most likely. */
+/* Warn of a large bare number for a parameter that the file probably gives in a unit of angle: a pure number
+ * that is not bare. */
 static void warn_bare_angle(struct reader *reader, const struct parameter *parameter,
                             const struct override *override)
 {
@@ -222,7 +224,7 @@ static void warn_bare_angle(struct reader *reader, const struct parameter *param
              "`%s` is set to a bare number: %.40s rad if it is an angle", parameter->name, override->value);
 }
 
-/* Put the value of `expr` in the place of the one from the file: same dimension, or a bare number. */
+/* Replace the value of the file by that of `expr`, of the same dimension or a bare number. */
 static bool replace_value(struct reader *reader, struct parameter *parameter, const struct expr *expr,
                           const struct override *override)
 {
@@ -314,7 +316,7 @@ static void read_range(struct reader *reader, size_t index)
     reader->varies = outer;
 }
 
-/* `2 kg/s`: is that the unit of a text? */
+/* True if the text is a number with this unit, as `2 kg/s`. */
 static bool has_unit(const char *text, const char *unit)
 {
     if (!text) return false;
@@ -324,7 +326,8 @@ static bool has_unit(const char *text, const char *unit)
     return strcmp(text, unit) == 0;
 }
 
-/* A mass that flows has the dimension of a damping: what is written as kg/s is shown so, and not as N*s/m. */
+/* A mass flow has the dimension of a damping coefficient: the unit kg/s if the text has it, rather than
+ * N*s/m; else NULL. */
 static const char *mass_flow(const struct reader *reader, const struct definition *definition)
 {
     const char *unit = reader->scene->units == unit_si ? "kg/s" : "slug/s";
@@ -358,7 +361,7 @@ void parameters_note_unused(struct reader *reader)
 
 /* ---- gravity */
 
-/* The number that belongs to the other system of units. */
+/* Warn of the standard value of the other system of units. */
 static void warn_foreign_gravity(struct reader *reader, double magnitude)
 {
     bool us = reader->scene->units == unit_us;
@@ -370,7 +373,7 @@ static void warn_foreign_gravity(struct reader *reader, double magnitude)
              us ? "ft/s^2" : "m/s^2");
 }
 
-/* A magnitude means straight down; a pair is the vector. */
+/* Read a magnitude, downwards, or a vector. */
 static bool read_gravity(struct reader *reader)
 {
     const struct node *node = reader->gravity;

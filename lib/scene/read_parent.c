@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * What a body moves on: the ground, or a point of another body. Read when all motions are known, so that a
- * body may stand before the one that it moves on.
+ * The parent of a body: the ground, or another body. Read when all motions are known, so that a body may
+ * stand before its parent.
  */
 #include "scene/reader.h"
 #include "scene/values.h"
@@ -20,7 +20,7 @@ bool body_name_read(struct reader *reader, const struct node *node, const char *
         *body = (int)(pair - reader->bodies->pairs);
         return true;
     }
-    size_t count = 0, there = reader->bodies ? reader->bodies->count : 0; /* a file may have none */
+    size_t count = 0, there = reader->bodies ? reader->bodies->count : 0; /* the file may have none */
     for (; count < there && count < most_listed; count++) names[count] = reader->bodies->pairs[count].key;
     diag_add(reader->errors, FBD_ERROR, "unknown-body", node->at,
              diag_nearest(reader->errors, node->text, names, count), "`%s`: there is no body %s", what,
@@ -28,7 +28,7 @@ bool body_name_read(struct reader *reader, const struct node *node, const char *
     return false;
 }
 
-/* The place of an axis in the world, said by a point of the body itself. */
+/* Note a position of an axis in the world that names a point of the body itself. */
 static bool is_own_point(struct reader *reader, int index, const struct node *node)
 {
     const struct body *body = &reader->scene->bodies[index];
@@ -45,7 +45,7 @@ static bool is_own_point(struct reader *reader, int index, const struct node *no
     return false;
 }
 
-/* A point of the parent, or of the ground, in its frame. */
+/* Read a point of the parent in its frame. */
 static bool read_place(struct reader *reader, int parent, const struct node *node, const char *what,
                        struct vec *where)
 {
@@ -77,7 +77,7 @@ bool body_parent_read(struct reader *reader, int index)
                  "a body that is welded to the ground has no motion");
         return false;
     }
-    if (motion->parent == index) return true; /* a circle of one, see below */
+    if (motion->parent == index) return true; /* noted by parents_check */
     const struct node *place = motion->kind == motion_slide ? keys->through : keys->at;
     if (place && motion->parent == ground_body && is_own_point(reader, index, place)) return false;
     bool fine = read_place(reader, motion->parent, place, motion->kind == motion_slide ? "through" : "at",
@@ -86,14 +86,14 @@ bool body_parent_read(struct reader *reader, int index)
     return fine;
 }
 
-/* Each body has one parent: from every body walk down to the ground or to one that is known to end there. A
- * walk that meets its own trace has found a circle. */
+/* Find circles: each body has one parent. From every body walk to the ground or to a body of an earlier walk;
+ * reaching a body of the same walk closes a circle. */
 bool parents_check(struct reader *reader)
 {
     struct scene *scene = reader->scene;
     int count = (int)scene->body_count;
-    int *walk =
-        ARENA_ARRAY(reader->arena, (size_t)count, int); /* 0, or the number of the walk that came by */
+    int *walk = ARENA_ARRAY(reader->arena, (size_t)count,
+                            int); /* 0, or the number of the walk that visited the body */
     if (!walk) return false;
     bool fine = true;
     for (int start = 0; start < count; start++) {

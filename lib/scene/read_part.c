@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Parts: shapes with their dimensions and places, whether they are a whole body or a piece of one.
+ * Parts: shapes with their dimensions and positions, as a whole body or as a part of one.
  */
 #include "scene/fields.h"
 #include "scene/reader.h"
@@ -9,7 +9,7 @@
 #include <math.h>
 #include <string.h>
 
-/* The keys that describe a shape, and which of them each shape takes and needs. */
+/* The keys that describe a shape; which of them each shape takes and needs is below. */
 enum dimension {
     use_length = 1,
     use_radius = 2,
@@ -68,7 +68,7 @@ const char *shape_dimension(size_t index, int shape, bool *taken)
     return dimensions[index].key;
 }
 
-/* What the moment of inertia about the axis that faces the plane depends on. */
+/* The dimensions that determine the moment of inertia about the axis perpendicular to the plane. */
 static unsigned needed_by(enum shape_kind shape, char axis)
 {
     unsigned across = axis == 'x' ? 0 : use_length;
@@ -90,9 +90,9 @@ static char default_axis(enum shape_kind shape)
     return shape == shape_cylinder || shape == shape_hollow_cylinder || shape == shape_ring ? 'x' : 'z';
 }
 
-/* ---- checks of what is given */
+/* ---- checks */
 
-/* What the file calls the shape. */
+/* The word of the file for the shape. */
 static const char *shape_word(const struct node *map, enum shape_kind shape)
 {
     const struct pair *pair = node_find(map, "shape");
@@ -174,7 +174,7 @@ static bool check_tube(struct reader *reader, const struct node *map, const stru
     return false;
 }
 
-/* ---- inertia as given */
+/* ---- given inertia */
 
 static bool read_inertia(struct reader *reader, int body, const struct node *map,
                          const struct part_keys *keys, struct part *part)
@@ -186,7 +186,7 @@ static bool read_inertia(struct reader *reader, int body, const struct node *map
         return false;
     part->inertia = given.value;
     part->about = (struct point){.kind = point_G, .at = pair->at};
-    /* A hole has mass and moment of inertia below zero. */
+    /* A hole has negative mass and moment of inertia. */
     if (given.value * keys->mass < 0) {
         diag_add(reader->errors, FBD_ERROR, "out-of-range", keys->inertia->at, NULL,
                  "`inertia` must have the sign of `mass`");
@@ -218,7 +218,7 @@ static bool place_rod(struct reader *reader, const struct node *map, const struc
     return false;
 }
 
-/* Numbers that could not be read stay NaN, and no check below complains about them again. */
+/* Numbers that could not be read stay NaN, which passes all checks below, so that no second note is given. */
 static struct part_keys no_keys(void)
 {
     return (struct part_keys){.mass = NAN,
@@ -257,7 +257,7 @@ static bool read_part(struct reader *reader, int body, const struct node *map, s
     return fine;
 }
 
-/* A name for which there was no memory names nothing. */
+/* Add a named point; without memory for the name it is skipped. */
 static void name_point(struct body *body, const char *name, struct vec where)
 {
     if (name) body->points[body->point_count++] = (struct named_point){name, where};
@@ -286,7 +286,7 @@ static bool check_mass(struct reader *reader, const struct node *map, struct pos
     return false;
 }
 
-/* A mass that varies is read when all that it may name is known (read_mass.c); until then that of the part is 1. */
+/* True for a varying mass, which is read later (read_mass.c); until then that of the part is 1. */
 static bool varies(double mass)
 {
     return isinf(mass);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * A force toward a point of another body acts between the two: what that body feels is a force of its own,
- * equal and opposite, which is called after both.
+ * A force toward a point of another body acts between the two: the reaction on that body is a separate load,
+ * equal and opposite, named after body and force.
  */
 #include "scene/reader.h"
 
@@ -18,13 +18,13 @@ static struct load reaction_of(struct reader *reader, const struct body *body, c
                          .reaction = true};
 }
 
-/* On which body a force draws, or ground_body. */
+/* The body that a force is directed to, or ground_body. */
 static int drawn_by(const struct load *load)
 {
     return load->toward && !load->reaction ? load->target : ground_body;
 }
 
-/* How many forces draw on each body, into `drawn`; returns how many there are in all. */
+/* Count the forces directed to each body in `drawn`; returns their total. */
 static size_t count_drawn(const struct scene *scene, size_t *drawn)
 {
     size_t count = 0;
@@ -38,7 +38,7 @@ static size_t count_drawn(const struct scene *scene, size_t *drawn)
     return count;
 }
 
-/* Room for `more` loads of a body. */
+/* Extend the array of loads of a body by `more`. */
 static bool make_room(struct reader *reader, struct body *body, size_t more)
 {
     struct load *loads = ARENA_ARRAY(reader->arena, body->load_count + more, struct load);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Ropes: over pulleys, wound on discs, of a length that varies.
+ * Ropes: over pulleys, wound on discs, with varying length.
  */
 #include "scene/couplings.h"
 #include "scene/fields.h"
@@ -10,14 +10,14 @@
 #include <math.h>
 #include <string.h>
 
-/* ---- pulleys, and what is taken to its centre */
+/* ---- pulleys, and ends at the centre of a disc */
 
 static bool names_no_point(const struct node *place)
 {
     return strchr(place->text, '.') == NULL;
 }
 
-/* What is round and turns is mostly meant to have the rope on its rim. */
+/* Warn of an end at the centre of a turning disc: mostly the rim is meant. */
 static void warn_of_centre(struct reader *reader, const struct node *place, const struct body *body)
 {
     diag_add(reader->errors, FBD_WARNING, "rope-at-centre", place->at,
@@ -28,7 +28,7 @@ static void warn_of_centre(struct reader *reader, const struct node *place, cons
              "the rope ends at the centre of `%s`, which is round and turns", body->name);
 }
 
-/* A disc that turns is a pulley which the rope takes along; any other body is a place that it slips over. */
+/* A turning disc is a pulley without slip; over any other body the rope slides at a point. */
 static bool set_pulleys(struct reader *reader, const struct node *through, struct constraint *constraint)
 {
     int last = constraint->end_count - 1;
@@ -43,9 +43,9 @@ static bool set_pulleys(struct reader *reader, const struct node *through, struc
     return true;
 }
 
-/* ---- discs that it is wound on */
+/* ---- discs with wound rope */
 
-/* The end that an entry speaks of: the first of that name without an entry; -1 without one. */
+/* The end of the rope that an entry refers to: the first of that name without an entry; else -1. */
 static int wound_end(const struct node *through, const struct constraint *constraint, const struct node *on)
 {
     for (int end = 0; end < 2; end++) {
@@ -55,7 +55,7 @@ static int wound_end(const struct node *through, const struct constraint *constr
     return -1;
 }
 
-/* Any body may be wound on, also one that does not turn, and a place of the ground. */
+/* Set the disc of an end. A body that does not turn and a point of the ground are allowed, too. */
 static bool set_disc(struct reader *reader, const struct wound_keys *keys, struct constraint *constraint,
                      int end)
 {
@@ -99,7 +99,7 @@ static bool read_all_wound(struct reader *reader, const struct coupling_keys *ke
     return fine;
 }
 
-/* ---- its length */
+/* ---- length */
 
 static bool set_length(struct reader *reader, const struct value *length, struct constraint *constraint)
 {
@@ -121,7 +121,7 @@ static bool set_length(struct reader *reader, const struct value *length, struct
     return false;
 }
 
-/* ---- a drum that it rubs on */
+/* ---- friction on a drum */
 
 static bool refuse_around(struct reader *reader, const struct node *node, const char *hint, const char *what)
 {

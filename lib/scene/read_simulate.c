@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * The run: how long, how accurately, what to write, which instants to find.
+ * The run: duration, accuracy, output, events.
  */
 #include "scene/fields.h"
 #include "scene/reader.h"
@@ -11,7 +11,7 @@
 
 /* ---- events */
 
-/* Which crossing is meant: the direction of a comparison is the one in which it becomes true. */
+/* Set the direction of crossing; that of a comparison is the one in which it becomes true. */
 static bool read_direction(struct reader *reader, const struct node *node, char relation,
                            const struct event_keys *keys, struct user_event *event)
 {
@@ -60,7 +60,7 @@ static bool is_taken(const struct scene *scene, const char *name, size_t except)
     return false;
 }
 
-/* `event`, `event_2`, ... for those without a name; no two share one. */
+/* Name events without a name `event`, `event_2`, ...; names are unique. */
 static bool name_events(struct reader *reader)
 {
     struct scene *scene = reader->scene;
@@ -134,7 +134,7 @@ static bool read_points(struct reader *reader, const struct node *list)
     return fine;
 }
 
-/* `output: {every: ...}` may stand beside `simulate` or in it, and `every` in `simulate`: one of them. */
+/* Read `output`, beside `simulate` or in it. `every` may be given once, in either or in `simulate`. */
 static bool read_output(struct reader *reader, const struct node *node, const struct pair *key)
 {
     struct output_keys keys = {0};
@@ -156,7 +156,7 @@ static bool check_share(struct reader *reader, const struct node *map, const cha
                         const char *hint)
 {
     const double most = 0.1;
-    const struct pair *pair = node_find(map, key); /* absent: 0 */
+    const struct pair *pair = node_find(map, key); /* NULL: the value is 0 */
     if (!pair || (value <= most && (value >= DBL_EPSILON || !(value > 0)))) return true;
     if (value > most)
         diag_add(reader->errors, FBD_ERROR, "out-of-range", pair->value->at, hint, "`%s` must be at most %g",

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Slots: a point of one body on a straight line or on a curve of another one, as the pin of a crank in a yoke, or a
- * follower on its cam.
+ * Slots: a point of one body on a straight line or on a curve of another one, such as the pin of a crank in a
+ * yoke, or a follower on its cam.
  */
 #include <string.h>
 
@@ -16,7 +16,7 @@ static bool refuse(struct reader *reader, struct pos at, const char *id, const c
     return false;
 }
 
-/* ---- a straight one */
+/* ---- straight slots */
 
 static bool read_end(struct reader *reader, const struct node *node, const char *key, double *end)
 {
@@ -38,9 +38,10 @@ static bool read_line(struct reader *reader, const struct coupling_keys *keys, s
            refuse(reader, keys->to->at, "out-of-range", "`to` must be above `from`", NULL);
 }
 
-/* ---- a curve */
+/* ---- curved slots */
 
-/* A roller on the inside of a bend has to be smaller than it: 1 - kappa h > 0 at its distance h to the left. */
+/* Check by samples that a roller is smaller than the radius of curvature on its side: 1 - kappa h > 0 at its
+ * distance h to the left. */
 static bool roller_fits(struct reader *reader, const struct constraint *constraint)
 {
     enum { samples_of_a_panel = 16 };
@@ -92,7 +93,7 @@ static bool read_curve(struct reader *reader, const struct coupling_keys *keys, 
 bool slot_read(struct reader *reader, const struct coupling_keys *keys, struct constraint *constraint)
 {
     if (!coupling_ends_read(reader, keys->between, "between", 2, 2, constraint)) return false;
-    if (!strchr(keys->between->items[1]->text, '.')) /* a body alone: the origin of its frame */
+    if (!strchr(keys->between->items[1]->text, '.')) /* without a point: the origin of its frame */
         constraint->point[1] = (struct point){.kind = point_fixed, .at = constraint->at};
     constraint->presses = keys->side;
     constraint->radius[0] = keys->radius;

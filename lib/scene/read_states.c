@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * States with equations of their own: z' = rate. Any expression may name them, so their units are found when they are
- * first named: from `unit`, else from the unit of `initial`, else from the rate, which then must not need to know.
+ * User states: z' = rate. Any expression may name them, so their units are determined at their first use:
+ * from `unit`, else from the unit of `initial`, else from the rate, which then must not depend on the unit.
  */
 #include <string.h>
 
@@ -34,7 +34,7 @@ static bool check_name(struct reader *reader, const struct pair *pair)
            !is_taken(reader, pair, reader->tables, "a table");
 }
 
-/* `states.x` would be a coordinate. */
+/* Refuse a body called `states`: `states.x` would be ambiguous. */
 static bool check_bodies(struct reader *reader)
 {
     const struct pair *body = reader->bodies ? node_find(reader->bodies, "states") : NULL;
@@ -83,7 +83,7 @@ bool own_states_start(struct reader *reader)
     return !reader->arena->failed;
 }
 
-/* ---- their units */
+/* ---- units */
 
 static bool read_unit(struct reader *reader, const struct node *node, struct unit *unit)
 {
@@ -145,7 +145,7 @@ static bool find_dimension(struct reader *reader, size_t index)
     return true;
 }
 
-/* False after a note, here or before. */
+/* Determine the dimension of a state if necessary. False after a note, here or before. */
 static bool know_dimension(struct reader *reader, size_t index, struct pos at)
 {
     struct own_draft *draft = &reader->own_drafts[index];
@@ -168,7 +168,7 @@ static bool know_dimension(struct reader *reader, size_t index, struct pos at)
     return draft->progress == done;
 }
 
-/* ---- as symbols */
+/* ---- symbols */
 
 bool own_states_name(const struct reader *reader, const char *name)
 {
@@ -185,7 +185,7 @@ struct symbol own_state_symbol(const struct names *names, const char *name, stru
     size_t index = (size_t)(pair - reader->own->pairs);
     reader->varies = true;
     if (names->place == place_constant) {
-        symbol.kind = symbol_variable; /* to be refused */
+        symbol.kind = symbol_variable; /* refused by the caller */
         return symbol;
     }
     if (!know_dimension(reader, index, at)) {

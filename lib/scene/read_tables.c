@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Tables: functions that the file gives by points, or that stand in a file of their own. Like parameters they are read
- * when they are first named, so that they may stand in any order, and points may name parameters.
+ * Tables: functions given by points in the file or by a data file. Like parameters they are read at their
+ * first use, so that they may stand in any order, and points may name parameters.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -56,19 +56,19 @@ bool tables_start(struct reader *reader)
 
 /* ---- points */
 
-/* The points as they are read, and the units that they turned out to have. */
+/* The points that were read, and their units. */
 struct points {
     size_t count;
     double *values[2];
     struct unit unit[2];
     bool has_unit[2];
-    const int *lines; /* in a data file; else NULL, and the places are those of `nodes` */
+    const int *lines; /* of a data file; else NULL, and positions are those of `nodes` */
     const struct node *nodes;
 };
 
 static const char *const axis_names[] = {"x", "y"};
 
-/* The unit that `label` names in brackets, if it does. */
+/* Read the unit in the brackets of a heading, if any. */
 static bool read_label_unit(struct reader *reader, const struct heading *heading, struct pos at,
                             struct points *points, int axis)
 {
@@ -98,13 +98,13 @@ static struct pos key_place(const struct node *map, const char *key)
     return pair ? pair->value->at : (struct pos){0, 0};
 }
 
-/* Where a table says its file: `f: a.csv` or `f: {file: a.csv}`. */
+/* Position of the file name: `f: a.csv` or `f: {file: a.csv}`. */
 static struct pos file_place(const struct node *map)
 {
     return map->kind == node_scalar ? map->at : key_place(map, "file");
 }
 
-/* A path that is not absolute starts where the model file lies. */
+/* A relative path in the file is relative to the folder of the model file. */
 static const char *resolve_path(struct reader *reader, const char *path, bool from_outside)
 {
     const char *model = reader->scene->file, *slash = model ? strrchr(model, '/') : NULL;
@@ -141,7 +141,7 @@ static bool read_file(struct reader *reader, size_t index, const struct node *ma
     return fine;
 }
 
-/* One number of a point: what has no unit of its own has that of `x: "t [s]"`. */
+/* Read one number of a point. A bare number has the unit of `x: "t [s]"`. */
 static bool read_coordinate(struct reader *reader, const struct node *node, int axis, bool labelled,
                             struct points *points, double *number)
 {
@@ -207,7 +207,7 @@ static struct pos row_place(const struct points *points, size_t i)
     return points->lines ? (struct pos){points->lines[i], 1} : points->nodes->items[i]->at;
 }
 
-/* x grows from row to row; a row that says the same again says nothing new. */
+/* Check that x increases from row to row; repeated rows are removed. */
 static bool check_order(struct reader *reader, const char *file, struct points *points)
 {
     size_t kept = 0;
@@ -295,7 +295,7 @@ static bool read_table(struct reader *reader, size_t index, struct table *table)
     return fine;
 }
 
-/* That of an earlier reading of the same text, if it holds here as well. */
+/* The table of an earlier reading of the same text, if it is valid for this one; else NULL. */
 static struct shared_table *find_known(const struct reader *reader, size_t index)
 {
     const struct scene *known = reader->tables_of;

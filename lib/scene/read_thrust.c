@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Thrust: what mass that leaves or comes does to its body, f = dm/dt u with u its velocity relative to the body, at the
- * point where it does. Mass that leaves at the speed c of an exhaust pushes the other way, f = -dm/dt c along `angle`;
- * mass that has the velocity w in the world has u = w - v_P.
+ * Thrust: the force of a mass flow, f = dm/dt u with u the velocity of the mass relative to the body, at the
+ * point where it leaves or enters. Mass that leaves with the exhaust speed c gives f = -dm/dt c along
+ * `angle`; mass with the velocity w in the world has u = w - v_P.
  */
 #include "scene/load_entry.h"
 #include "scene/values.h"
@@ -29,7 +29,7 @@ static bool check_direction(struct entry *entry)
     return false;
 }
 
-/* One number along the line of a slide, whose v is then a velocity in the world. */
+/* Read a velocity along the line of a slide of the ground, whose v is a velocity in the world. */
 static bool read_along(struct entry *entry, const struct node *node, struct value *along)
 {
     if (entry->motion && (!entry_is_slide(entry) || entry->motion->parent != ground_body)) {

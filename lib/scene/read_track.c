@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Tracks: a curve, x and y as expressions of its parameter p (or y of x), and the place on it where a body starts.
+ * Tracks: a curve, x and y as expressions of its parameter p (or y of x), and the initial position of the
+ * body on it.
  */
 #include "expr/curve.h"
 
@@ -10,9 +11,9 @@
 
 #include <string.h>
 
-/* Constants and tables, and the parameter of the curve. */
+/* The scope of a curve: constants, tables, and the parameter of the curve. */
 struct track_names {
-    struct names names; /* first: values.c looks at it */
+    struct names names; /* first member: values.c uses it as struct names */
     struct scope constants;
     const char *parameter;
     struct dim dim;
@@ -38,7 +39,7 @@ static struct track_names names_of(struct reader *reader, int body, const char *
 
 /* ---- the range */
 
-/* A constant of any dimension, or of the one that is known. */
+/* Read a constant of any dimension, or of the given one. */
 static bool read_bound(struct reader *reader, const struct node *node, const char *key, const struct dim *dim,
                        double *value, struct dim *own, bool *bare)
 {
@@ -52,7 +53,7 @@ static bool read_bound(struct reader *reader, const struct node *node, const cha
     return true;
 }
 
-/* Numbers must be able to divide it, and squares of its length to be told from 0. */
+/* The range must be representable: large enough to be divided, and its square neither zero nor infinite. */
 static bool check_range(struct reader *reader, const struct node *to, double from, double end)
 {
     const double share = 1e-9, least = 1e-100, most = 1e100;
@@ -68,7 +69,8 @@ static bool check_range(struct reader *reader, const struct node *to, double fro
     return false;
 }
 
-/* The range, and the dimension of the parameter: that of its ends. Bare numbers are lengths in y(x). */
+/* Read the range and the dimension of the parameter, which is that of its ends. Bare numbers are lengths in
+ * y(x). */
 static bool read_range(struct reader *reader, const struct curve_keys *keys, struct curve *curve,
                        struct dim *dim)
 {
@@ -183,9 +185,9 @@ bool track_read(struct reader *reader, int index)
     return motion->curve != NULL;
 }
 
-/* ---- where it starts */
+/* ---- initial position */
 
-/* The parameter, as its ends are given. */
+/* Read an initial value of the parameter, in the dimension of the range. */
 static bool read_parameter(struct reader *reader, int index, const struct node *node, const char *key,
                            double *s)
 {

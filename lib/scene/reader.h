@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Reader: what the files that turn the tree of a model file into a scene share.
+ * Reader: the declarations shared by the files that turn the tree of a model file into a scene.
  *
- * The order is: names of parameters and bodies; parameters and gravity, each when it is first asked for (so
- * they may stand in any order); the ground; of each body what it is and how it moves; the numbering of all
- * coordinates; of each body where it starts and what acts on it; the run.
+ * The order is: names of parameters and bodies; parameters and gravity, each at its first use (so they may
+ * stand in any order); the ground; inertia and motion of each body; the numbering of all coordinates; initial
+ * values and loads of each body; the run.
  *
- * A function that reads something returns false after it has noted what is wrong (or memory ran out), and its
- * caller goes on, so that one run reports all errors of a file.
+ * A function that reads something returns false after noting an error (or when memory is out), and its caller
+ * goes on, so that one run reports all errors of a file.
  */
 #ifndef FBD_SCENE_READER_H
 #define FBD_SCENE_READER_H
@@ -21,28 +21,28 @@
 
 enum progress { untouched, in_progress, done, failed };
 
-/* What is known of a parameter beside its place in the scene. */
+/* Reader's data of a parameter, beside its entry in the scene. */
 struct definition {
     const struct node *node, *range; /* its value; range NULL when not given */
     const struct override *override; /* or NULL */
     enum progress progress;
-    bool varies; /* from reading to reading: it does itself, or names what does */
+    bool varies; /* its value depends on the reading, directly or by a varying name */
 };
 
-/* A definition that is being evaluated, for naming a circle. */
+/* A definition that is being evaluated; the chain names a circular definition. */
 struct open_definition {
     const char *name;
     const struct open_definition *outer;
 };
 
-/* What is known of a table beside its place in the scene. */
+/* Reader's data of a table, beside its entry in the scene. */
 struct table_draft {
     const struct override *override; /* another file, or NULL */
     enum progress progress;
     bool varies, used; /* see struct definition */
 };
 
-/* What is known of a state beside its place in the scene. */
+/* Reader's data of a user state, beside its entry in the scene. */
 struct own_draft {
     const struct node *node, *rate, *initial, *unit;
     enum progress progress; /* of its dimension */
@@ -61,7 +61,7 @@ struct ground_point {
     bool valid;
 };
 
-/* What is known of a body beside its place in the scene. */
+/* Reader's data of a body, beside its entry in the scene. */
 struct draft {
     const struct node *node; /* its mapping; NULL when it has none */
     struct body_keys keys;
@@ -69,7 +69,7 @@ struct draft {
     struct motion_keys motion_keys;
     bool mass_known, motion_known, motion_read;
     bool mass_varies;
-    bool faulty_parts; /* noted: points may be missing */
+    bool faulty_parts; /* with errors noted: points may be missing */
     bool has_normal, has_friction;
 };
 
@@ -88,15 +88,15 @@ struct reader {
     const struct force_name *force_names;
     struct definition *definitions;
     struct table_draft *table_drafts;
-    struct data_text data; /* of the table that was read last */
+    struct data_text data; /* of the table read last */
     struct own_draft *own_drafts;
-    const struct scene *tables_of; /* an earlier reading of the same text, whose tables serve here, or NULL */
-    bool same_parameters;          /* it had the same values of all parameters, */
-    bool same_files;               /* and the files of tables that were set from outside hold on */
+    const struct scene *tables_of; /* an earlier reading of the same text, whose tables are reused, or NULL */
+    bool same_parameters;          /* that reading had the same values of all parameters */
+    bool same_files;               /* the files of tables set from outside are unchanged */
     struct draft *drafts;
     struct ground_point *ground_points;
     struct ground_line *ground_lines;
-    struct polygon *ground_polygons; /* without corners where they are wrong */
+    struct polygon *ground_polygons; /* without corners where wrong */
 
     const struct node *gravity;
     enum progress gravity_progress;
@@ -105,65 +105,67 @@ struct reader {
     int open_depth;
 
     const struct programs *known;   /* of an earlier reading of the same file, or NULL */
-    struct programs *keep;          /* where those go that hold for later readings, or NULL */
-    struct record *record;          /* where what varies is noted, or NULL (patch.h) */
-    struct arena *exprs;            /* where expressions are compiled to: `arena`, unless they are noted */
-    struct arena *derived;          /* and those that follow from others */
-    const struct override *outside; /* whose value is being read, or NULL */
-    bool names_varying;    /* the expression names what varies, by its value; `varies` also by its slot */
-    bool varies;           /* the expression that is being compiled holds for this reading only */
-    bool names_parameters; /* the table or definition that is being read names some, or gravity */
-    bool names_inputs;     /* what has been compiled names some */
-    const struct override *time; /* of the input that stands in its place, or NULL */
+    struct programs *keep;          /* receives programs that are valid for later readings, or NULL */
+    struct record *record;          /* receives varying expressions, or NULL (patch.h) */
+    struct arena *exprs;            /* memory of expressions: `arena`, unless they are recorded */
+    struct arena *derived;          /* memory of expressions derived from others */
+    const struct override *outside; /* override whose value is being read, or NULL */
+    bool names_varying;          /* the expression depends on a varying value; `varies` includes slots, too */
+    bool varies;                 /* the expression being compiled is valid for this reading only */
+    bool names_parameters;       /* the table or definition being read names a parameter or gravity */
+    bool names_inputs;           /* a compiled expression names an input */
+    const struct override *time; /* of the input that replaces the time, or NULL */
 
     struct names constant_names;
     struct scope constants; /* parameters, g, pi */
 };
 
-/* Make a scene, as scene_make does, in a reader that holds what it knew; `record` and `keep` may be NULL (scene.c). */
+/* Make a scene, as scene_make does, and leave the reader's data in `reader`; `record` and `keep` may be NULL
+ * (scene.c). */
 struct scene *scene_read_by(struct reader *reader, const struct document *document,
                             const struct override *overrides, size_t override_count, struct programs *keep,
                             struct record *record, fbd_errors *errors);
 
 /* ---- parameters (read_parameters.c) */
 
-/* The value of an override, whose text has no place in the file. */
+/* Compile the value of an override; its text has no position in the file. */
 const struct expr *override_compile(struct reader *reader, const struct override *override);
 
-/* Set up names and overrides. False only when memory is out. */
+/* Set up names and overrides. Returns false only when memory is out. */
 bool parameters_start(struct reader *reader, const struct override *overrides, size_t count);
 
 /* Evaluate all. */
 void parameters_finish(struct reader *reader);
-/* To be called when the whole file was read and is right. */
+/* Call when the whole file was read without errors. */
 void parameters_note_unused(struct reader *reader);
 
-/* Which parameter or input `name` is; false when it is none. */
+/* Index of the parameter or input `name`; false if there is none. */
 bool parameters_find(const struct reader *reader, const char *name, size_t *index);
 
-/* What parameter or input `index`, named at `at`, means. */
+/* The symbol of parameter or input `index`, named at `at`. */
 struct symbol parameter_symbol(struct reader *reader, size_t index, struct pos at);
 
 /* The magnitude of gravity, named at `at`. */
 struct symbol gravity_symbol(struct reader *reader, struct pos at);
 
-/* While a definition is evaluated it is open: `open` is the caller's. False with a note when too many are. */
+/* Mark a definition as open while it is evaluated; `open` belongs to the caller. False with a note when too
+ * many are open. */
 bool definition_open(struct reader *reader, struct open_definition *open, const char *name, struct pos at);
 void definition_close(struct reader *reader, const struct open_definition *open);
 void definition_note_circle(struct reader *reader, const char *name, struct pos at);
 
-/* ---- what entries of `parameters` and `inputs` say (read_constants.c) */
+/* ---- entries of `parameters` and `inputs` (read_constants.c) */
 
-/* The value of one; NULL with a note when nothing that can be read says it. *range: of its slider, or NULL. */
+/* The value of an entry; NULL with a note if the entry cannot be read. *range: of its slider, or NULL. */
 const struct node *constant_read(struct reader *reader, const struct pair *pair, struct parameter *parameter,
                                  const struct node **range);
 
-/* Read the range of a parameter whose value is known; `value_of_file`: not set from outside, where it may lie
- * beyond. */
+/* Read the range of a parameter whose value is known. `value_of_file`: the value was not set from outside, so
+ * it must lie in the range. */
 bool constant_range(struct reader *reader, const struct node *range, bool value_of_file,
                     struct parameter *parameter);
 
-/* ---- tables (read_tables.c), as parameters */
+/* ---- tables (read_tables.c), read like parameters */
 
 bool tables_start(struct reader *reader);
 void tables_finish(struct reader *reader);
@@ -172,17 +174,17 @@ void tables_note_unused(struct reader *reader);
 /* The table that is called as `name(...)` at `at`. */
 struct table_symbol table_symbol(struct reader *reader, const char *name, struct pos at);
 
-/* ---- states with equations of their own (read_states.c) */
+/* ---- user states (read_states.c) */
 
 bool own_states_start(struct reader *reader);
 
-/* When all coordinates are numbered. */
+/* Call when all coordinates are numbered. */
 bool own_states_read(struct reader *reader);
 
-/* Does a name begin with `states.`, in a file that has some? */
+/* True if the name begins with `states.` and the file has states. */
 bool own_states_name(const struct reader *reader, const char *name);
 
-/* The state called `name`; symbol_unknown when there is none, or none here. */
+/* The state called `name`; symbol_unknown if there is none or states are not allowed here. */
 struct symbol own_state_symbol(const struct names *names, const char *name, struct pos at);
 
 /* ---- the ground (read_ground.c) */
@@ -194,38 +196,38 @@ bool ground_point_read(struct reader *reader, const struct node *node, const cha
 
 const struct ground_line *ground_line_find(struct reader *reader, const struct node *name);
 
-/* Where an end may lie on the ground: true, and noted with what to write, for `ground` alone and for the bare name of a
- * point of the ground; of a line or polygon too where `surfaces`. */
+/* Refuse `ground` alone and the bare name of a point of the ground as an end on the ground; with `surfaces`
+ * also that of a line or polygon. Returns true after noting the correct form. */
 bool ground_end_refuse(struct reader *reader, const struct node *node, const char *what, bool surfaces);
 
 /* ---- bodies */
 
-/* What it is and how it moves (read_body.c, read_part.c, read_motion.c). */
+/* Inertia and motion of a body (read_body.c, read_part.c, read_motion.c). */
 bool bodies_start(struct reader *reader);
 bool body_read(struct reader *reader, int body);
 void body_parts_start(struct body_keys *keys);
 bool body_parts_read(struct reader *reader, int body);
 bool body_motion_read(struct reader *reader, int body);
 
-/* The curve of a track, when its keys are read; where the body starts on it (read_track.c). */
+/* The curve of a track, and the initial position of the body on it (read_track.c). */
 /* A curve as a file gives it. */
 struct curve_keys {
     const struct node *x, *y, *from, *to; /* x may be NULL: y is a function of x */
     bool closed;
-    int body;                        /* whose names its formulas know, or ground_body */
-    const char *what, *name, *label; /* "a track", "the track of `bead`", and what its ends are called */
+    int body;                        /* the body in whose scope its formulas are, or ground_body */
+    const char *what, *name, *label; /* "a track", "the track of `bead`", and the name of its ends */
 };
 
-/* The curve, in the room of the scene; NULL after noting what is wrong. */
+/* The curve, in the memory of the scene; NULL after noting an error. */
 const struct curve *curve_read(struct reader *reader, const struct curve_keys *keys);
 
 bool track_read(struct reader *reader, int body);
 bool track_initial_read(struct reader *reader, int body, struct initial_keys *keys);
 
-/* What it moves on: the motions of all bodies are read by then (read_parent.c). */
+/* The parent of the body, when the motions of all bodies have been read (read_parent.c). */
 bool body_parent_read(struct reader *reader, int body);
 
-/* Note `motion-in-a-circle` for bodies that move on each other in a circle, and for welds on nothing. */
+/* Note `motion-in-a-circle` for bodies that move on each other in a circle. */
 bool parents_check(struct reader *reader);
 
 /* The body called `node`, -1 for `ground`; false after noting `unknown-body`. */
@@ -236,31 +238,32 @@ struct vec body_centre_of_mass(const struct body *body);
 bool body_initial_read(struct reader *reader, int body);
 bool body_prescribed_read(struct reader *reader, int body);
 
-/* Warn of a motion that is prescribed by tables whose second derivative jumps, or the first one (smooth.c). */
+/* Warn of a motion prescribed by tables whose first or second derivative jumps (smooth.c). */
 void smoothness_note(struct reader *reader, struct pos at, const char *what, const struct expr *expr);
 
 /* [x, y], G, O or the name of a point of the body. */
 bool body_point_read(struct reader *reader, int body, const struct node *node, const char *what,
                      struct point *point);
 
-/* Its mass where that varies, when coordinates are numbered, and what it is at the start (read_mass.c). */
+/* A varying mass, when coordinates are numbered, and its initial value (read_mass.c). */
 bool body_mass_read(struct reader *reader, int body);
 bool masses_start(struct reader *reader);
 
-/* What acts on it (read_loads.c, load_names.c), and what the user derived (read_hand.c). */
+/* Loads of a body (read_loads.c, load_names.c), and the user's derivations (read_hand.c). */
 bool body_loads_read(struct reader *reader, int body);
 bool body_loads_name(struct reader *reader, int body, const char *const *names, const struct pos *places);
-/* When all is read and right: warn of surfaces that nothing presses on (lint_friction.c). False when memory is out. */
+/* When the file was read without errors: warn of surfaces without a normal force (lint_friction.c). False
+ * when memory is out. */
 bool lint_friction_note(struct reader *reader);
 
-/* When all loads are read: what bodies feel that forces of others point to (read_reactions.c). */
+/* When all loads are read: add the reactions to forces that point to other bodies (read_reactions.c). */
 bool reactions_add(struct reader *reader);
 bool body_hand_read(struct reader *reader, int body);
 
-/* The solution that the user knows (read_exact.c). */
+/* The exact solution given by the user (read_exact.c). */
 bool body_exact_read(struct reader *reader, int body);
 
-/* The convex polygon of the ground called `name`, or NULL; its faults are noted. */
+/* The convex polygon of the ground called `name`, or NULL. It has no corners if it was refused. */
 const struct polygon *ground_polygon_find(struct reader *reader, const struct node *name);
 
 /* ---- couplings and contacts (read_couplings.c, read_contacts.c) */
@@ -271,13 +274,13 @@ bool couplings_read(struct reader *reader, const struct node *couplings, const s
 bool coupling_end_read(struct reader *reader, const struct node *node, const char *what, int *body,
                        struct point *point);
 
-/* From place `from` on, `length` characters of a text, in its own place; NULL when memory is out. */
+/* The `length` characters of a text from `from` on, with their position in the file; NULL when memory is out. */
 const struct node *text_part(struct reader *reader, const struct node *whole, size_t from, size_t length);
 
 struct coupling_keys;
 bool contact_read(struct reader *reader, const struct coupling_keys *keys, struct constraint *constraint);
 
-/* Stops of coordinates are contacts of their own, behind those of the lists. */
+/* Stops of coordinates are contacts, numbered behind those of the lists. */
 struct coupling_name;
 size_t stops_count(const struct reader *reader);
 bool stops_read(struct reader *reader, struct coupling_name *names);
@@ -286,7 +289,7 @@ bool stops_read(struct reader *reader, struct coupling_name *names);
 
 bool simulate_read(struct reader *reader, const struct scene_keys *keys);
 
-/* ---- how answers are graded (read_grading.c) */
+/* ---- grading (read_grading.c) */
 
 bool grading_read(struct reader *reader, const struct node *node);
 

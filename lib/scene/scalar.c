@@ -15,7 +15,7 @@ static char lower(char c)
     return c >= 'A' && c <= 'Z' ? (char)(c - 'A' + 'a') : c;
 }
 
-/* Without regard to case, in every locale: a Turkish one has no `i` for `I`. */
+/* Compare without regard to case, independently of the locale: a Turkish one has no `i` for `I`. */
 static bool same_letters(const char *text, const char *word)
 {
     while (*text && lower(*text) == *word) {
@@ -67,7 +67,7 @@ static bool is_infinite(const char *text)
     return false;
 }
 
-/* What is wrong with the unsigned number at the start of `text`, and what to write; NULL when nothing is. */
+/* The fault of the unsigned number at the start of `text`, with a hint; NULL if it has none. */
 static const char *number_trap(const char *text, const char **hint)
 {
     size_t whole = digits(text);

@@ -19,8 +19,7 @@ static const struct node *mapping(const struct node *root, const char *key)
     return pair && pair->value->kind == node_map ? pair->value : NULL;
 }
 
-/* The system of units rules every number, so it is known before any is read; fields_read answers for what is
- * no system of units. */
+/* The system of units, which is needed before any number is read; fields_read reports an invalid one. */
 static enum unit_system find_units(const struct node *root)
 {
     const struct pair *pair = node_find(root, "units");
@@ -28,7 +27,7 @@ static enum unit_system find_units(const struct node *root)
     return us ? unit_us : unit_si;
 }
 
-/* 32.2 ft/s^2 is what textbooks in US units count with. */
+/* Default gravity; textbooks in US units use 32.2 ft/s^2. */
 static void start_gravity(struct reader *reader)
 {
     const double si = 9.81, us = 32.2;
@@ -73,7 +72,7 @@ static bool read_top(struct reader *reader, struct scene_keys *keys)
 
 /* ---- bodies */
 
-/* Beyond the limit notes are counted and not kept: what follows would be read for nothing. */
+/* True beyond the limit of notes: further ones are counted but not kept, so reading on is useless. */
 static bool is_hopeless(const struct reader *reader)
 {
     return reader->errors->errors > reader->errors->limit || reader->arena->failed;

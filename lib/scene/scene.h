@@ -1,14 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Scene: what a model file says, checked and typed, and nothing that follows from it.
+ * Scene: the content of a model file, checked and typed, without anything derived from it.
  *
- * Every number is in the coherent units of the scene's own system, angles in radians. Positions point into
- * the file, so that later stages can name the line of what they refuse. The scene owns all its memory.
+ * Every number is in the coherent units of the scene's unit system, angles in radians. Positions point into
+ * the file, so that later stages can name the line of an error. The scene owns all its memory.
  *
- * Coordinates are numbered through all bodies in file order: coordinate i has position q[i] and rate v[i], and
- * further state k, whose equation of first order the file gives, has the value z[k]. The vector of all is y = [q, v, z]
- * with scene_size entries. In expressions slot 0 is t, slot 1 + i is q[i], slot 1 + n + i is v[i], and slot
- * 1 + 2 n + k is z[k], with n coordinates in all.
+ * Coordinates are numbered through all bodies in file order: coordinate i has position q[i] and rate v[i],
+ * and user state k, whose equation of first order the file gives, has the value z[k]. The state vector is y =
+ * [q, v, z] with scene_size entries. In expressions slot 0 is t, slot 1 + i is q[i], slot 1 + n + i is v[i],
+ * and slot 1 + 2 n + k is z[k], with n coordinates in all.
  */
 #ifndef FBD_SCENE_SCENE_H
 #define FBD_SCENE_SCENE_H
@@ -17,10 +17,10 @@
 #include "scene/law.h"
 #include "scene/loads.h"
 
-/* The most summands that are told apart. */
+/* Equations with more summands are not split. */
 enum { most_summands = 24 };
 
-/* One summand of an equation, as if all stood on its right side. */
+/* One summand of an equation with all summands moved to its right side. */
 struct hand_summand {
     const char *text; /* without its sign */
     double sign;
@@ -34,23 +34,22 @@ struct force_coupling {
     struct point point[2];
 };
 
-/* A derivation by the user: an equation that must hold. */
+/* A derivation by the user: an equation to be checked. */
 struct hand {
-    const char *written; /* as it stands in the file, */
-    const char
-        *text; /* and as the expressions that it was read as: the same bytes where it is some already */
+    const char *written; /* text of the file */
+    const char *text; /* the expressions that it was read as; the same bytes if it is an expression already */
     struct pos at;
     enum hand_kind {
         hand_of_states,  /* at every state */
-        hand_conserved,  /* `left` has at any time of a run the value of its start; `right` is NULL */
-        hand_of_run,     /* at any time of a run: it names its start, works or impulses */
+        hand_conserved,  /* `left` keeps its initial value during a run; `right` is NULL */
+        hand_of_run,     /* at any time of a run: it names initial values, works or impulses */
         hand_of_impacts, /* at impacts of a run */
     } kind;
-    const char *impact;              /* the only one that counts; NULL: all */
+    const char *impact;              /* name of the contact or rope whose impacts count; NULL: all */
     const struct expr *left, *right; /* over the extended slots below */
-    const struct expr *when;         /* truth value: where it claims to hold; NULL everywhere */
-    const char *about_name;          /* the point about which it has moments; NULL where it does not say, */
-    const struct expr *about[2];     /* and where that is in the world */
+    const struct expr *when;         /* truth value: where the equation is claimed to hold; NULL everywhere */
+    const char *about_name;          /* point of reference of moments; NULL where not given */
+    const struct expr *about[2];     /* its position in the world */
     size_t summand_count;
     struct hand_summand *summands;
 };
@@ -59,11 +58,11 @@ struct hand {
 struct force_name {
     int body;
     const char *name;
-    bool letter; /* underscores in it do not matter: N1 is N_1 */
+    bool letter; /* underscores in it are ignored: N1 is N_1 */
     struct dim dim;
 };
 
-/* What a symbol of the file's `symbols` stands for: forces with signs. */
+/* The value of a symbol of the file's `symbols`: forces with signs. */
 struct force_sum {
     size_t count;
     struct signed_force {
@@ -73,7 +72,7 @@ struct force_sum {
     } * forces;
 };
 
-/* A hand equation may use more names than a force: slot 1 + scene_size + k for k in this list. */
+/* Additional names of a hand equation: slot 1 + scene_size + k for k in this list. */
 enum hand_slot {
     hand_acceleration, /* v_dot, or the body's coordinates in order */
     hand_mass = hand_acceleration + most_coordinates_of_a_body, /* m */
@@ -86,8 +85,8 @@ enum hand_slot {
     hand_slots,
 };
 
-/* What a name means in an equation of a run: at the time itself, or in `initial(...)`, `before(...)`, `after(...)`, whose
- * slots are these of the time itself, moved by hand_sense_size each. */
+/* The time of a name in an equation of a run: the current time, or that of `initial(...)`, `before(...)`,
+ * `after(...)`, whose slots are those of the current time plus a multiple of hand_sense_size. */
 enum hand_sense { sense_now, sense_initial, sense_before, sense_after, hand_senses };
 
 enum { most_absolutes = 1000 };
@@ -96,24 +95,22 @@ struct body {
     const char *name;
     struct pos at;
     bool assemble; /* its coordinates follow from its couplings at the start */
-    bool complete; /* false when errors in it were reported: later checks leave it alone */
+    bool complete; /* false when errors in it were reported; later checks skip it */
     struct motion motion;
-    int first, count; /* its coordinates */
-    struct value
-        mass; /* where it varies: with the time, coordinates, states; else expr NULL. The mass of the part
-                          is that at the start then */
-    struct value inverse_mass; /* and 1/m, by which its accelerations divide */
+    int first, count;          /* its coordinates */
+    struct value mass;         /* if varying; else expr NULL. That of the part is then the initial mass */
+    struct value inverse_mass; /* 1/m, for its accelerations */
     size_t part_count, point_count, load_count, hand_count;
     struct part *parts;
-    struct named_point *points; /* all names: given ones and those of its shape */
+    struct named_point *points; /* given points and those of its shapes */
     struct load *loads;         /* in file order: forces, then moments */
     struct hand *hands;
-    /* What its coordinates and then its rates are known to be, over t alone; expr NULL when not given. */
+    /* Exact solution of its coordinates and then its rates, over t alone; expr NULL when not given. */
     struct value exact[2 * most_coordinates_of_a_body];
 };
 
-/* Where a point of a body is in the world, how its frame is turned, or how fast it slips: an expression may
- * name it though it is no coordinate. Number k has slot 1 + scene_size + hand_slots + k. */
+/* A quantity that an expression may name beside coordinates: position or velocity of a point of a body in the
+ * world, orientation, slip speed and others. Number k has slot 1 + scene_size + hand_slots + k. */
 struct absolute {
     int body;
     struct point point;
@@ -124,27 +121,27 @@ struct absolute {
         absolute_vy,
         absolute_angle,
         absolute_angle_dot,
-        absolute_acceleration, /* derivations by hand: of coordinate `part` of the body */
-        absolute_slip,         /* the speed of a pair of dry friction on its surface */
-        absolute_mass,         /* of a body whose mass varies, */
-        absolute_mass_rate,    /* and its rate of change */
-        absolute_force,        /* derivations by hand: the force or moment of the diagram called `force`, */
-        absolute_ax,           /* the acceleration of a point in the world, */
+        absolute_acceleration, /* in derivations: of coordinate `part` of the body */
+        absolute_slip,         /* slip speed of a contact with dry friction */
+        absolute_mass,         /* of a body with varying mass */
+        absolute_mass_rate,    /* its rate of change */
+        absolute_force,        /* in derivations: the force or moment of the diagram called `force` */
+        absolute_ax,           /* acceleration of a point in the world */
         absolute_ay,
-        absolute_alpha,   /* of its angle, */
-        absolute_inertia, /* and the moment of inertia about a point of the body; */
-        absolute_work,    /* of a force during a run, */
-        absolute_impulse, /* and that */
+        absolute_alpha,   /* angular acceleration */
+        absolute_inertia, /* moment of inertia about a point of the body */
+        absolute_work,    /* of a force during a run */
+        absolute_impulse, /* of a force during a run */
     } kind;
     int part;
     const char *force;
-    const struct force_sum *sum; /* of a declared symbol; `force` is that then */
-    int roll; /* absolute_slip of a rolling body: 1 + index of its constraint; 0: of the body's own pair */
-    bool angular; /* absolute_slip of a bearing */
-    bool moves;   /* what moves names it, or an event; else derivations by hand alone do */
+    const struct force_sum *sum; /* of a declared symbol, whose key is then `force` */
+    int roll;                    /* absolute_slip of a rolling body: 1 + index of its constraint; else 0 */
+    bool angular;                /* absolute_slip of a bearing */
+    bool moves;                  /* named by an equation of motion or an event; else only by derivations */
 };
 
-/* A state of the file's own: z' = rate. */
+/* A user state: z' = rate. */
 struct own_state {
     const char *name;
     struct pos at;
@@ -161,18 +158,18 @@ struct coordinate {
     double initial, initial_rate;
 };
 
-/* ---- the rest */
+/* ---- parameters, events, output, grading */
 
 struct parameter {
     const char *name, *description; /* description "" when not given */
-    const char *unit;               /* coherent; "" for a pure number, or when nothing says which */
+    const char *unit;               /* coherent; "" for a pure number or an unknown unit */
     struct pos at;
     double value, low, high; /* low to high: of a slider; NAN when not given */
     struct dim dim;
     bool bare; /* given without a unit */
     bool used;
-    bool derived; /* the file defines it by other parameters, or gravity */
-    bool input;   /* of `inputs`: no constant, though it is one for a whole run of a program */
+    bool derived; /* defined by other parameters or gravity */
+    bool input;   /* of `inputs`: constant between two changes from outside */
 };
 
 struct user_event {
@@ -184,7 +181,7 @@ struct user_event {
     bool stop;
 };
 
-/* A point whose place, velocity and acceleration in the world are written. */
+/* A point whose position, velocity and acceleration in the world are output. */
 struct output_point {
     const char *name; /* `rod.right` */
     int body;
@@ -198,10 +195,10 @@ struct simulate {
     double step;        /* fixed step, 0 for automatic */
     double every;       /* output interval, 0 for the default */
     bool propagate;     /* impacts at one instant are taken one after the other */
-    const char *method; /* NULL where the file does not say how to run */
+    const char *method; /* NULL without `simulate` */
 };
 
-/* A parameter that each student has a value of: a number in [low, high] with the text `unit` behind it. */
+/* A parameter with an individual value for each student: a number in [low, high] with the unit `unit`. */
 struct drawn_parameter {
     const char *name;
     struct pos at;
@@ -213,24 +210,29 @@ struct grading_points {
     double force, inertia, derivation, superfluous;
 };
 
-/* Where drawings of answers lie in the scene. */
+/* Position and scale of drawings of answers in the scene. */
 struct grading_canvas {
-    struct vec origin; /* of the scene, in units of the drawing */
-    double unit;       /* the length that such a unit stands for; 0: the file does not say */
-    double angle;      /* how far a direction may be off, in radians, */
-    double snap; /* and a line of action, in units of the drawing; 0: as is usual for the kind of drawing */
+    struct vec origin; /* origin of the scene, in units of the drawing */
+    double unit;       /* length of a unit of the drawing; 0: not given */
+    double angle;      /* tolerance of a direction [rad] */
+    double
+        snap; /* tolerance of a line of action, in units of the drawing; 0: default of the kind of drawing */
 };
 
-/* How answers are graded that are held against this file as a key (lib/grade). */
+/* How answers are graded with this file as the key (lib/grade). */
 struct grading {
-    bool given; /* the file says so; else all is as by default */
+    bool given; /* `grading` is given; else all values are defaults */
     size_t draw_count;
     struct drawn_parameter *draws;
-    int digits;                      /* decimal ones of values that are drawn */
+    int digits;                      /* decimal digits of drawn values */
     double tolerance, partial, pass; /* shares */
     struct grading_points points;
     struct grading_canvas canvas;
-    enum { reactions_all, reactions_none, reactions_named } reactions; /* which are to be drawn */
+    enum {
+        reactions_all,
+        reactions_none,
+        reactions_named
+    } reactions; /* the reactions that have to be drawn */
     size_t reaction_count;
     const char *const *reaction_names; /* of couplings, or of their forces in a diagram */
     bool reactions_given;
@@ -253,7 +255,7 @@ struct scene {
     struct grading grading;
     size_t output_point_count;
     struct output_point *output_points;
-    bool hands_left; /* derivations were left out that name what only a model has (struct document) */
+    bool hands_left; /* derivations were skipped that name forces of the model (struct document) */
     size_t coordinate_count, absolute_count;
     struct coordinate *coordinates;
     struct absolute *absolutes;
@@ -267,76 +269,74 @@ static inline size_t scene_size(const struct scene *scene)
     return 2 * scene->coordinate_count + scene->own_count;
 }
 
-/* From the slots of one hand_sense to those of the next. */
+/* Distance between the slots of two subsequent values of hand_sense. */
 static inline size_t hand_sense_size(const struct scene *scene)
 {
     return scene_size(scene) + hand_slots + most_absolutes;
 }
 
-/* Parameters set from outside, as text: `--set f1=50 N`; of a table the file: `--set road=b.csv`. */
+/* A parameter set from outside, as text: `--set f1=50 N`; of a table the file: `--set road=b.csv`. */
 struct override {
     const char *name;
-    const char *value; /* NULL: that of the file, but other readings of the document may have another */
-    bool
-        as_time; /* an input stands in the place of the time, and the time is the constant `now`: derivatives by
-                          time are by it */
+    const char *value; /* NULL: value of the file, which may differ in other readings */
+    bool as_time;      /* the input replaces the time (also in derivatives), which is the constant `now` */
     double now;
-    bool varies; /* its value will be another one in the next reading (patch.h) */
+    bool varies; /* its value will change in the next reading (patch.h) */
 };
 
-/* A model file as a tree of its YAML: constant once it is open, shareable by threads. Scenes under other
- * parameters are made of it without reading the text again. */
+/* A model file as a tree of its YAML: constant once it is open, shareable by threads. Scenes with other
+ * parameters are made from it without parsing the text again. */
 struct programs;
 struct scene;
 
-/* Who puts derivations of others into a scene, which may name more than the scene knows. */
+/* Callbacks of a caller that puts derivations of others into a scene; these may use names that the scene does
+ * not have. */
 struct hand_reader {
     void *context;
-    bool (*is_known)(void *context, const char *body, const char *name);    /* is this the name of a force? */
-    void (*take)(void *context, const struct node *node, const char *text); /* a text as it was read */
+    bool (*is_known)(void *context, const char *body, const char *name); /* is it a force? */
+    void (*take)(void *context, const struct node *node,
+                 const char *text); /* receives a text as it was read */
 };
 
 struct document {
     struct arena arena;
     const char *file; /* names the text in messages; may be NULL */
     const struct node *root;
-    bool without_hands; /* leave the derivations by hand unread: nothing that moves depends on them */
-    bool split_hands;   /* and those that are read, into their summands: what --check-hand compares */
-    const struct hand_reader *hand_reader; /* told of them; or NULL */
+    bool without_hands;                    /* do not read derivations: the motion does not depend on them */
+    bool split_hands;                      /* split derivations into their summands, for --check-hand */
+    const struct hand_reader *hand_reader; /* or NULL */
     size_t force_name_count;
-    const struct force_name
-        *force_names;          /* what derivations may name of the diagrams; NULL: not known yet, and
-                                             derivations with unknown names are left out */
+    const struct force_name *
+        force_names; /* forces of the diagrams; NULL: not known yet, derivations with unknown names are skipped */
     struct programs *programs; /* expressions compiled once for all readings (programs.h), or NULL */
-    struct scene *first;       /* the scene that holds them */
-    const struct scene
-        *like; /* an earlier scene of the same text, whose tables and their files serve again, or */
-    bool same_parameters; /* NULL; does it have the same parameters? */
+    struct scene *first;       /* the scene whose memory holds them */
+    const struct scene *like;  /* an earlier scene of the same text, whose tables are reused, or NULL */
+    bool same_parameters;      /* `like` has the same parameters */
 };
 
-/* Open the file `text`, which must live as long as the document. False with notes in `errors` when it is no
- * YAML; close it all the same. */
+/* Parse the file `text`, which must live as long as the document. False with notes in `errors` if it is no
+ * YAML; document_close must be called even then. */
 bool document_open(struct document *document, const char *text, size_t length, const char *file,
                    fbd_errors *errors);
 void document_close(struct document *document);
 
-/* Read it once to compile what holds for all readings under these overrides, whatever the value of those that
- * have none here. False with notes in `errors` when the file is wrong. */
+/* Read the document once to compile the expressions that are valid for all readings under these overrides,
+ * whatever the values of overrides without a value. False with notes in `errors` when the file is wrong. */
 bool document_prepare(struct document *document, const struct override *overrides, size_t override_count,
                       fbd_errors *errors);
 
-/* What a document means. Everything wrong with it is noted in `errors` in one go; the result then is NULL or
- * a scene whose faulty bodies are not `complete`. The scene may use
- * the programs of a document that was prepared: then the document must outlive it. */
+/* Make the scene of a document. All errors are noted in `errors` in one go; the result then is NULL or a
+ * scene whose faulty bodies are not `complete`. The scene may use the programs of a document that was
+ * prepared: then the document must outlive it. */
 struct scene *scene_make(const struct document *document, const struct override *overrides,
                          size_t override_count, fbd_errors *errors);
 
-/* Both at once: the scene of a model file in memory. `like` is a scene of the same text and parameters whose tables
- * serve again, or NULL. */
+/* Parse and make the scene of a model file in memory. `like` is a scene of the same text and parameters whose
+ * tables are reused, or NULL. */
 struct scene *scene_read(const char *text, size_t length, const char *file, const struct override *overrides,
                          size_t override_count, const struct scene *like, fbd_errors *errors);
 
-/* The parameter m2 or m_2, for number 2, which a file may have for the mass of any of its bodies; NULL. */
+/* The parameter m2 or m_2, for number 2, which a file may use for the mass of any of its bodies; or NULL. */
 const struct parameter *scene_mass_parameter(const struct scene *scene, int number);
 
 void scene_free(struct scene *scene);

@@ -10,7 +10,7 @@
 
 /* ---- pieces of JSON */
 
-/* A comma before everything but the first of an object or list. */
+/* Add a comma before every member or entry but the first. */
 static void next(struct text *text, bool *first)
 {
     if (!*first) text_add(text, ",\n");
@@ -39,7 +39,7 @@ static const char polygon_schema[] =
 
 /* ---- values */
 
-/* The default that the doc string says at its end, where it is a value. */
+/* Add the default given at the end of the doc string, if it is a value. */
 static void add_default(struct text *text, const struct field *field)
 {
     const char *said = strstr(field->doc, "default ");
@@ -55,7 +55,7 @@ static void add_default(struct text *text, const struct field *field)
     if (word) text_printf(text, "\"default\": \"%.*s\", ", (int)length, said);
 }
 
-/* A plain number, whose sign is known; a text may be a quantity or an expression. */
+/* A plain number is checked by its sign; a text may be a quantity or an expression. */
 static void add_quantity(struct text *text, const struct field *field)
 {
     const char *sign = field->flags & positive       ? ", \"exclusiveMinimum\": 0"
@@ -88,7 +88,7 @@ static void add_words(struct text *text, const struct field *field)
     text_add(text, "}");
 }
 
-/* What a mapping is called in the rules, or NULL. */
+/* The name of a mapping in schema_rules.c, or NULL. */
 static const char *name_of(const struct group *group)
 {
     return group == &part_group       ? "part"
@@ -98,10 +98,10 @@ static const char *name_of(const struct group *group)
                                       : NULL;
 }
 
-/* `name`: of its definition, where that has needs, or NULL. */
+/* `name`: of its definition, if that has rules, or NULL. */
 static void add_group(struct text *text, const struct group *group, const char *name);
 
-/* What one entry of a collection is, or one value; NULL kinds and group: any. */
+/* The schema of one entry of a collection; NULL kinds and group: any. */
 static void add_entry(struct text *text, const struct field *field, enum entries entries)
 {
     switch (entries) {
@@ -125,7 +125,7 @@ static void add_list(struct text *text, const struct field *field)
     text_add(text, "}");
 }
 
-/* Names of the file in front of entries. */
+/* A mapping from names of the file to entries. */
 static void add_map(struct text *text, const struct field *field)
 {
     bool some = field->group == &body_group || field->group == &part_group;
@@ -139,7 +139,7 @@ static void add_map(struct text *text, const struct field *field)
     text_add(text, "}");
 }
 
-/* A mapping, list or scalar that has its own code. */
+/* A mapping, list or scalar that is read by code of its own. */
 static void add_any(struct text *text, const struct field *field)
 {
     if (field->kinds && field->entries == one_value) {
@@ -173,7 +173,7 @@ static void add_plain(struct text *text, const struct field *field)
         else if (field->group)
             add_group(text, field->group, name_of(field->group));
         else
-            text_add(text, "{\"type\": \"object\"}"); /* `initial` and `exact`: as the motion says */
+            text_add(text, "{\"type\": \"object\"}"); /* `initial` and `exact`: depend on the motion */
         break;
     default: text_add(text, "true"); break;
     }
@@ -265,7 +265,7 @@ static const struct field *brief_of(const struct group *group)
     return NULL;
 }
 
-/* Of a group, one way to write it or another; the description is what editors show beside its name. */
+/* Start the alternatives of a group; editors show the description beside its name. */
 static void start_choice(struct text *text, const struct group *group)
 {
     text_add(text, "{");
@@ -291,7 +291,7 @@ static void add_group(struct text *text, const struct group *group, const char *
 
 /* ---- kinds */
 
-/* May it stand without any keys? */
+/* True if a kind is allowed without keys. */
 static bool may_be_bare(const struct kinds *kinds, const struct kind *kind)
 {
     char name[64];
@@ -299,7 +299,7 @@ static bool may_be_bare(const struct kinds *kinds, const struct kind *kind)
     return !schema_needs(name) && !has_required(kind->group);
 }
 
-/* The names of those that may stand without keys; an `enum` of none is no schema. */
+/* The names of kinds that are allowed without keys; an empty `enum` is no valid schema. */
 static void add_bare_kinds(struct text *text, const struct kinds *kinds, unsigned motion)
 {
     bool any = false;
@@ -313,7 +313,7 @@ static void add_bare_kinds(struct text *text, const struct kinds *kinds, unsigne
     if (any) text_add(text, "]},\n");
 }
 
-/* One of those that go with `motion`, a bit or all of them. */
+/* One of the kinds that `motion` allows, a bit or all of them. */
 static void add_kinds(struct text *text, const struct kinds *kinds, unsigned motion)
 {
     bool first = true;
@@ -350,7 +350,7 @@ static void define_kinds(struct text *text, const struct kinds *kinds, bool *fir
     add_kinds(text, kinds, ~0u);
 }
 
-/* ---- a body: what depends on its motion */
+/* ---- a body: rules that depend on its motion */
 
 static void add_of_motion(struct text *text, const char *key, const struct kinds *kinds, unsigned motion)
 {
@@ -383,7 +383,7 @@ static void add_motion_rules(struct text *text)
     text_add(text, "]");
 }
 
-/* ---- the whole */
+/* ---- the whole schema */
 
 static void define(struct text *text, bool *first, const char *name, const char *schema)
 {

@@ -5,7 +5,7 @@
 
 #include "scene/language.h"
 
-/* What a mapping needs at least one of: keys, several of them joined by `+`. */
+/* Keys of which a mapping needs at least one alternative; keys joined by `+` are needed together. */
 static const struct {
     const char *name, *keys;
 } needs[] = {
@@ -52,7 +52,7 @@ void schema_add_needs(struct text *text, const char *keys)
     text_add(text, "\"]}]");
 }
 
-/* ---- what excludes each other: pairs of keys joined by `+` */
+/* ---- exclusions: pairs of keys joined by `+` */
 
 static const struct {
     const char *name, *pairs;
@@ -92,7 +92,7 @@ void schema_add_exclusions(struct text *text, const char *name)
 
 /* ---- shapes */
 
-/* The dimensions that a shape has not, and what excludes each other in it. */
+/* Exclude the dimensions that a shape does not have, and pairs of its keys that exclude each other. */
 static void refuse_others(struct text *text, int shape, const char *name)
 {
     struct text others = {0};
@@ -108,7 +108,8 @@ static void refuse_others(struct text *text, int shape, const char *name)
     text_add(text, "}");
 }
 
-/* The sizes that a shape needs, unless its moment of inertia is given, and those that it has not. */
+/* Require the dimensions of a shape, unless its moment of inertia is given, and exclude those that it does
+ * not have. */
 void schema_add_shapes(struct text *text)
 {
     const struct field *shape = &part_group.fields[0];

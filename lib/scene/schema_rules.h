@@ -1,23 +1,23 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * What the schema knows of more than one key at a time: of which keys a mapping needs one, which exclude each other,
- * and which dimensions a shape has.
+ * Rules of the schema that involve several keys: alternatives of which a mapping needs one, exclusions, and
+ * the dimensions of shapes.
  */
 #ifndef FBD_SCENE_SCHEMA_RULES_H
 #define FBD_SCENE_SCHEMA_RULES_H
 
 #include "base/text.h"
 
-/* The keys that a mapping of this name needs one of, or NULL. */
+/* The alternatives of which the mapping of this name needs one, or NULL. */
 const char *schema_needs(const char *name);
 
-/* `anyOf` of keys; several joined by `+` stand for all of them. */
+/* Add `anyOf` of the alternatives; keys joined by `+` are required together. */
 void schema_add_needs(struct text *text, const char *keys);
 
-/* A member `not`, if keys of the mapping of this name exclude each other, after a comma. */
+/* Add a comma and a member `not`, if keys of the mapping of this name exclude each other. */
 void schema_add_exclusions(struct text *text, const char *name);
 
-/* Members of `allOf` for the shapes. */
+/* Add members of `allOf` for the shapes. */
 void schema_add_shapes(struct text *text);
 
 #endif

@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Is a motion smooth that tables prescribe? A force without bound is found as the run comes to it; one that jumps is
- * right, but seldom what was meant by points that were measured.
+ * Smoothness of motions prescribed by tables. An infinite force is detected during the run; a jump of the
+ * force is valid, but seldom intended with measured points.
  */
 #include "expr/table.h"
 #include "scene/reader.h"
 
-/* How many derivatives are continuous at all points between the ends; 2 and more are 2. */
+/* Number of derivatives that are continuous at all points between the ends, at most 2. */
 static int smoothness(const struct table *table)
 {
     int least = 2;

@@ -5,8 +5,8 @@
 
 #include "base/utf8.h"
 
-/* What a text file may not hold: C0 and C1 controls, the separators that libyaml takes for line ends and
- * editors do not, a byte order mark in the middle, and the two code points that are no characters. */
+/* True for characters that a text file must not contain: C0 and C1 controls, the separators that libyaml
+ * counts as line ends but editors do not, a byte order mark in the middle, and the two noncharacters. */
 static bool is_control(unsigned code)
 {
     if (code < 0x20) return code != '\t' && code != '\n' && code != '\r';

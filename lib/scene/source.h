@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Source: the bytes of a model file, before anything is read as YAML.
+ * Source: the bytes of a model file, checked before they are parsed as YAML.
  *
- * libyaml gives no position for bytes that it cannot read, and it counts lines at characters where no editor
- * breaks them. So the bytes are checked first: valid UTF-8 (a byte order mark is skipped), no control
+ * libyaml gives no position for bytes that it cannot read, and it counts lines at characters where editors do
+ * not break them. So the bytes are checked first: valid UTF-8 (a byte order mark is skipped), no control
  * characters but tab and line ends, no exotic line separators, no more than `source_most_bytes`.
  */
 #ifndef FBD_SCENE_SOURCE_H
@@ -19,7 +19,7 @@ struct source {
 };
 
 /* Check `text[0..length)`. False with one note (`file-too-large`, `not-utf-8`, `control-character`) at the
- * first byte that is wrong; otherwise `*source` is what to read. */
+ * first wrong byte; else `*source` is the text to parse. */
 bool source_open(const char *text, size_t length, fbd_errors *errors, struct source *source);
 
 /* True when a line ends with the byte at `text`: LF, or CR unless LF follows (CR LF is one line end). */

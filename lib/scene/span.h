@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * A stretch of a text that ends without a zero.
+ * A part of a text, without a terminating zero.
  */
 #ifndef FBD_SCENE_SPAN_H
 #define FBD_SCENE_SPAN_H

@@ -115,7 +115,7 @@ int spans_find(const struct spans *spans, int map, const char *key)
     return pair ? pair->value : 0;
 }
 
-/* Libyaml counts characters. */
+/* The byte of a mark; libyaml counts characters. */
 static size_t byte_of(const struct spans *spans, const yaml_mark_t *mark)
 {
     size_t at = 0, characters = 0;
@@ -135,8 +135,8 @@ struct span spans_key(const struct spans *spans, int map, const char *key)
     return (struct span){byte_of(spans, &found->start_mark), byte_of(spans, &found->end_mark)};
 }
 
-/* A collection that is not in brackets ends where the next token begins, behind empty lines and comments: what counts
- * is the end of the last thing in it. */
+/* The last node in a collection. A collection without brackets ends, for libyaml, at the next token, behind
+ * empty lines and comments: the end of its last node is used instead. */
 static const yaml_node_t *last_in(const struct spans *spans, int value)
 {
     const yaml_node_t *found = node(spans, value);
@@ -155,7 +155,7 @@ struct span spans_of(const struct spans *spans, int value)
     const yaml_node_t *found = node(spans, value), *last = last_in(spans, value);
     if (!found || !last) return (struct span){0, 0};
     struct span span = {byte_of(spans, &found->start_mark), byte_of(spans, &last->end_mark)};
-    /* a block of text ends behind its line break */
+    /* a block scalar includes its line break */
     while (span.to > span.from && strchr(" \r\n\t", spans->text[span.to - 1])) span.to--;
     return span;
 }

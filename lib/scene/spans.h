@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Spans: where the values of a model file stand in its text, from the first character to the last, so that a text can
- * be changed in one place and stay as it is in all others. The tree of node.h knows where values begin; where they
- * end only libyaml's document does, which is made anew for this.
+ * Spans: the extent of the values of a model file in its text, so that a text can be changed in one place and
+ * stay unchanged elsewhere. The tree of node.h contains only where values begin; their ends are in libyaml's
+ * document, which is made anew for this.
  *
- * Values are numbered; 0 is none, and what is asked of it is answered with none.
+ * Values are numbered; 0 is none, and queries of it return none.
  */
 #ifndef FBD_SCENE_SPANS_H
 #define FBD_SCENE_SPANS_H
@@ -19,7 +19,7 @@ struct span {
 
 struct spans;
 
-/* Of a text that is known to be a model; it must live as long. NULL when it is no YAML, or memory is out. */
+/* Parse a text that is a valid model; it must live as long. NULL if it is no YAML, or memory is out. */
 struct spans *spans_open(const char *text, size_t length);
 void spans_close(struct spans *spans);
 
@@ -29,7 +29,7 @@ int spans_root(const struct spans *spans);
 int spans_find(const struct spans *spans, int map, const char *key);
 struct span spans_key(const struct spans *spans, int map, const char *key);
 
-/* Entry `index` of a list; how many entries or pairs there are. */
+/* Entry `index` of a list; the number of entries or pairs. */
 int spans_item(const struct spans *spans, int list, size_t index);
 size_t spans_count(const struct spans *spans, int collection);
 
@@ -40,11 +40,11 @@ bool spans_is_map(const struct spans *spans, int value);
 bool spans_is_list(const struct spans *spans, int value);
 bool spans_is_flow(const struct spans *spans, int value); /* written in brackets */
 
-/* Of a value, without comments behind it; and without its quotes. */
+/* The span of a value, without comments behind it; and without its quotes. */
 struct span spans_of(const struct spans *spans, int value);
 struct span spans_inside(const struct spans *spans, int value);
 
-/* The text of a scalar on one line, as it stands there; false for any other value. */
+/* True for a scalar on one line, whose text stands in the file unchanged. */
 bool spans_is_plain(const struct spans *spans, int value);
 
 /* Line and column, from 1, as in messages. */

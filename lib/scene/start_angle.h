@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * The angle of the frame of a body in the world at the start of the file, before couplings assemble it.
+ * The initial angle of the frame of a body in the world, before couplings are assembled.
  */
 #ifndef FBD_SCENE_START_ANGLE_H
 #define FBD_SCENE_START_ANGLE_H

@@ -11,8 +11,8 @@ struct pos syntax_place(yaml_mark_t mark)
     return (struct pos){(int)mark.line + 1, (int)mark.column + 1};
 }
 
-/* libyaml's complaint, ours, and what to do. The first row whose `problem` is the start of libyaml's, and
- * whose `context` (if any) is libyaml's, counts. */
+/* Messages of libyaml, with the replacement and a hint. The first row applies whose `problem` is the start of
+ * libyaml's, and whose `context` (if any) is libyaml's. */
 static const struct explanation {
     const char *problem, *context, *message, *hint;
 } explanations[] = {
@@ -87,8 +87,8 @@ static int glued_colon(struct source line)
     return glued ? (int)i + 1 : 0;
 }
 
-/* `mass:2 kg` is plain text to YAML, and libyaml complains about a later line. Look for it in the line of the
- * complaint and in the one above. */
+/* `mass:2 kg` is plain text in YAML, and libyaml reports a later line. Search in the reported line and in the
+ * one above. */
 static bool explain_glued_colon(const struct source *source, struct pos at, fbd_errors *errors)
 {
     for (int line = at.line; line >= 1 && line >= at.line - 1; line--) {
@@ -105,7 +105,7 @@ static bool explain_glued_colon(const struct source *source, struct pos at, fbd_
     return false;
 }
 
-/* A tab among the blanks that start the line of the complaint. */
+/* A tab among the leading blanks of the reported line. */
 static bool explain_tab(const struct source *source, struct pos at, fbd_errors *errors)
 {
     struct source line = line_of(source, at.line);
@@ -117,8 +117,8 @@ static bool explain_tab(const struct source *source, struct pos at, fbd_errors *
     return true;
 }
 
-/* The entry in which the bracket at i stands: from the last `{`, `[`, colon or comma outside of parentheses to the next
- * comma or bracket there. */
+/* The entry that contains the bracket at i: from the last `{`, `[`, colon or comma outside of parentheses to
+ * the next comma or bracket there. */
 static struct source entry_around(struct source line, size_t i)
 {
     size_t start = 0, stop;
@@ -138,7 +138,7 @@ static struct source entry_around(struct source line, size_t i)
     return (struct source){line.text + start, stop - start};
 }
 
-/* Show it in quotes, with a blank between it and the key of `value:4[N]`. */
+/* A hint with the entry in quotes, and a blank between it and the key of `value:4[N]`. */
 static const char *hint_quoted(struct source line, struct source found, fbd_errors *errors)
 {
     const size_t longest = 100;
@@ -166,7 +166,7 @@ static bool explain_unit_in_flow(const struct source *source, struct pos at, fbd
     return true;
 }
 
-/* libyaml looks for the colon of a key within 1024 characters. */
+/* libyaml searches for the colon of a key within 1024 characters. */
 static bool explain_long_key(struct pos at, fbd_errors *errors)
 {
     const int longest = 1024;
@@ -187,7 +187,8 @@ static bool is_about_colons(const char *problem)
            strstr(problem, "expected key") || strstr(problem, "<document start>");
 }
 
-/* Here libyaml breaks at the end of what is wrong, which may be the end of the file; the start tells more. */
+/* For these problems libyaml reports the end of the faulty part, possibly the end of the file; its start is
+ * more useful. */
 static bool is_about_start(const char *problem)
 {
     return strstr(problem, "expected ':'") || strstr(problem, "end of stream") ||

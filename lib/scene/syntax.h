@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Syntax: what libyaml could not parse, said in the words of someone who writes a model file.
+ * Syntax: errors of libyaml in terms of model files.
  */
 #ifndef FBD_SCENE_SYNTAX_H
 #define FBD_SCENE_SYNTAX_H
@@ -10,11 +10,11 @@
 
 #include <yaml.h>
 
-/* A place of libyaml, which counts from 0, as we count. */
+/* A position of libyaml, which counts from 0, counted from 1. */
 struct pos syntax_place(yaml_mark_t mark);
 
-/* Note why `parser` gave up: `yaml-syntax` or `tab-indent`, with the place where it broke and the start of
- * what was being read; out of memory is noted as such. */
+/* Note the error of `parser`: `yaml-syntax` or `tab-indent`, with its position and the start of the enclosing
+ * construct; out of memory is noted as such. */
 void syntax_explain(const yaml_parser_t *parser, const struct source *source, fbd_errors *errors);
 
 #endif

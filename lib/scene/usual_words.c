@@ -3,7 +3,7 @@
 
 #include <string.h>
 
-/* What textbooks call it, and what it is here. */
+/* A word of textbooks, and a hint at the corresponding word here. */
 struct usual {
     const char *word, *hint;
 };

@@ -40,8 +40,8 @@ bool value_refuse(struct reader *reader, const struct node *node, const char *wh
 
 /* ---- expressions */
 
-/* expr counts columns along the text. Where that was put together from several lines, the notes that came in
- * after `last` are moved to the lines where their tokens stand. */
+/* Columns in notes count along the joined text. Where the text was folded from several lines, move the notes
+ * behind `last` to the lines of their tokens. */
 static void replace_notes(struct reader *reader, const struct node *node, struct diag_note *last)
 {
     if (!node->many_lines) return;
@@ -54,7 +54,7 @@ static void replace_notes(struct reader *reader, const struct node *node, struct
     }
 }
 
-/* Does a hint show, between backticks, an expression that braces take only in quotes? */
+/* True if a hint shows, between backticks, an expression that needs quotes inside braces. */
 static bool needs_quotes(const char *hint)
 {
     for (const char *code = strchr(hint, '`'); code; code = strchr(code, '`')) {
@@ -76,7 +76,7 @@ static void quote_hints(struct reader *reader, const struct node *node, struct d
     }
 }
 
-/* The site of an expression; a value from outside has no place in the file, and none here. */
+/* The site of an expression. A value from outside the file has no node. */
 static struct program_site site_of(const struct node *node, const struct expr_want *want,
                                    const struct scope *scope)
 {
@@ -86,7 +86,7 @@ static struct program_site site_of(const struct node *node, const struct expr_wa
     return site;
 }
 
-/* Keep what was compiled, if it is right and holds whatever the parameters that vary. */
+/* Keep a program that compiled without notes and does not depend on varying parameters. */
 static void keep(struct reader *reader, const struct program *program, const struct diag_note *last)
 {
     bool noted = reader->errors->last != last;
@@ -165,7 +165,7 @@ static const struct expr *compile(struct reader *reader, const struct node *node
     return expr;
 }
 
-/* Would it do but for what it depends on? */
+/* True if the value is wrong only because it is not constant. */
 static bool varies(struct reader *reader, const struct node *node, enum quantity quantity)
 {
     const struct expr_want want = {.dim = quantity_dim(quantity),
@@ -277,7 +277,7 @@ bool value_flag(struct reader *reader, const struct node *node, const char *what
     return value_refuse(reader, node, what, "true or false", hint);
 }
 
-/* What others call one of these; NULL when the word is not one of theirs. */
+/* A hint if `word` is a common synonym of one of the choices; else NULL. */
 static const char *usual_choice(fbd_errors *errors, const char *word, const char *const *names, size_t count)
 {
     static const char *const words[][2] = {

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Values: one scalar or pair of the tree as a number, a formula, text, a choice.
+ * Values: read one scalar or pair of the tree as a number, formula, text or choice.
  *
- * `what` names the value in messages. All return false after noting what is wrong: `missing-value`,
- * `wrong-type`, `out-of-range`, `unknown-choice`, `bad-name`, the ids of scalar.h and those of expr.h.
+ * All return false after noting an error: `missing-value`, `wrong-type`, `out-of-range`, `unknown-choice`,
+ * `bad-name`, the ids of scalar.h and those of expr.h; `what` names the value in messages.
  */
 #ifndef FBD_SCENE_VALUES_H
 #define FBD_SCENE_VALUES_H
@@ -11,15 +11,15 @@
 #include "scene/language.h"
 #include "scene/reader.h"
 
-/* A constant; infinite for one that varies, where `flags`, of field_flag_bits, allow it. */
+/* A constant. If `flags` (field_flag_bits) contain may_vary, a varying value is read as infinity. */
 bool value_number(struct reader *reader, const struct node *node, const char *what, enum quantity quantity,
                   unsigned flags, double *number);
 
-/* What may vary with the names of `scope`; a constant when that is `reader->constants`. */
+/* An expression of the names of `scope`; a constant if that is `reader->constants`. */
 bool value_formula(struct reader *reader, const struct node *node, const char *what, enum quantity quantity,
                    unsigned flags, const struct scope *scope, struct value *value);
 
-/* Any expression, as it is; NULL after noting what is wrong. */
+/* Any expression; NULL after noting an error. */
 const struct expr *value_compile(struct reader *reader, const struct node *node, const struct expr_want *want,
                                  const struct scope *scope);
 
@@ -38,10 +38,10 @@ bool value_flag(struct reader *reader, const struct node *node, const char *what
 bool value_choice(struct reader *reader, const struct node *node, const char *what,
                   const struct choice *choices, size_t count, int *choice);
 
-/* What `node` is, for messages: "a list", "`text`". */
+/* The kind or text of `node`, for messages: "a list", "`text`". */
 const char *value_found(struct reader *reader, const struct node *node);
 
-/* Note `missing-value` when `node` is empty and `wrong-type` otherwise: `what` must be `wanted`. Returns
+/* Note `missing-value` when `node` is empty and `wrong-type` otherwise: the value must be `wanted`. Returns
  * false. */
 bool value_refuse(struct reader *reader, const struct node *node, const char *what, const char *wanted,
                   const char *hint);

@@ -5,7 +5,7 @@
 
 #include "expr/glyph.h"
 
-/* How many characters text[0..length) has. */
+/* The number of characters of text[0..length). */
 static size_t characters(const char *text, size_t length)
 {
     return (size_t)glyph_pos(text, length, (struct pos){1, 0}).column;
@@ -32,7 +32,7 @@ void written_places(struct reader *reader, const struct node *node, const struct
     }
 }
 
-/* The names of the scope, and those that are known to who reads derivations of others. */
+/* The names of the scope, and those of the hand_reader. */
 struct names_and_more {
     const struct scope *scope;
     const struct hand_reader *reader;
@@ -76,7 +76,8 @@ static bool read_with_more(struct reader *reader, const struct node *node, const
     return true;
 }
 
-/* A name that is looked up may be none: nothing is said of it, and what it asks for is not kept. */
+/* Read the notation without notes and without side effects on the reader: the lookups only test whether a
+ * text is a name. */
 static bool read_silently(struct reader *reader, const struct node *node, const struct scope *scope,
                           bool equation, struct notation *notation)
 {
@@ -111,7 +112,7 @@ const struct node *written_node(struct reader *reader, const struct node *node, 
     }
     bool fine = read_silently(reader, node, scope, equation, notation);
     if (reader->scene->hands_left &&
-        !reader->errors->out_of_memory) { /* it is read again when all names are known */
+        !reader->errors->out_of_memory) { /* read again when all names are known */
         diag_take_back(reader->errors, mark);
         return NULL;
     }
@@ -125,7 +126,7 @@ const struct node *written_node(struct reader *reader, const struct node *node, 
     struct node *made = ARENA_NEW(reader->exprs, struct node);
     if (!made) return NULL;
     *made = *node;
-    made->at = (struct pos){0}; /* not in the file: no program of an earlier reading is looked up for it */
+    made->at = (struct pos){0}; /* not in the file: programs of earlier readings are not used for it */
     made->text = notation->text;
     made->length = strlen(notation->text);
     made->many_lines = false;

@@ -144,6 +144,40 @@ static void a_block_in_many_ways(void **unused)
 
 /* ---- what is an expression already */
 
+static void headings_of_sums_are_left_out(void **unused)
+{
+    (void)unused;
+    static const struct reading rows[] = {
+        {"ΣF_x = F - mu*N = m*a", "F - mu*N = m*a"},
+        {"ΣF_x = F - μN = m a", "F - mu*N = m*a"},
+        {"\\sum F_{x} = F - \\mu N = m a", "F - mu*N = m*a"},
+        {"→+ ∑F_x = F - mu*N = m*a", "F - mu*N = m*a"},
+        {"(+↑) ΣF_y: N - m*g = 0", "N - m*g = 0"},
+        {"$\\Sigma F_y = N - mg = 0$", "N - m*g = 0"},
+        {"sum F_y = N - m*g = 0", "N - m*g = 0"},
+        {"↺ ΣM_G: N*L = I_G*alpha", "N*L = I_G*alpha"},
+    };
+    COMPARE(rows, true);
+}
+
+/* A sum that is not written out says nothing that could be checked. */
+static void sums_alone_are_refused(void **unused)
+{
+    (void)unused;
+    static const char *const texts[] = {"ΣF_x = m*a", "\\sum F_x = m a", "ΣF_x + ΣF_y = 0",
+                                        "ΣF_x = F - mu*N"};
+    for (size_t i = 0; i < sizeof texts / sizeof *texts; i++) {
+        struct arena arena = {0};
+        fbd_errors *errors = fbd_errors_new();
+        const struct notation notation = read_text(&arena, derivation(), texts[i], true, errors);
+        const bool written = notation.text && !strstr(notation.text, "Σ");
+        if (written) print_error("`%s` was read as `%s`\n", texts[i], notation.text);
+        assert_false(written);
+        arena_free(&arena);
+        fbd_errors_free(errors);
+    }
+}
+
 static void expressions_stay_as_they_are(void **unused)
 {
     (void)unused;
@@ -374,6 +408,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_pendulum_in_many_ways),
         cmocka_unit_test(a_block_in_many_ways),
+        cmocka_unit_test(headings_of_sums_are_left_out),
+        cmocka_unit_test(sums_alone_are_refused),
         cmocka_unit_test(expressions_stay_as_they_are),
         cmocka_unit_test(derivations_of_the_gallery_stay_as_they_are),
         cmocka_unit_test(what_can_be_read_in_two_ways_is_refused),
