@@ -7,6 +7,7 @@
 
 #include "complain.h"
 #include "completion.h"
+#include "fbd_export.h"
 #include "standard_streams.h"
 
 enum exit_code exit_code_for(enum exit_code code, fbd_errors *errors)
@@ -46,7 +47,7 @@ static bool no_completion(const struct command_line *line, enum exit_code *code)
     return command_line_usage(line, "--completion is for bash, zsh or fish, not ", optarg);
 }
 
-/* A word that is nearly an option, or an option that lacks its value. */
+/* Report a word that is similar to an option, or an option without its value. */
 static bool refuse_option(const struct command_line *line, const char *text)
 {
     const char *nearest = completion_nearest(line, text);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * What the command lines of the programs have in common: options that are read in the same way, and what is
- * said of wrong ones.
+ * The common part of the command lines of the programs: options that all of them have, and messages about
+ * wrong ones.
  */
 #ifndef FBD_APPS_COMMAND_LINE_H
 #define FBD_APPS_COMMAND_LINE_H
@@ -10,25 +10,25 @@
 
 #include "fbd.h"
 
-/* Exit codes: a contract with scripts. When a signal ends a program, 128 and its number. */
+/* Exit codes, on which scripts rely. A program ended by a signal returns 128 plus its number. */
 enum exit_code {
     exit_done = 0,
-    exit_failed = 1,       /* a run failed or ended early with a broken assumption; no memory; a full disk */
+    exit_failed = 1,       /* a failed run, a violated assumption, no memory, a full disk */
     exit_usage = 2,        /* the command line is wrong */
     exit_bad_model = 3,    /* the model file is wrong */
     exit_hand_differs = 4, /* a hand derivation, or an exact solution, differs */
-    exit_inaccurate = 5,   /* the accuracy asked for was not reached */
+    exit_inaccurate = 5,   /* the requested accuracy was not reached */
 };
 
-/* `code`, but where memory was out: then a file or an option may well be right, and it is a failure. */
+/* Return `code`, or exit_failed when memory was out: then the file or option may be right. */
 enum exit_code exit_code_for(enum exit_code code, fbd_errors *errors);
 
 struct command_line {
-    const char *program,
-        *help[2]; /* a string of C need not be longer than 4095; the second part may be NULL */
-    const struct option
-        *options; /* long ones; those of COMMAND_LINE_END among them, others from option_first on */
-    bool silent;  /* another process says what is wrong */
+    /* help: C guarantees string literals only up to 4095 characters; the second part may be NULL */
+    const char *program, *help[2];
+    /* long options, including those of COMMAND_LINE_END; values of the others start at option_first */
+    const struct option *options;
+    bool silent; /* another process prints the messages */
 };
 
 enum { option_help = 256, option_version, option_completion, option_schema, option_first };
@@ -40,30 +40,30 @@ enum { option_help = 256, option_version, option_completion, option_schema, opti
         NULL, 0, NULL, 0                                                                                     \
     }
 
-/* Takes one option, its value in `optarg`; false, with a message, when that is wrong. */
+/* Takes one option with its value in `optarg`; false, with a message, when the value is wrong. */
 typedef bool command_line_take(const struct command_line *line, int option, void *options);
 
-/* Read the options and the one model file. Returns true to go on; false with *code set when all is said
- * (help, version, schema, completion, a mistake). */
+/* Read the options and the one model file. Returns true to go on; false with *code set when the program
+ * should exit (help, version, schema, completion, a mistake). */
 bool command_line_read(const struct command_line *line, int argc, char **argv, command_line_take *take,
                        void *options, const char **model, enum exit_code *code);
 
-/* The same in two steps: the options, after which `optind` is the first word behind them, and the one file. */
+/* The same in two steps: the options, after which `optind` is the first word after them, and the one file. */
 bool command_line_options(const struct command_line *line, int argc, char **argv, command_line_take *take,
                           void *options, enum exit_code *code);
 bool command_line_model(const struct command_line *line, int argc, char **argv, const char **model);
 
-/* Say what is wrong: `message` and what stands there instead, or "". Returns false. */
+/* Print `message`, and the wrong text or "". Returns false. */
 bool command_line_usage(const struct command_line *line, const char *message, const char *what);
 
 /* A number as in C (the programs run in the C locale), at least `least`. */
 bool command_line_number(const struct command_line *line, const char *option, const char *text, double least,
                          double *value);
 
-/* A time [s]: a number, or one with a unit behind it: `5 s`, `200ms`, `2 min`. */
+/* A time [s]: a number, or one followed by a unit: `5 s`, `200ms`, `2 min`. */
 bool command_line_seconds(const char *text, double *value);
 
-/* Such a time, at least `least`. */
+/* A time in the form of command_line_seconds, at least `least`. */
 bool command_line_time(const struct command_line *line, const char *option, const char *text, double least,
                        double *value);
 
@@ -73,7 +73,7 @@ bool command_line_whole(const struct command_line *line, const char *wanted, con
 
 enum { most_settings = 200 };
 
-/* NAME=VALUE, behind the `*count` settings that are there; the text is cut in two. */
+/* Append NAME=VALUE to the `*count` settings; `text` is cut in two. */
 bool command_line_setting(const struct command_line *line, char *text, fbd_setting *settings, size_t *count);
 
 #endif

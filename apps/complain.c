@@ -8,7 +8,7 @@
 
 void complain(const char *format, ...)
 {
-    enum { longest = 8192 }; /* two paths at their longest */
+    enum { longest = 8192 }; /* two paths of maximum length */
     char message[longest], shown[2 * longest];
     va_list args;
     va_start(args, format);

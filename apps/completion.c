@@ -3,14 +3,15 @@
 
 #include <string.h>
 
-/* ---- what the help says of an option */
+/* ---- descriptions of options */
 
 struct piece {
     const char *text;
     int length;
 };
 
-/* The first line of `--name ...   what it does`, without what a shell or a list would take for its own. */
+/* The first line of the description after `--name ...   ` in the help, without characters special to shells
+ * or lists. */
 static struct piece doc_in(const char *help, const char *name)
 {
     size_t length = strlen(name);
@@ -33,7 +34,7 @@ static struct piece doc_of(const struct command_line *line, const char *name)
 
 /* ---- shells */
 
-/* Names behind which a file is given. */
+/* True if the value of the option is a file. */
 static bool takes_file(const char *name)
 {
     static const char *const files[] = {"csv", "json", "html", "plot", "gnuplot", "svg", "emit-c"};
@@ -77,7 +78,7 @@ static void write_zsh(const struct command_line *line)
                                                     : ":value:");
     }
     printf("        '*:model:_files -g \"*.yaml\"'\n}\n"
-           /* loaded by its name, from the path of functions, it completes at once */
+           /* When autoloaded from fpath, the function completes at once. */
            "if [ \"${funcstack[1]}\" = _%s ]; then\n    _%s \"$@\"\nelse\n    compdef _%s %s\nfi\n",
            line->program, line->program, line->program, line->program);
 }
@@ -110,14 +111,15 @@ bool completion_write(const struct command_line *line, const char *shell)
     return true;
 }
 
-/* ---- slips */
+/* ---- misspellings */
 
 static int least(int a, int b)
 {
     return a < b ? a : b;
 }
 
-/* How many letters are to be put in, left out, changed or exchanged with the next (Damerau and Levenshtein, restricted). */
+/* Restricted Damerau-Levenshtein distance: number of letters to insert, delete, replace or exchange with the
+ * next one. */
 static int distance(const char *a, const char *b)
 {
     enum { longest = 32 };
@@ -141,7 +143,7 @@ const char *completion_nearest(const struct command_line *line, const char *wron
     if (dashes == 0 || length == 0 || length >= sizeof name) return NULL;
     memcpy(name, wrong + dashes, length);
     const char *nearest = NULL;
-    int fewest = length <= 4 ? 2 : 3; /* less than this many letters */
+    int fewest = length <= 4 ? 2 : 3; /* distance must be less */
     for (const struct option *o = line->options; o->name; o++) {
         int d = distance(name, o->name);
         if (d >= fewest) continue;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Completion of a command line by the shell, made of the tables that the options are read by.
+ * Completion of a command line by the shell, generated from the option tables.
  */
 #ifndef FBD_APPS_COMPLETION_H
 #define FBD_APPS_COMPLETION_H
@@ -10,7 +10,7 @@
 /* Write the script for `shell` (bash, zsh or fish) to standard output; false when there is no such shell. */
 bool completion_write(const struct command_line *line, const char *shell);
 
-/* The option that `wrong` (`--acuracy`) is meant to be, or NULL. */
+/* The option most similar to `wrong` (`--acuracy`), or NULL. */
 const char *completion_nearest(const struct command_line *line, const char *wrong);
 
 #endif

@@ -3,6 +3,7 @@
 
 #include <string.h>
 
+#include "fbd_study.h"
 #include "place.h"
 
 static const char help[] =
@@ -68,7 +69,7 @@ static bool usage(const char *message, const char *what)
     return command_line_usage(&line, message, what);
 }
 
-/* A,B,...; the argument is cut in pieces. */
+/* Read A,B,...; the argument is cut in pieces. */
 static bool read_list(const char *option, char *text, const char **names, size_t *count)
 {
     for (char *name = text; name;) {
@@ -123,7 +124,7 @@ static void list_places(const struct cost_options *options, struct output_place 
     places[3] = (struct output_place){"the table", table ? "-" : NULL};
 }
 
-/* Options that would be passed over in silence are mistakes. */
+/* Refuse options that would have no effect. */
 static bool options_agree(const struct cost_options *options)
 {
     const fbd_cost_options *study = &options->study;

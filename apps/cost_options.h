@@ -6,6 +6,7 @@
 #define FBD_APPS_COST_OPTIONS_H
 
 #include "command_line.h"
+#include "fbd_study.h"
 
 enum { most_names = 64 };
 
@@ -19,11 +20,11 @@ struct cost_options {
     const char *csv, *json, *svg;
 };
 
-/* Read the command line. Returns true to go on; false with *code set when all is said (help, version, a
- * mistake). */
+/* Read the command line. Returns true to go on; false with *code set when the program should exit (help,
+ * version, a mistake). */
 bool cost_options_read(int argc, char **argv, struct cost_options *options, enum exit_code *code);
 
-/* False, with a message, when an output would be written over a file that was read. */
+/* False, with a message, when an output would overwrite a file that was read. */
 bool cost_options_spare(const struct cost_options *options, const fbd_errors *errors);
 
 #endif

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * fbd-cost: what accuracy costs on a scene, and what each of its effects costs.
+ * fbd-cost: the cost of accuracy for a scene, and the cost of each of its effects.
  */
 #include <errno.h>
 #include <gsl/gsl_errno.h>
@@ -9,6 +9,7 @@
 
 #include "complain.h"
 #include "cost_options.h"
+#include "fbd_study.h"
 #include "place.h"
 #include "standard_streams.h"
 #include "terminal_line.h"
@@ -31,7 +32,7 @@ static int show_progress(void *context, const fbd_progress *now)
     return 0;
 }
 
-/* ---- what is written */
+/* ---- outputs */
 
 struct output {
     const char *path;
@@ -97,7 +98,7 @@ static char *effects_json(const void *study)
 
 /* ---- the studies */
 
-/* What is wrong with the options stands in the file when it has a place there. */
+/* Choose the exit code of a wrong option: an error with a position in the file is one of the model. */
 static enum exit_code blame(fbd_errors *errors)
 {
     const fbd_error first = fbd_errors_get(errors, 0);
@@ -106,7 +107,7 @@ static enum exit_code blame(fbd_errors *errors)
     return first.line > 0 ? exit_bad_model : exit_usage;
 }
 
-/* A reference that does not hold is the first thing that a user must know. */
+/* Report an invalid or incomplete reference. */
 static enum exit_code judge(const fbd_cost *cost)
 {
     fbd_reference reference = fbd_cost_reference(cost);
@@ -171,7 +172,7 @@ int main(int argc, char **argv)
     enum exit_code code;
     struct terminal_line line;
     standard_streams_begin();
-    gsl_set_error_handler_off(); /* every status is looked at instead */
+    gsl_set_error_handler_off(); /* every status is checked instead */
     if (cost_options_read(argc, argv, &options, &code)) {
         terminal_line_begin(&line, true);
         options.study.progress = show_progress;

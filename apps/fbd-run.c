@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * fbd-run: read a model, look at it or run it, write what was asked for.
+ * fbd-run: read a model, inspect it or run it, and write the requested outputs.
  */
 #include <errno.h>
 #include <gsl/gsl_errno.h>
@@ -8,6 +8,9 @@
 #include <string.h>
 
 #include "complain.h"
+#include "fbd_export.h"
+#include "fbd_grade.h"
+#include "fbd_study.h"
 #include "fmu.h"
 #include "grading.h"
 #include "live_page.h"
@@ -33,7 +36,7 @@ static enum exit_code print(char *text, enum exit_code code)
     return standard_output_arrives("fbd-run") ? code : exit_failed;
 }
 
-/* Say so when the energy shows that the motion is not that of the scene. */
+/* Report a violated energy balance. */
 static enum exit_code balanced(fbd_result *result)
 {
     double residual, explained;
@@ -45,7 +48,7 @@ static enum exit_code balanced(fbd_result *result)
     return exit_inaccurate;
 }
 
-/* Say so when the accuracy that was asked for has not been reached; `interrupt` may be NULL. */
+/* Report if the requested accuracy was not reached; `interrupt` may be NULL. */
 static enum exit_code accurate(const fbd_result *result, const fbd_simulation *simulation,
                                const struct interrupt *interrupt)
 {
@@ -62,7 +65,7 @@ static enum exit_code accurate(const fbd_result *result, const fbd_simulation *s
     return exit_inaccurate;
 }
 
-/* ---- the state that --at asks for */
+/* ---- the state of --at */
 
 static bool set_coordinate(fbd_state *state, const char *text, bool degrees, fbd_errors *errors)
 {
@@ -75,7 +78,7 @@ static bool set_coordinate(fbd_state *state, const char *text, bool degrees, fbd
     return (degrees ? fbd_state_set_text_degrees : fbd_state_set_text)(state, name, equals + 1, errors);
 }
 
-/* Run until `t` and take the state there. */
+/* Run until `t` and return the state there. */
 static enum exit_code run_until(const fbd_model *model, const struct options *options, double t,
                                 fbd_state *state, fbd_errors *errors)
 {
@@ -118,7 +121,7 @@ static enum exit_code place(const fbd_model *model, const struct options *option
 
 /* ---- instead of a run */
 
-/* Put a text of the library into a file, and free it. */
+/* Write a text of the library to a file, and free it. */
 static enum exit_code write_text(const char *path, char *text)
 {
     if (!text) return no_memory();
@@ -136,7 +139,7 @@ static enum exit_code write_picture(const char *path, char *svg)
     return written ? exit_done : exit_failed;
 }
 
-/* The diagram of a state, when it is asked for. */
+/* Draw the diagram of a state, if requested. */
 static enum exit_code draw_state(const struct options *options, fbd_state *state, fbd_errors *errors)
 {
     if (!options->svg) return exit_done;
@@ -146,7 +149,7 @@ static enum exit_code draw_state(const struct options *options, fbd_state *state
     return first.id && strcmp(first.id, "unknown-body") == 0 ? exit_usage : exit_failed;
 }
 
-/* What holds the state at rest; to standard output, where --json may take the place of the text. */
+/* Print the reactions that keep the state at rest; with --json as JSON instead of text. */
 static enum exit_code show_statics(const struct options *options, fbd_state *state, fbd_errors *errors)
 {
     if (options->settle && !fbd_find_equilibrium(state, errors)) return exit_failed;
@@ -161,13 +164,13 @@ static enum exit_code show_statics(const struct options *options, fbd_state *sta
     return written == exit_done ? code : written;
 }
 
-/* Does data on standard output, or --quiet, leave the text out? */
+/* True if data on standard output, or --quiet, suppresses the text. */
 static bool data_alone(const struct options *options)
 {
     return options->quiet || place_is_stdout(options->svg) || place_is_stdout(options->json);
 }
 
-/* The equations as they are asked for. */
+/* The equations in the requested form. */
 static char *equations_of(const struct options *options, fbd_state *state, bool symbols, bool components)
 {
     if (options->latex && components) return fbd_equations_latex_components(state);
@@ -178,7 +181,7 @@ static char *equations_of(const struct options *options, fbd_state *state, bool 
 
 static enum exit_code show_equations(const struct options *options, fbd_state *state)
 {
-    const bool symbols = options->drawing.symbols && !options->svg; /* else those of its arrows */
+    const bool symbols = options->drawing.symbols && !options->svg; /* else for the arrows */
     const bool components = options->drawing.components || symbols;
     enum exit_code code = exit_done;
     if (!data_alone(options)) code = print(equations_of(options, state, symbols, components), code);
@@ -215,7 +218,7 @@ static enum exit_code show_state(const fbd_model *model, const struct options *o
     return code;
 }
 
-/* A file that can be read may still have a start that no motion begins at. */
+/* Check that the start is admissible, which a readable file does not guarantee. */
 static enum exit_code check_start(const fbd_model *model, fbd_errors *errors)
 {
     fbd_state *state = fbd_state_new(model);
@@ -225,14 +228,14 @@ static enum exit_code check_start(const fbd_model *model, fbd_errors *errors)
     return code;
 }
 
-/* A key is graded against itself as well. */
+/* Check the start; grade a key against itself. */
 static enum exit_code check(const fbd_model *model, fbd_errors *errors)
 {
     enum exit_code code = check_start(model, errors);
     return fbd_model_check_key(model, errors) ? code : exit_bad_model;
 }
 
-/* A derivation differs wherever the scene has no start that fits: that is said instead. */
+/* Check the derivations. Without an admissible start all would differ, so that error is reported instead. */
 static enum exit_code check_hand(const fbd_model *model, const struct options *options, fbd_errors *errors)
 {
     size_t differing;
@@ -246,13 +249,13 @@ static enum exit_code check_hand(const fbd_model *model, const struct options *o
 
 /* ---- a run */
 
-/* The diagram is that of a state of its own: at the start, or where --at leads. */
+/* Draw the diagram of a separate state: at the start, or that of --at. */
 static enum exit_code draw_diagram(const fbd_model *model, const struct options *options, fbd_errors *errors)
 {
     if (!options->svg) return exit_done;
     fbd_state *state = fbd_state_new(model);
     if (!state) return no_memory();
-    /* A start that cannot be has no diagram; the run that follows says why, but for memory. */
+    /* An inadmissible start has no diagram; the following run reports the reason, except lack of memory. */
     fbd_errors *why = fbd_errors_new();
     bool refused = options->at_count == 0 && !fbd_state_close(state, why);
     bool lacking = !why || exit_code_for(exit_done, why) != exit_done;
@@ -263,14 +266,14 @@ static enum exit_code draw_diagram(const fbd_model *model, const struct options 
     return code;
 }
 
-/* What is wrong with the options stands in the file when it has a place there. */
+/* Choose the exit code of a wrong option: an error with a position in the file is one of the model. */
 static enum exit_code blame(fbd_errors *errors)
 {
     const fbd_error first = fbd_errors_get(errors, 0);
     return first.line > 0 ? exit_bad_model : exit_usage;
 }
 
-/* Carry the simulation to its end, or to where it is interrupted, and write what was asked for. */
+/* Run the simulation to its end or interruption, and write the requested outputs. */
 static enum exit_code carry_and_write(fbd_simulation *simulation, const struct options *options,
                                       struct outputs *outputs, const struct interrupt *interrupt,
                                       fbd_errors *errors)
@@ -291,7 +294,7 @@ static enum exit_code carry_and_write(fbd_simulation *simulation, const struct o
     fbd_result *result = fbd_simulation_run(simulation, &recording);
     run_progress_end(&progress);
     bool refused = outputs->files[output_csv].stream &&
-                   ferror(outputs->files[output_csv].stream); /* said when it is closed */
+                   ferror(outputs->files[output_csv].stream); /* reported at closing */
     enum exit_code code = result ? exit_done : refused ? exit_failed : no_memory();
     if (result && !outputs_write(outputs, options, result, errors)) code = exit_failed;
     bool closed = outputs_close(outputs, result && code == exit_done) && outputs_announce(options, code);
@@ -301,7 +304,7 @@ static enum exit_code carry_and_write(fbd_simulation *simulation, const struct o
     fbd_outcome outcome = result ? fbd_result_outcome(result) : FBD_FAILED;
     if (outcome != FBD_FAILED && outcome != FBD_INTERRUPTED && code == exit_done)
         code = accurate(result, simulation, interrupt);
-    if (outcome != FBD_FAILED && code == exit_done) code = balanced(result); /* else the reason says more */
+    if (outcome != FBD_FAILED && code == exit_done) code = balanced(result); /* else see its reason */
     if (result && outcome != FBD_DONE && outcome != FBD_STOPPED) {
         if (!fbd_simulation_blame(simulation, errors))
             complain("fbd-run: %s", fbd_simulation_reason(simulation));
@@ -330,7 +333,7 @@ static enum exit_code run(const fbd_model *model, const struct options *options,
     return code;
 }
 
-/* What is wrong with --until or --tolerance is the caller's, all else the file's. */
+/* Errors of --until or --tolerance are those of the command line, all others those of the file. */
 static enum exit_code emit_c(const fbd_model *model, const struct options *options, fbd_errors *errors)
 {
     char *program = fbd_emit_c(model, &options->run, errors);
@@ -355,12 +358,12 @@ static enum exit_code act(const fbd_model *model, const struct options *options,
     return run(model, options, errors);
 }
 
-/* The same model without the effects that are to be left out; where there is none *code says why. */
+/* The model without the effects of --without; NULL with *code set when there is none. */
 static fbd_model *leave_out(fbd_model *model, const struct options *options, fbd_errors *errors,
                             enum exit_code *code)
 {
     if (!model || options->without_count == 0) return model;
-    fbd_errors *others = fbd_errors_new(); /* what the whole file is warned of has been said */
+    fbd_errors *others = fbd_errors_new(); /* warnings of the complete file were printed before */
     if (!others) *code = no_memory();
     const char *name = strcmp(options->model, "-") == 0 ? NULL : options->model;
     char *text = fbd_model_without(model, options->without, options->without_count, errors);
@@ -407,7 +410,7 @@ static enum exit_code read_and_act(struct options *options)
     return code;
 }
 
-/* ---- again and again */
+/* ---- watched runs */
 
 static enum exit_code run_watched(void *context, const struct watched_run *run)
 {
@@ -433,7 +436,7 @@ int main(int argc, char **argv)
     struct options options;
     enum exit_code code;
     standard_streams_begin();
-    gsl_set_error_handler_off(); /* every status is looked at instead */
+    gsl_set_error_handler_off(); /* every status is checked instead */
     if (options_read(argc, argv, &options, &code)) {
         code = options.action == action_grade     ? grading(&options)
                : options.action == action_handout ? handout(&options)

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * fbd-sweep: run a model under many values of its parameters and write one table.
+ * fbd-sweep: run a model with many values of its parameters and write one table.
  */
 #include <errno.h>
 #include <gsl/gsl_errno.h>
@@ -10,15 +10,16 @@
 #include <string.h>
 
 #include "complain.h"
+#include "fbd_study.h"
 #include "partial_file.h"
 #include "ranks.h"
 #include "standard_streams.h"
 #include "sweep_options.h"
 #include "sweep_progress.h"
 
-/* ---- signals: what is being computed is given up, what has been computed is kept */
+/* ---- signals: running computations are abandoned, finished rows are kept */
 
-static atomic_int caught; /* a handler has nothing else to write to */
+static atomic_int caught; /* the only object that the handler writes */
 
 static void catch_signal(int number)
 {
@@ -28,13 +29,13 @@ static void catch_signal(int number)
 static void watch_signals(void)
 {
     static const int signals[] = {SIGINT, SIGTERM, SIGHUP};
-    /* A second one ends the process at once. */
+    /* A second signal ends the process at once. */
     struct sigaction action = {.sa_handler = catch_signal, .sa_flags = (int)SA_RESETHAND};
     sigemptyset(&action.sa_mask);
     for (size_t i = 0; i < sizeof signals / sizeof *signals; i++) {
         struct sigaction before;
         bool ignored = sigaction(signals[i], NULL, &before) == 0 && before.sa_handler == SIG_IGN;
-        if (!ignored) sigaction(signals[i], &action, NULL); /* nohup stays nohup */
+        if (!ignored) sigaction(signals[i], &action, NULL); /* signals ignored by nohup stay ignored */
     }
 }
 
@@ -62,7 +63,7 @@ static void summarise(const struct sweep_options *options, size_t runs, size_t r
                  rows);
 }
 
-/* Make the rows that are missing. */
+/* Compute the missing rows. */
 static int fill(const struct ranks *ranks, const fbd_sweep *sweep, const struct sweep_options *options,
                 struct partial_file *file)
 {
@@ -93,7 +94,7 @@ static int fill(const struct ranks *ranks, const fbd_sweep *sweep, const struct 
 
 /* ---- ranks */
 
-/* What is wrong with the file is told from what is wrong with the command line: it has a place there. */
+/* Choose the exit code: an error with a position is one of the file, others are of the command line. */
 static enum exit_code blame(fbd_errors *errors)
 {
     for (size_t i = 0; i < fbd_errors_count(errors); i++) {
@@ -110,7 +111,7 @@ static int follow(const struct sweep_options *options)
     size_t length = 0;
     const fbd_sweep_work work = {.jobs = options->jobs, .stop = stops};
     if (!ranks_take(&text, &length)) return exit_failed;
-    if (!text) return exit_done; /* the leader has said why, and its code counts */
+    if (!text) return exit_done; /* the leader has printed the reason, and its exit code counts */
     fbd_errors *errors = fbd_errors_new();
     fbd_sweep *sweep = errors ? fbd_sweep_parse(text, length, options->model, &options->plan, errors) : NULL;
     ranks_follow(sweep, &work);
@@ -165,11 +166,11 @@ int main(int argc, char **argv)
     struct sweep_options options;
     enum exit_code said;
     standard_streams_begin();
-    gsl_set_error_handler_off(); /* every status is looked at instead */
+    gsl_set_error_handler_off(); /* every status is checked instead */
     if (!ranks_start(&ranks)) return exit_failed;
     int code = exit_done;
     if (sweep_options_read(argc, argv, ranks.rank > 0, &options, &said)) {
-        if (ranks.count > 1 && options.jobs == 0) options.jobs = 1; /* mpirun starts one rank a processor */
+        if (ranks.count > 1 && options.jobs == 0) options.jobs = 1; /* mpirun starts one rank per processor */
         watch_signals();
         code = ranks.rank == 0 ? lead(&ranks, &options) : follow(&options);
     } else {

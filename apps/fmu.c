@@ -6,9 +6,10 @@
 #include <string.h>
 
 #include "complain.h"
+#include "fbd_export.h"
 #include "whole_file.h"
 
-/* What was asked for wrongly is a mistake of the command line, unless it stands in the file. */
+/* Choose the exit code: an error with a position is one of the file, others are of the command line. */
 static enum exit_code blame(fbd_errors *errors)
 {
     const fbd_error first = fbd_errors_get(errors, 0);

@@ -10,7 +10,7 @@
 /* Write the FMU of the model to options->fmu. */
 enum exit_code write_fmu(const fbd_model *model, const struct options *options, fbd_errors *errors);
 
-/* The binary of an FMU, which this program carries within itself; NULL when it has been built without. */
+/* The binary of an FMU, embedded in this program; NULL when it was built without. */
 const char *fmu_binary(size_t *length);
 
 #endif

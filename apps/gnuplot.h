@@ -1,17 +1,17 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Gnuplot as a child process: only when a plot is asked for.
+ * Gnuplot as a child process, started only for a requested plot.
  */
 #ifndef FBD_APPS_GNUPLOT_H
 #define FBD_APPS_GNUPLOT_H
 
 #include <stdbool.h>
 
-/* Is there a gnuplot in PATH? */
+/* True if there is a gnuplot in PATH. */
 bool gnuplot_is_there(void);
 
-/* Let gnuplot carry the script out, its output (an image) going to the descriptor. False when it fails; it
- * has then said why on standard error. */
+/* Execute the script with gnuplot; its output (an image) goes to the descriptor. False when it fails, after
+ * gnuplot has printed the reason on standard error. */
 bool gnuplot_run(const char *script, int output);
 
 #endif

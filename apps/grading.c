@@ -6,11 +6,12 @@
 #include <string.h>
 
 #include "complain.h"
+#include "fbd_grade.h"
 #include "place.h"
 #include "standard_streams.h"
 #include "whole_file.h"
 
-/* Neither the key nor an answer is written over. */
+/* An output must not overwrite the key or an answer. */
 bool grading_agrees(const struct options *options, const struct command_line *line, bool others)
 {
     const struct output_place places[] = {{"--csv", options->csv},
@@ -40,7 +41,7 @@ bool grading_agrees(const struct options *options, const struct command_line *li
     return places_differ(line, options->model, places, sizeof places / sizeof *places);
 }
 
-/* What is written besides the text. */
+/* Outputs other than the text. */
 struct tables {
     struct whole_file json, csv;
     bool first;
@@ -60,7 +61,7 @@ static bool close_one(struct whole_file *file, const char *path, bool keep)
     return false;
 }
 
-/* A field with what would end it in quotes. */
+/* Write a CSV field, quoted if it contains a separator, quote or newline. */
 static void put_field(FILE *stream, const char *text)
 {
     bool quotes = strpbrk(text, ",\"\n\r") != NULL;
@@ -73,7 +74,7 @@ static void put_field(FILE *stream, const char *text)
     fputc(',', stream);
 }
 
-/* A column for each kind of finding: how many there are. */
+/* Write the number of findings of each kind, one column per kind. */
 static void put_kinds(FILE *stream, const fbd_grade *grade)
 {
     for (int kind = 0; *fbd_finding_kind_name((fbd_finding_kind)kind); kind++) {
@@ -103,7 +104,7 @@ static void put_row(FILE *stream, const fbd_grade *grade, const char *student, c
     put_kinds(stream, grade);
 }
 
-/* The name of the student that no option gives: that of the file. */
+/* The default name of the student: that of the file. */
 static void name_of(const char *path, char *name, size_t room)
 {
     const char *slash = strrchr(path, '/'), *start = slash ? slash + 1 : path, *dot = strrchr(start, '.');
@@ -161,7 +162,7 @@ static enum exit_code grade_all(const struct options *options, const fbd_key *ke
     return open && written ? code : exit_failed;
 }
 
-/* Print notes and say what they mean for the exit code. */
+/* Print notes and derive the exit code from them. */
 static enum exit_code finish(fbd_key *key, fbd_errors *errors, enum exit_code code)
 {
     fflush(stdout);

@@ -10,13 +10,13 @@
 #include "place.h"
 #include "whole_file.h"
 
-/* What differs between the two pages, at its first place from the start and from the end. */
+/* The two places in which a live page differs: the first occurrence of the policy, and the end of the page. */
 static const char policy[] = "script-src 'unsafe-inline'",
                   loose[] = "script-src 'unsafe-inline' 'self' file:";
 static const char page_end[] = "</body>\n</html>\n";
 static const char call_start[] = "<script>fbd.live(\"", call_end[] = "\")</script>\n";
 
-/* The last place where `part` stands; the data before it may hold anything. */
+/* The last occurrence of `part`; the data before it may contain the same text. */
 static char *last_place(char *text, const char *part)
 {
     char *last = NULL;
@@ -81,7 +81,7 @@ void live_page_settle(const char *path)
     if (end && rule && rule < call) {
         cut(call, end + strlen(call_end));
         cut(rule + strlen(policy), rule + strlen(loose));
-        (void)whole_file_put(path, page); /* the live one stays, and asks in vain */
+        (void)whole_file_put(path, page); /* on failure the live page stays, without effect */
     }
     fbd_free(page);
     if (stamp_path(path, name)) unlink(name);

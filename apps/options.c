@@ -5,6 +5,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
+#include "fbd_export.h"
 #include "fmu.h"
 #include "gnuplot.h"
 #include "grading.h"
@@ -184,7 +185,7 @@ static bool take_fmu_version(int *version)
     return true;
 }
 
-static const double tiny = 1e-300; /* above 0 */
+static const double tiny = 1e-300; /* excludes 0 */
 
 /* Options of drawings, sheets and grades. */
 static bool take_drawing(struct options *options, int option)
@@ -279,7 +280,7 @@ static bool plot_can_be_written(const char *file)
 
 enum { place_count = 9 };
 
-/* Where outputs go. The report comes last and goes where `>` leads, unless data goes there. */
+/* List the destinations of outputs. The report comes last; it goes to standard output unless data goes there. */
 static void list_places(const struct options *options, struct output_place places[place_count])
 {
     const struct output_place all[place_count] = {
@@ -299,7 +300,7 @@ bool options_use_stdout(const struct options *options)
            place_is_stdout(options->emit_c);
 }
 
-/* `components`, `symbols`: something else shows these. */
+/* `components`, `symbols`: another output shows these. */
 static bool shapes_drawing(const struct options *options, bool components, bool symbols)
 {
     const fbd_drawing *drawing = &options->drawing;
@@ -307,7 +308,7 @@ static bool shapes_drawing(const struct options *options, bool components, bool 
            (drawing->symbols && !symbols) || options->scale || drawing->worksheet;
 }
 
-/* Options that contradict a sheet or a grade. Of those of drawings a sheet takes --solution. */
+/* True for options that contradict a sheet or a grade. A sheet permits the drawing option --solution. */
 static bool runs_or_draws(const struct options *options)
 {
     return options->watch || options->at_count || options->run.method || options->run.tolerance > 0 ||
@@ -319,7 +320,7 @@ static bool runs_or_draws(const struct options *options)
            options->degrees;
 }
 
-/* What is written again and again has to be a file, and what is read again too. */
+/* Watched outputs and inputs must be files. */
 static bool can_be_watched(const struct options *options)
 {
     struct output_place places[place_count];
@@ -356,7 +357,7 @@ static bool drawing_agrees(const struct options *options)
     return !options->svg || picture_can_be_written(&line, options->svg);
 }
 
-/* Options that would be passed over in silence are mistakes. */
+/* Refuse options that would have no effect. */
 static bool options_agree(const struct options *options)
 {
     if (options->action == action_grade || options->action == action_handout)
@@ -411,7 +412,7 @@ bool options_spare(const struct options *options, const fbd_errors *errors)
     return places_spare(&line, errors, places, place_count);
 }
 
-/* `--symbols` with nothing that has arrows: the equations in symbols. */
+/* `--symbols` without an output of arrows selects the equations in symbols. */
 static void choose_symbols(struct options *options)
 {
     const bool runs = options->svg || options->csv || options->html || options->plot || options->gnuplot;

@@ -6,6 +6,7 @@
 #define FBD_APPS_OPTIONS_H
 
 #include "command_line.h"
+#include "fbd_export.h"
 #include "watch.h"
 
 struct options {
@@ -34,29 +35,29 @@ struct options {
     bool ledger, quiet, settle, latex, full, degrees;
     const char *csv, *json, *svg, *html;
     const char *plot, *gnuplot, *plot_of;
-    const char *emit_c; /* where the program goes, of action_emit_c */
+    const char *emit_c; /* destination of the program, of action_emit_c */
     fbd_drawing drawing;
     const char *scale; /* of the drawing: a force with its unit, or NULL */
     unsigned seed;
     const char *student; /* of the answer, or NULL */
-    const char *page;    /* of action_handout: where the drawing page goes, or NULL */
+    const char *page;    /* of action_handout: destination of the drawing page, or NULL */
     bool details, exam;
     char **answers;
     size_t answer_count;
     const char *fmu;
-    int fmu_version; /* 0 when it is not given */
+    int fmu_version; /* 0 when not given */
     bool watch, live;
     const struct watched_run *watched; /* of --watch, or NULL */
 };
 
-/* Read the command line. Returns true to go on; false with *code set when all is said (help, version, a
- * mistake). */
+/* Read the command line. Returns true to go on; false with *code set when the program should exit (help,
+ * version, a mistake). */
 bool options_read(int argc, char **argv, struct options *options, enum exit_code *code);
 
-/* False, with a message, when an output would be written over a file that was read. */
+/* False, with a message, when an output would overwrite a file that was read. */
 bool options_spare(const struct options *options, const fbd_errors *errors);
 
-/* Does data go to standard output? Then the report stays out. */
+/* True if data goes to standard output; then the report is not printed. */
 bool options_use_stdout(const struct options *options);
 
 #endif

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "complain.h"
+#include "fbd_export.h"
 #include "gnuplot.h"
 #include "interrupt.h"
 #include "live_page.h"
@@ -38,8 +39,8 @@ bool outputs_open(struct outputs *outputs, const struct options *options)
     return true;
 }
 
-/* Put a text of the library into an open file, if it is open, and free it; false when there is no text. An
- * error of writing shows when the file is closed. */
+/* Write a text of the library to a file, if it is open, and free it; false when there is no text. A write
+ * error is reported when the file is closed. */
 static bool put_text(struct whole_file *file, char *text)
 {
     if (text) whole_file_write(file, text, strlen(text));

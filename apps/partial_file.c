@@ -12,7 +12,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-/* Why a file is not opened. */
+/* The reason why a file is not opened. */
 struct obstacle {
     enum partial_opening kind;
     char *text;
@@ -25,15 +25,15 @@ static bool cannot(struct obstacle *why, const char *what, const char *path)
     return false;
 }
 
-/* Hand a text to the system at once. */
+/* Write and flush a text. */
 static bool put(FILE *stream, const char *text, size_t length)
 {
     return fwrite(text, 1, length, stream) == length && fflush(stream) == 0;
 }
 
-/* ---- what is there */
+/* ---- existing rows */
 
-/* A run that ended well has no reason to give. */
+/* True if the run of the row ended well: its reason is empty. */
 static bool ended_well(const char *row)
 {
     static const char *const ends[] = {",done,", ",stopped,"};
@@ -55,7 +55,7 @@ static bool is_header(FILE *stream, const char *header, bool *empty)
     return same;
 }
 
-/* What is known of a row that should be the next one. A row that was changed by hand may have any number. */
+/* Check the number and the checksum of the next row. */
 static enum partial_row check_row(struct partial_file *file, const char *line, size_t length)
 {
     char number[32];
@@ -64,7 +64,7 @@ static enum partial_row check_row(struct partial_file *file, const char *line, s
     return partial_sums_check(&file->sums, line, length);
 }
 
-/* Read the header and the rows; returns where the last whole row ends that is known to be right, or -1 with
+/* Read the header and the rows; returns the position after the last complete and correct row, or -1 with
  * *why. */
 static long check_rows(struct partial_file *file, FILE *stream, const char *header, struct obstacle *why)
 {
@@ -125,7 +125,7 @@ static bool refuse_rest(const struct partial_file *file, struct obstacle *why)
     return false;
 }
 
-/* The file is locked first, so that its key is changed by nobody else. */
+/* Lock the file before anything else, so that no other process changes its key. */
 static bool open_part(struct partial_file *file, bool resume, struct obstacle *why)
 {
     int descriptor = open(file->part, O_RDWR | O_CREAT | (resume ? 0 : O_EXCL), 0666);
@@ -138,7 +138,7 @@ static bool open_part(struct partial_file *file, bool resume, struct obstacle *w
     return lock(file, why);
 }
 
-/* What is in the part is checked and its torn end cut off; one that has nothing yet gets key and header. */
+/* Check the content of the part and cut off an incomplete last line; write key and header if it is empty. */
 static bool fill_part(struct partial_file *file, const char *header, const char *key, struct obstacle *why)
 {
     struct stat status;
@@ -161,7 +161,7 @@ static bool open_stream(struct partial_file *file, const char *path, const char 
     return put(file->stream, header, strlen(header)) || cannot(why, "write", path ? path : "-");
 }
 
-/* The part lies beside what the links of the path lead to, so that it can be put in its place. */
+/* Open the part in the folder of the link target, so that it can be renamed. */
 static bool open_beside(struct partial_file *file, const char *header, const char *key, bool resume,
                         struct obstacle *why)
 {
@@ -211,7 +211,7 @@ int partial_file_write(void *context, const char *rows, size_t length)
     return 1;
 }
 
-/* The table takes the place of a file that was there, and its mode. */
+/* Rename the table over the target, with the mode of an existing file. */
 static bool put_in_place(const struct partial_file *file)
 {
     struct stat before;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Texts of partial tables: lines that are read, messages that are made.
+ * Texts of partial tables: reading of lines, formatting of messages.
  */
 #ifndef FBD_APPS_PARTIAL_LINES_H
 #define FBD_APPS_PARTIAL_LINES_H
@@ -11,10 +11,12 @@
 /* A text to be freed; NULL when memory is out. */
 char *partial_format(const char *format, ...) __attribute__((format(printf, 1, 2)));
 
-/* A line of a stream without its end, to be freed; NULL at the end, and for a line that was torn off. */
+/* A line of a stream without its end, to be freed; NULL at the end of the stream, and for a line without a
+ * newline. */
 char *partial_line(FILE *stream, size_t *length);
 
-/* What cannot be read, or held in memory, is no end: to be asked before anything is cut off for it. */
+/* True if partial_line returned NULL because of a read error or lack of memory, not at the end of the file:
+ * to be checked before the file is truncated there. */
 bool partial_line_failed(FILE *stream);
 
 #endif

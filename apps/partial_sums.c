@@ -10,20 +10,20 @@
 #include "partial_lines.h"
 #include "whole_file.h"
 
-/* What stands between key and checksums. */
+/* The line between key and checksums. */
 static const char heading[] = "rows";
 
 enum { digits = 16, entry_length = digits + 1 };
 
-/* FNV-1a (RFC 9923): each step is one to one, so a single byte that differs always shows. Against accidents,
- * not against malice. */
+/* FNV-1a (RFC 9923). Each step is one to one, so a single changed byte is always detected. Not a protection
+ * against deliberate changes. */
 static uint64_t hash(uint64_t start, const char *text, size_t length)
 {
     for (size_t i = 0; i < length; i++) start = (start ^ (unsigned char)text[i]) * UINT64_C(0x100000001B3);
     return start;
 }
 
-/* Checksums of one sweep say nothing of the rows of another. */
+/* Seed by key and header, so that checksums of one sweep do not fit the rows of another. */
 static uint64_t seed_of(const char *key, const char *header)
 {
     return hash(hash(UINT64_C(0xCBF29CE484222325), key, strlen(key)), header, strlen(header));
@@ -41,7 +41,8 @@ bool partial_sums_make(struct partial_sums *sums, const char *path, const char *
     return sums->stream && fseek(sums->stream, sums->start, SEEK_SET) == 0;
 }
 
-/* The next line of the stream is `line`; else *why, or no text when it cannot be read. */
+/* True if the next line of the stream is `line`; otherwise sets *why, or leaves it NULL when the line cannot
+ * be read. */
 static bool is_line(FILE *stream, const char *line, size_t length, char **why)
 {
     size_t there_length = 0;

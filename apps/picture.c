@@ -9,7 +9,7 @@
 #include "program.h"
 #include "whole_file.h"
 
-/* 200 dots an inch: a sheet of paper is seen sharply, and in two thousand pixels. */
+/* 200 dots per inch are sufficient for a printed page, and give about two thousand pixels. */
 static const char *const converters[][2][14] = {
     {{"rsvg-convert", "--format", "pdf", NULL},
      {"rsvg-convert", "--format", "png", "--dpi-x", "200", "--dpi-y", "200", "--background-color", "white",
@@ -28,7 +28,7 @@ static enum format format_of(const char *file)
     return end && strcasecmp(end, ".png") == 0 ? format_png : format_svg;
 }
 
-/* Does its name promise a picture of another kind? */
+/* True if the file name has the ending of another image format. */
 static bool is_another_kind(const char *file)
 {
     static const char *const others[] = {".jpg",  ".jpeg", ".gif", ".webp", ".bmp",
@@ -39,7 +39,7 @@ static bool is_another_kind(const char *file)
     return false;
 }
 
-/* The first converter that is there, or NULL. */
+/* The first converter in PATH, or NULL. */
 static const char *const *converter_for(enum format format)
 {
     for (size_t i = 0; i < sizeof converters / sizeof *converters; i++)

@@ -1,17 +1,18 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Drawings in another format than SVG, by a program that is found when one is asked for.
+ * Drawings in formats other than SVG, by an external converter.
  */
 #ifndef FBD_APPS_PICTURE_H
 #define FBD_APPS_PICTURE_H
 
 #include "command_line.h"
 
-/* Can a drawing be written to this file: is it SVG (whatever its name ends in but .pdf and .png), or is a converter
- * there? Else says what is missing. */
+/* True if a drawing can be written to this file: it is SVG (any ending but .pdf and .png), or a converter
+ * exists. Otherwise prints the reason. */
 bool picture_can_be_written(const struct command_line *line, const char *file);
 
-/* Write the drawing, as the name of the file says; "-" is standard output. False when it fails, which is said. */
+/* Write the drawing in the format given by the name of the file; "-" is standard output. False, with a
+ * message, when it fails. */
 bool picture_write(const char *file, const char *svg);
 
 #endif

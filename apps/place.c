@@ -9,9 +9,9 @@
 
 /* ---- links */
 
-enum { most_links = 40 }; /* as many as Linux follows */
+enum { most_links = 40 }; /* the limit of Linux */
 
-/* The folder of a path with its last slash, by its length; 0 for the working directory. */
+/* The length of the folder of a path with its last slash; 0 for the working directory. */
 static size_t folder_length(const char *path)
 {
     const char *slash = strrchr(path, '/');
@@ -24,8 +24,8 @@ static bool too_long(void)
     return false;
 }
 
-/* Go where the link `path` points to, which is seen from its own folder. False with errno set, EINVAL for
- * what is no link. */
+/* Replace the link `path` by its target, which is relative to its folder. False with errno set, EINVAL if it
+ * is not a link. */
 static bool follow(char path[place_size])
 {
     char link[place_size];
@@ -52,8 +52,8 @@ static int descriptor_named(const char *path)
     return -1;
 }
 
-/* Follow the links at the end of a path, stopping at one that stands for an open file: what that link seems
- * to point to may be a file that was deleted, or be open at another place than its start. */
+/* Follow the links at the end of a path, and stop at one that denotes an open file: its target may be a
+ * deleted file, or the file may be open at another position. */
 static bool resolve(const char *path, char target[place_size], int *descriptor)
 {
     size_t length = strlen(path);
@@ -87,14 +87,14 @@ bool place_target(const char *path, char target[place_size])
     return resolve(path, target, &descriptor);
 }
 
-/* ---- is it the same? */
+/* ---- identity */
 
-/* What tells files apart. A file that is not there yet is known by its folder and its name in it. */
+/* Identification of a file. A file that does not exist yet is identified by its folder and its name in it. */
 struct identity {
     bool found, regular, nothing; /* `nothing`: /dev/null */
     dev_t device;
     ino_t inode;
-    char name[place_size]; /* "" for what is there */
+    char name[place_size]; /* "" for existing files */
 };
 
 static bool is_null_device(const struct stat *status)
@@ -112,7 +112,7 @@ static void set_identity(struct identity *identity, const struct stat *status)
     identity->inode = status->st_ino;
 }
 
-/* `standard` is what "-" stands for: standard input for a model, standard output for what is written. */
+/* `standard` is the descriptor of "-": standard input for a model, standard output for an output. */
 static void identify(const char *path, int standard, struct identity *identity)
 {
     struct stat status;
@@ -130,7 +130,7 @@ static void identify(const char *path, int standard, struct identity *identity)
     memcpy(folder + length, ".", 2);
     if (stat(folder, &status) != 0) return;
     set_identity(identity, &status);
-    identity->regular = true; /* that is what it will be */
+    identity->regular = true; /* a new output becomes a regular file */
 }
 
 static bool same_identity(const struct identity *a, const struct identity *b)
@@ -139,7 +139,8 @@ static bool same_identity(const struct identity *a, const struct identity *b)
            strcmp(a->name, b->name) == 0;
 }
 
-/* A terminal may be read and written, and /dev/null takes whatever comes. */
+/* True if writing `b` would overwrite `a`. A terminal may be read and written, and /dev/null written several
+ * times. */
 static bool same_place(const char *a, int standard, const char *b)
 {
     struct identity one, other;

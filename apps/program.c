@@ -26,7 +26,7 @@ bool program_is_there(const char *name)
     return false;
 }
 
-/* The text as an unnamed file, at its start. */
+/* Write the text to an unnamed file, positioned at its start. */
 static FILE *text_file(const char *text)
 {
     FILE *file = tmpfile();
@@ -37,7 +37,7 @@ static FILE *text_file(const char *text)
     return NULL;
 }
 
-/* Start it between two descriptors; what went wrong, as errno says it, or 0. */
+/* Start the program between two descriptors. Returns 0 or an errno. */
 static int start(const char *const *arguments, int input, int output, pid_t *child)
 {
     posix_spawn_file_actions_t actions;

@@ -1,14 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Ranks by MPI. A follower asks for two shares at once, so that the next is there when one is done; what it
- * sends back counts as a question for another. The leader answers each question with a share or with the word
- * that there is none any more, and ends when every question is answered so. Its own threads work beside.
+ * Ranks by MPI. A follower requests two shares at once, so that the next is available when one is done; its
+ * rows count as a request for another. The leader answers each request with a share or an empty order (no
+ * more), and ends when every request has been answered so. Its own threads compute meanwhile.
  *
  *     ask    follower -> leader    the number of its threads
  *     rows   follower -> leader    struct report, then the rows
  *     share  leader -> follower    struct order
  *
- * Waiting is done by looking and sleeping: a blocking MPI_Recv would keep a processor busy.
+ * Waiting is by polling with sleeps: a blocking MPI_Recv would keep a processor busy.
  */
 #include "ranks.h"
 
@@ -20,6 +20,7 @@
 #include <time.h>
 
 #include "complain.h"
+#include "fbd_study.h"
 #include "fbd_workers.h"
 
 enum tag { tag_ask = 1, tag_rows, tag_share };
@@ -64,7 +65,7 @@ void ranks_end(const struct ranks *ranks)
     if (started) MPI_Finalize();
 }
 
-/* Others wait for messages: none may leave them alone. */
+/* Abort all ranks, since the others wait for messages. */
 static _Noreturn void give_up(void)
 {
     MPI_Abort(MPI_COMM_WORLD, 1);
@@ -80,7 +81,7 @@ static bool all_agree(bool fine)
     return all != 0;
 }
 
-/* All ranks together: the leader's `size` bytes go to `text`, which in the leader holds them. */
+/* Collective: broadcast `size` bytes of the leader's `text` to that of all ranks. */
 static void broadcast(char *text, int64_t size)
 {
     for (int64_t at = 0; at < size; at += most_bytes)
@@ -117,13 +118,13 @@ bool ranks_take(char **text, size_t *length)
 
 /* ---- the leader */
 
-/* What the leader knows of a follower. */
+/* The leader's record of a follower. */
 struct follower {
     size_t jobs;
-    int asked;                        /* questions without an answer */
-    fbd_sweep_share share[questions]; /* handed out, the oldest first */
+    int asked;                        /* unanswered requests */
+    fbd_sweep_share share[questions]; /* assigned, the oldest first */
     int shares;
-    int dismissed; /* questions answered by: no more */
+    int dismissed; /* requests answered with an empty order */
 };
 
 struct leader {
@@ -134,7 +135,7 @@ struct leader {
     int room;
 };
 
-/* Shares come back in the order in which they were handed out. */
+/* Deliver rows to the oldest share: a follower returns shares in order. */
 static void take_rows(struct leader *leader, struct follower *follower, const char *message, int size)
 {
     struct report report;
@@ -146,7 +147,7 @@ static void take_rows(struct leader *leader, struct follower *follower, const ch
     follower->shares--;
 }
 
-/* Take one message; false when there was none. */
+/* Receive one message; false when there was none. */
 static bool take_message(struct leader *leader)
 {
     int there, size;
@@ -154,10 +155,10 @@ static bool take_message(struct leader *leader)
     MPI_Iprobe(MPI_ANY_SOURCE, MPI_ANY_TAG, MPI_COMM_WORLD, &there, &status);
     if (!there) return false;
     MPI_Get_count(&status, MPI_BYTE, &size);
-    if (size < (int)sizeof(struct report)) give_up(); /* no message of ours */
+    if (size < (int)sizeof(struct report)) give_up(); /* not a message of this program */
     if (size > leader->room) {
         char *larger = realloc(leader->buffer, (size_t)size);
-        if (!larger) give_up(); /* the message cannot be left where it is */
+        if (!larger) give_up(); /* it cannot be received */
         leader->buffer = larger;
         leader->room = size;
     }
@@ -171,7 +172,7 @@ static bool take_message(struct leader *leader)
     return true;
 }
 
-/* Answer one question of a rank; false when it has none, or there is no share now. */
+/* Answer one request of a rank; false when it has none, or no share is available now. */
 static bool answer(struct leader *leader, int rank)
 {
     struct follower *follower = &leader->followers[rank];
@@ -219,7 +220,7 @@ fbd_sweep_end ranks_lead(const struct ranks *ranks, const fbd_sweep *sweep, cons
     return end;
 }
 
-/* ---- the others */
+/* ---- the followers */
 
 struct parcel {
     char *data; /* struct report, then the rows */
@@ -253,7 +254,7 @@ static void make_share(const fbd_sweep *sweep, const fbd_sweep_work *work, const
                            .stop_context = work->stop_context};
     fbd_sweep_counts counts;
     parcel->length = sizeof(struct report);
-    fbd_sweep_run(sweep, &mine, &counts); /* rows that are missing say that it was stopped */
+    fbd_sweep_run(sweep, &mine, &counts); /* missing rows tell the leader that it was stopped */
     const struct report report = {work->jobs, counts.written, counts.failed};
     memcpy(parcel->data, &report, sizeof report);
     MPI_Send(parcel->data, (int)parcel->length, MPI_BYTE, 0, tag_rows, MPI_COMM_WORLD);

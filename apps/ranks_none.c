@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "complain.h"
+#include "fbd_study.h"
 
 bool ranks_start(struct ranks *ranks)
 {

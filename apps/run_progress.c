@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "run_progress.h"
 
-/* Steps take a microsecond or so: the clock and the signals are looked at once in so many of them, but at
- * each of the first steps, which may be slow ones of a large scene. */
+/* Steps may take only a microsecond: clock and signals are checked once in so many of them, but at each of
+ * the first steps, which may be slow ones of a large scene. */
 enum { steps_between_looks = 64, first_steps = 256 };
 
 void run_progress_begin(struct run_progress *progress, const struct interrupt *interrupt, bool visible)

@@ -10,13 +10,13 @@
 #include "complain.h"
 #include "interrupt.h"
 
-/* The wrong way round, so that using a closed stream still is an error. */
+/* Open /dev/null in the wrong direction, so that using a closed stream remains an error. */
 void standard_streams_begin(void)
 {
     static const int ways[] = {
         [STDIN_FILENO] = O_WRONLY, [STDOUT_FILENO] = O_RDONLY, [STDERR_FILENO] = O_RDONLY};
     for (int i = STDIN_FILENO; i <= STDERR_FILENO; i++)
-        if (fcntl(i, F_GETFD) < 0) (void)open("/dev/null", ways[i]); /* the lowest one that is free: i */
+        if (fcntl(i, F_GETFD) < 0) (void)open("/dev/null", ways[i]); /* gets the lowest free descriptor: i */
 }
 
 bool standard_output_arrives(const char *program)

@@ -1,18 +1,18 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Standard input and output as a program finds them: they may be closed, and what is printed may not arrive.
+ * Standard streams that may be closed at the start, and output that may fail to be written.
  */
 #ifndef FBD_APPS_STANDARD_STREAMS_H
 #define FBD_APPS_STANDARD_STREAMS_H
 
 #include <stdbool.h>
 
-/* To be called first: a descriptor that is closed at the start (`>&-`) is kept from being given to the first
- * file that is opened, which would then get what is printed. */
+/* Call first: reserve descriptors that are closed at the start (`>&-`), which otherwise the first opened file
+ * would get, and with it the printed text. */
 void standard_streams_begin(void);
 
-/* Has all that was printed to standard output arrived? If not, it is said why, but where nobody reads any
- * more (SIGPIPE is held back). */
+/* True if all text printed to standard output was written. Otherwise prints the reason, except after a
+ * blocked SIGPIPE. */
 bool standard_output_arrives(const char *program);
 
 #endif

@@ -3,6 +3,7 @@
 
 #include <string.h>
 
+#include "fbd_study.h"
 #include "place.h"
 
 static const char help[] =
@@ -105,7 +106,7 @@ static bool take_jobs(const struct command_line *line, size_t *jobs)
 
 static bool take_option(const struct command_line *line, int option, void *context)
 {
-    const double tiny = 1e-300; /* above 0 */
+    const double tiny = 1e-300; /* excludes 0 */
     struct sweep_options *options = context;
     fbd_sweep_plan *plan = &options->plan;
     switch (option) {
@@ -141,7 +142,7 @@ static bool options_agree(const struct command_line *line, struct sweep_options 
     return true;
 }
 
-/* The table grows under other names, which are as good as its own. */
+/* The temporary names of the table must not be the model file either. */
 bool sweep_outputs_differ(const struct sweep_options *options, const fbd_errors *errors)
 {
     const struct command_line line = {"fbd-sweep", {help}, long_options, false};

@@ -6,6 +6,7 @@
 #define FBD_APPS_SWEEP_OPTIONS_H
 
 #include "command_line.h"
+#include "fbd_study.h"
 
 enum { most_texts = 200 };
 
@@ -20,12 +21,12 @@ struct sweep_options {
     bool resume, quiet;
 };
 
-/* Read the command line; `silent` where another process says what is wrong with it. Returns true to go on;
- * false with *code set when all is said (help, version, a mistake). */
+/* Read the command line; `silent` if another process prints the messages. Returns true to go on; false with
+ * *code set when the program should exit (help, version, a mistake). */
 bool sweep_options_read(int argc, char **argv, bool silent, struct sweep_options *options,
                         enum exit_code *code);
 
-/* False, with a message, when the table would be written over the model file. */
+/* False, with a message, when the table would overwrite the model file. */
 bool sweep_outputs_differ(const struct sweep_options *options, const fbd_errors *errors);
 
 #endif

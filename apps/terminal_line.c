@@ -8,7 +8,7 @@
 #include <time.h>
 #include <unistd.h>
 
-/* What is over within the first moment needs no line; a line that changes faster cannot be read. */
+/* Short operations need no line; a line that changes faster cannot be read. [s] */
 static const double first_after = 0.5, between = 0.2;
 
 static double wall_clock(void)
@@ -46,7 +46,7 @@ bool terminal_line_due(struct terminal_line *line, double *elapsed)
     return true;
 }
 
-/* Back to the start of the line, write, erase what an earlier, longer line has left. */
+/* Return to the start of the line, write, and erase the rest of a longer line. */
 void terminal_line_draw(struct terminal_line *line, const char *format, ...)
 {
     va_list args;
@@ -67,7 +67,7 @@ void terminal_line_end(struct terminal_line *line)
 
 const char *terminal_duration(double seconds, char text[terminal_duration_size])
 {
-    const double most = 3.6e8; /* beyond that it will not be waited for */
+    const double most = 3.6e8; /* not shown beyond that */
     long whole = (long)(seconds < most ? seconds + 0.5 : most);
     if (whole >= 3600)
         snprintf(text, terminal_duration_size, "%ld h %ld min", whole / 3600, whole % 3600 / 60);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * One line on a terminal that is drawn over and over: how far something is. Nothing at all where standard
- * error is no terminal, or one that cannot draw a line again.
+ * A progress line that is redrawn on a terminal. Draws only if standard error is a terminal that can redraw a
+ * line.
  */
 #ifndef FBD_APPS_TERMINAL_LINE_H
 #define FBD_APPS_TERMINAL_LINE_H
@@ -11,23 +11,23 @@
 
 struct terminal_line {
     bool visible;
-    bool drawn;         /* there is something to take away */
-    double start, next; /* wall clock [s]: begun, to be drawn again */
+    bool drawn;         /* a line is on the screen */
+    double start, next; /* wall clock [s]: start, time of the next drawing */
 };
 
-/* `visible` false: nothing is ever drawn. */
+/* `visible` false: never draw. */
 void terminal_line_begin(struct terminal_line *line, bool visible);
 
-/* What is shown begins anew. */
+/* Restart the clock. */
 void terminal_line_restart(struct terminal_line *line);
 
-/* Is it time to draw? *elapsed is then the time since the beginning [s]. */
+/* True when the line should be redrawn. *elapsed is then the time since the start [s]. */
 bool terminal_line_due(struct terminal_line *line, double *elapsed);
 
 void terminal_line_draw(struct terminal_line *line, const char *format, ...)
     __attribute__((format(printf, 2, 3)));
 
-/* Take the line away. */
+/* Erase the line. */
 void terminal_line_end(struct terminal_line *line);
 
 enum { terminal_duration_size = 64 };

@@ -15,8 +15,8 @@
 #include "complain.h"
 #include "interrupt.h"
 
-/* A file that was written is read once it has been left alone for a moment; one that is gone may be about to come
- * back, for a while. In milliseconds. */
+/* A changed file is read after it has stayed unchanged for one interval; a missing file is awaited for a
+ * while, since an editor may be replacing it. In milliseconds. */
 enum { between_looks = 100, most_settling = 2000, most_absence = 1000 };
 
 /* ---- files */
@@ -30,7 +30,7 @@ struct look {
     long nanoseconds;
 };
 
-/* Names as a run tells them, each with its zero; the model is always the first. */
+/* Names reported by a run, each with its terminating zero; the model is always the first. */
 struct files {
     char *names;
     size_t length, room;
@@ -39,8 +39,8 @@ struct files {
 struct watching {
     const struct watch *watch;
     struct interrupt interrupt;
-    struct files files, told; /* of the last run that has ended, and of the one under way */
-    struct look *looks;       /* at `files`, before they were read */
+    struct files files, told; /* of the last completed run, and of the current one */
+    struct look *looks;       /* status of `files` before they were read */
     struct timespec begun;
     unsigned long runs;
 };
@@ -83,7 +83,7 @@ static bool add_names(struct files *files, const char *text, size_t length)
     return true;
 }
 
-/* The first file that is not as it was, or NULL. */
+/* The first file whose status has changed, or NULL. */
 static const char *changed_file(const struct watching *w)
 {
     size_t i = 0;
@@ -94,7 +94,7 @@ static const char *changed_file(const struct watching *w)
     return NULL;
 }
 
-/* Is it a file of before? Then *look is how it was. */
+/* True if the file was watched before; *look is then its earlier status. */
 static bool known_look(const struct watching *w, const char *path, struct look *look)
 {
     size_t i = 0;
@@ -106,7 +106,8 @@ static bool known_look(const struct watching *w, const char *path, struct look *
     return false;
 }
 
-/* A file that was not watched yet when it was read, and has changed since the run began, has to be read again. */
+/* The status of a newly watched file. If it changed after the run began, it must be read again: return an
+ * impossible size. */
 static struct look first_look(const struct watching *w, const char *path)
 {
     struct look look = look_at(path);
@@ -116,7 +117,7 @@ static struct look first_look(const struct watching *w, const char *path)
     return look;
 }
 
-/* From now on those files are watched that the last run has told of. */
+/* Watch the files reported by the last run. */
 static bool take_told(struct watching *w)
 {
     size_t count = 0, i = 0;
@@ -141,7 +142,7 @@ static void sleep_a_look(void)
     nanosleep(&pause, NULL);
 }
 
-/* Look at all files; true when one is not as it was at the last such look. */
+/* Update the status of all files; true when one has changed since the last update. */
 static bool look_again(struct watching *w, bool *all_there)
 {
     bool differs = false;
@@ -183,7 +184,7 @@ static void wait_for_change(struct watching *w)
 
 /* ---- a run */
 
-/* In the new process. */
+/* Runs in the child process. */
 _Noreturn static void be_run(const struct watching *w, int descriptor)
 {
     char stamp[64];
@@ -193,8 +194,8 @@ _Noreturn static void be_run(const struct watching *w, int descriptor)
     exit((int)w->watch->run(w->watch->context, &run));
 }
 
-/* What the run tells until it has ended; false when memory is out. It is ended when a signal has come, or a file has
- * changed that it has read. */
+/* Read the names reported by the run until it ends; false when memory is out. End the run when a signal is
+ * pending, or a watched file has changed. */
 static bool listen(struct watching *w, int descriptor, pid_t child)
 {
     bool ended = false, kept = true;
@@ -211,7 +212,7 @@ static bool listen(struct watching *w, int descriptor, pid_t child)
     }
 }
 
-/* A reader of the report that has gone will read no further one. */
+/* After SIGPIPE of a run end the watch too: the reader of the report is gone. */
 static void take_end(const struct watching *w, int status)
 {
     if (!WIFSIGNALED(status)) return;
@@ -250,7 +251,7 @@ static bool make_run(struct watching *w)
     if (child < 0) return false;
     waitpid(child, &status, 0);
     take_end(w, status);
-    /* The run may have ended before it told anything. */
+    /* The run may have ended before it reported any file. */
     if (kept && w->told.length == 0) kept = add_names(&w->told, w->watch->model, strlen(w->watch->model) + 1);
     if (kept) kept = take_told(w);
     if (!kept) complain("%s: out of memory", w->watch->program);

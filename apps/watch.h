@@ -1,21 +1,22 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * --watch: a run is made again whenever a file that it has read changes.
+ * --watch: repeat a run whenever a file that it has read changes.
  *
- * Files are asked for (stat) ten times a second, which costs less than one thousandth of a processor. What the
- * system could tell by itself (inotify, kqueue) is another thing on each system, says nothing of files on a
- * network, and has to follow editors that put a new file in place of the old one; a name that is asked for is
- * always what a run would read.
+ * Files are polled (stat) ten times a second, which costs less than one thousandth of a processor.
+ * Notification by the system (inotify, kqueue) differs between systems, does not cover network files, and
+ * would have to follow editors that replace a file by a new one; polling by name always refers to the file
+ * that a run would read.
  *
- * Each run is a process of its own: it starts from nothing, is ended when what it reads changes, and takes the
- * watch with it in no case.
+ * Each run is a separate process: it starts from a clean state, is ended when one of its files changes, and
+ * cannot end the watch.
  */
 #ifndef FBD_APPS_WATCH_H
 #define FBD_APPS_WATCH_H
 
 #include "command_line.h"
 
-/* What a run is told by the watch: where it says what it reads, and a mark that no other run has. */
+/* Data for a run under --watch: the descriptor to which it writes the names of its input files, and a unique
+ * stamp. */
 struct watched_run {
     int descriptor;
     const char *stamp;
@@ -23,18 +24,19 @@ struct watched_run {
 
 struct watch {
     const char *program, *model;
-    bool quiet; /* say only what is wrong */
+    bool quiet; /* print only errors */
 
-    /* Make one run; and what is left to do when the watch ends, which may be NULL. */
+    /* Make one run; clean up at the end of the watch (may be NULL). */
     enum exit_code (*run)(void *context, const struct watched_run *run);
     void (*end)(void *context);
     void *context;
 };
 
-/* Run and wait in turn until a signal ends the process (Ctrl-C: 130). Returns only when that cannot go on. */
+/* Alternate between running and waiting until a signal ends the process (Ctrl-C: 130). Returns only on
+ * failure. */
 enum exit_code watch_files(const struct watch *watch);
 
-/* In a run: the files that it reads, as the list of its errors knows them. */
+/* In a run: report its input files, from its list of errors. */
 void watch_tell(const struct watched_run *run, const fbd_errors *errors);
 
 #endif

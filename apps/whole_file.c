@@ -12,7 +12,7 @@
 
 /* ---- modes and owners */
 
-/* mkstemp makes files that only their owner can read; a new file should be as open as any. */
+/* mkstemp makes files readable only by their owner; a new file gets the usual mode. */
 static mode_t usual_mode(void)
 {
     mode_t mask = umask(0);
@@ -20,8 +20,7 @@ static mode_t usual_mode(void)
     return 0666 & ~mask;
 }
 
-/* Where the group cannot be kept, its members may no more than all others: they are not those who were
- * meant. */
+/* If the group cannot be kept, reduce the permissions of the new group to those of all others. */
 void whole_file_be_like(int descriptor, const struct stat *before)
 {
     struct stat now;
@@ -36,7 +35,7 @@ void whole_file_be_like(int descriptor, const struct stat *before)
 
 /* ---- opening */
 
-/* A pipe, a terminal or what is open already cannot be put in place whole: it is written as it is. */
+/* True for a pipe, a terminal or an open file, which cannot be replaced by renaming and is written directly. */
 static bool is_special(const char *path)
 {
     struct stat status;
@@ -86,7 +85,7 @@ static void forget(struct whole_file *file)
     errno = reason;
 }
 
-/* A file that was made unwritable is meant to stay, though its folder would let it be replaced. */
+/* Refuse an existing file without write permission, though its folder would permit replacing it. */
 static bool open_beside(struct whole_file *file)
 {
     struct stat before;
@@ -145,11 +144,11 @@ bool whole_file_put_bytes(const char *path, const char *bytes, size_t length)
 {
     struct whole_file file;
     struct interrupt interrupt;
-    bool beside = !is_special(path); /* a pipe may keep us waiting for ever */
+    bool beside = !is_special(path); /* opening a pipe may block for ever */
     if (beside) interrupt_hold(&interrupt);
     bool written = whole_file_open(&file, path);
     if (written) {
-        whole_file_write(&file, bytes, length); /* an error shows when the file is closed */
+        whole_file_write(&file, bytes, length); /* an error is reported at closing */
         written = whole_file_close(&file, true);
     }
     int reason = errno;

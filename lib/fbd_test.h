@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * fbd_test: unit tests of derivations by hand, on top of fbd.h. Each check answers whether model and derivation agree, so
- * that it goes into `assert`, into cmocka's assert_true or into an exit code; where they do not, it prints to standard
- * error which quantity differs, at which state, and by how much.
+ * fbd_test: unit tests of derivations by hand, on top of fbd.h. Each check returns whether model and
+ * derivation agree, for use in `assert`, in cmocka's assert_true or in an exit code; if they differ, it
+ * prints the quantity, the state and the difference to standard error.
  *
  *     static fbd_expected by_hand(const double x[])
  *     {
@@ -10,31 +10,33 @@
  *     }
  *     assert(fbd_check_derivation("pendulum.yaml", (fbd_range[]){{"theta", -3, 3}, {0}}, by_hand));
  *
- * `assert` is empty where NDEBUG is defined (CMake's build type Release does): undefine it before assert.h is included.
- * A model is the path of a file, or the text of one: what has a line break is a text. Units are those of fbd.h.
+ * `assert` is empty where NDEBUG is defined (CMake's build type Release does): undefine it before assert.h is
+ * included. A model is the path of a file, or the text of one; a string with a line break is a text. Units
+ * are those of fbd.h.
  */
 #ifndef FBD_TEST_H
 #define FBD_TEST_H
 
 #include "fbd.h"
+#include "fbd_grade.h"
 
 #include <string.h>
 
 enum { fbd_test_room = 16 };
 
-/* An equation as derived by hand, at a state: inertia * acceleration = sum of terms. What is compared:
- * the acceleration always; with an inertia the whole equation, that is inertia, sum, normal force and every term, those
- * of the model that are not listed being zero; without an inertia only the terms that are listed. */
+/* An equation derived by hand, at a state: inertia * acceleration = sum of terms. The comparison covers the
+ * acceleration always; with an inertia the whole equation, that is inertia, sum, normal force and every term,
+ * where terms of the model that are not listed must be zero; without an inertia only the listed terms. */
 typedef struct fbd_expected {
-    fbd_term at
-        [fbd_test_room]; /* the state: names as in fbd_state_set, "theta" where there is one body; others stay */
-    const char
-        *coordinate; /* "pendulum.theta"; "theta" where one body has it; "block.G.x": of the body cut free */
-    double inertia;  /* 0: not derived */
+    /* the state: names as in fbd_state_set, "theta" if there is one body; others keep their values */
+    fbd_term at[fbd_test_room];
+    /* "pendulum.theta"; "theta" if one body has it; "block.G.x": of the body cut free */
+    const char *coordinate;
+    double inertia;                /* 0: not derived */
     fbd_term terms[fbd_test_room]; /* by the names of the forces and moments */
-    double acceleration;           /* by a formula of its own, not as sum / inertia */
+    double acceleration;           /* by a separate formula, not as sum / inertia */
     double normal;                 /* on a slide */
-    double tolerance;              /* as a share of the largest term; 0 stands for 1e-12 */
+    double tolerance;              /* relative to the largest term; 0 stands for 1e-12 */
 } fbd_expected;
 
 /* A coordinate, rate or time, and the range that it is drawn from. */
@@ -56,7 +58,7 @@ static inline bool fbd_check_close(const char *where, const char *what, double g
     return false;
 }
 
-/* The names of a list end at the first that is NULL. */
+/* Count the names of a list, which ends at the first NULL. */
 static inline size_t fbd_test_count(const fbd_term list[fbd_test_room])
 {
     size_t count = 0;
@@ -64,7 +66,7 @@ static inline size_t fbd_test_count(const fbd_term list[fbd_test_room])
     return count;
 }
 
-/* Put a state where `at` says, as a run could start there. */
+/* Set a state to `at` and make it admissible as the start of a run. */
 static inline bool fbd_test_place(fbd_state *state, const fbd_term at[fbd_test_room])
 {
     fbd_errors *errors = fbd_errors_new();
@@ -81,7 +83,8 @@ static inline bool fbd_test_place(fbd_state *state, const fbd_term at[fbd_test_r
     return placed;
 }
 
-/* The equation of "pendulum.theta", or of the one body that has a coordinate "theta"; else one without a body. */
+/* The equation of "pendulum.theta", or of the only body with a coordinate "theta"; otherwise one with body
+ * NULL. */
 static inline fbd_equation fbd_test_find(const fbd_equations *all, const char *coordinate)
 {
     fbd_equation found = fbd_equations_find(all, coordinate);
@@ -105,7 +108,7 @@ static inline double fbd_test_value(const fbd_expected *want, const char *name)
     return 0;
 }
 
-/* Each term by hand is one of the equation and has its value; of a whole equation also the other way round. */
+/* Each term by hand exists in the equation with the same value; for a whole equation also the converse. */
 static inline bool fbd_test_terms(const fbd_equation *got, const fbd_expected *want, double tolerance)
 {
     bool agree = true;
@@ -145,7 +148,7 @@ static inline bool fbd_test_compare(const fbd_equation *got, const fbd_expected 
     return agree;
 }
 
-/* One equation at the state, which is put to `want->at` first. */
+/* Compare one equation at the state, which is first set to `want->at`. */
 static inline bool fbd_check_equation(fbd_state *state, const fbd_expected *want)
 {
     size_t count = fbd_test_count(want->at);
@@ -163,7 +166,7 @@ static inline bool fbd_check_equation(fbd_state *state, const fbd_expected *want
     return false;
 }
 
-/* The model of a path or text; NULL, and the notes are printed, when it is wrong. */
+/* The model of a path or text; NULL when it is wrong, with the notes printed. */
 static inline fbd_model *fbd_test_model(const char *model)
 {
     fbd_errors *errors = fbd_errors_new();
@@ -174,13 +177,14 @@ static inline fbd_model *fbd_test_model(const char *model)
     return read;
 }
 
-/* A table of `count` equations, each at its state (`at`); all rows are looked at. A table without rows does not agree. */
+/* Compare a table of `count` equations, each at its state (`at`); all rows are compared. An empty table
+ * fails. */
 static inline bool fbd_check_table(const char *model, const fbd_expected *rows, size_t count)
 {
     fbd_model *read = fbd_test_model(model);
     bool agree = read && count > 0;
     for (size_t i = 0; read && i < count; i++) {
-        fbd_state *state = fbd_state_new(read); /* what a row does not set is as in the file */
+        fbd_state *state = fbd_state_new(read); /* values that a row does not set are those of the file */
         agree &= state && fbd_check_equation(state, &rows[i]);
         fbd_state_free(state);
     }
@@ -188,8 +192,8 @@ static inline bool fbd_check_table(const char *model, const fbd_expected *rows, 
     return agree;
 }
 
-/* A derivation at 100 states drawn from `ranges`, whose list ends with one without a name; up to the first state at which
- * it differs. The states are the same in every run. */
+/* Compare a derivation at 100 states drawn from `ranges`, a list that ends with an entry without a name;
+ * stops at the first state at which it differs. The states are the same in every run. */
 static inline bool fbd_check_derivation(const char *model, const fbd_range *ranges, fbd_by_hand *by_hand)
 {
     unsigned long long draw = 1;
@@ -217,7 +221,8 @@ static inline bool fbd_check_derivation(const char *model, const fbd_range *rang
     return agree;
 }
 
-/* The lines that the model lists under `hand`, at many states (see fbd_check_hand). A model without one does not agree. */
+/* Compare the lines that the model lists under `hand`, at many states (see fbd_check_hand). A model without
+ * any fails. */
 static inline bool fbd_check_lines(const char *model)
 {
     fbd_model *read = fbd_test_model(model);

@@ -4,6 +4,9 @@
  * called in every step, and rows of sweeps, which come from any thread.
  */
 #include <fbd.h>
+#include <fbd_export.h>
+#include <fbd_grade.h>
+#include <fbd_study.h>
 
 #include <gsl/gsl_errno.h>
 #include <stdatomic.h>

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Usage: make_binding.py GLUE.C FBD.H OUTPUT
+"""Usage: make_binding.py GLUE.C OUTPUT HEADER...
 
-Write the C source of fbd._binding: every function of fbd.h, as cffi calls it, and those of glue.c. The
-declarations are read from the header itself, and the C compiler checks each of them against it.
+Write the C source of fbd._binding: every function of the public headers, as cffi calls it, and those of glue.c. The
+declarations are read from the headers themselves, and the C compiler checks each of them against it.
 """
 import re
 import sys
@@ -34,8 +34,8 @@ def declarations(header):
 
 
 def main():
-    glue, header, output = (Path(name) for name in sys.argv[1:])
-    declared = declarations(header.read_text(encoding="utf-8"))
+    glue, output, *headers = (Path(name) for name in sys.argv[1:])
+    declared = "".join(declarations(header.read_text(encoding="utf-8")) for header in headers)
     ffi = FFI()
     ffi.cdef(declared + GLUE)
     ffi.set_source("fbd._binding", glue.read_text(encoding="utf-8"))

@@ -1,20 +1,20 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Accuracy on request: the tolerance that delivers a global accuracy, found by runs with error bars.
+ * Accuracy on request: the tolerance that gives a requested global accuracy, found by runs with error bars.
  *
- * The global error follows the tolerance by a power, error = c tolerance^p, with p near 1 where rounding has
- * no say. Two runs tell p; the next tolerance is the one for which that law promises half of what is asked
- * for.
+ * The global error depends on the tolerance by a power law, error = c tolerance^p, with p near 1 if rounding
+ * is insignificant. Two runs determine p; the next tolerance is the one for which the law predicts half of
+ * the requested accuracy.
  *
- * The best run that has come to its end is kept, with its rows, while others are tried: so none is made
- * twice, and a search that is interrupted has something to show.
+ * The best complete run is kept, with its rows, during further attempts: so none is made twice, and an
+ * interrupted search has a result.
  */
 #include <math.h>
 #include <stdlib.h>
 
 #include "api/record.h"
 
-/* Estimates are believed to this factor. */
+/* Safety factor of the estimates. */
 static const double margin = 1.25;
 
 static const double least_tolerance = 1e-14;
@@ -29,10 +29,10 @@ double accuracy_first_guess(double accuracy)
     return fmax(share * accuracy, least_tolerance);
 }
 
-/* The tolerance for which the law through the last two attempts promises half of the accuracy. */
+/* The tolerance for which the power law through the last two attempts predicts half of the accuracy. */
 static double next_tolerance(const struct attempt *attempts, int count, double accuracy)
 {
-    const double most = 0.3, least = 1e-4; /* of the last tolerance */
+    const double most = 0.3, least = 1e-4; /* relative to the last tolerance */
     const struct attempt *last = &attempts[count - 1], *before = count > 1 ? last - 1 : NULL;
     double p = 1;
     if (before) {
@@ -44,7 +44,7 @@ static double next_tolerance(const struct attempt *attempts, int count, double a
     return fmax(share * last->tolerance, least_tolerance);
 }
 
-/* Rounding has taken over: a tolerance ten times smaller makes nothing better. */
+/* True if rounding dominates: a smaller tolerance no longer improves the estimate. */
 static bool at_the_floor(const struct attempt *attempts, int count)
 {
     const double reaches_down = 1e-12;
@@ -53,15 +53,15 @@ static bool at_the_floor(const struct attempt *attempts, int count)
     return count > 1 && last->tolerance < reaches_down && last->estimate > 0.5 * last[-1].estimate;
 }
 
-/* Of runs that are all as far off as the motion is large (chaos) none is better than the one with the
- * smallest tolerance, the last. */
+/* Errors as large as the motion (chaos) count as equal; the later run, with the smaller tolerance, is then
+ * preferred. */
 static bool is_better(double estimate, double before)
 {
     const double all = 0.1;
     return fmin(estimate, all) <= fmin(before, all);
 }
 
-/* A method of low order may need more steps than anyone would wait for. Steps are as tolerance^(-1/k). */
+/* True if a method of low order would need too many steps; their number is proportional to tolerance^(-1/k). */
 static bool takes_too_long(const fbd_simulation *simulation, double tolerance)
 {
     const double most = 3e7;
@@ -71,9 +71,9 @@ static bool takes_too_long(const fbd_simulation *simulation, double tolerance)
     return steps * pow(options->tolerance / tolerance, 1.0 / k) > most;
 }
 
-/* ---- rows that wait for the search to end */
+/* ---- rows kept until the end of the search */
 
-enum { most_rows = 64 << 20 }; /* bytes; a run that has more is made once more at the end */
+enum { most_rows = 64 << 20 }; /* bytes; a run with more is repeated at the end */
 
 struct rows {
     struct text text;
@@ -103,14 +103,14 @@ static void drop_rows(struct rows *rows)
 struct search {
     fbd_simulation *simulation;
     struct run_options options;
-    fbd_recording recording; /* of a run of which nobody knows yet whether it will do */
+    fbd_recording recording; /* of a tentative run */
     struct rows rows;        /* its rows */
     struct attempt attempts[12];
     int count;
-    fbd_result *best; /* NULL before the first; its run is in the simulation or aside */
+    fbd_result *best; /* NULL before the first; its run is in the simulation or in `aside` */
     double best_estimate;
     struct rows best_rows;
-    struct fbd_simulation aside; /* its ensemble is NULL when nothing is there */
+    struct fbd_simulation aside; /* the ensemble is NULL if it is empty */
 };
 
 enum { most_attempts = sizeof((struct search *)0)->attempts / sizeof(struct attempt) };
@@ -130,9 +130,8 @@ static void drop_best(struct search *search)
     drop_aside(search);
 }
 
-/* Leave the simulation without a run; the one that it has is kept if it is the best. False when memory is
- * out.
- */
+/* Remove the run from the simulation; if it is the best one it is moved to `aside`. Returns false when memory
+ * is out. */
 static bool make_room(struct search *search)
 {
     fbd_simulation *simulation = search->simulation;
@@ -150,7 +149,7 @@ static bool make_room(struct search *search)
     return true;
 }
 
-/* Let the simulation have the run of the best attempt. */
+/* Put the run of the best attempt into the simulation. */
 static void bring_back(struct search *search)
 {
     fbd_simulation *simulation = search->simulation;
@@ -170,7 +169,7 @@ static bool begin_attempt(struct search *search, double tolerance)
     return make_room(search) && simulation_begin(search->simulation, model, &search->options);
 }
 
-/* Make a run of the simulation, which is at its start. False when memory is out. */
+/* Make a run of the simulation, from its start. Returns false when memory is out. */
 static bool attempt(struct search *search)
 {
     fbd_simulation *simulation = search->simulation;
@@ -202,7 +201,7 @@ static bool is_enough(const struct search *search, double next)
            takes_too_long(simulation, next);
 }
 
-/* Try until it is enough. False when memory is out. */
+/* Make attempts until one suffices or the search must end. Returns false when memory is out. */
 static bool seek(struct search *search)
 {
     for (;;) {
@@ -213,7 +212,7 @@ static bool seek(struct search *search)
     }
 }
 
-/* Hand the rows over, or make those that were too many to be kept. */
+/* Write the kept rows, or repeat the run if they were too many to be kept. */
 static fbd_result *deliver(struct search *search, const fbd_recording *recording)
 {
     fbd_simulation *simulation = search->simulation;

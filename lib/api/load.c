@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Public interface: models from files and texts, and what they contain.
+ * Public interface: models from files and texts, and their contents.
  */
 #include <stdlib.h>
 
@@ -8,6 +8,7 @@
 #include "base/file.h"
 #include "dynamics/contact.h"
 #include "dynamics/state.h"
+#include "fbd_export.h"
 #include "model/model.h"
 #include "output/hand_forces.h"
 #include "scene/schema.h"
@@ -19,12 +20,13 @@ static bool has_thin_contact(const fbd_model *model)
     return false;
 }
 
-/* Warn of what starts exactly on a rod and leaves it to the side from which it is pulled; false when memory is out. */
+/* Warn of points that start exactly on a rod and leave it against their force; returns false when memory is
+ * out. */
 static bool warn_of_sides(const fbd_model *model, fbd_errors *errors)
 {
     if (!has_thin_contact(model)) return true;
     fbd_state *state = state_new(model);
-    fbd_errors *others = fbd_errors_new(); /* a start that does not fit is refused where it is asked for */
+    fbd_errors *others = fbd_errors_new(); /* errors of the start are reported by the run */
     int doubtful = state && others && fbd_state_close(state, others) ? contacts_side_in_doubt(state) : -1;
     bool done = state && others && !others->out_of_memory;
     fbd_state_free(state);
@@ -40,7 +42,7 @@ static bool warn_of_sides(const fbd_model *model, fbd_errors *errors)
     return done;
 }
 
-/* `text` is taken over. */
+/* Takes ownership of `text`. */
 static fbd_model *compile(char *text, size_t length, const char *name, const fbd_setting *settings,
                           size_t count, fbd_errors *errors)
 {
@@ -71,7 +73,7 @@ static fbd_model *compile(char *text, size_t length, const char *name, const fbd
     return model;
 }
 
-/* Is there what is to be read? */
+/* Check that there is a text or path, and valid settings. */
 static bool is_asked(const char *text, const fbd_setting *settings, size_t count, fbd_errors *errors)
 {
     if (text && api_has_settings(settings, count)) return true;

@@ -41,18 +41,19 @@ static double processor_seconds(void)
                : 0;
 }
 
-/* ---- while it goes */
+/* ---- during the run */
 
 struct going {
     fbd_result *result;
     const fbd_recording *recording; /* or NULL */
     unsigned long steps;
-    bool whole;   /* no rows, record or error bars: nothing to stop for on the way */
-    double slice; /* of the run, until groups that are interrupted have a time in common */
+    bool whole;   /* no rows, record or error bars: no stops before the end */
+    double slice; /* fraction of the run to the next common time of the islands */
 };
 
-/* Groups that are interrupted go on to the end of a slice: a thousandth of the run, or less where that would
- * take a stiff one millions of steps. Slices begin short and double while they take few steps. */
+/* After an interruption the islands continue to the end of a slice: a thousandth of the run, or less where a
+ * stiff island would need millions of steps for that. Slices start short, and double as long as they take few
+ * steps. */
 static const double first_slice = 1e-9, longest_slice = 1e-3;
 
 static void adapt_slice(struct going *going, unsigned long made)
@@ -62,7 +63,7 @@ static void adapt_slice(struct going *going, unsigned long made)
     going->slice = fmin(going->slice, longest_slice);
 }
 
-/* Tell how far the run is; is it to end? */
+/* Report the progress; returns true if the run is to end. */
 static bool tell(const struct going *going, double t)
 {
     const fbd_recording *recording = going->recording;
@@ -84,7 +85,7 @@ static void tell_progress(const struct going *going, double t)
     if (ensemble->outcome == FBD_GOING && tell(going, t)) ensemble_interrupt(ensemble);
 }
 
-/* The companion may still be on its way when the run itself is done. */
+/* Report the progress; also called while the companion continues after the end of the run. */
 static bool is_ended(void *context)
 {
     const struct going *going = context;
@@ -94,13 +95,13 @@ static bool is_ended(void *context)
     return ended;
 }
 
-/* The ledger looks at every step; its time is not that of the run. */
+/* Update the ledger after a step; its time does not count as that of the run. */
 static bool observe(void *context, struct ensemble *ensemble, size_t group)
 {
     struct going *going = context;
     fbd_result *result = going->result;
     going->steps++;
-    /* A group that is alone, in a run that stops for nothing, has no other to wait for. */
+    /* a single island without stops has no common time to wait for */
     bool alone = ensemble->count == 1 && going->whole;
     tell_progress(going, alone ? ensemble->groups[group].run->state->t : ensemble->t);
     if (!event_states_note(&result->event_states, ensemble, group)) {
@@ -109,7 +110,7 @@ static bool observe(void *context, struct ensemble *ensemble, size_t group)
     }
     if (result->ledger.works) ledger_note(&result->ledger, &ensemble->groups[group]);
     if (!result->ledger.any || !ledger_counts(&result->ledger, &ensemble->groups[group])) return true;
-    double before = processor_seconds(); /* a call of the system: not for every step of a thousand groups */
+    double before = processor_seconds(); /* a system call: only where the ledger has work to do */
     bool done = ledger_step(&result->ledger, ensemble, group);
     result->ledger_seconds += processor_seconds() - before;
     return done;
@@ -122,9 +123,9 @@ static void observe_again(void *context, struct ensemble *ensemble, size_t group
     if (going->result->ledger.any) ledger_restart(&going->result->ledger, ensemble, group);
 }
 
-/* The next time at which there is something to do other than a row: a sample of the errors, the end of a step
- * for the record, or, since who watches wants to be asked, the end of a slice; where one group goes to the
- * end without a stop, or all stop at each other's steps, it asks after each step. */
+/* The next time at which something other than a row is due: a sample of the errors, the end of a step for the
+ * record, or the end of a slice, so that the progress function is called. No slices are needed for a single
+ * island without stops, or with a record, since progress is then reported after each step. */
 static double next_stop(const struct going *going)
 {
     const struct bars *bars = going->result->simulation->bars;
@@ -138,8 +139,8 @@ static double next_stop(const struct going *going)
     return next;
 }
 
-/* Go to t (see ensemble_go), and count the time of the steps. Where there is none to be made the clock, which
- * is a call of the system, would take longer. */
+/* Go to t (see ensemble_go), and measure the time of the steps; if t is reached already, the clock, a system
+ * call, is not read. */
 static void go(struct going *going, double t, double near, bool pause)
 {
     fbd_result *result = going->result;
@@ -151,8 +152,8 @@ static void go(struct going *going, double t, double near, bool pause)
     if (timed) simulation->seconds += processor_seconds() - before - (result->ledger_seconds - by_ledger);
 }
 
-/* Carry the run on to the next such time. A row's time and another that are the same but for rounding are
- * two: what is written does not depend on error bars. */
+/* Carry the run to the next such time. A row's time and another one that differ only by rounding are
+ * distinct, so that the output does not depend on error bars. */
 static bool carry_on(struct going *going, struct csv *csv)
 {
     fbd_result *result = going->result;
@@ -177,7 +178,7 @@ static bool carry_on(struct going *going, struct csv *csv)
     return !simulation->bars || bars_step(simulation->bars, ensemble);
 }
 
-/* What is shown of the end, of whatever kind, is finite, or the run has failed. False when memory is out. */
+/* Check that all results at the end are finite, or else the run has failed. Returns false when memory is out. */
 static bool is_whole(fbd_result *result)
 {
     struct ensemble *ensemble = result->simulation->ensemble;
@@ -185,7 +186,7 @@ static bool is_whole(fbd_result *result)
            ensemble->outcome == FBD_FAILED;
 }
 
-/* Without rows, error bars and the like there is nothing to stop for before the end. */
+/* Carry the run to its end; without rows, record and error bars there are no stops before. */
 static bool carry(fbd_result *result, const fbd_recording *recording, struct csv *csv)
 {
     fbd_simulation *simulation = result->simulation;
@@ -255,7 +256,7 @@ fbd_result *fbd_simulation_run(fbd_simulation *simulation, const fbd_recording *
     fbd_recording own = {0};
     if (!simulation || !api_take_options(&own, sizeof own, recording, NULL)) return NULL;
     if (recording) recording = &own;
-    if (simulation->ensemble->started) return NULL; /* the ledger has to see every step */
+    if (simulation->ensemble->started) return NULL; /* the ledger needs every step */
     return simulation->accuracy > 0 ? record_accurately(simulation, recording)
                                     : record(simulation, recording);
 }

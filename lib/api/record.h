@@ -8,25 +8,25 @@
 #include "output/csv.h"
 #include "record/result.h"
 
-/* Put a run of these options, at its start, into a simulation that has none; with a companion where
- * simulation->bars is set. False when memory is out; the simulation can still be ended. */
+/* Put a run with these options, at its start, into a simulation without a run; with a companion if
+ * simulation->bars is set. Returns false when memory is out; simulation_end may be called also then. */
 bool simulation_begin(fbd_simulation *simulation, const struct fbd_model *model,
                       const struct run_options *options);
 
-/* Free the run with all that was made for it. */
+/* Free the run with all its data. */
 void simulation_end(fbd_simulation *simulation);
 
-/* Carry a run that is at its start to its end; what is NULL in `recording`, or itself, is not written. NULL
- * when memory is out or the writer refused. */
+/* Carry a run from its start to its end; outputs that are NULL in `recording` are not written, and none if it
+ * is NULL. NULL when memory is out or the writer returned nonzero. */
 fbd_result *record(fbd_simulation *simulation, const fbd_recording *recording);
 
 /* ---- accuracy on request */
 
-/* The tolerance to begin with. */
+/* The initial tolerance. */
 double accuracy_first_guess(double accuracy);
 
-/* Runs with ever smaller tolerances until the estimate is within simulation->accuracy; the best one stands.
- * NULL as record. */
+/* Repeat runs with decreasing tolerances until the estimate is within simulation->accuracy; keep the best
+ * one. NULL as record. */
 fbd_result *record_accurately(fbd_simulation *simulation, const fbd_recording *recording);
 
 #endif

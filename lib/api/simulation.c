@@ -15,8 +15,8 @@ static void bad_accuracy(fbd_errors *errors, const char *hint, const char *messa
     diag_add(errors, FBD_ERROR, "bad-option", (struct pos){0, 0}, hint, "%s", message);
 }
 
-/* An accuracy that is asked for chooses the tolerance. What is given as an option stands before what the file
- * says to the same end. */
+/* Derive the tolerance from a requested accuracy. Options take precedence over the corresponding entries of
+ * the file. */
 static bool choose_accuracy(const fbd_model *model, const fbd_options *options, struct run_options *chosen,
                             double *accuracy, fbd_errors *errors)
 {
@@ -36,7 +36,7 @@ static bool choose_accuracy(const fbd_model *model, const fbd_options *options, 
     return fbd_errors_failed_count(errors) == before;
 }
 
-/* `simulation` is freed when memory is out. A start that the options name is copied. */
+/* Start a simulation. On failure `simulation` is freed. A start in the options is copied. */
 static fbd_simulation *begin(fbd_simulation *simulation, const fbd_model *model,
                              const struct run_options *options, bool error_bars, fbd_errors *errors)
 {
@@ -89,7 +89,7 @@ fbd_simulation *fbd_simulation_new(const fbd_model *model, const fbd_options *op
     return simulation;
 }
 
-/* An accuracy is reached by runs from the start of the file, and only they are judged by error bars. */
+/* An accuracy needs runs from the start of the file, and error bars apply only to these. */
 static bool no_bars(fbd_errors *errors)
 {
     bad_accuracy(errors, "a tolerance can be asked for",
@@ -203,7 +203,7 @@ size_t fbd_simulation_event_count(const fbd_simulation *simulation)
     return simulation->ensemble->event_count;
 }
 
-/* Texts of events are made the first time that they are asked for; NULL when memory is out. */
+/* The text of an event, made at its first use; "" when memory is out. */
 static const char *detail_of(fbd_simulation *simulation, size_t index)
 {
     const struct ensemble *run = simulation->ensemble;

@@ -35,7 +35,7 @@ bool fbd_state_copy(fbd_state *to, const fbd_state *from)
     return true;
 }
 
-/* Where a named quantity is kept, or NULL. */
+/* The address of a named quantity, or NULL. */
 static double *find(const fbd_state *state, const char *name)
 {
     int index = model_find_component(state->model, name, false);
@@ -144,7 +144,7 @@ void fbd_state_show_degrees(fbd_state *state, bool degrees)
 
 static bool close_state(fbd_state *state, fbd_errors *errors)
 {
-    if (!state->settled) modes_settle(state, NULL); /* what does not settle is said by the check */
+    if (!state->settled) modes_settle(state, NULL); /* inconsistent modes are reported by the check */
     if (state->model->assembles) state_project(state, true);
     state->settled = false;
     return start_check(state, "the state", errors);
@@ -159,7 +159,7 @@ bool fbd_state_close(fbd_state *state, fbd_errors *list)
     return fits;
 }
 
-/* The body whose mass a name is ("rocket.m"), or NULL. */
+/* The body whose mass has this name ("rocket.m"), or NULL. */
 static const struct model_body *massive(const fbd_model *model, const char *name)
 {
     const char *dot = strrchr(name, '.');

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Public interface: what a motion goes on from, as numbers.
+ * Public interface: the numbers that determine the further motion.
  */
 #include <math.h>
 #include <string.h>
@@ -77,7 +77,7 @@ size_t fbd_state_pack(const fbd_state *state, double *numbers, size_t room)
     return packing.count;
 }
 
-/* A branch of what remembers, and a side, is 1 or -1; a side may also be 0. */
+/* The branch of an expression with memory, and a side, is 1 or -1; a side may also be 0. */
 static bool is_sign(double number, bool or_zero)
 {
     return number == 1 || number == -1 || (or_zero && number == 0);

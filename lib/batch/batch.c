@@ -14,26 +14,26 @@
 #include "integrate/nystrom_table.h"
 #include "integrate/pair8.h"
 
-/* Evaluations of the right-hand side in a step: those of nystrom.h are as many as the stages that it has. */
+/* Evaluations of the right-hand side per step of rk8pd; for nystrom.h the number of its stages. */
 enum { rk8pd_stages = 13 };
 
 struct batch {
     unsigned count;
     lanes_function *const *go; /* by enum lane_motion */
-    enum lane_motion motion;   /* of all that is in the lanes */
+    enum lane_motion motion;   /* of all runs in the lanes */
     struct run *runs[most_lanes];
     struct stepper_state_view view[most_lanes];
     struct lanes lanes;
 };
 
-/* ---- which vectors */
+/* ---- vector widths */
 
 struct width {
     unsigned lanes;
     lanes_function *const *go;
 };
 
-/* The widest of at most so many lanes. */
+/* The widest vectors with at most `most` lanes. */
 static struct width width_of(unsigned most)
 {
 #if defined(__x86_64__)
@@ -64,9 +64,9 @@ void batch_free(struct batch *batch)
     free(batch);
 }
 
-/* ---- what is put into lanes */
+/* ---- suitable runs */
 
-/* Where numbers have more digits in registers than in memory (FLT_EVAL_METHOD), vectors have not. */
+/* Excludes excess precision in registers (FLT_EVAL_METHOD), which vectors do not have. */
 bool batch_suits(const struct fbd_model *model)
 {
     const struct plan *plan = &model->plan;
@@ -78,7 +78,7 @@ bool batch_suits(const struct fbd_model *model)
     return plan->n == 1 && plan->sine_count == 1;
 }
 
-/* Is there nothing that any step is to look after? */
+/* True if the next step is an ordinary one: no events, restarts, projections or other tasks are due. */
 static bool is_quiet(const struct run *run)
 {
     return run->end.outcome == FBD_GOING && run->plain && !run->step.restart && run->step.crawl == 0 &&
@@ -87,7 +87,7 @@ static bool is_quiet(const struct run *run)
            run->zeno_switches.end == HUGE_VAL && run->state->rest == 0;
 }
 
-/* What moves there; `motions` where that is none of them. */
+/* The equations of motion and method of a run; `motions` if it is of none of these kinds. */
 static enum lane_motion lane_motion_of(const struct run *run, const struct stepper_state_view *view)
 {
     const struct row *row = run->system.inner.params;
@@ -139,7 +139,7 @@ static void put_constants(const struct run *run, struct lanes *lanes, unsigned l
         put_links(row, lanes->constants, lane);
 }
 
-/* The numbers of `from`, one for each component, to a lane; and back. */
+/* Copy the numbers of `from`, one for each component, to a lane; gather copies them back. */
 static void spread(each_lane *to, unsigned lane, const double *from, size_t count)
 {
     for (size_t c = 0; c < count; c++) to[c][lane] = from[c];
@@ -150,7 +150,7 @@ static void gather(double *to, each_lane *from, unsigned lane, size_t count)
     for (size_t c = 0; c < count; c++) to[c] = from[c][lane];
 }
 
-/* Who carries the runs is to be heard now and then, also where no stiff method is to be asked. */
+/* Limits the time until the caller gets control, also if stiffness is not checked. */
 static const double most_steps = 1000;
 
 static void fill_lane(struct lanes *lanes, unsigned lane, const struct run *run,
@@ -185,7 +185,7 @@ static bool is_empty(const struct batch *batch)
     return true;
 }
 
-/* Is what the method knows of the state the state? */
+/* True if the stepper's copy of the state agrees with the run's. */
 static bool agrees_with(const struct stepper_state_view *view, const struct run *run)
 {
     const size_t bytes = view->pairs * sizeof(double);
@@ -207,7 +207,7 @@ bool batch_put(struct batch *batch, unsigned lane, struct run *run)
     return true;
 }
 
-/* The last step has no inside: it goes from its end to its end. */
+/* Restore the run. The last step has no dense output: its interval is empty. */
 static void settle_run(struct run *run, struct lanes *lanes, unsigned lane,
                        const struct stepper_state_view *view)
 {

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * The text of the functions of lanes.h, to be included once by a file that says how their table is called, `LANES_TABLE`,
- * and how many lanes there are, `LANES`. `kind` and `n`, the number of coordinates, are constants wherever they stand.
+ * The functions of lanes.h, to be included once by a file that defines the name of their table,
+ * `LANES_TABLE`, and the number of lanes, `LANES`. All arguments `kind` and `n` (the number of coordinates)
+ * are compile-time constants after inlining.
  */
 #ifndef FBD_BATCH_LANES_STEP_H
 #define FBD_BATCH_LANES_STEP_H
@@ -18,7 +19,7 @@
 
 struct system {
     wide constants[most_constants];
-    mask beyond; /* a sine was asked for of more than SINE_MOST */
+    mask beyond; /* lanes in which the argument of a sine exceeded SINE_MOST */
 };
 
 INLINE void note_beyond(struct system *system, wide angle)
@@ -68,7 +69,7 @@ INLINE void accelerate(enum lane_motion kind, struct system *system, const wide 
         swing(system, q, v, a);
 }
 
-/* ---- a step of size h, from y = q, v, a: what it comes to */
+/* ---- the result of a step of size h from y = q, v, a */
 
 struct attempt {
     wide y[3 * most_pairs], error[2 * most_pairs], rest[2 * most_pairs];
@@ -82,7 +83,7 @@ struct attempt {
         accelerate(kind, system, &at, &v, &k[i]);                                                            \
     }
 
-/* Of one coordinate. */
+/* For one coordinate. */
 INLINE void try_nystrom(enum lane_motion kind, struct system *system, wide h, const wide *y,
                         struct attempt *end)
 {
@@ -110,7 +111,7 @@ struct slopes {
     wide k[stages + 1];
 };
 
-/* The sum over the stages before `count`, of which those without a coefficient are left out. */
+/* The sum over the stages before `count`; terms with zero coefficients are skipped. */
 INLINE wide sum_of(const double *row, const struct slopes *slopes, int count)
 {
     const wide *k = slopes->k;
@@ -130,7 +131,7 @@ INLINE wide sum_of(const double *row, const struct slopes *slopes, int count)
     return sum;
 }
 
-/* Stage i of all components, whose argument goes to `u`. */
+/* Stage i of all components; its argument is stored in `u`. */
 INLINE void make_stage(enum lane_motion kind, int n, struct system *system, int i, wide h, const wide *y,
                        const wide *rest, struct slopes *slopes, wide *u)
 {
@@ -143,7 +144,7 @@ INLINE void make_stage(enum lane_motion kind, int n, struct system *system, int 
     }
 }
 
-/* a + b - sum, where `sum` is a + b rounded (pair8.c). */
+/* The rounding error a + b - sum, where `sum` is a + b rounded (pair8.c). */
 INLINE wide lost_by(wide a, wide b, wide sum)
 {
     const wide b_part = sum - a, a_part = sum - b_part;
@@ -210,7 +211,7 @@ INLINE wide amplitude_of(int n, int i, const wide *y0, const wide *y1)
     return select(square >= 0, larger_of(root_of(square), fast), (wide){0} + INFINITY);
 }
 
-/* Of pair i. */
+/* For pair i of coordinate and rate. */
 INLINE wide ratio_of_pair(int n, int i, const struct measure *m, wide h, const struct attempt *end,
                           wide swing, wide ratio)
 {
@@ -230,7 +231,7 @@ INLINE wide ratio_of_pair(int n, int i, const struct measure *m, wide h, const s
     return select(error_v > noise_v, larger_of(by_q, ratio_v), by_q);
 }
 
-/* The next step over this one, for an estimate of order 11 or 8. */
+/* The ratio of the next step to this one, for an error estimate of order 11 or 8. */
 INLINE wide factor_of(enum lane_motion kind, wide ratio)
 {
     const double safety = 0.7, shrink = 0.333, grow = 6;
@@ -252,7 +253,7 @@ INLINE mask is_finite(int n, const struct attempt *end)
     return probe == 0;
 }
 
-/* The fastest rate that the step has seen (error_norm_rate). */
+/* The fastest rate estimated from the step (error_norm_rate). */
 INLINE wide rate_of(int n, const struct measure *m, const struct attempt *end)
 {
     const wide zero = {0};
@@ -268,7 +269,7 @@ INLINE wide rate_of(int n, const struct measure *m, const struct attempt *end)
     return select((by_a > 0) & (root > 0), 2 * by_a / root, zero);
 }
 
-/* ---- what the lanes have come to */
+/* ---- state of the lanes */
 
 struct standing {
     struct measure m;
@@ -332,9 +333,9 @@ INLINE void store_all(int n, struct lanes *lanes, const struct standing *s)
 
 /* ---- one attempt of all lanes */
 
-/* The size that it has (stepper.c, plan_step). */
+/* The size of an attempt (stepper.c, plan_step). */
 struct size {
-    mask half, ready; /* half of the way to the end of the run; nothing but a step is due */
+    mask half, ready; /* half of the remaining run; ready for an ordinary step */
     wide asked, step, t1;
 };
 
@@ -351,9 +352,9 @@ INLINE struct size plan_size_of(const struct standing *s, wide until)
     return size;
 }
 
-/* What has been said of an attempt. */
+/* The assessment of an attempt. */
 struct verdict {
-    mask odd, passes; /* not for lanes to judge; accepted */
+    mask odd, passes; /* to be left to the run; accepted */
     wide factor, rate;
 };
 
@@ -377,7 +378,7 @@ INLINE struct verdict judge(enum lane_motion kind, int n, const struct standing 
     return verdict;
 }
 
-/* Would rounding count in the step after this one (error_norm_roundoff_counts, roundoff_renew)? */
+/* True if rounding would be significant in the next step (error_norm_roundoff_counts, roundoff_renew). */
 INLINE mask noise_counts(int n, const struct standing *s, const struct attempt *end, wide pause,
                          wide proposed, const wide *swings_of)
 {
@@ -393,7 +394,7 @@ INLINE mask noise_counts(int n, const struct standing *s, const struct attempt *
     return counts & (s->since + 1 >= pause);
 }
 
-/* The step ends in lanes `taken`, where `proposed` is the next one. */
+/* Complete the step in lanes `taken`; `proposed` is the size of the next one. */
 INLINE void accept(int n, struct standing *s, mask taken, const struct attempt *end, wide t1, wide proposed,
                    wide factor)
 {
@@ -414,7 +415,8 @@ INLINE void accept(int n, struct standing *s, mask taken, const struct attempt *
     s->left = select(taken, s->left - 1, s->left);
 }
 
-/* Those that have to do something else; what they have tried is forgotten when they are taken out. */
+/* Make one attempt. Returns the lanes that need something else; their attempts are discarded when they are
+ * taken out. */
 INLINE mask attempt(enum lane_motion kind, int n, struct standing *s, struct system *system, mask active,
                     wide pause, const struct size *size)
 {

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Vectors of `LANES` numbers, for lanes_step.h. A comparison has all bits set where it holds, and none where it does not.
+ * Vectors of `LANES` numbers, for lanes_step.h. Comparisons set all bits where true, and none where false.
  */
 #ifndef FBD_BATCH_LANES_VECTOR_H
 #define FBD_BATCH_LANES_VECTOR_H
@@ -80,7 +80,7 @@ INLINE mask mask_of(unsigned bits)
     return which;
 }
 
-/* x, or -x where the last bit of `which` is set. */
+/* x, or -x where the lowest bit of `which` is set. */
 INLINE wide with_sign(wide x, mask which)
 {
     return (wide)((mask)x ^ (-(which & 1) & LLONG_MIN));
@@ -97,7 +97,7 @@ INLINE wide sine_of(wide x)
     return with_sign(select(-(quarter & 1), of_odd, of_even), quarter >> 1);
 }
 
-/* Of an angle, as vec_unit (base/vec.h) has it. */
+/* The unit vector of an angle, as vec_unit (base/vec.h). */
 struct unit {
     wide x, y;
 };

@@ -1,9 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Forces as arrows of a length to scale, moments as arcs.
+ * Forces as arrows to scale, moments as arcs.
  *
- * Arrows that would lie on one another on the same line of action are set side by side: the labels say what
- * acts where.
+ * Arrows that would overlap on the same line of action are drawn side by side.
  */
 #include <float.h>
 #include <string.h>
@@ -16,17 +15,17 @@
 static const double pi = 3.141592653589793, side_step = 2.4, head_length = 3, head_width = 2.2;
 static const double first_radius = 10, next_radius = 3.6, least_sweep = 0.7;
 
-/* A force this near to an axis, as a share of its size, is its own component. */
+/* A force is not resolved if its smaller component is less than this fraction. */
 static const double least_component = 0.02;
 
-/* ---- what is there */
+/* ---- selection */
 
 static const char *kind_of(const struct fbd_model *model, const struct arrow *arrow)
 {
     return arrow->load < 0 ? "reaction" : load_law(model->loads[arrow->load].source)->drawing;
 }
 
-/* Less than the rounding of the largest is nothing. */
+/* True for values at the round-off level of the largest. */
 static bool is_nothing(double value, double largest)
 {
     return !(fabs(value) > 64 * DBL_EPSILON * largest);
@@ -49,7 +48,7 @@ double panel_line_of_action(const struct arrow *arrow, struct vec along)
     return lever != 0 ? arrow->couple / lever : 0;
 }
 
-/* The slide whose surface gives the force: the body's own, or that of a body on it; NULL for others. */
+/* The slide whose surface exerts the force: the body itself, or the body on it; NULL for other forces. */
 static const struct model_body *slide_of(const struct panel *panel, const struct arrow *arrow)
 {
     const struct model_load *load = arrow->load >= 0 ? &panel->model->loads[arrow->load] : NULL;
@@ -71,7 +70,7 @@ bool panel_is_shifted(const struct panel *panel, const struct arrow *arrow)
            !is_nothing(vec_norm(arrow->force), panel->largest.force);
 }
 
-/* The point of a slide's surface where its force acts, seen from the slide or from what it slides on. */
+/* The point of a slide's surface where its force acts, for the slide or the body under it. */
 static struct vec place_on_surface(const struct panel *panel, const struct model_body *slide,
                                    const struct arrow *arrow)
 {
@@ -84,7 +83,7 @@ static struct vec place_on_surface(const struct panel *panel, const struct model
     return vec_add(point_motion(slide, &pose, G).p, vec_add(vec_scale(reach, down), vec_scale(along, e)));
 }
 
-/* Where the arrow starts: on a slide, the forces of the surface act where the body touches it. */
+/* The start of the arrow; the forces of a slide's surface start at the point of contact. */
 static struct vec tail_of(const struct panel *panel, const struct arrow *arrow)
 {
     const struct model_body *slide = slide_of(panel, arrow);
@@ -96,7 +95,7 @@ static struct vec tail_of(const struct panel *panel, const struct arrow *arrow)
 
 /* ---- forces */
 
-/* Do two arrows lie on one line and on one another? */
+/* True if two arrows overlap on nearly the same line. */
 static bool lie_together(const struct panel_arrow *a, const struct panel_arrow *b)
 {
     if (b->radius > 0) return false;
@@ -170,14 +169,14 @@ static void draw_force(struct panel *panel, const struct arrow *source, struct v
     panel->drawn_count++;
 }
 
-/* Along the axes of the world; on a slide along and across it, where that is more than a copy of the arrow.
- */
+/* Draw components along the axes of the world; on a slide along and across it; none if one of them nearly
+ * equals the force. */
 static void draw_components(struct panel *panel, const struct arrow *source, double largest)
 {
     bool track = panel->body->kind == motion_track, slide = panel->body->kind == motion_slide || track;
     struct vec x = slide ? panel->body->e : (struct vec){1, 0},
                y = slide ? panel->body->n : (struct vec){0, 1};
-    if (track) { /* its directions go with its place */
+    if (track) { /* the directions depend on the position */
         x = panel->at.tree->links[panel->body->place.link].e;
         y = tree_normal(panel->model->tree, panel->at.tree, panel->body->place.link);
     }
@@ -211,7 +210,7 @@ static void draw_moment(struct panel *panel, const struct arrow *source, int ind
                                   .kind = kind_of(panel->model, source),
                                   .suffix = suffix,
                                   .small = fabs(sweep) < least_sweep,
-                                  .value = fabs(source->couple), /* the arc shows its sense */
+                                  .value = fabs(source->couple), /* the arc shows the sign */
                                   .tail = panel_point(panel, axis),
                                   .radius = first_radius + next_radius * index,
                                   .start = 0.35 + 1.1 * index};
@@ -268,7 +267,7 @@ static void write_force(struct text *text, const struct panel_arrow *arrow)
 
 static void write_moment(struct text *text, const struct panel_arrow *arrow)
 {
-    double bow = head_length * 0.8 / arrow->radius; /* of the head, as an angle */
+    double bow = head_length * 0.8 / arrow->radius; /* length of the head as an angle */
     double shaft = 1 - bow / fabs(arrow->sweep);
     text_add(text, "<path class=\"shaft\" d=\"M");
     svg_point(text, arc_point(arrow, 0));
@@ -276,7 +275,7 @@ static void write_moment(struct text *text, const struct panel_arrow *arrow)
                 arrow->sweep < 0);
     svg_point(text, arc_point(arrow, shaft));
     text_add(text, "\"/>\n");
-    /* the head lies along the chord of the arc that it covers */
+    /* the direction of the head is the chord of its arc */
     struct vec tip = arc_point(arrow, 1), chord = vec_sub(tip, arc_point(arrow, shaft));
     write_head(text, tip, vec_scale(1 / vec_norm(chord), chord));
 }

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * The free-body diagrams of a state as an SVG document: a panel for each body, in columns on a sheet that fits an
- * A4 page, each with its heading, its scales and what is zero.
+ * The free-body diagrams of a state as an SVG document: a panel for each body, in columns on a sheet that
+ * fits an A4 page, each with its heading, its scales and the names of zero forces.
  *
- * Forces have one scale in all panels, so that action and reaction are of one length.
+ * Forces have the same scale in all panels, so that action and reaction have equal lengths.
  */
 #include <stdlib.h>
 #include <string.h>
@@ -12,17 +12,18 @@
 #include "base/format.h"
 #include "draw/panel.h"
 #include "dynamics/mass.h"
+#include "fbd_export.h"
 #include "output/equations.h"
 #include "output/symbols.h"
 #include "output/words.h"
 #include "record/result.h"
 #include "rest/start.h"
 
-/* A4 less what printers need; lengths in mm. */
+/* A4 minus the margins of printers; lengths in mm. */
 static const double page_width = 190, page_height = 270;
 static const double margin = 5, gap = 8, heading_height = 13, line_height = 4.2, writing_height = 8;
 
-/* Sheets are drawn smaller until they fit, but no smaller than can be read: then they are longer than a page. */
+/* Sheets are scaled down to fit a page, to at least the readable size; longer sheets exceed a page. */
 static const double least_size = 0.55, size_step = 0.05;
 
 double round_up(double value)
@@ -49,7 +50,7 @@ struct sheet {
     struct panel *panels;
     size_t count;
     struct text text;
-    struct text *notes; /* per panel: lines under it, separated by line ends */
+    struct text *notes; /* per panel: lines under it, separated by newlines */
 };
 
 /* ---- panels */
@@ -88,8 +89,9 @@ static bool start_panel(struct sheet *sheet, struct panel *panel, size_t body)
     return printed && moments;
 }
 
-/* The largest of all bodies, also of those that are not drawn: a part of a scene has the scale of the whole, and a
- * force of mere rounding is one beside what else there is. A moment is, beside the forces at the arms that they have. */
+/* Set the scales by the maxima of all bodies, including those not drawn, so that a part of a scene has the
+ * scale of the whole, and forces at round-off level are recognized. For moments, the maximum includes the
+ * forces times their arms. */
 static void set_scales(struct sheet *sheet, size_t body_count)
 {
     struct arrow_scale all = {0, 0};
@@ -113,7 +115,7 @@ static void set_scales(struct sheet *sheet, size_t body_count)
     }
 }
 
-/* ---- what is written under a panel */
+/* ---- text under a panel */
 
 static void note_scales(const struct panel *panel, struct text *notes)
 {
@@ -144,7 +146,7 @@ static void note_zeros(const struct panel *panel, struct text *notes)
     if (before[0] == ',') text_add(notes, "\n");
 }
 
-/* Each symbol with what it is called and its value, as a worksheet has a line for each. */
+/* List the symbols with values and names, one line for each line of the worksheet. */
 static void note_answers(const struct panel *panel, struct text *notes)
 {
     for (size_t i = 0; i < panel->drawn_count; i++) {
@@ -158,7 +160,7 @@ static void note_answers(const struct panel *panel, struct text *notes)
     }
 }
 
-/* One more than there are, so that their number is not given away. */
+/* One more line than arrows, so that their number is not revealed. */
 static void note_lines(const struct panel *panel, struct text *notes)
 {
     for (size_t i = 0; i <= panel->arrow_count; i++) text_add(notes, "_\n");
@@ -200,7 +202,7 @@ static void write_heading(const struct panel *panel, struct text *text, struct v
     text_free(&line);
 }
 
-/* Labels of the fixtures are those that no arrow owns. */
+/* Write the labels that do not belong to an arrow: those of the fixtures. */
 void panel_write_notes(const struct panel *panel, struct text *text)
 {
     for (size_t i = 0; i < panel->labels.label_count; i++) {
@@ -227,14 +229,14 @@ void panel_draw(struct panel *panel)
         box_join(&panel->extent, &box);
     }
     if (!panel->drawing->worksheet) return;
-    const double room = 20; /* for the arrows of whoever draws them */
+    const double room = 20; /* for the arrows of the student */
     panel->extent.low = vec_sub(panel->extent.low, (struct vec){room, room});
     panel->extent.high = vec_add(panel->extent.high, (struct vec){room, room});
 }
 
 /* ---- layout */
 
-/* The height of the lines under a panel; those to write on are higher. */
+/* The height of the lines under a panel; empty lines of a worksheet are higher. */
 static double height_of(const struct text *notes)
 {
     double height = 0;
@@ -301,8 +303,8 @@ static void write_panel(const struct panel *panel, struct text *notes, struct ve
 
 enum { most_columns = 8 };
 
-/* The panels in columns as wide as the widest of them, each into the one that is shortest so far; returns the size of
- * the document. With `text` they are written as well. */
+/* Arrange the panels in columns of the width of the widest panel, each in the shortest column so far; returns
+ * the size of the document. Also writes them if `text` is not NULL. */
 static struct vec lay_out(const struct sheet *sheet, double width, double top, struct text *text)
 {
     double wide = 0, heights[most_columns] = {0};
@@ -325,7 +327,7 @@ static struct vec lay_out(const struct sheet *sheet, double width, double top, s
     return (struct vec){2 * margin + columns * (wide + gap) - gap, bottom + margin};
 }
 
-/* How much smaller than drawn the sheet is to be printed. */
+/* The scale at which the sheet fits the page. */
 static double fitting_size(const struct sheet *sheet, double top)
 {
     double size = 1;
@@ -362,8 +364,7 @@ static void write_sheet(struct sheet *sheet)
 
 /* ---- the whole */
 
-/* Lengths and forces may be finite, and yet too large or too small for any scale: the first body with such a
- * panel. */
+/* The first body whose lengths or forces, though finite, are too large or too small for any scale; or NULL. */
 static const char *body_without_scale(const struct sheet *sheet)
 {
     for (size_t i = 0; i < sheet->count; i++) {
@@ -375,7 +376,7 @@ static const char *body_without_scale(const struct sheet *sheet)
     return NULL;
 }
 
-/* All bodies are looked at for the scales; those that are asked for come first in `panels` after that. */
+/* Start the panels of all bodies for the scales, and move the requested ones to the front of `panels`. */
 static bool make_panels(struct sheet *sheet)
 {
     const struct fbd_model *model = sheet->state->model;
@@ -415,7 +416,7 @@ static bool body_is_there(const struct fbd_model *model, const char *name, fbd_e
     return found;
 }
 
-/* What is not finite cannot be drawn to scale. */
+/* Check that all numbers are finite, as a scale requires. */
 static bool is_finite(const struct fbd_state *state, fbd_errors *errors)
 {
     struct lack lack = {0};

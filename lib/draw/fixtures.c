@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * What a body is drawn with: its outline and centre of mass, the surface or the axis that it moves on, and
- * the coordinate that says where it is.
+ * The fixtures of a panel: outline and centre of mass of the body, its surface or axis, and its coordinate.
  */
 #include <string.h>
 
@@ -12,7 +11,7 @@
 static const double pi = 3.141592653589793, body_size = 54, surface_half = 34, free_half = 20,
                     hatch_step = 2.4;
 
-/* Drawn for a body on a slide whose file gives it no size: half width and half height on paper. */
+/* Block for a slide without a size in the file: half width and half height on paper. */
 static const double block_half_width = 9, block_half_height = 6.5, dot_radius = 1.6;
 
 struct vec panel_point(const struct panel *panel, struct vec world)
@@ -40,8 +39,8 @@ static struct vec world_of(const struct panel *panel, struct vec point)
     return point_motion(panel->body, &panel->pose, point).p;
 }
 
-/* Direction of +x of a slide in the world, and the one that its surface pushes to: a surface that is another
- * body turns with it. */
+/* Direction of +x of a slide in the world, and the normal of its surface, which turn with the body that
+ * carries it. */
 static struct vec along_of(const struct panel *panel)
 {
     return panel->pose.rotation;
@@ -59,7 +58,8 @@ static bool on_ground(const struct panel *panel)
     return panel->body->parent == ground_body;
 }
 
-/* A wedge of no particular size: its slope is that of what slides on it, its base lies on its own surface. */
+/* The corners of a wedge of conventional size: its slope is that of the body sliding on it, its base is on
+ * its own surface. */
 static void wedge_corners(struct panel *panel, struct vec corners[static 4])
 {
     const struct model_body *rider = panel->plate.rider;
@@ -77,7 +77,7 @@ static void wedge_corners(struct panel *panel, struct vec corners[static 4])
     corners[3] = (struct vec){left.x, base};
 }
 
-/* The reach of the body from its centre of mass down to its surface, on paper and in the scene. */
+/* Set the base from the distance between the centre of mass and the surface. */
 static void set_base(struct panel *panel)
 {
     const struct model_body *body = panel->body;
@@ -169,7 +169,7 @@ static void take_part(struct panel *panel, const struct outline_part *part)
     }
 }
 
-/* The body's edge on paper. */
+/* Draw the edge of the body. */
 static void edge(struct panel *panel, const struct vec *corners, size_t count)
 {
     svg_polygon(&panel->under, "body", corners, count);
@@ -179,7 +179,7 @@ static void edge(struct panel *panel, const struct vec *corners, size_t count)
     }
 }
 
-/* A wheel with a spoke that shows how it is turned; a bar or a plate through the points. */
+/* Draw a wheel with a spoke that shows its angle; or a bar or plate through the points. */
 static void draw_plate(struct panel *panel)
 {
     const struct plate *plate = &panel->plate;
@@ -205,7 +205,7 @@ static void draw_plate(struct panel *panel)
         svg_circle(&panel->under, "hole", panel_point(panel, world_of(panel, plate->points[i])), 1.1);
 }
 
-/* A body without a size: a block on a slide, a blob of no particular shape elsewhere. */
+/* Draw a body without a size: a block on a slide, a disc elsewhere. */
 static void draw_sizeless(struct panel *panel)
 {
     const struct model_body *body = panel->body;
@@ -220,7 +220,7 @@ static void draw_sizeless(struct panel *panel)
         edge(panel, corners, 4);
         return;
     }
-    if (body->kind == motion_pivot) return; /* its bearing is where it is */
+    if (body->kind == motion_pivot) return; /* the bearing shows its position */
     if (body->kind != motion_slide) {
         bool point = body->kind == motion_particle || body->kind == motion_track;
         svg_circle(&panel->under, point ? "mass" : "body", G, point ? dot_radius : 8);
@@ -233,7 +233,7 @@ static void draw_sizeless(struct panel *panel)
     edge(panel, corners, 4);
 }
 
-/* The mark of a centre of mass: a circle of four quarters. */
+/* Draw the mark of a centre of mass: a circle of four quarters. */
 static void draw_center(struct panel *panel)
 {
     const double r = 1.5;
@@ -252,7 +252,7 @@ void panel_body(struct panel *panel)
 {
     const struct body *source = panel->body->source;
     text_printf(&panel->under, "<g class=\"outline\" id=\"%s-outline\">\n", panel->body->name);
-    if (panel->body->kind == motion_pivot) { /* whatever holds its parts on the axis */
+    if (panel->body->kind == motion_pivot) { /* threads from the axis to the parts */
         struct vec axis = panel_point(panel, panel->pose.origin);
         for (size_t i = 0; i < source->part_count; i++)
             panel_line(panel, "thread", axis,
@@ -342,7 +342,7 @@ static void angle_arc(struct panel *panel, struct vec center, double radius, dou
     panel_note(panel, name, vec_add(center, vec_scale(radius, out)), out);
 }
 
-/* In degrees, unless these are beyond all numbers. */
+/* The angle in degrees, or in radians if that overflows. */
 static const char *angle_text(struct panel *panel, const char *name, double angle)
 {
     double degrees = angle * 180 / pi;
@@ -379,7 +379,7 @@ static void draw_slide(struct panel *panel)
     axis_arrow(panel, vec_sub(far, vec_scale(9, e)), far, "x");
     double along = atan2(along_of(panel).y, along_of(panel).x);
     if (fabs(remainder(along, pi / 2)) < 1e-9) return;
-    /* The angle from the horizontal, at the low end of the line. */
+    /* the angle from the horizontal, at the low end of the line */
     struct vec foot = vec_sub(far, vec_scale(2 * reach + 9, e));
     double turn = along;
     panel_line(panel, "reference", foot, vec_add(foot, (struct vec){18, 0}), 3);
@@ -387,7 +387,7 @@ static void draw_slide(struct panel *panel)
     if (text) angle_arc(panel, foot, 13, 0, turn, text);
 }
 
-/* The angle that a body has turned, from `zero` in the world. */
+/* Draw the angle of rotation of a body, from the direction `zero` in the world. */
 static void draw_angle(struct panel *panel, struct vec center, double zero, double length)
 {
     const struct model_body *body = panel->body;
@@ -403,7 +403,7 @@ static void draw_angle(struct panel *panel, struct vec center, double zero, doub
                   text);
 }
 
-/* A bearing: a triangle on hatched ground, on the side away from the body. */
+/* Draw a bearing: a triangle on hatched ground, on the side away from the body. */
 static void draw_pivot(struct panel *panel)
 {
     const struct model_body *body = panel->body;
@@ -417,7 +417,7 @@ static void draw_pivot(struct panel *panel)
         svg_polygon(&panel->under, "support", corners, 3);
         hatched_line(panel, vec_sub(foot, wide), vec_add(foot, wide), d);
     }
-    /* theta counts from where the body's frame lies along the one that it moves on */
+    /* theta is zero where the body's frame is parallel to that of its parent */
     double parent = body_angle(body, &panel->at) - panel->at.y[body->first];
     double zero = parent + (hangs ? atan2(body->arm.y, body->arm.x) : 0);
     draw_angle(panel, axis, zero, hangs ? fmin(fmax(0.7 * vec_norm(G), 14), 26) : 20);
@@ -429,13 +429,13 @@ static void draw_axis_of_body(struct panel *panel, struct vec center, double len
     panel_line(panel, "reference", center, vec_add(center, vec_scale(length, x)), 5);
 }
 
-/* A body that turns about its own middle would hide the bearing behind it. */
+/* True for a body that turns about its middle, which would hide the bearing behind it. */
 bool panel_fixtures_in_front(const struct panel *panel)
 {
     return panel->body->kind == motion_pivot && panel->body->L * panel->millimetres < 1;
 }
 
-/* The curve in the neighbourhood of the body, which for a body without a size has a scale of its own. */
+/* Draw the curve near the body; for a body without a size at a separate scale. */
 static void draw_track(struct panel *panel)
 {
     enum { segments = 40 };
@@ -447,7 +447,7 @@ static void draw_track(struct panel *panel)
     double here = panel->at.y[panel->body->first], first = here - half / scale, last = here + half / scale;
     if (!curve->closed) first = fmax(first, curve->start), last = fmin(last, curve->start + curve->length);
     struct curve_place now = curve_at(curve, NULL, here);
-    struct vec frame = {vec_dot(now.e, s->e), vec_cross(now.e, s->e)}; /* of the curve in the world */
+    struct vec frame = {vec_dot(now.e, s->e), vec_cross(now.e, s->e)}; /* rotation of the curve */
     struct vec P = panel_point(panel, s->p), before = P;
     for (int i = 0; i <= segments; i++) {
         struct vec r = curve_at(curve, NULL, first + (last - first) * i / segments).r;

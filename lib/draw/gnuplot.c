@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * A run as a script for gnuplot that carries its data: one plot below the other for each unit, the events as
- * lines.
+ * A run as a script for gnuplot that contains its data: one plot for each unit, one below the other, with
+ * events as lines.
  */
 #include <stdlib.h>
 #include <string.h>
@@ -11,20 +11,21 @@
 #include "base/utf8.h"
 #include "draw/record.h"
 #include "dynamics/modes.h"
+#include "fbd_export.h"
 #include "output/display_units.h"
 #include "output/words.h"
 
 enum { digits = 10, most_events = 200, plot_width = 900, plot_height = 300 };
 
-/* Gnuplot takes quadratic time to read data within a script. */
+/* The time gnuplot takes to read data within a script is quadratic. */
 enum { most_rows = 4000 };
 
-/* What is plotted: columns of the record, those of one unit together. */
+/* The plotted columns of the record, those of one unit together. */
 struct choice {
     const struct record *record;
     int *columns;
     size_t count;
-    bool degrees; /* coordinates and rates that are angles are in degrees */
+    bool degrees; /* show angles and their rates in degrees */
 };
 
 /* ---- names of columns */
@@ -58,7 +59,7 @@ static void unknown_column(const struct record *record, const char *name, size_t
     free(names);
 }
 
-/* The columns of a list "block.v,block.friction"; false with a note for each that does not exist. */
+/* Choose the columns of a list "block.v,block.friction"; returns false with a note for each unknown one. */
 static bool choose_named(struct choice *choice, const char *list, fbd_errors *errors)
 {
     bool found = true;
@@ -119,7 +120,7 @@ bool fbd_model_has_columns(const fbd_model *model, const char *columns, fbd_erro
 
 /* ---- the script */
 
-/* Of the choice: in which unit it is shown, and what its numbers are divided by for that. */
+/* The displayed unit of a chosen column, and the divisor of its numbers. */
 static struct display display_of_column(const struct choice *choice, size_t index)
 {
     const struct record_column *column = &choice->record->columns[choice->columns[index]];
@@ -128,9 +129,10 @@ static struct display display_of_column(const struct choice *choice, size_t inde
     return moves ? display_in_degrees(display, choice->degrees) : display;
 }
 
-/* Between single quotes gnuplot takes everything as it is, commands as well, and '' for one quote; but not at
- * the start, and not for two in a row, where the text would end. So such a quote becomes a typographic one.
- * Gnuplot's SVG has no escape for the end of a CDATA section, which XML does not allow in a text. */
+/* Quote a string. Between single quotes gnuplot takes everything literally, commands as well, and '' for one
+ * quote; but not at the start, and not for two in a row, where the string would end. So such a quote becomes
+ * a typographic one. Gnuplot's SVG output does not escape the end of a CDATA section, which XML forbids in a
+ * text. */
 static void quote(struct text *text, const char *string)
 {
     char before = '\'';
@@ -199,7 +201,7 @@ static void write_data(struct text *text, const struct choice *choice)
     for (size_t k = 0; k < record->bucket_count; k++) {
         const float *cells = record->envelope + 2 * k * record->column_count;
         const float *first = cells + 2 * (size_t)choice->columns[0];
-        if (!(first[0] <= first[1])) continue; /* nothing was seen there */
+        if (!(first[0] <= first[1])) continue; /* no samples there */
         text_number(text, ((double)k + 0.5) * record->bucket, digits);
         for (size_t i = 0; i < choice->count; i++) {
             for (int end = 0; end < 2; end++) {
@@ -226,7 +228,8 @@ static void write_events(struct text *text, const struct ensemble *run)
     }
 }
 
-/* The names of the events upright beside their lines, in the uppermost plot, where they are that far apart. */
+/* Write the names of events vertically beside their lines, in the uppermost plot, if they are far enough
+ * apart. */
 static void write_event_names(struct text *text, const struct choice *choice, const struct ensemble *run)
 {
     const struct record *record = choice->record;
@@ -249,7 +252,7 @@ static const char *unit_of(const struct choice *choice, size_t index)
     return display_of_column(choice, index).unit;
 }
 
-/* Is this the first column of its unit? */
+/* True for the first column of its unit. */
 static bool begins_plot(const struct choice *choice, size_t index)
 {
     for (size_t k = 0; k < index; k++)
@@ -270,7 +273,7 @@ static void write_unit(struct text *text, const char *unit)
     }
 }
 
-/* What the columns of one unit are together; the column's own name when it is alone. */
+/* The common quantity of the columns of one unit; for a single column its name. */
 static const char *axis_title(const struct choice *choice, size_t first, size_t count)
 {
     const struct record_column *column = &choice->record->columns[choice->columns[first]];
@@ -291,7 +294,7 @@ static const char *axis_title(const struct choice *choice, size_t first, size_t 
     return "";
 }
 
-/* The legend stands within the plot, above the curves: room for its rows is kept there. */
+/* Reserve room for the legend within the plot, above the curves. */
 static void write_axes(struct text *text, const struct choice *choice, size_t first)
 {
     size_t count = 0;

@@ -5,14 +5,14 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Costs, in mm of distance from the anchor: a label would rather go that far. */
+/* Costs, as equivalent distance from the anchor in mm. */
 static const double on_a_label = 1e4, off_direction = 2.5, needs_leader = 6;
 
 static const double padding = 0.6, pi = 3.141592653589793;
 
 enum { directions = 16, rings = 48, most_sweeps = 30 };
 
-/* Room for one more; NULL when memory is out. */
+/* Ensure room for one more element; NULL when memory is out. */
 static void *grow(struct arena *arena, void *array, size_t count, size_t *room, size_t size)
 {
     if (count < *room) return array;
@@ -70,7 +70,7 @@ static bool boxes_meet(const struct label_place *a, const struct label_place *b)
            fabs(a->center.y - b->center.y) < (a->size.y + b->size.y) / 2 + padding / 2;
 }
 
-/* The length of the segment that lies within the label's box (Liang and Barsky's clipping). */
+/* The length of the segment inside the label's box (Liang-Barsky clipping). */
 static double covered(const struct label_place *label, const struct obstacle *segment)
 {
     struct box box = labelling_box(label);
@@ -104,13 +104,13 @@ static double cost_of_place(const struct labelling *labelling, size_t index, con
 
 /* ---- candidates */
 
-/* Place the label in direction k of ring r: its box touches the ray at the gap. Returns what the place costs
- * by itself. */
+/* Place the label in direction k of ring r: its box touches the ray at the gap. Returns the cost of the
+ * position without overlaps. */
 static double try_place(struct label_place *label, int ring, int k)
 {
     double wanted =
         label->toward.x != 0 || label->toward.y != 0 ? atan2(label->toward.y, label->toward.x) : 0;
-    /* 0, +1, -1, +2, -2, ...: the wanted direction first */
+    /* 0, +1, -1, +2, -2, ...: the preferred direction first */
     int turn = (k + 1) / 2 * (k % 2 ? 1 : -1);
     double angle = wanted + 2 * pi * turn / directions;
     struct vec ray = {cos(angle), sin(angle)};
@@ -130,7 +130,7 @@ static bool choose(struct labelling *labelling, size_t index)
     struct label_place *label = &labelling->labels[index], best = *label, place = *label;
     double least = HUGE_VAL;
     for (int ring = 0; ring < rings; ring++) {
-        if (1.2 * 1.6 * ring > least) break; /* no farther place can be better */
+        if (1.2 * 1.6 * ring > least) break; /* distance alone costs more from here on */
         for (int k = 0; k < directions; k++) {
             double cost = try_place(&place, ring, k);
             if (cost < least) cost += cost_of_place(labelling, index, &place);

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Labelling: where the labels of a drawing go, so that none lies on another and, where it can be had, none on
- * a line either.
+ * Labelling: placement of the labels of a drawing, so that they do not overlap and, if possible, do not cover
+ * lines.
  *
- * Each label has candidate places around its anchor, near ones first; each place has a cost (what it covers,
- * how far it is). The labels choose in turn, and again with all others in place, until none would move: a
- * descent that ends, since every move lowers the sum. Nothing is random.
+ * Each label has candidate positions around its anchor, near ones first; each position has a cost (overlaps,
+ * distance). The labels are placed one after another, repeatedly, until none moves: a descent that
+ * terminates, since every move lowers the sum of costs. The result is deterministic.
  */
 #ifndef FBD_DRAW_LABELLING_H
 #define FBD_DRAW_LABELLING_H
@@ -15,12 +15,12 @@
 
 struct label_place {
     const char *text;
-    struct vec anchor; /* what it belongs to */
-    struct vec toward; /* unit vector where it is wanted, or zero: anywhere around */
+    struct vec anchor; /* the labelled point */
+    struct vec toward; /* unit vector of the preferred direction, or zero: any direction */
     double gap;        /* the least distance from the anchor to the text */
     struct vec size;
     struct vec center; /* the result */
-    bool leader;       /* it went so far that a line should lead to it */
+    bool leader;       /* far from the anchor: draw a line to it */
 };
 
 struct obstacle {
@@ -39,16 +39,16 @@ struct labelling {
 size_t labelling_add(struct labelling *labelling, const char *text, double size, struct vec anchor,
                      struct vec toward, double gap);
 
-/* A line that labels should not cover. */
+/* Add a line that labels should not cover. */
 void labelling_avoid(struct labelling *labelling, struct vec from, struct vec to, double cost);
 
-/* Choose all centres. False when memory ran out while the labels were added. */
+/* Choose all centres. Returns false when memory ran out while the labels were added. */
 bool labelling_solve(struct labelling *labelling);
 
-/* The point of the label's rectangle nearest to its anchor, where its leader ends. */
+/* The end of a label's leader: the point of its rectangle nearest to its anchor. */
 struct vec labelling_leader(const struct label_place *label);
 
-/* The rectangle that a label covers. */
+/* The rectangle covered by a label. */
 struct box labelling_box(const struct label_place *label);
 
 #endif

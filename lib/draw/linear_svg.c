@@ -8,6 +8,7 @@
 
 #include "base/format.h"
 #include "draw/labelling.h"
+#include "fbd_study.h"
 #include "rest/linearize.h"
 
 static const double width = 130, height = 110, left = 16, right = 8, top = 24, bottom = 16;
@@ -16,13 +17,13 @@ static const double text_size = 3.4;
 struct plane {
     struct arena arena;
     const struct fbd_linearization *linear;
-    double unit;                /* in 1/s; 1 but near the limits of a double, where sums would overflow */
-    struct vec low, high, step; /* of the axes, in units, and between ticks */
+    double unit;                /* in 1/s; 1 except near the limits of a double, where sums would overflow */
+    struct vec low, high, step; /* of the axes, in units, and distance of ticks */
     struct labelling labels;
     struct text text;
 };
 
-/* A place in units. */
+/* The position on paper. */
 static struct vec at(const struct plane *plane, double re, double im)
 {
     double x = (re - plane->low.x) / (plane->high.x - plane->low.x),
@@ -37,14 +38,14 @@ static struct vec mode_at(const struct plane *plane, const fbd_mode *mode)
 
 /* ---- axes */
 
-/* 1, 2 or 5 times a power of ten so that about five of them make `range`. */
+/* 1, 2 or 5 times a power of ten, so that `range` has about five ticks. */
 static double tick_step(double range)
 {
     double power = pow(10, floor(log10(range / 5))), share = range / 5 / power;
     return power * (share < 1.5 ? 1 : share < 3.5 ? 2 : share < 7.5 ? 5 : 10);
 }
 
-/* The axes hold all eigenvalues and zero, and end on ticks. */
+/* Extend an axis to contain all eigenvalues and zero, and to end on ticks. */
 static void set_range(double *low, double *high, double *step, double other)
 {
     double range = *high - *low;
@@ -69,7 +70,7 @@ static void set_axes(struct plane *plane)
         high = (struct vec){fmax(high.x, re), fmax(high.y, im)};
     }
     double wide = high.x - low.x, tall = high.y - low.y;
-    /* an undamped pair has real parts of rounding only */
+    /* real parts of an undamped pair are at round-off level */
     if (wide < 1e-9 * tall) low.x = high.x = 0;
     set_range(&low.x, &high.x, &plane->step.x, tall / 2);
     set_range(&low.y, &high.y, &plane->step.y, wide / 2);

@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* ---- what is said twice */
+/* ---- redundancy */
 
 static double cell(const struct record *record, size_t row, size_t column)
 {
@@ -18,14 +18,14 @@ static double size_of(const struct record_column *column)
     return fmax(fabs(column->least), fabs(column->greatest));
 }
 
-/* Does a column change by no more than its roundings? All of them NaN is constant as well. */
+/* True if a column changes by no more than round-off, also if all its values are NaN. */
 static bool is_constant(const struct record_column *column)
 {
     const double rounding = 1e-14;
     return !(column->greatest - column->least > rounding * size_of(column));
 }
 
-/* Is column c, in every row, offset + factor * column d? To roundings of its size. */
+/* True if column c, in every row, is offset + factor * column d, to round-off. */
 static bool is_affine(const struct record *record, size_t c, size_t d, struct packed_column *packed)
 {
     const double rounding = 1e-13;
@@ -37,7 +37,7 @@ static bool is_affine(const struct record *record, size_t c, size_t d, struct pa
     }
     double range = cell(record, high, d) - cell(record, low, d);
     double size = size_of(column);
-    const double least_change = 1e-6; /* a column that hardly changes would have its roundings enlarged */
+    const double least_change = 1e-6; /* the rounding errors of a nearly constant column would be magnified */
     if (!(range > least_change * size_of(of)) || !isfinite(range) || !isfinite(size)) return false;
     packed->factor = (cell(record, high, c) - cell(record, low, c)) / range;
     packed->offset = cell(record, low, c) - packed->factor * cell(record, low, d);
@@ -49,7 +49,7 @@ static bool is_affine(const struct record *record, size_t c, size_t d, struct pa
     return true;
 }
 
-/* Two rows that rule most pairs out before all are looked at: where d does not change, c does not. */
+/* A quick test by a few rows, which excludes most pairs: the ratio of the changes must be constant. */
 static bool may_be_affine(const struct record *record, size_t c, size_t d)
 {
     enum { probes = 5 };
@@ -72,7 +72,7 @@ static bool find_base(const struct pack *pack, size_t c, size_t first, struct pa
     for (size_t d = first; d < c; d++) {
         enum packed_kind kind = pack->columns[d].kind;
         bool data = kind == packed_double || kind == packed_float;
-        /* what is drawn is not taken from what is only read */
+        /* positions are not derived from columns of float accuracy */
         bool precise = record->columns[c].kind <= record_pose && record->columns[c].kind != record_rate;
         if (!data || (precise && kind == packed_float)) continue;
         if (may_be_affine(record, c, d) && is_affine(record, c, d, packed)) {
@@ -109,7 +109,7 @@ bool pack_begin(struct pack *pack, struct record *record, size_t bytes)
     pack->columns = calloc(record->column_count, sizeof *pack->columns);
     if (!pack->columns) return false;
     pack_columns(pack);
-    /* base 64 makes four bytes of three; four fifths for the rows, the rest for the envelope */
+    /* base 64 makes four bytes of three; 4/5 for the rows, the rest for the envelope */
     size_t row = sizeof(double) * (pack->doubles + 1) + sizeof(float) * pack->floats,
            bucket = 2 * sizeof(float) * (pack->doubles + pack->floats) + 1;
     record_thin(record, bytes * 3 / 4 * 4 / 5 / row, bytes * 3 / 4 / 5 / bucket);
@@ -154,7 +154,7 @@ static void put_double(struct encoder *encoder, double value)
     for (int i = 0; i < 8; i++) put_byte(encoder, (unsigned char)(bits >> (8 * i)));
 }
 
-/* Of an envelope: too large for a float is infinite, which is not drawn. */
+/* Encode as float; values of an envelope beyond its range become infinite, and are not drawn. */
 static void put_float(struct encoder *encoder, double value)
 {
     float narrow = (float)value;

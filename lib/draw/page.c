@@ -7,6 +7,7 @@
 #include "base/api_check.h"
 #include "base/diag.h"
 #include "draw/svg.h"
+#include "fbd_export.h"
 
 static const struct page_asset *find_asset(const char *name, size_t length)
 {
@@ -21,7 +22,7 @@ const struct page_asset *page_asset_find(const char *name)
     return find_asset(name, strlen(name));
 }
 
-/* In a script element `<` could end the element or begin a comment; in JSON it stands within strings only. */
+/* Escapes `<`, which could end the script element or begin a comment; in JSON it only occurs within strings. */
 void page_add_json(struct text *text, const struct text *json)
 {
     size_t from = 0;
@@ -41,7 +42,7 @@ static const struct page_part *find_part(const struct page_part *parts, const ch
     return NULL;
 }
 
-/* One line of the template; false when it leaves nothing behind. */
+/* Copy one line of the template or its replacement; returns false when the line is dropped. */
 static bool fill_line(struct text *text, const char *line, size_t length, const struct page_part *parts)
 {
     bool mark = length > 2 && line[0] == '@' && line[length - 1] == '@';
@@ -92,7 +93,7 @@ static void write_data(struct text *text, const void *context)
     page_add_json(text, context);
 }
 
-/* The caller's parts, and those that every page has. */
+/* Fill with the caller's parts and those of every page. */
 static void fill_page(struct text *page, const struct page_asset *template, const char *title,
                       const struct text *json, const struct page_part *parts)
 {
@@ -125,7 +126,7 @@ char *page_make(fbd_result *result, size_t most_bytes, const struct page_part *p
     return NULL;
 }
 
-/* Nothing but what the page itself has. */
+/* Permits only resources contained in the page. */
 void page_write_policy(struct text *text, const void *context)
 {
     (void)context;

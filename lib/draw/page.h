@@ -1,14 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Page: a run as one HTML file that plays it. The page is page/page.html with its style, the charts' library,
- * our scripts and the data of the run put in where it says so; the files are compiled in (embed).
+ * Page: a run as one HTML file that plays it. The template page/page.html is filled with its style, the chart
+ * library, the scripts and the data of the run; the files are compiled in (embed).
  */
 #ifndef FBD_DRAW_PAGE_H
 #define FBD_DRAW_PAGE_H
 
 #include "draw/record.h"
 
-/* A file that was compiled in. */
+/* A compiled-in file. */
 struct page_asset {
     const char *name;
     const unsigned char *data;
@@ -19,34 +19,34 @@ struct page_asset {
 extern const struct page_asset page_assets[];
 extern const size_t page_asset_count;
 
-/* The one called so, or NULL. */
+/* The asset of this name, or NULL. */
 const struct page_asset *page_asset_find(const char *name);
 
-/* The data of the page as JSON: see page_data.c for its members; its numbers take at most so many bytes, 0: what a page
- * may have by itself. False when memory is out. */
+/* The data of the page as JSON: see page_data.c for its members; its numbers take at most `most_bytes`, 0:
+ * the limit of an ordinary page. Returns false when memory is out. */
 bool page_data_write(struct text *text, fbd_result *result, struct record *record, size_t most_bytes);
 
-/* What stands in the page in the place of a line `@MARK@` that is no asset's. */
+/* The replacement of a line `@MARK@` that does not name an asset. */
 struct page_part {
     const char *mark;
     void (*write)(struct text *text, const void *context);
     const void *context;
 };
 
-/* The page of a run with those parts, the last one without a mark; lines that begin with `@LIVE` are left out where no
- * part has their mark. NULL with a note in `errors`. */
+/* The page of a run with those parts, the last one without a mark; lines that begin with `@LIVE` are dropped
+ * if no part has their mark. NULL with a note in `errors`. */
 char *page_make(fbd_result *result, size_t most_bytes, const struct page_part *parts, fbd_errors *errors);
 
-/* A template with the assets that are compiled in and those parts. */
+/* Fill a template with the compiled-in assets and those parts. */
 void page_fill(struct text *text, const struct page_asset *template, const struct page_part *parts);
 
-/* The content policy of every page: only its own scripts. A part with mark POLICY. */
+/* The content security policy of every page: only its own scripts. A part with mark POLICY. */
 void page_write_policy(struct text *text, const void *context);
 
-/* JSON within a script element. */
+/* Append JSON inside a script element. */
 void page_add_json(struct text *text, const struct text *json);
 
-/* Its members `links` and `couplings`. */
+/* The members `links` and `couplings` of the data. */
 void page_links_write(struct text *text, const struct record *record);
 void page_couplings_write(struct text *text, const fbd_result *result, const struct record *record);
 

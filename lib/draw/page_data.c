@@ -1,19 +1,16 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * What the page knows of a run, as one JSON object:
+ * The data of the page about a run, as one JSON object:
  *
- * - title, units, angles, reason, stats: as in the JSON of the run; start and end [s]
- * - rows, thinned, bucket, buckets, doubleColumns, floatColumns: of the data
- * - columns: {n: name, u: unit} and one of {c: constant}, {of, a, b: a + b column[of]}, {d | f: number of
- * data}
- * - doubles, floats, envelope: base 64, see pack.h; `doubles` begins with the times
- * - bodies: {name, motion, parent, frame: 3 columns, shapes, G, axis | line, arrows, equations, kinematics}
- * - links: springs and dampers that have another end; couplings: couplings that hold (both: page_links.c)
- * - energy: 4 columns
- * - states: those of the file's own
- * - events: {kinds, labels, times, of: index into labels, details}
+ * - title, units, angles, reason, stats: as in the JSON of the run; start and end [s] - rows, thinned,
+ * bucket, buckets, doubleColumns, floatColumns: of the data - columns: {n: name, u: unit} and one of {c:
+ * constant}, {of, a, b: a + b column[of]}, {d | f: number of data} - doubles, floats, envelope: base 64, see
+ * pack.h; `doubles` begins with the times - bodies: {name, motion, parent, frame: 3 columns, shapes, G, axis
+ * | line, arrows, equations, kinematics} - links: springs and dampers with another end; couplings (both:
+ * page_links.c) - energy: 4 columns - states: user states - events: {kinds, labels, times, of: index into
+ * labels, details}
  *
- * Names and titles are data, never markup: the script puts them into the page as text.
+ * Names and titles are data, never markup: the script inserts them as text.
  */
 #include <stdlib.h>
 #include <string.h>
@@ -113,11 +110,11 @@ static void write_arrow(struct text *text, const struct record_of_arrow *arrow)
 struct symbolic {
     struct formulas formulas;
     fbd_equations *equations;
-    const struct equation *now; /* the one that is written, or NULL */
+    const struct equation *now; /* the equation being written, or NULL */
     size_t written;             /* of the body */
 };
 
-/* A state is made ready by what looks at it: that is done to a copy. */
+/* Works on a copy, since evaluation changes a state. */
 static bool symbolic_begin(struct symbolic *symbolic, const fbd_state *start)
 {
     if (!equations_cut_free(start->model, true)) return true;
@@ -154,8 +151,8 @@ struct row {
     const char *body, *coordinate, *inertia, *inertia_unit, *acceleration, *acceleration_unit, *unit;
     double value; /* of the inertia, at the start */
     int column;   /* of the acceleration */
-    int mass;     /* of the mass, with which the inertia goes, or -1; */
-    double start; /* and what it is at the start */
+    int mass;     /* column of the mass to which the inertia is proportional, or -1; */
+    double start; /* and the mass at the start */
 };
 
 static void begin_equation(struct text *text, struct symbolic *symbolic, const struct row *row)
@@ -231,7 +228,7 @@ static void write_coordinate_equation(struct text *text, struct symbolic *symbol
     text_add(text, "]}");
 }
 
-/* Newton's and Euler's equations of a body cut free, reactions and all. */
+/* The Newton-Euler equations of a body cut free, reactions included. */
 static void write_newton_equations(struct text *text, struct symbolic *symbolic, const struct record *record,
                                    int b)
 {
@@ -288,12 +285,12 @@ static void write_equations(struct text *text, struct symbolic *symbolic, const 
     text_add(text, "],");
 }
 
-/* Its curve as points in the frame of what it lies on. */
+/* The curve of a track as points in the frame of the body that carries it. */
 static void write_track(struct text *text, const struct fbd_model *model, const struct model_body *body)
 {
     enum { segments = 400 };
     const struct curve *curve = body->source->motion.curve;
-    struct vec zero = {0, 0}; /* of its frame there */
+    struct vec zero = {0, 0}; /* origin of the parent's frame in the page */
     if (body->parent != ground_body) zero = model->bodies[body->parent].pin;
     text_printf(text, "\"track\":{\"on\":%d,\"points\":[", body->parent);
     for (int i = 0; i <= segments; i++) {
@@ -359,7 +356,7 @@ static void write_body(struct text *text, struct symbolic *symbolic, const struc
         json_comma(text, i);
         write_arrow(text, &columns->arrows[i]);
     }
-    /* the frame of a pivot sits on the axis: its points are told from there */
+    /* the frame of a pivot is at the axis: its points are relative to that */
     text_add(text, "],\"pin\":");
     json_vector(text, body->pin);
     text_add(text, ",\"G\":");
@@ -369,14 +366,13 @@ static void write_body(struct text *text, struct symbolic *symbolic, const struc
 
 /* ---- events */
 
-/* Events are few kinds of few bodies: each distinct one is written once. The label of event i is the first
- * event like it. */
+/* True for events of the same kind, body and source: their label is written once, for the first of them. */
 static bool alike(const struct run_event *a, const struct run_event *b)
 {
     return a->kind == b->kind && a->body == b->body && a->load == b->load && a->watch == b->watch;
 }
 
-/* Beyond that many the page has only their number; the JSON of the run has all. */
+/* The page lists so many events at most, and gives the total number; the JSON of the run has all. */
 static size_t listed_events(const struct ensemble *run)
 {
     size_t count = run->event_count;

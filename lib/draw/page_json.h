@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Pieces of JSON for the page: a member is written with the comma after it.
+ * Pieces of JSON for the page: each member is followed by a comma.
  */
 #ifndef FBD_DRAW_PAGE_JSON_H
 #define FBD_DRAW_PAGE_JSON_H
@@ -18,7 +18,7 @@ void json_vector_member(struct text *text, const char *name, struct vec v);
 /* "name":[first, first + 1, ...], */
 void json_columns_member(struct text *text, const char *name, int first, int count);
 
-/* The comma of a list before all but its first entry. */
+/* A comma before every entry of a list except the first. */
 void json_comma(struct text *text, size_t index);
 
 #endif

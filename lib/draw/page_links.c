@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * What the page draws between bodies.
+ * The elements that the page draws between bodies.
  *
- * - links: springs and dampers, {body, kind, point, partner, anchor}
- * - couplings: couplings that hold, {kind, name, ends, length, e, side, force}, a rope cut at its pulleys (coupling.h)
+ * - links: springs and dampers, {body, kind, point, partner, anchor} - couplings: {kind, name, ends, length,
+ * e, side, force}, a rope cut at its pulleys (coupling.h)
  *
- * An end is {body, point, radius, side, wound}; the body of the ground is -1. Points of a body are told from the
- * origin of its frame in the page, which is the axis of a pivot.
+ * An end is {body, point, radius, side, wound}; the body of the ground is -1. Points of a body are relative
+ * to the origin of its frame in the page, which is the axis of a pivot.
  */
 #include <string.h>
 
@@ -17,7 +17,7 @@
 
 /* ---- links */
 
-/* The other end: on the ground, on another body, or a wall that the file does not place. */
+/* The other end: on the ground, on another body, or null for a wall without a position in the file. */
 static void write_other_end(struct text *text, const struct fbd_model *model, const struct model_load *load)
 {
     text_printf(text, ",\"partner\":%d,\"anchor\":", load->linked ? load->partner : ground_body);
@@ -67,7 +67,7 @@ static void write_end(struct text *text, const struct fbd_model *model, const st
     const struct constraint *source = &model->scene->constraints[coupling->constraint];
     bool wound =
         (k == 0 && coupling->wound[0] != 0) || (k + 1 == coupling->end_count && coupling->wound[1] != 0);
-    bool round = coupling->law->strands && coupling->end[k].radius > 0; /* a disc that its strands go round */
+    bool round = coupling->law->strands && coupling->end[k].radius > 0; /* a disc that the strands wrap */
     int which = k == 0 ? 0 : round || k + 1 == coupling->end_count ? 1 : -1;
     if (coupling->law->strands && !round) which = -1;
     int side = which < 0 ? 0 : state->side[which];
@@ -78,7 +78,7 @@ static void write_end(struct text *text, const struct fbd_model *model, const st
     text_printf(text, "\"side\":%d,\"wound\":%d}", side, wound || round);
 }
 
-/* The first of the two columns of its force, which says whether a rope pulls; -1 when no body has it. */
+/* The first of the two columns of its force, by which a rope is drawn taut or slack; -1 when no body has it. */
 static int force_column(const struct record *record, const struct coupling *coupling)
 {
     for (int k = 0; k < coupling->end_count; k++) {
@@ -90,7 +90,7 @@ static int force_column(const struct record *record, const struct coupling *coup
     return -1;
 }
 
-/* The line of a slot in the frame of its body; without ends of its own, none. */
+/* The curve of a slot in the frame of its body; nothing for an unbounded line. */
 static void write_slot(struct text *text, const struct fbd_model *model, const struct coupling *coupling)
 {
     enum { segments = 240 };
@@ -127,7 +127,7 @@ static void write_coupling(struct text *text, const struct record *record, const
     text_printf(text, "\"side\":%d,\"force\":%d}", state->side[0], force_column(record, coupling));
 }
 
-/* What contacts meet on the ground: {point, e, n} of a line, {corners} of a polygon. */
+/* The surface of a contact on the ground: {point, e, n} of a line, {corners} of a polygon. */
 static void write_surface(struct text *text, const struct constraint *source, int side)
 {
     const struct polygon *polygon = source->contact.polygon;

@@ -1,10 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Panel: the free-body diagram of one body on paper, while it is drawn.
+ * Panel: the free-body diagram of one body on paper, during drawing.
  *
- * Lengths on paper are millimetres with y down; the body's middle is at the paper's origin. What is drawn
- * grows `extent`, and leaves lines that the labels keep away from; the document then lays the panels out by
- * their extents.
+ * Lengths on paper are in millimetres with y down; the middle of the body is the origin. Drawn elements
+ * extend `extent`, and add lines that labels avoid; the document then arranges the panels by their extents.
  */
 #ifndef FBD_DRAW_PANEL_H
 #define FBD_DRAW_PANEL_H
@@ -13,12 +12,13 @@
 #include "draw/plates.h"
 #include "dynamics/diagram.h"
 #include "dynamics/state.h"
+#include "fbd_export.h"
 #include "model/outline.h"
 
 /* Sizes on paper [mm]. */
 static const double label_size = 3.4, note_size = 2.9, longest_arrow = 40, shortest_arrow = 5;
 
-/* How forces and moments become lengths and arcs: 10 mm stand for `force`, a quarter turn for `moment`. */
+/* Scales of forces and moments: 10 mm correspond to `force`, a quarter turn of an arc to `moment`. */
 struct arrow_scale {
     double force, moment;
 };
@@ -28,7 +28,7 @@ struct panel_arrow {
     const struct arrow *source;
     const char *kind;            /* its class: gravity, reaction, friction, applied, ... */
     const char *suffix;          /* of its id: "", "-moment", "-x", ... */
-    bool component, small;       /* small: drawn longer than its scale says */
+    bool component, small;       /* small: drawn longer than to scale */
     double value;                /* of the label */
     struct vec tail, head;       /* a force, on paper */
     double radius, start, sweep; /* a moment: arc around `tail`, angles as in the world */
@@ -44,17 +44,17 @@ struct panel {
     struct arrow *arrows; /* of the diagram */
     size_t arrow_count;
     struct arrow_scale scale,
-        largest; /* largest: of all bodies of the scene, beside which rounding is nothing */
+        largest; /* of all bodies of the scene; smaller values than its round-off level count as zero */
     const fbd_drawing *drawing;
     struct plate plate;
-    const char *const *symbols; /* of the arrows, when they are asked for, */
-    const char *const *moments; /* and of the couples that go with them: M(R) of a force R */
+    const char *const *symbols; /* of the arrows, if requested, */
+    const char *const *moments; /* and of the corresponding couples: M(R) of a force R */
 
     struct vec middle;  /* of the body, in the world: the origin of the paper */
     double millimetres; /* on paper per unit of length of the scene */
-    bool sized;         /* the body has a size, so that there is a scale of lengths */
-    struct vec base;    /* slide: where it touches its surface, in the world */
-    struct vec seat;    /* wedge: the middle of what another body slides on, on paper */
+    bool sized;         /* the body has a size, so that a scale of lengths exists */
+    struct vec base;    /* slide: point of contact with its surface, in the world */
+    struct vec seat;    /* wedge: middle of the surface of the body on it, on paper */
 
     struct panel_arrow *drawn;
     size_t drawn_count;
@@ -72,46 +72,48 @@ static inline struct vec panel_direction(struct vec world)
     return (struct vec){world.x, -world.y};
 }
 
-/* Begin the panel of a body: its pose and its forces in an evaluated state. False when memory is out. */
+/* Initialize the panel of a body: its pose and its forces in an evaluated state. Returns false when memory is
+ * out. */
 bool panel_start(struct panel *panel, const struct fbd_state *state, size_t body, const fbd_drawing *drawing,
                  struct arena *arena);
 
-/* Draw it all: on a worksheet without arrows, with room for them. */
+/* Draw the panel; on a worksheet without arrows, but with room for them. */
 void panel_draw(struct panel *panel);
 
-/* The body itself, its centre of mass; sets middle and scale first. */
+/* Draw the body and its centre of mass; panel_set_scale sets middle and scale, and comes first. */
 void panel_set_scale(struct panel *panel);
 void panel_body(struct panel *panel);
 
-/* Ground, slide or pivot, axes and angles: beneath the body. */
+/* Draw ground, slide or pivot, axes and angles: beneath the body, or in front of it. */
 void panel_fixtures(struct panel *panel);
 bool panel_fixtures_in_front(const struct panel *panel);
 
 /* The symbol of an arrow or arc. */
 const char *panel_symbol(const struct panel *panel, const struct panel_arrow *arrow);
 
-/* Lay the arrows out, then write them with their labels, after labelling_solve. */
+/* Place the arrows; after labelling_solve write them with their labels. */
 void panel_arrows(struct panel *panel);
 void panel_write_arrows(const struct panel *panel, struct text *text);
 
-/* A line that is drawn under the arrows and grows the panel. */
+/* Draw a line under the arrows, and extend the panel by it. */
 void panel_line(struct panel *panel, const char *css, struct vec from, struct vec to, double cost);
 
-/* A label of the fixtures ("theta = 60 deg"); panel_write_notes writes them where they have come to lie. */
+/* Add a label of the fixtures ("theta = 60 deg"); panel_write_notes writes them after labelling_solve. */
 void panel_note(struct panel *panel, const char *string, struct vec anchor, struct vec toward);
 void panel_write_notes(const struct panel *panel, struct text *text);
 
-/* How far along its surface, from the point that the force is told at, the line of action of what a slide's surface
- * gives goes: the force there does what force and couple do. */
+/* The distance along the surface of a slide from the reference point of its force to the line of action, on
+ * which the force replaces force and couple. */
 double panel_line_of_action(const struct arrow *arrow, struct vec along);
 
-/* Is the arrow a normal force of a slide with a size, drawn at its line of action, couple and all? */
+/* True if the arrow is the normal force of a slide with a size, drawn on its line of action without the
+ * couple. */
 bool panel_is_shifted(const struct panel *panel, const struct arrow *arrow);
 
 /* The largest force and moment of the body, for the scales. */
 struct arrow_scale panel_largest(const struct panel *panel);
 
-/* A round number, at least `value`: at most two digits, times a power of ten. */
+/* The next round number, at least `value`: at most two digits times a power of ten. */
 double round_up(double value);
 
 /* A unit as it is printed: N·m for N*m. */

@@ -12,7 +12,7 @@ static bool is_shapeless(const struct body *source)
     return !outline_size(source, &low, &high);
 }
 
-/* Each place once: nearer than rounding of their distances is the same. */
+/* Add a point unless it coincides with an earlier one to round-off. */
 static void add_point(struct plate *plate, struct vec point)
 {
     for (size_t i = 0; i < plate->count; i++)
@@ -41,7 +41,7 @@ static void add_couplings(struct plate *plate, const struct fbd_model *model, in
     }
 }
 
-/* Pins of its own and of the bodies that it carries, ends of springs and dampers. */
+/* Add the pins of the body and of its children, and ends of springs and dampers. */
 static void add_joints(struct plate *plate, const struct fbd_model *model, int b)
 {
     const struct model_body *body = &model->bodies[b];
@@ -60,7 +60,8 @@ static void add_joints(struct plate *plate, const struct fbd_model *model, int b
     }
 }
 
-/* Around their middle, so that the outline does not cross itself: insertion, since they are few. */
+/* Sort by angle around their middle, so that the outline does not cross itself; insertion sort, since they
+ * are few. */
 static void put_in_order(struct plate *plate)
 {
     struct vec middle = {0, 0};
@@ -88,7 +89,7 @@ struct plate plate_of(const struct fbd_model *model, int body)
     add_couplings(&plate, model, body);
     add_joints(&plate, model, body);
     if (b->kind == motion_slide)
-        plate.count = 0; /* a block, or the wedge under another one */
+        plate.count = 0; /* drawn as a block, or as a wedge */
     else
         plate.rider = NULL;
     put_in_order(&plate);

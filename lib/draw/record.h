@@ -1,14 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Record: a run as a table of numbers for the page and for plots, within a bounded memory.
+ * Record: a run as a table of numbers for the page and for plots, with bounded memory.
  *
- * Rows are taken at regular times (every one of which the CSV has is among them), at the ends of steps, and
- * twice at each event: before and after. When there are too many, every second one goes, events and ends
- * excepted. What is lost then is kept in the envelope: the least and the greatest value of each column in
- * each of some thousand pieces of the run, looked for at the rows and where a coordinate or a rate turns
- * back. Between its rows the motion is smooth, so that cubic interpolation is enough.
+ * Rows are taken at regular times (which include all times of the CSV), at the ends of steps, and twice at
+ * each event: before and after. When there are too many, every second one is dropped, except events and ends.
+ * The envelope keeps their range: minimum and maximum of each column in each of about a thousand pieces of
+ * the run, sampled at the rows and at turning points of coordinates and rates. The motion is smooth between
+ * rows, so cubic interpolation is sufficient.
  *
- * A run without a record does nothing of all this.
+ * A run without a record has no such cost.
  */
 #ifndef FBD_DRAW_RECORD_H
 #define FBD_DRAW_RECORD_H
@@ -25,7 +25,7 @@ enum record_kind {
     record_arrow, /* fx, fy; point in the body frame; couple */
     record_work,
     record_energy, /* kinetic, potential, work, residual */
-    record_own,    /* states of the file's own */
+    record_own,    /* user states */
 };
 
 struct record_column {
@@ -36,15 +36,15 @@ struct record_column {
     double least, greatest;
 };
 
-/* Where the columns of an arrow begin. */
+/* Indices of the columns of an arrow. */
 struct record_of_arrow {
     const char *name;
     int load;               /* -1 for a reaction */
     int arrow;              /* five columns: fx, fy, point in the body frame, couple */
     int force, force_count; /* as in the CSV */
-    int components;         /* behind or among these: x, y and the moment about G */
+    int components;         /* after or among these: x, y and the moment about G */
     int term;               /* in the equations of the coordinates, or -1 */
-    int work;               /* or -1: it is counted with the body that lists it */
+    int work;               /* -1: counted with the body that lists it */
 };
 
 struct record_of_body {
@@ -52,8 +52,8 @@ struct record_of_body {
     int pose;                           /* three columns, then two: the velocity of G */
     int equation;                       /* the accelerations in the equations of its coordinates */
     int newton;                         /* three columns: of G, and the angular acceleration */
-    int moving_axis;                    /* what stands beside the forces, see tree_has_more; else -1 */
-    int mass;                           /* where it varies; else -1 */
+    int moving_axis;                    /* the inertial terms of tree_has_more; else -1 */
+    int mass;                           /* if variable; else -1 */
     size_t arrow_count;
     struct record_of_arrow *arrows;
 };
@@ -69,14 +69,14 @@ struct record {
     double *times, *rows; /* row by row, column_count each */
     bool *kept;           /* rows that are never thinned: start, end, events */
     size_t count, room, kept_count;
-    unsigned long seen;   /* rows that were taken so far */
-    unsigned long stride; /* of them every so many is stored */
+    unsigned long seen;   /* rows taken so far */
+    unsigned long stride; /* of these, each stride-th is stored */
 
     double bucket; /* width of a piece of the envelope [s] */
     size_t bucket_count;
-    float *envelope; /* pieces x columns x (least, greatest) */
+    float *envelope; /* pieces x columns x (minimum, maximum) */
 
-    bool components; /* those of forces are to be shown */
+    bool components; /* show those of forces */
     double every;    /* interval of the regular rows */
     long next;       /* index of the next regular row */
     struct ledger *ledger;
@@ -85,30 +85,30 @@ struct record {
     double *work;    /* integrals up to the row */
     double *values;  /* of one row */
     double *turning; /* rates and accelerations at the start of the step */
-    bool costly;     /* a potential energy is a quadrature: only for rows that are stored */
+    bool costly;     /* a potential energy is a quadrature: evaluated only for stored rows */
     bool failed;     /* memory ran out */
-    const char *odd; /* the first column with a number that is not finite, and when; or NULL */
+    const char *odd; /* the first column with a number that is not finite, and its time; or NULL */
     double odd_time;
 };
 
-/* Set up for a run and take the row of its start. False when memory is out. */
+/* Initialize for a run and take the row of its start. Returns false when memory is out. */
 bool record_begin(struct record *record, struct ensemble *run, struct ledger *ledger,
                   const fbd_recording *recording);
 
-/* The rows of (from, run->t], which lies in the last step of every group: see ensemble_next_end. `event`:
- * some have happened at run->t. */
+/* Take the rows of (from, run->t], an interval within the last step of every island: see ensemble_next_end.
+ * `event`: an event occurred at run->t. */
 bool record_step(struct record *record, struct ensemble *run, double from, bool event);
 
-/* Drop rows and join pieces of the envelope until no more than these are left. */
+/* Drop rows and join pieces of the envelope down to these numbers. */
 void record_thin(struct record *record, size_t rows, size_t buckets);
 
-/* Has any row been dropped? */
+/* True if any row was dropped. */
 bool record_is_thinned(const struct record *record);
 
 void record_free(struct record *record);
 
-/* For record.c: define the columns, as a state has them, and fill `values` from a state, whose work integrals
- * are record->work; without `energies` those are NAN. */
+/* For record.c: define the columns for a state; and fill `values` from a state, with the work integrals of
+ * record->work; without `energies` those columns are NAN. */
 bool record_define(struct record *record, struct fbd_state *start);
 void record_fill(struct record *record, struct fbd_state *state, bool energies);
 

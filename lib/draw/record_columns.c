@@ -30,7 +30,7 @@ static const char *name_of(struct record *record, const struct model_body *body,
     return arena_printf(&record->arena, "%s.%s%s", body->name, name, suffix);
 }
 
-/* What stands in the equations of a body beside its forces, and is not the acceleration of a coordinate
+/* Define the columns of a body's equations that are neither forces nor accelerations of coordinates
  * (output/equations.c). */
 static void define_equations(struct record *record, int b)
 {
@@ -90,7 +90,7 @@ static void define_motion(struct record *record, int b)
     define(record, record_rate, b, name_of(record, body, "G", ".vy"), speed);
 }
 
-/* The columns that the CSV has for a force with its components; the first of them are there without. */
+/* Define the columns of a force and its components; the first `force_count` of them are those of the CSV. */
 static void define_force(struct record *record, int b, const struct arrow *source,
                          struct record_of_arrow *arrow)
 {
@@ -109,7 +109,7 @@ static void define_force(struct record *record, int b, const struct arrow *sourc
     }
 }
 
-/* What the joint of a body gives is no term of its coordinates' equations, though `normal` is named there. */
+/* False for reactions of the body's joint, which are not terms of its coordinates' equations. */
 static bool has_term(const struct fbd_model *model, int b, const struct arrow *arrow)
 {
     return arrow->load >= 0 || !arrow_is_of_joint(model, b, arrow);
@@ -173,7 +173,7 @@ bool record_define(struct record *record, struct fbd_state *start)
 
 /* ---- one row */
 
-/* The columns of define_equations. */
+/* Fill the columns of define_equations. */
 static double *fill_equations(double *out, const struct record_of_body *columns,
                               const struct model_body *body, const struct instant *at, const double *a)
 {

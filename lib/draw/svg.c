@@ -38,13 +38,13 @@ void svg_escape(struct text *text, const char *string)
     }
 }
 
-/* A length or coordinate in mm to 1/1000 mm, without trailing zeros and never -0. */
+/* Append a length or coordinate in mm to 1/1000 mm, without trailing zeros and never -0. */
 static void write_number(struct text *text, double value)
 {
     char digits[40];
     double rounded = round(value * 1000) / 1000;
     format_into(digits, sizeof digits, "%.3f", rounded == 0 ? 0.0 : rounded);
-    text->odd |= !(fabs(rounded) < 1e30); /* mm: no drawing */
+    text->odd |= !(fabs(rounded) < 1e30); /* mm: too large for a drawing */
     char *end = digits + strlen(digits);
     while (end[-1] == '0') end--;
     if (end[-1] == '.') end--;
@@ -125,7 +125,7 @@ double svg_text_width(const char *string, double size)
         222, 833, 556, 556, 556, 556, 333, 500, 278, 556, 500, 722, 500, 500,  500, 334, 260, 334, 584,
     };
     const short other = 600;        /* Greek letters and signs */
-    const double substitute = 1.12; /* DejaVu Sans is that much wider */
+    const double substitute = 1.12; /* DejaVu Sans is wider by this factor */
     long sum = 0;
     for (const unsigned char *c = (const unsigned char *)string; *c; c++) {
         if (*c >= ' ' && *c <= '~')
@@ -136,8 +136,8 @@ double svg_text_width(const char *string, double size)
     return substitute * size * (double)sum / 1000;
 }
 
-/* Each rule is for drawings of ours alone: inlined in a page, the style says nothing about the rest of it. Dark only on a
- * screen: paper is white. */
+/* All rules are restricted to class `fbd`, so that the style does not affect the page around it. Dark only on
+ * a screen: paper is white. */
 const char svg_style[] =
     ".fbd text{font-family:Arial,Helvetica,'Liberation Sans','Nimbus "
     "Sans',sans-serif;font-size:3.4px;fill:#111}\n"

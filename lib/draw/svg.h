@@ -13,19 +13,19 @@ struct box {
     struct vec low, high;
 };
 
-/* The box that holds nothing; grown by box_take. */
+/* The empty box; extended by box_take. */
 extern const struct box box_nothing;
 
 void box_take(struct box *box, struct vec point);
 void box_join(struct box *box, const struct box *other);
 
-/* `string` with the markup characters & < > " escaped; control characters are left out, which XML forbids. */
+/* Append `string` with the characters & < > " escaped and control characters, which XML forbids, removed. */
 void svg_escape(struct text *text, const char *string);
 
 /* "x,y" */
 void svg_point(struct text *text, struct vec point);
 
-/* <line class="..." .../>; the class is our own text. */
+/* <line class="..." .../>; the class is not escaped. */
 void svg_line(struct text *text, const char *css, struct vec from, struct vec to);
 
 void svg_circle(struct text *text, const char *css, struct vec center, double radius);
@@ -39,14 +39,14 @@ void svg_text(struct text *text, const char *css, struct vec center, double size
 /* The same, starting at `start` on the base line. */
 void svg_text_at(struct text *text, const char *css, struct vec start, const char *string);
 
-/* The width of a line of text of this font size in Helvetica or one of its kin, with something to spare for a
- * wider substitute. */
+/* The width of a line of text of this font size in Helvetica or a similar font, with a margin for a wider
+ * substitute. */
 double svg_text_width(const char *string, double size);
 
-/* The style sheet of the classes, for elements within another document: below an element of class `fbd`. */
+/* The style sheet of the classes, for elements inside another document: below an element of class `fbd`. */
 extern const char svg_style[];
 
-/* Open the document: its size in millimetres, which are printed `scale` times as large; style sheet, background,
+/* Open the document: its size in millimetres, printed `scale` times as large; style sheet, background,
  * <title>. Close with "</svg>\n". */
 void svg_begin(struct text *text, struct vec size, double scale, const char *title, const char *description);
 

@@ -30,7 +30,8 @@ static void pin_along(const struct view *view, const struct coupling *coupling, 
     }
 }
 
-/* A point where it is and how it moves, with its arm: the numbers of point_of without their variations. */
+/* Position, velocity and acceleration of a point, with its arm: the numbers of point_of without their
+ * variations. */
 struct place {
     struct vec p, v, a, arm;
 };
@@ -114,7 +115,7 @@ static void rack(const struct view *view, const struct coupling *coupling, const
     row_line(view, coupling, &at, state->zero, NULL, row);
 }
 
-/* On which side of its line the circle is. */
+/* Set the side of its line on which the circle is. */
 static void side_start(const struct view *view, const struct coupling *coupling, struct coupling_state *state,
                        struct row *rows)
 {
@@ -124,7 +125,7 @@ static void side_start(const struct view *view, const struct coupling *coupling,
     zero_start(view, coupling, state, rows);
 }
 
-/* ---- all of them */
+/* ---- all kinds */
 
 const struct constraint_form constraint_forms[constraint_kinds] = {
     [constraint_pin] = {.rows = pin},
@@ -174,7 +175,7 @@ struct room coupling_room(const struct fbd_model *model, const struct tree_work 
     const struct constraint_form *form = &constraint_forms[coupling->kind];
     struct view view = view_of(model, work);
     if (!form->left) return (struct room){HUGE_VAL, 0, HUGE_VAL};
-    /* By value: nothing of it points here. */
+    /* By value, without pointers to this frame. */
     /* cppcheck-suppress returnDanglingLifetime */
     return form->left(&view, coupling, &work->couplings[index], end);
 }
@@ -220,7 +221,7 @@ bool couplings_go_on(const struct tree *tree)
     return true;
 }
 
-/* ---- bodies that roll or rub */
+/* ---- rolling and sliding bodies */
 
 void coupling_set_feature(const struct fbd_model *model, struct tree_work *work, int index, int feature)
 {
@@ -244,9 +245,9 @@ static double shortest_strand(const struct fbd_model *model, const struct instan
     return shortest;
 }
 
-/* What is as large as speeds of `size` where their roundings count, because of those of places. A rope goes along its
- * strands as these point, and that is as well known as where their ends are, over their length. The place in a slot is a
- * difference of places, which turns with the slot, and tells the direction of a curve. */
+/* A speed whose rounding is that of positions. The velocity along a rope is in the direction of its strands,
+ * with the relative accuracy of their ends' positions over their length. The position in a slot is a
+ * difference of positions, which turns with the slot, and determines the direction of a curve. */
 static double remoteness(const struct fbd_model *model, const struct instant *at, int index, double size)
 {
     const struct coupling *coupling = &model->tree->couplings[index];
@@ -264,8 +265,7 @@ static double remoteness(const struct fbd_model *model, const struct instant *at
     return place * (turns + fabs(bend) * size);
 }
 
-/* The largest speed of a link, and of what turns with one at the distance `arm`; found once for each
- * evaluation. */
+/* The largest speed of a link, or of rotation at the distance `arm`; computed once for each evaluation. */
 static double fastest(const struct tree *tree, struct tree_work *work, double arm)
 {
     if (work->fastest < 0) {
@@ -288,10 +288,10 @@ double coupling_slip_rounding(const struct fbd_model *model, const struct instan
         double arm = vec_norm(row->ports[k].arm);
         reach = fmax(reach, arm);
         size = fmax(size, vec_norm(s->v) + fabs(s->omega) * arm);
-        /* What has come down and rests has no speed to measure rounding against but that of falling over. */
+        /* For a body at rest the only scale of speed is that of falling over. */
         if (touches) size = fmax(size, sqrt(vec_norm(model->scene->gravity) * arm));
     }
-    /* What rests was brought to rest by a projection, with what moves; a contact by its impulses. */
+    /* A body was brought to rest by a projection, with all moving ones; a contact by its impulses. */
     double moves = touches ? 0 : fastest(model->tree, at->tree, reach);
     return 64 * DBL_EPSILON * (size + remoteness(model, at, coupling, size)) + 4 * DBL_EPSILON * moves;
 }
@@ -324,7 +324,7 @@ void coupling_rezero(const struct fbd_model *model, struct tree_work *work, int 
     work->couplings[coupling].zero += row_along(model, work, coupling)->g.x;
 }
 
-/* ---- what is one-sided */
+/* ---- one-sided constraints */
 
 bool slot_is_open(const struct coupling *coupling, const int *slip)
 {
@@ -332,8 +332,9 @@ bool slot_is_open(const struct coupling *coupling, const int *slip)
     return slot && coupling->surface >= 0 && slip[coupling->surface] != stick;
 }
 
-/* Beyond an end of its slot what flies meets nothing but that end, a point D away, with D^2 = left^2 + h^2: the curve goes
- * on straight there, and the point is h beside it. On its side D = h where the slot ends, and grows by nothing there. */
+/* Beyond an end of its slot a free point can meet that end only, at the distance D with D^2 = left^2 + h^2:
+ * the curve continues straight there, at the distance h from the point. On its side D = h at the end of the
+ * slot, with the same rate. */
 static void look_past_end(const struct fbd_model *model, const struct instant *at, const struct mode *hold,
                           struct one_sided *state)
 {
@@ -369,7 +370,7 @@ struct one_sided one_sided_at(const struct fbd_model *model, const struct instan
         reach = fmax(reach, vec_norm(s->p) + coupling->end[k].radius);
         size = fmax(size, vec_norm(model->tree->links[coupling->end[k].link].force));
         state.turning = fmax(state.turning, fabs(s->omega));
-        /* What stands still as one joint takes back what another does has the rounding of both. */
+        /* A point at rest by opposite motions of two joints has the rounding of both. */
         for (int l = coupling->end[k].link; l > 0; l = model->tree->links[l].parent) {
             const struct tree_state *below = &at->tree->links[l];
             state.speed = fmax(state.speed, vec_norm(below->v) + fabs(below->omega) * arm);
@@ -377,12 +378,12 @@ struct one_sided one_sided_at(const struct fbd_model *model, const struct instan
     }
     length += reach;
     state.slack = 1e-12 * size;
-    /* What hangs or stands still has the rates of what swings or falls over that far, in its rounding. */
+    /* For a body at rest: the angular velocity of a pendulum of that length. */
     if (length > 0) state.turning = fmax(state.turning, sqrt(vec_norm(model->scene->gravity) / length));
     state.rounding = 16 * DBL_EPSILON * length;
     state.near = 1e-9 * length;
-    /* Where all of it stands still there is the rounding of what it is joined to, by whatever way, and the
-     * speed of what has fallen as far as it reaches. */
+    /* If all these links are at rest: the rounding of the fastest link of the scene, to which they may be
+     * coupled, and the speed of a fall from that height. */
     double fast =
         fmax(sqrt(vec_norm(model->scene->gravity) * length), fastest(model->tree, at->tree, length));
     double slow = 64 * DBL_EPSILON * fast;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Rows of what touches: a circle or a point at a line, two circles, a joint at its stop.
+ * Rows of contacts: a circle or a point at a line, two circles, a joint at its stop.
  */
 #include "dynamics/constraint_view.h"
 
@@ -71,7 +71,7 @@ static void add_couple(const struct view *view, struct row *row, const struct co
     }
 }
 
-/* A stop of a joint: s (q - limit), and nothing along it. */
+/* A stop of a joint: s (q - limit), and a zero row along it. */
 static void stop(const struct view *view, const struct coupling *coupling, const struct meeting *meeting,
                  struct row *rows)
 {
@@ -100,7 +100,7 @@ void contact_rows(const struct view *view, const struct coupling *coupling,
 {
     bool are_circles;
     if (state->feature == no_feature) {
-        if (rows[0].port_count == 0) return; /* they are nothing already */
+        if (rows[0].port_count == 0) return; /* they are zero already */
         start_row(&rows[0], jet_constant(0));
         start_row(&rows[1], jet_constant(0));
         return;

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * What couplings keep of their start, taken over by a motion that goes on: lengths that the file does not give, how
- * far ropes have wound, on which side of its line a body is. None of it can be seen from where the bodies are.
+ * The references of couplings from their start, copied to a continued motion: lengths that the file does not
+ * give, winding of ropes, the side of its line on which a body is. They do not follow from the positions of
+ * the bodies.
  */
 #include "dynamics/constraint.h"
 #include "dynamics/state.h"
@@ -17,8 +18,8 @@ static bool is_of(const struct fbd_model *model, int coupling, struct pos at)
     return place.line == at.line && place.column == at.column;
 }
 
-/* A group of bodies has the couplings of the whole that are its own, in their order; each stands at one place of the
- * file. */
+/* An island has a subset of the couplings of the whole, in the same order, identified by their position in
+ * the file. */
 void couplings_keep(struct fbd_state *state, const struct fbd_state *from)
 {
     const struct tree *tree = state->model->tree, *whole = from->model->tree;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Ropes: their way over points and round discs, how it is wound on them, and how its length varies.
+ * Ropes: their path over points and round discs, their winding, and their variable length.
  */
 #include "dynamics/constraint_view.h"
 #include "dynamics/friction.h"
@@ -8,19 +8,19 @@
 
 /* ---- ropes: a straight piece from a circle (or point) to the next, see the derivation
  *
- * Leaving a circle of radius R round which it runs with side s, a piece of direction u starts at C - s R k x
- * u. With d = C_2 - C_1 and rho = s_2 R_2 - s_1 R_1 this gives d = t u + rho k x u, so that its length is t =
- * sqrt(d^2 - rho^2), and u is d turned by -atan(rho / t). */
+ * A piece of direction u that leaves a circle of radius R, round which it runs with side s, starts at C - s R
+ * k x u. With d = C_2 - C_1 and rho = s_2 R_2 - s_1 R_1 this gives d = t u + rho k x u, so that its length is
+ * t = sqrt(d^2 - rho^2), and u is d turned by -atan(rho / t). */
 
 struct piece {
     struct jet t;
     struct jet_vec u, Q1, Q2;
-    bool shrunk; /* to a point */
+    bool shrunk; /* of zero length */
 };
 
-/* Both ends of a piece are at one point. |d| has a kink there, and what follows is on the side to which they
- * part: with d = v s + a s^2 / 2 it is |v| s + (v . a) s^2 / 2 |v|, along u = v / |v|; without v along a.
- * Ends that stay together have no direction. */
+/* Both ends of a piece are at one point. |d| has a kink there; the derivatives are those after the instant:
+ * with d = v s + a s^2 / 2 it is |v| s + (v . a) s^2 / 2 |v|, along u = v / |v|; for v = 0 along a. Ends that
+ * stay together have no direction. */
 static struct piece piece_at_a_point(struct jet_vec C1, struct jet_vec d)
 {
     struct vec v = {d.x.x1, d.y.x1}, a = {d.x.x2, d.y.x2}, along = vec_norm(v) > 0 ? v : a;
@@ -46,7 +46,7 @@ static struct piece piece_between(struct jet_vec C1, double sR1, struct jet_vec 
     return piece;
 }
 
-/* How far u has turned at that end since the start, whole turns with it. */
+/* The rotation of u at that end since the start, including whole turns. */
 static struct jet turned_at(const struct coupling_state *state, int end, struct jet_vec u)
 {
     const double turn = 6.283185307179586;
@@ -59,7 +59,7 @@ static struct jet turned_at(const struct coupling_state *state, int end, struct 
     return angle;
 }
 
-/* The angle from the disc at that end to where the rope leaves or reaches it. */
+/* The angle of the point of tangency on the disc at that end, relative to the disc. */
 static struct jet laid(const struct view *view, const struct coupling *coupling,
                        const struct coupling_state *state, int end, struct jet_vec u)
 {
@@ -67,7 +67,7 @@ static struct jet laid(const struct view *view, const struct coupling *coupling,
     return jet_sub(turned_at(state, end, u), angle_of(view, disc->link));
 }
 
-/* Side times radius of what piece k of a rope leaves (end 0) or reaches (1): 0 where that is a point. */
+/* Side times radius of the disc at the start (end 0) or end (1) of piece k of a rope; 0 for a point. */
 static double rim(const struct coupling *coupling, const struct coupling_state *state, int k, int end)
 {
     bool outer = end == 0 ? k == 0 : k + 2 == coupling->end_count;
@@ -81,14 +81,14 @@ static struct piece piece_of(const struct view *view, const struct coupling *cou
                          point_of(view, &coupling->end[k + 1]), rim(coupling, state, k, 1));
 }
 
-/* The first or the last. */
+/* The first or the last piece. */
 static struct piece piece_at(const struct view *view, const struct coupling *coupling,
                              const struct coupling_state *state, int end)
 {
     return piece_of(view, coupling, state, end == 0 ? 0 : coupling->end_count - 2);
 }
 
-/* By how much a rope is longer than at t = 0. */
+/* The change of the length of a rope since t = 0. */
 static struct jet reeled(const struct view *view, const struct coupling *coupling)
 {
     const struct instant *at = view->at;
@@ -107,7 +107,7 @@ static bool is_loose(double over, const struct coupling_state *state)
     return over < -taut * state->zero;
 }
 
-/* A taut rope pulls along its pieces: where one of them is a point that has no direction, and no force. */
+/* A taut rope with a piece of zero length without direction has no definite force. */
 static void refuse_direction(struct row *row)
 {
     for (int i = 0; i < row->port_count; i++) row->ports[i].force = (struct vec){NAN, NAN};
@@ -215,7 +215,7 @@ void way_follow(const struct view *view, const struct coupling *coupling, struct
 
 /* ---- belts
  *
- * Strand 0 leaves disc 0 on its right, round which the belt runs counter-clockwise, and strand 1 comes back. */
+ * Strand 0 leaves disc 0 on its right, round which the belt runs counter-clockwise; strand 1 returns. */
 
 static struct piece strand_of(const struct view *view, const struct coupling *coupling, int strand)
 {
@@ -225,7 +225,7 @@ static struct piece strand_of(const struct view *view, const struct coupling *co
                          sR[to]);
 }
 
-/* How much belt there is in a strand, counted from where the discs take it along. */
+/* The length of belt in a strand, relative to the discs' surfaces. */
 static struct jet strand_way(const struct view *view, const struct coupling *coupling,
                              const struct coupling_state *state, int strand, const struct piece *piece)
 {
@@ -280,7 +280,7 @@ void belt_tensions(const struct fbd_model *model, const struct tree_work *work, 
     tension[1] = both + rows[0].lambda / 2;
 }
 
-/* ---- ropes that rub on the drum that they go round */
+/* ---- capstans: ropes with friction on a drum */
 
 static int side_at(const struct view *view, const struct coupling *coupling, int k);
 
@@ -357,7 +357,7 @@ void capstan_tensions(const struct fbd_model *model, const struct tree_work *wor
     tension[1] = (rows[0].lambda + rows[1].lambda) / 2;
 }
 
-/* ---- what is wound on a disc */
+/* ---- length wound on a disc */
 
 struct room rope_room(const struct view *view, const struct coupling *coupling,
                       const struct coupling_state *state, int end)
@@ -391,8 +391,8 @@ double rope_reel_rate(const struct fbd_state *state, int index)
 
 /* ---- the start */
 
-/* Of the two ways round a disc the one that leaves it farther to the side that the file says; 0 where both leave it
- * there. */
+/* Of the two senses round a disc the one whose point of tangency is farther to the given side; 0 if both are
+ * the same. */
 static int side_of_wound(const struct view *view, const struct coupling *coupling, int end)
 {
     const double little = 1e-9;
@@ -407,12 +407,12 @@ static int side_of_wound(const struct view *view, const struct coupling *couplin
         along[i] = (upright ? at.y - c.y : at.x - c.x) * (low ? -1 : 1);
     }
     if (!(fabs(along[0] - along[1]) > little * R)) return 0;
-    /* Seen from the disc; a rope that ends there comes the other way. */
+    /* As seen from the disc; a rope that ends there has the opposite sense. */
     int side = along[0] > along[1] ? 1 : -1;
     return end == 0 ? side : -side;
 }
 
-/* Which way a rope runs round the pulley at place k of its way: as it turns there. */
+/* The sense of a rope round the pulley at place k of its path: that of its change of direction. */
 static int side_at(const struct view *view, const struct coupling *coupling, int k)
 {
     struct vec place[3];
@@ -444,8 +444,8 @@ void rope_start(const struct view *view, const struct coupling *coupling, struct
     zero_start(view, coupling, state, row);
 }
 
-/* At the start a rope goes round its pulley by three quarters of a turn at most, and may be off it by less
- * than the fourth: the directions before and behind are told apart by so much. */
+/* At the start a rope is wrapped round its pulley by three quarters of a turn at most, and may be off it by
+ * less than a quarter: this range determines the angle between the directions before and behind. */
 void rope_start_wrap(const struct tree *tree, struct tree_work *work, int index)
 {
     const double turn = 6.283185307179586;

@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * The rows of a slot. With u the point P in the frame of the slot, its foot r(s) is where e(s) . (u - r(s)) = 0, and
- * the distance h = n(s) . (u - r(s)) to the left of the curve has the gradient n there:
+ * The rows of a slot. With u the point P in the frame of the slot, its foot r(s) satisfies e(s) . (u - r(s))
+ * = 0, and the distance h = n(s) . (u - r(s)) to the left of the curve has the gradient n there:
  *
  *     g = sigma h - R,   sigma = +1 or -1 on its side, R the radius of a roller
  *
- * As jets s follows from Newton's method: with s exact, f = e . (u - r) and f_s = -(1 - kappa h), each step
- * s - f / f_s with f_s held gains one order in the rates or in the variation, and three are all that a jet has. A
+ * As a jet s follows from Newton's method: with s exact, f = e . (u - r) and f_s = -(1 - kappa h), each step
+ * s - f / f_s with fixed f_s gains one order in the rates or in the variation, and a jet has three. A
  * straight slot is the curve r = (s, 0).
  */
 #include <float.h>
@@ -14,7 +14,7 @@
 #include "dynamics/constraint_view.h"
 #include "expr/curve.h"
 
-/* A place on the curve, with what its jets need. */
+/* A point of the curve, with the derivatives for its jets. */
 struct foot {
     struct curve_place at;
     double bend2; /* kappa'' */
@@ -46,9 +46,9 @@ static struct jet_vec tangent_along(const struct foot *foot, struct jet s)
     return (struct jet_vec){jet_apply(s, e.x, f1.x, f2.x, f3.x), jet_apply(s, e.y, f1.y, f2.y, f3.y)};
 }
 
-/* ---- where the foot is */
+/* ---- the foot */
 
-/* From a guess; false where it does not get there. */
+/* Newton's method from a guess; false without convergence. */
 static bool foot_near(const struct coupling *coupling, struct vec u, double *s)
 {
     enum { most_steps = 40 };
@@ -59,7 +59,7 @@ static bool foot_near(const struct coupling *coupling, struct vec u, double *s)
         double slope = 1 - foot.at.bend * vec_dot(vec_perp(foot.at.e), d);
         if (!(slope > 0.05)) return false;
         double step = vec_dot(foot.at.e, d) / slope;
-        /* At rounding the steps do not get smaller any more. */
+        /* At rounding the steps no longer decrease. */
         if (fabs(step) >= last && last <= 1e-12 * (fabs(*s) + vec_norm(u))) return true;
         *s += step;
         last = fabs(step);
@@ -68,8 +68,9 @@ static bool foot_near(const struct coupling *coupling, struct vec u, double *s)
     return false;
 }
 
-/* A place at a distance from u may go on to be the nearest one near by where another part of the curve has come nearer,
- * onto which what flies would fall unseen. On a curve that does not close, the ends are for others to watch. */
+/* For a free point a local minimum of the distance may no longer be the global one, and the point could cross
+ * the nearer part of the curve undetected: find the nearest one on a closed curve. On open curves the ends
+ * are watched elsewhere. */
 static double nearest_of_all(const struct coupling *coupling, struct vec u, double s)
 {
     const struct curve *curve = coupling->source->curve;
@@ -118,13 +119,13 @@ static struct jet length_of(const struct coupling *coupling, const struct slot_v
         struct jet_vec off = jet_vec_sub(slot->u, place_along(foot, s));
         struct jet f = jet_dot(tangent_along(foot, s), off);
         s = jet_add(s, jet_scale(1 / slope, f));
-        s.x = at; /* known to rounding */
+        s.x = at; /* exact up to rounding */
     }
     return s;
 }
 
-/* Of one that rubs: g = s - s_0, which keeps it where it sticks. On the curve (h = 0) its rate is the velocity of the
- * point along it. */
+/* The friction row: g = s - s_0, constant while it sticks. On the curve (h = 0) its rate is the velocity of
+ * the point along it. */
 static void row_along(const struct view *view, const struct coupling *coupling,
                       const struct coupling_state *state, const struct slot_view *slot,
                       const struct foot *foot, struct jet s, struct row *row)
@@ -158,7 +159,7 @@ void slot_row(const struct view *view, const struct coupling *coupling, const st
     if (coupling->row_count > 1) row_along(view, coupling, state, &slot, &foot, s, &row[1]);
 }
 
-/* ---- what it keeps */
+/* ---- references from the start */
 
 void slot_start(const struct view *view, const struct coupling *coupling, struct coupling_state *state,
                 struct row *row)
@@ -181,7 +182,7 @@ void slots_follow(const struct fbd_model *model, struct tree_work *work)
             slot_follow(&view, &model->tree->couplings[i], &work->couplings[i]);
 }
 
-/* A slot without a size of its own has one as far as it goes. */
+/* The size of a slot is the larger magnitude of its ends. */
 struct room slot_room(const struct view *view, const struct coupling *coupling,
                       const struct coupling_state *state, int end)
 {

@@ -2,34 +2,36 @@
  *
  * Multipliers: M a = tau + J^T lambda with J a = gamma.
  *
- * The accelerations a_0 without constraints leave g'' = g''_0 in each row; the multipliers make up for it,
- * S lambda = -g''_0 with S = J M^-1 J^T. A column of S is the answer of the trees that a row joins to its
- * unit force, by the recursion; rows that join no common tree do not meet, and S is kept in its envelope: a
- * chain of loops whose rows are numbered along it costs time in proportion to its length.
+ * The accelerations a_0 without constraints leave g'' = g''_0 in each row; the multipliers compensate it, S
+ * lambda = -g''_0 with S = J M^-1 J^T. A column of S is the response of the trees that a row joins to its
+ * unit force, by the recursion; rows without a common tree have a zero entry, and S is kept in its envelope:
+ * a chain of loops whose rows are numbered along it takes time proportional to its length.
  *
- * Dry friction of slides that slip is in the same system: tau_k + c_k N_k = 0, with N_k the normal force, on
- * which all multipliers and all other frictions bear. So it is not symmetric, and is factored as L D U in its
- * envelope (Duff, Erisman and Reid, Direct Methods for Sparse Matrices, chapter 8), without pivoting: S is
- * positive definite, and the corrections below make up for what a small pivot of friction rounds.
+ * Dry friction of slipping slides is in the same system: tau_k + c_k N_k = 0, with N_k the normal force,
+ * which depends on all multipliers and all other frictions. So the matrix is not symmetric, and is factored
+ * as L D U in its envelope (Duff, Erisman and Reid, Direct Methods for Sparse Matrices, chapter 8), without
+ * pivoting: S is positive definite, and the corrections below compensate the rounding by small pivots of
+ * friction.
  *
- * Where a row says nothing that others do not say, always or in passing (all bars of a parallelogram in one
- * line), S is singular. So what is factored is S + epsilon D, and corrections by what is left over of the
- * true system make up for it: after n of them a direction of S with the relative size s comes out right to
- * (epsilon / (epsilon + s))^(n + 1), which is rounding after two for s > 1e-3, and after eight for s > 1e-6,
- * as a light coupler between heavy bodies has it; multipliers of a redundant row are those of the least norm;
- * and near a singular position everything stays smooth, so that motion passes it. (The augmented Lagrangian
- * method of Bayo and Ledesma, Nonlinear Dynamics 9, 1996, does the same.)
+ * Where rows are linearly dependent, always or at some positions (all bars of a parallelogram in one line), S
+ * is singular. So S + epsilon D is factored, and the solution is corrected by the residual of the true
+ * system: after n corrections a direction of S with the relative size s has the relative error (epsilon /
+ * (epsilon + s))^(n + 1), which is rounding after two for s > 1e-3, and after eight for s > 1e-6, as for a
+ * light coupler between heavy bodies; multipliers of a redundant row are those of the least norm; and near a
+ * singular position the solution stays smooth, so that the motion passes it. (The augmented Lagrangian method
+ * of Bayo and Ledesma, Nonlinear Dynamics 9, 1996, does the same.)
  *
- * Signs: a unit multiplier means the forces grad g on the links, so that lambda > 0 drives g up; what is one-sided has
- * lambda > 0 while a surface pushes (g the gap) and lambda < 0 while a rope pulls (g the length over its own). The unknown
- * of a slide that slips is the force f along +q, with f + slip mu_k pull N = 0. Points, arms and forces of the ports are in
- * the world, arms from the O of their link.
+ * Signs: a unit multiplier is the forces grad g on the links, so that lambda > 0 increases g; a surface has
+ * lambda > 0 (g the gap) and a rope lambda < 0 (g the excess of its path over its length). The unknown of a
+ * slipping slide is the force f along +q, with f + slip mu_k pull N = 0. Points, arms and forces of the ports
+ * are in the world, arms from the O of their link.
  *
- * Checked by Newton's and Euler's equations of each body with the forces so found, and by differences of the rates, in
- * random trees with loops (tests/unit/test_tree.c), and of rows that say nothing new (test_couplings.c).
+ * Checked by Newton's and Euler's equations of each body with the computed forces, and by differences of the
+ * rates, in random trees with loops (tests/unit/test_tree.c), and with dependent rows (test_couplings.c).
  *
- * D is not the diagonal of S, which vanishes with the slope of a row: then nothing would be damped just where
- * it has to be. It is what the rows of a coupling could have there in other positions (tree_scales.c).
+ * D is not the diagonal of S, which vanishes with the slope of a row: then the damping would vanish exactly
+ * where it is needed. It is the diagonal that the rows of a coupling could have at other positions
+ * (tree_scales.c).
  */
 #include <float.h>
 #include <string.h>
@@ -50,7 +52,7 @@ static bool is_row(const struct tree *tree, int k)
     return k < tree->row_count;
 }
 
-/* A surface takes part while it is closed, and what is along it while it sticks. */
+/* The row normal to a surface is active while it is closed, the row along it while it sticks. */
 static bool contact_takes_part(const struct coupling *coupling, const struct instant *at, int k)
 {
     if (at->slip[coupling->surface] != stick) return false;
@@ -58,7 +60,7 @@ static bool contact_takes_part(const struct coupling *coupling, const struct ins
            (coupling->pair >= 0 && at->slip[coupling->pair] == stick && !at->tree->settling_down);
 }
 
-/* Does unknown k take part in the present modes? */
+/* Is unknown k active in the present modes? */
 bool tree_takes_part(const struct tree *tree, const struct instant *at, int k)
 {
     if (!is_row(tree, k)) {
@@ -70,8 +72,8 @@ bool tree_takes_part(const struct tree *tree, const struct instant *at, int k)
     bool has_mode =
         coupling->kind == constraint_rope || (coupling->pair >= 0 && k == coupling->first_row + 1);
     int surface = coupling->surface >= 0 ? at->slip[coupling->surface] : stick;
-    bool open =
-        surface != stick && (surface != loose || k == coupling->first_row); /* what only rolls, rolls on */
+    bool open = surface != stick &&
+                (surface != loose || k == coupling->first_row); /* rolling without friction continues */
     return !open && (!has_mode || at->slip[coupling->pair] == stick);
 }
 
@@ -112,16 +114,15 @@ static double row_answer(const struct tree_work *work, const struct tree *tree, 
     return sum;
 }
 
-/* Does it slip on its surface, and rub? */
+/* Does it slip on its surface with friction? */
 static bool is_rubbing(const struct coupling *coupling, const struct instant *at)
 {
     return coupling->law->surface && coupling->pair >= 0 && slip_side(at->slip[coupling->pair]) != 0 &&
            (coupling->surface < 0 || at->slip[coupling->surface] == stick);
 }
 
-/* The friction of a body that slips on a surface, per normal force: -slip mu_k along its line; 0 when it does
- * not.
- */
+/* The friction of a body that slips on a surface, per normal force: -slip mu_k along its line; 0 if it does
+ * not slip. */
 double tree_rubbing_share(const struct fbd_model *model, const struct instant *at, int k)
 {
     const struct coupling *coupling = &model->tree->couplings[model->tree->coupling_of_row[k]];
@@ -131,7 +132,7 @@ double tree_rubbing_share(const struct fbd_model *model, const struct instant *a
            friction_coefficient(model, coupling->pair, mu, at, NULL, NULL);
 }
 
-/* Is it a row by itself? What rubs has its friction in other rows. */
+/* Returns whether the unknown is one row only; with slip the friction acts along another. */
 static bool apply_unknown(const struct fbd_model *model, const struct instant *at, int k, double size)
 {
     const struct tree *tree = model->tree;
@@ -163,7 +164,7 @@ static void clear_range(struct tree_rhs *x, int from, int to)
     memset(&x[from], 0, (size_t)(to - from) * sizeof *x);
 }
 
-/* The answer of its trees to unknown k alone. */
+/* The response of the trees to unknown k. */
 static void answer_unit(const struct fbd_model *model, const struct instant *at, int k)
 {
     const struct tree *tree = model->tree;
@@ -181,7 +182,7 @@ static void answer_unit(const struct fbd_model *model, const struct instant *at,
     }
 }
 
-/* Row j of the system for the answer to unknown k. */
+/* Row j of the system for the response to unknown k. */
 static double entry(const struct fbd_model *model, const struct instant *at, int j, int k)
 {
     const struct tree *tree = model->tree;
@@ -192,9 +193,9 @@ static double entry(const struct fbd_model *model, const struct instant *at, int
 }
 
 /* ---- L D U in the envelope: row i from column first[i], column i from row first[i]; rows and columns are
- * places in the order of elimination (model/coupling_order.c), of those unknowns that take part */
+ * places in the order of elimination (model/coupling_order.c), of the active unknowns */
 
-/* Number those that take part. What touches nothing and what slips costs nothing from here on. */
+/* Number the active unknowns. Open contacts and slipping friction have no cost in the following. */
 static void set_places(const struct fbd_model *model, const struct instant *at)
 {
     const struct tree *tree = model->tree;
@@ -224,7 +225,7 @@ static void set_places(const struct fbd_model *model, const struct instant *at)
     work->placed = model->plan.mode_count == 0;
 }
 
-/* Entry k of the row or column j, which is kept from `from` on. */
+/* Entry k of the row or column j, stored from column or row first[j]. */
 static double *entry_of(const struct tree_work *work, double *kept, int j, int k)
 {
     return &kept[work->envelope[j] + (size_t)(k - work->first[j])];
@@ -235,15 +236,15 @@ static double entry_in(const struct tree_work *work, const double *kept, int j, 
     return kept[work->envelope[j] + (size_t)(k - work->first[j])];
 }
 
-/* A row that nothing can move, as a rod on the axis of a pivot, has no multiplier: it would be one of
- * rounding. */
+/* A row with a smaller relative diagonal, as of a rod on the axis of a pivot, is immovable and has no
+ * multiplier, which would be rounding. */
 static const double nothing = 1e-15;
 
-/* Epsilon of the header, and the share of its scale below which a pivot is that of a weak row: the shifts of rows before
- * add to it. */
+/* Epsilon of the header, and the relative pivot below which a row is weak: the shifts of earlier rows add to
+ * it. */
 static const double shift_of_rows = 1e-8, weak_share = 1e-4;
 
-/* Row and column j up to the diagonal, given those before. */
+/* Factor row and column j up to the diagonal, given those before. */
 static void factor_row(const struct tree *tree, struct tree_work *work, int j, double epsilon)
 {
     const int *first = work->first, unknown = work->unknown_at[j];
@@ -257,8 +258,8 @@ static void factor_row(const struct tree *tree, struct tree_work *work, int j, d
         *lower *= work->inverse[i];
         pivot -= *lower * *upper;
     }
-    /* Of friction the diagonal is 1 and what a normal force answers to it, which may well be less than -1; of a surface
-     * that is rubbed on, what its own friction makes of it, which may be below zero (Painleve). */
+    /* The diagonal of a friction is 1 plus the response of its normal force, which may be less than -1; that
+     * of a surface with friction includes the response to that friction, and may be negative (Painleve). */
     bool movable = !is_row(tree, unknown) || fabs(work->diagonal[unknown]) > nothing * work->most;
     work->inverse[j] = movable && pivot != 0 ? 1 / pivot : 0;
     if (!is_row(tree, unknown)) return;
@@ -325,7 +326,7 @@ static void assemble(const struct fbd_model *model, const struct instant *at)
     for (int p = 0; p < work->count; p++) {
         int k = work->unknown_at[p];
         answer_unit(model, at, k);
-        /* Column p meets rows q whose envelope reaches it, and those in its own. */
+        /* Column p has entries in rows q whose envelope contains it, and in its own envelope. */
         for (int q = work->first[p]; q < work->reach[p]; q++) {
             double value = entry(model, at, work->unknown_at[q], k);
             if (q < p) *entry_of(work, upper, p, q) = value;
@@ -344,9 +345,9 @@ static void factor_shifted(const struct tree *tree, struct tree_work *work, doub
     for (int j = 0; j < work->count; j++) factor_row(tree, work, j, epsilon);
 }
 
-/* A few rows of which none is weak: S is positive definite as it stands, and elimination without pivoting is stable for
- * it (N. J. Higham, Accuracy and Stability of Numerical Algorithms, SIAM 2002, 10.1), so that there is nothing to be
- * corrected. False where that is not so. */
+/* If no row is weak S is positive definite without a shift, and elimination without pivoting is stable for it
+ * (N. J. Higham, Accuracy and Stability of Numerical Algorithms, SIAM 2002, 10.1), so that no corrections are
+ * needed. Tried for few rows; false if some row is weak. */
 static bool factor_as_it_stands(const struct tree *tree, struct tree_work *work)
 {
     enum { few = 8 };
@@ -361,7 +362,7 @@ static bool factor_as_it_stands(const struct tree *tree, struct tree_work *work)
 void tree_system_refactor(const struct tree *tree, struct tree_work *work)
 {
     work->direct = !work->projecting && factor_as_it_stands(tree, work);
-    /* A projection must not throw the state about for what a row with no slope has left. */
+    /* A projection must not change the state by much to satisfy a row without slope. */
     if (!work->direct) factor_shifted(tree, work, work->projecting ? work->damping : shift_of_rows);
 }
 
@@ -384,7 +385,7 @@ double tree_row_answer(const struct tree_work *work, int j)
     return sum;
 }
 
-/* The answer of the trees to all unknowns. */
+/* The response of the trees to all unknowns. */
 static void answer_all(const struct fbd_model *model, const struct instant *at, const double *z)
 {
     const struct tree *tree = model->tree;
@@ -396,8 +397,9 @@ static void answer_all(const struct fbd_model *model, const struct instant *at, 
     tree_outward(tree, work, 1, tree->count, work->unit);
 }
 
-/* One rounding of a force is an acceleration of a light body that its rows do not allow. What the accelerations miss is
- * solved for again, and its answer added to them, as a sum of forces would round once more. */
+/* For a light body the rounding of a force is an acceleration that violates its rows. Solve for the residual
+ * of the accelerations, and add the resulting accelerations rather than the forces, whose sum would be
+ * rounded again. */
 static void refine(const struct fbd_model *model, const struct instant *at, double *z)
 {
     enum { passes = 2 };

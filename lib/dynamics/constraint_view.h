@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * What the files of the constraints share: links as jets, and how rows get their ports.
+ * Common to the files of the constraints: links as jets, and the ports of rows.
  */
 #ifndef FBD_DYNAMICS_CONSTRAINT_VIEW_H
 #define FBD_DYNAMICS_CONSTRAINT_VIEW_H
@@ -14,11 +14,11 @@ struct view {
     const struct tree *tree;
     const struct tree_work *work;
     bool varied;
-    const struct instant *at;      /* of what goes with the time, */
-    const struct direction *along; /* and its variation, or NULL */
+    const struct instant *at;      /* for functions of time, */
+    const struct direction *along; /* and their variation, or NULL */
 };
 
-/* Links where they are, alone. */
+/* The links at their positions, without variations or time. */
 static inline struct view view_of(const struct fbd_model *model, const struct tree_work *work)
 {
     return (struct view){model, model->tree, work, false, NULL, NULL};
@@ -74,7 +74,7 @@ static inline struct jet angle_of(const struct view *view, int link)
 
 /* ---- ports */
 
-/* A unit multiplier means the force f at Q on the link of end k of the coupling. */
+/* Add the force f at Q on the link of end k, for a unit multiplier. */
 static inline void add_port(const struct view *view, struct row *row, const struct coupling *coupling, int k,
                             struct jet_vec Q, struct jet_vec f)
 {
@@ -95,7 +95,7 @@ static inline void start_row(struct row *row, struct jet g)
     row->port_count = 0;
 }
 
-/* The difference from the nearest multiple of `period`: the line of centres may have gone round. */
+/* Subtract the nearest multiple of `period`, as the line of centres may have turned round. */
 static inline struct jet nearest(struct jet g, double period)
 {
     if (period != 0) g.x -= period * round(g.x / period);
@@ -110,38 +110,38 @@ struct at_line {
     double side;  /* the normal is side k x e */
 };
 
-/* The row along the line, and with `normal` the row across it before that. */
+/* The row along the line, and with `normal` also the row normal to it. */
 void row_line(const struct view *view, const struct coupling *coupling, const struct at_line *at, double zero,
               struct row *normal, struct row *along);
 
 /* ---- kinds */
 
-/* What there is of a kind of constraint beside its law (scene/constraint.h); what is not there is NULL. */
+/* The functions of a kind of constraint beside its law (scene/constraint.h); NULL where it has none. */
 struct constraint_form {
-    /* Its rows where the links are, each with the ports of its multiplier. */
+    /* Its rows at the positions of the links, with the ports of their multipliers. */
     void (*rows)(const struct view *view, const struct coupling *coupling, const struct coupling_state *state,
                  struct row *rows);
 
-    /* What it keeps of the start; `rows` has room for its own. */
+    /* Set its references from the start; `rows` has room for its rows. */
     void (*start)(const struct view *view, const struct coupling *coupling, struct coupling_state *state,
                   struct row *rows);
 
-    /* And of the way since. */
+    /* Update the part that depends on the path since. */
     void (*follow)(const struct view *view, const struct coupling *coupling, struct coupling_state *state);
 
-    /* Has it ends to which it can come? */
+    /* The distance from its ends. */
     struct room (*left)(const struct view *view, const struct coupling *coupling,
                         const struct coupling_state *state, int end);
 
-    /* A way round discs: the direction of its first (end 0) and of its last piece. */
+    /* Of a path round discs: the direction of its first (end 0) or last piece. */
     struct jet_vec (*piece)(const struct view *view, const struct coupling *coupling,
                             const struct coupling_state *state, int end);
 
-    /* The angle on which it rubs: its coefficient of friction is tanh(mu angle / 2), see constraint.h. */
+    /* The wrap angle: the coefficient of friction is tanh(mu angle / 2), see constraint.h. */
     double (*wrap)(const struct fbd_model *model, const struct instant *at, int index, bool varied,
                    double *variation);
 
-    /* Of two strands: their tensions, and what the first row has of their forces. */
+    /* Of two strands: their tensions, and the factors of their forces in the first row. */
     void (*tensions)(const struct fbd_model *model, const struct tree_work *work, int index,
                      double tension[2]);
     double share[2];
@@ -149,7 +149,7 @@ struct constraint_form {
 
 extern const struct constraint_form constraint_forms[constraint_kinds];
 
-/* The zero of its last row is where that is at the start, or the length that is given. */
+/* Set the zero of its last row to the given length, or to its value at the start. */
 void zero_start(const struct view *view, const struct coupling *coupling, struct coupling_state *state,
                 struct row *rows);
 
@@ -158,7 +158,7 @@ void rope_row(const struct view *view, const struct coupling *coupling, const st
               struct row *row);
 void rope_start(const struct view *view, const struct coupling *coupling, struct coupling_state *state,
                 struct row *row);
-void rope_start_wrap(const struct tree *tree, struct tree_work *work, int index); /* when all have started */
+void rope_start_wrap(const struct tree *tree, struct tree_work *work, int index); /* after all have started */
 struct jet_vec rope_end_piece(const struct view *view, const struct coupling *coupling,
                               const struct coupling_state *state, int end);
 struct room rope_room(const struct view *view, const struct coupling *coupling,

@@ -6,7 +6,7 @@
 #include "dynamics/constraint.h"
 #include "dynamics/contact_thin.h"
 
-/* ---- places in the world */
+/* ---- points in the world */
 
 struct moving {
     struct vec p, v;
@@ -19,10 +19,10 @@ static struct moving point_in_world(const struct tree_work *work, int link, stru
     return (struct moving){vec_add(s->p, r), vec_add(s->v, vec_scale(s->omega, vec_perp(r)))};
 }
 
-/* A side in the world, and what moves over it. */
+/* A side in the world, and the point above it. */
 struct over {
     struct vec d, e, n; /* from the side's beginning to the point */
-    struct vec v;       /* of the point, seen from the link of the side */
+    struct vec v;       /* of the point, relative to the link of the side */
 };
 
 static struct over over_side(const struct tree_work *work, const struct meeting *meeting,
@@ -56,7 +56,7 @@ static struct gap gap_of(const struct tree_work *work, const struct meeting *mee
 
 /* ---- stops */
 
-/* How far a joint is from its stop: s (q - limit). */
+/* The distance of a joint from its stop: s (q - limit). */
 static struct gap stop_gap(const struct fbd_model *model, const struct tree_work *work,
                            const struct meeting *meeting)
 {
@@ -77,7 +77,7 @@ struct distance meeting_distance(const struct fbd_model *model, const struct tre
 {
     const struct meeting *meeting = &model->tree->meetings[index];
     const struct contact_shape *a = &meeting->shape[0], *b = &meeting->shape[1];
-    if (meeting->stop != 0) return (struct distance){-1, 0}; /* always near */
+    if (meeting->stop != 0) return (struct distance){-1, 0}; /* always close */
     struct moving A = point_in_world(work, a->link, a->center), B = point_in_world(work, b->link, b->center);
     struct vec d = vec_sub(A.p, B.p);
     double apart = b->kind == contact_line
@@ -106,7 +106,7 @@ struct place_on_side feature_foot(const struct fbd_model *model, const struct tr
     return (struct place_on_side){vec_dot(over.e, over.d), vec_dot(over.e, over.v), touch.length};
 }
 
-/* The size that the places of both shapes have. */
+/* The size of the positions of both shapes. */
 static double reach_of(const struct fbd_model *model, const struct tree_work *work, int index)
 {
     const struct meeting *meeting = &model->tree->meetings[index];
@@ -128,10 +128,10 @@ double meeting_rounding(const struct fbd_model *model, const struct tree_work *w
     return 16 * DBL_EPSILON * reach_of(model, work, index);
 }
 
-/* ---- a disc at corners */
+/* ---- a disc and a polygon */
 
-/* The feature of a disc at corners that is nearest: within, the side that is least deep; apart, a side that
- * the centre is over, or else a corner. */
+/* The nearest feature of a disc and corners: inside, the side with the least depth; outside, a side below the
+ * centre, or else a corner. */
 static struct gap disc_at_corners(const struct fbd_model *model, const struct tree_work *work, int index,
                                   const struct contact_shape *corners)
 {
@@ -154,9 +154,9 @@ static struct gap disc_at_corners(const struct fbd_model *model, const struct tr
     return corner;
 }
 
-/* ---- corners at corners */
+/* ---- two polygons */
 
-/* Of the corners of shape `moving`, the lowest over a side of the other. */
+/* The lowest of the corners of shape `moving` over a side of the other. */
 static struct gap lowest_over(const struct fbd_model *model, const struct tree_work *work, int index,
                               int moving, int side)
 {
@@ -170,7 +170,7 @@ static struct gap lowest_over(const struct fbd_model *model, const struct tree_w
     return lowest;
 }
 
-/* Is the corner of a feature over its side, and not beyond an end of it? */
+/* Is the corner of a feature between the ends of its side? */
 static bool is_over(const struct fbd_model *model, const struct tree_work *work, int index, int feature)
 {
     const double near = 1e-12 * model->tree->meetings[index].size;
@@ -192,7 +192,7 @@ static struct pairing pairing_of(const struct meeting *meeting, int feature)
     return (struct pairing){1, feature / sides[0], feature % sides[0]};
 }
 
-/* Of corners as low over the side of a feature one that is over it, if there is one. */
+/* A corner between the ends of the side among those as low as the given one, else that one. */
 static struct gap over_as_low(const struct fbd_model *model, const struct tree_work *work, int index,
                               struct gap lowest, double alike)
 {
@@ -211,8 +211,8 @@ static int beside(const struct contact_shape *shape, int corner, int step)
     return (corner + step + shape->count) % shape->count;
 }
 
-/* Is the corner of a feature, or its side next to it, inside of the parts of a body or of the ground? At the joint of two
- * tiles the surface of both is in contact, not the sides on which they touch each other. */
+/* Is the corner of a feature, or the adjacent part of its side, in the interior of a body or of the ground?
+ * At the joint of two tiles their common surface is in contact, not the sides at which they join. */
 static bool is_inner(const struct fbd_model *model, const struct tree_work *work, int index, int feature)
 {
     const struct meeting *meeting = &model->tree->meetings[index];
@@ -225,9 +225,10 @@ static bool is_inner(const struct fbd_model *model, const struct tree_work *work
     return on->inner && (on->inner[end] & (begins ? inner_begin : inner_end));
 }
 
-/* The side that separates best, by its lowest corner. Of sides that do so alike to rounding one on the surface, and of these
- * the one whose corner is over it: sides that lie flat on each other have corners beyond their ends, which touch
- * nothing. And then, at a corner on a corner, the one that the shapes leave fastest: that is how they will part. */
+/* The best separating side, by its lowest corner. Of sides equal within rounding one on the surface is
+ * preferred, then one with the corner between its ends: sides that lie flat on each other also have corners
+ * beyond their ends, which do not touch. Then, for a corner on a corner, the side with the largest rate:
+ * along it the shapes will separate. */
 static struct gap separation(const struct fbd_model *model, const struct tree_work *work, int index)
 {
     const struct meeting *meeting = &model->tree->meetings[index];
@@ -283,7 +284,7 @@ bool coupling_is_closed(const struct fbd_model *model, const struct instant *at,
 
 static const struct gap nothing = {HUGE_VAL, 0, no_feature};
 
-/* Nothing closed: how far apart. One corner on a side: its neighbours come down on that side. */
+/* Without a closed feature: the separation. With a corner on a side: the gaps of its neighbours at that side. */
 static struct gap probe_corners(const struct fbd_model *model, const struct instant *at, int index, int probe,
                                 int closed, int coupling)
 {
@@ -324,9 +325,9 @@ double meeting_depth(const struct fbd_model *model, const struct instant *at, in
     return -least;
 }
 
-/* ---- what touches */
+/* ---- touching features */
 
-/* The outermost two of features that lie at `foot`. */
+/* The outermost two of features at the positions `foot`. */
 struct outermost {
     int count, features[2];
     double foot[2];
@@ -355,7 +356,7 @@ double meeting_speed(const struct tree_work *work, const struct meeting *meeting
     return speed;
 }
 
-/* What is at an end of a side and leaves it is on it no more. */
+/* A point at an end of a side that moves off it is not on the side. */
 static bool is_on_side(const struct fbd_model *model, const struct tree_work *work, int index,
                        const struct place_on_side *at, double near)
 {
@@ -388,7 +389,8 @@ static bool is_found(const struct outermost *found, double foot, double near)
     return false;
 }
 
-/* Do a side of the other shape and a side of `moving` face each other? Of both sides of a bar that lies on a side one does. */
+/* Do a side of the other shape and a side of `moving` face each other? Of the two sides of a bar that lies on
+ * a side one does. */
 static bool face_each_other(const struct tree_work *work, const struct meeting *meeting, int moving, int side,
                             int own)
 {
@@ -398,7 +400,8 @@ static bool face_each_other(const struct tree_work *work, const struct meeting *
 }
 
 /* Where two corners of `moving` lie on the line of a side, that side lies on one of theirs, and its own ends
- * may lie between them; or on a corner, that leaves the side over its end as this end comes on that of the corners. */
+ * may be between them; or at a corner, which leaves the side over its end as this end comes onto the side of
+ * the corners. */
 static void ends_of_side(const struct fbd_model *model, const struct tree_work *work, int index, int moving,
                          int side, double near, struct outermost *found)
 {
@@ -452,9 +455,9 @@ int meeting_touching(const struct fbd_model *model, const struct tree_work *work
     return found.count > 1 && meeting->coupling_count > 1 ? 2 : found.count > 0 ? 1 : 0;
 }
 
-/* ---- where a feature ends */
+/* ---- the ends of a feature */
 
-/* A circle on a corner comes over the side that begins there (end 1), or the one that ends there (end 0). */
+/* A circle at a corner reaches the side that begins there (end 1), or the one that ends there (end 0). */
 static struct gap over_next_side(const struct fbd_model *model, const struct tree_work *work, int index,
                                  int feature, int end)
 {
@@ -479,7 +482,7 @@ struct gap feature_end(const struct fbd_model *model, const struct tree_work *wo
     return (struct gap){at.length - at.foot, -at.rate, no_feature};
 }
 
-/* ---- places */
+/* ---- positions */
 
 struct vec feature_place(const struct fbd_model *model, const struct tree_work *work, int index, int feature)
 {

@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Contacts at an instant: how far apart two shapes are, where they touch, and which features last.
+ * Contacts at an instant: the gap between two shapes, their touching features, and the ends of these.
  *
- * Lengths are signed: a gap below zero is a penetration, which no state has beyond rounding. The gap of two
- * sets of corners is the largest over all sides of both of the smallest distance of a corner of the other
- * (the axis that separates convex polygons best: Gottschalk, Lin and Manocha, SIGGRAPH 1996): where they
- * touch that is their distance, and apart it is a lower bound of it, zero at the same instant.
+ * Lengths are signed: a negative gap is a penetration, which in a state is only rounding. The gap of two
+ * polygons is the largest over all sides of both of the smallest distance of a corner of the other (the best
+ * separating axis of convex polygons: Gottschalk, Lin and Manocha, SIGGRAPH 1996): at contact that is their
+ * distance, and else a lower bound of it, zero at the same instant.
  *
- * All of it needs the links where they are and how they move, as after tree_move().
+ * All functions require positions and velocities of the links, as after tree_move().
  */
 #ifndef FBD_DYNAMICS_CONTACT_H
 #define FBD_DYNAMICS_CONTACT_H
@@ -20,81 +20,82 @@ struct gap {
     int feature;
 };
 
-/* Of one feature of the meeting `index`, as all that follows. */
+/* The gap of one feature of contact pair `index`, which is also the argument of the functions below. */
 struct gap feature_gap(const struct fbd_model *model, const struct tree_work *work, int index, int feature);
 
-/* Where the moving point of a feature is along its side, from 0 to `length`; circles: nothing. */
+/* The position of the moving point of a feature along its side, from 0 to `length`; not for circles. */
 struct place_on_side {
     double foot, rate, length;
 };
 struct place_on_side feature_foot(const struct fbd_model *model, const struct tree_work *work, int index,
                                   int feature);
 
-/* What a probe of the meeting sees: a function of the motion that reaches zero with a feature that is not
- * there yet. HUGE_VAL where the ones that are there leave none. `slip` are the modes. */
+/* The function of a probe of the contact pair: it reaches zero with a new touching feature. HUGE_VAL if the
+ * closed features exclude one. Modes are those of the instant. */
 struct gap meeting_probe(const struct fbd_model *model, const struct instant *at, int index, int probe);
 
-/* How deep shapes are in each other by features that are not closed; 0 when they are not. */
+/* The penetration of the shapes by features that are not closed; 0 without one. */
 double meeting_depth(const struct fbd_model *model, const struct instant *at, int index);
 
-/* The features within `near` of touching that two shapes can have at a time; returns their number. Of more on
- * one side the outermost. */
+/* Find the touching features of two shapes, at most two, within the distance `near`; returns their number. Of
+ * more on one side the outermost. */
 int meeting_touching(const struct fbd_model *model, const struct tree_work *work, int index, double near,
                      int features[2]);
 
-/* The height of a step that two shapes with corners strike with `speed`, where it is lower than the level of surfaces: a side
- * along which they move has a corner behind it by that much. 0 where there is none. */
+/* The height of a step against which two polygons hit with `speed`, if it is below the level of surfaces: a
+ * corner lies behind a side, along which they move, by that much. 0 without one. */
 double meeting_low_step(const struct fbd_model *model, const struct tree_work *work, int index, double speed);
 
-/* Corners of a thin contact pair (dynamics/contact_thin.h) that come into the circle round the bar get the side on which they
- * are; those outside have none. */
+/* Set the sides of the corners of a thin contact pair (dynamics/contact_thin.h) as they enter the circle
+ * round the bar; corners outside have none. */
 void meeting_turn_sides(const struct fbd_model *model, struct tree_work *work, int index, double near);
 
-/* How far features are apart that count as touching: the rounding of the places that they are made of. */
+/* The distance within which features count as touching: the rounding of positions. */
 double meeting_near(const struct fbd_model *model, const struct tree_work *work, int index);
 
-/* How far apart the circles round both shapes are, and how fast they move against each other. */
+/* The distance between the circumscribed circles of both shapes, and their relative speed. */
 struct distance {
     double apart, speed;
 };
 struct distance meeting_distance(const struct fbd_model *model, const struct tree_work *work, int index);
 
-/* The largest speed of a place of its shapes, about. */
+/* A bound for the speed of points of its shapes. */
 double meeting_speed(const struct tree_work *work, const struct meeting *meeting);
 
-/* What a gap may be off by. */
+/* The rounding of a gap. */
 double meeting_rounding(const struct fbd_model *model, const struct tree_work *work, int index);
 
-/* A closed feature may end at an edge: a function for each of two ends that is positive until it does;
- * HUGE_VAL without. */
+/* The distance of a closed feature from each of two ends, at an edge, positive until it ends there; HUGE_VAL
+ * without. */
 struct gap feature_end(const struct fbd_model *model, const struct tree_work *work, int index, int feature,
                        int end);
 
-/* A force that is nothing where two bodies touch: a rounding of their weights. What only just touches is not
- * left, and does not slip, by that. */
+/* A negligible contact force, the rounding of the weights of two bodies: at smaller forces a contact does not
+ * open or slip. */
 double contact_slack(const struct fbd_model *model, int coupling);
 
-/* The contact of coupling `coupling`: is it closed? */
+/* Is the contact of coupling `coupling` closed? */
 bool coupling_is_closed(const struct fbd_model *model, const struct instant *at, int coupling);
 
-/* Where a feature is, in the world. */
+/* The position of a feature in the world. */
 struct vec feature_place(const struct fbd_model *model, const struct tree_work *work, int index, int feature);
 
-/* Close what touches and rests on each other at the start, and open all else. */
+/* Close all touching contacts at rest at the start, and open all others. */
 void contacts_start(struct fbd_state *state);
 
-/* A contact pair in which something starts exactly on a bar and moves to the side from which its forces pull it; -1: none.
- * The state is evaluated. */
+/* A contact pair in which a corner starts exactly on a bar and moves to the side from which its forces pull
+ * it; -1 if none. The state is evaluated. */
 int contacts_side_in_doubt(struct fbd_state *state);
 
-/* Are shapes in each other at the start, by more than rounding? Contacts are then as contacts_start has them. */
+/* Do shapes penetrate each other at the start, by more than rounding? Leaves contacts as contacts_start sets
+ * them. */
 bool contacts_are_deep(struct fbd_state *state);
 
-/* Move shapes that are in each other at the start, by no more than what a file rounds, out until they touch. The
- * state fits its couplings, which move along. */
+/* Move shapes with small penetrations at the start, by rounded numbers in a file, out until they touch. The
+ * state satisfies its couplings, which move along. */
 void contacts_lift_out(struct fbd_state *state);
 
-/* The meeting whose shapes are deepest in each other, beyond rounding, and how deep; -1 without one. */
+/* The contact pair with the deepest penetration beyond rounding, and its depth; -1 without one. */
 int contacts_overlap(struct fbd_state *state, double *depth);
 
 #endif

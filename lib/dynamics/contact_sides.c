@@ -1,15 +1,15 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * The sides of bars on which points and other bars start: the side of the corner; for a corner on the bar itself the
- * side of the middle of its shape or body; else its previous side, in a motion that goes on; else the side to which
- * it moves; at rest one of both lies on the other, pressed there by its forces.
+ * The sides of bars on which points and other bars start: the side of the corner; for a corner on the bar
+ * itself the side of the middle of its shape or body; else its previous side, in a continued motion; else the
+ * side to which it moves; at rest one of both lies on the other, pressed there by its forces.
  */
 #include "dynamics/constraint.h"
 #include "dynamics/contact_thin.h"
 #include "dynamics/state.h"
 
-/* The shape that lies on the other: a freely moving body on one guided by a slide or pivot, and that on the ground; of
- * equals the point on the bar, and the first of `between` on the second. */
+/* The shape that lies on the other: a freely moving body on a body with a slide or pivot, and that on the
+ * ground; of equals the point on the bar, and the first of `between` on the second. */
 static int upper_of(const struct fbd_model *model, const struct meeting *meeting)
 {
     int rank[2];
@@ -22,7 +22,7 @@ static int upper_of(const struct fbd_model *model, const struct meeting *meeting
     return meeting->shape[1].count < meeting->shape[0].count ? 1 : 0;
 }
 
-/* The acceleration of a place on a link, as the accelerations are. */
+/* The acceleration of a point on a link, from the present accelerations. */
 static struct vec acceleration_of(const struct tree_work *work, int link, struct vec place)
 {
     const struct tree_state *s = &work->links[link];
@@ -57,7 +57,7 @@ static struct vec left_of_bar(const struct tree_work *work, const struct meeting
     return vec_turn(work->links[meeting->shape[1 - corner.moving].link].turn, vec_perp(touch.e));
 }
 
-/* By the centre of mass of the body whose point the corner is; 0 where that is the point, or lies on the bar. */
+/* By the centre of mass of the body of the corner; 0 if that is at the corner, or on the bar. */
 static double side_of_mass(const struct fbd_model *model, const struct tree_work *work,
                            const struct meeting *meeting, struct thin_corner corner, struct vec n)
 {
@@ -68,7 +68,7 @@ static double side_of_mass(const struct fbd_model *model, const struct tree_work
     return vec_dot(n, vec_turn(work->links[shape->link].turn, arm));
 }
 
-/* Positive on the left, negative on the right; 0 where place and mass do not decide. */
+/* Positive on the left, negative on the right; 0 if position and mass do not decide. */
 static double side_by_place(const struct fbd_model *model, const struct tree_work *work, int index, int probe,
                             double near)
 {
@@ -94,7 +94,7 @@ static double side_by_motion(const struct fbd_model *model, const struct tree_wo
     return fabs(rate) > rounding * meeting_speed(work, meeting) ? rate : 0;
 }
 
-/* Positive on the left, negative on the right; 0 where only forces decide. */
+/* Positive on the left, negative on the right; 0 if only forces decide. */
 static double side_at_start(const struct fbd_model *model, const struct tree_work *work, int index, int probe,
                             double near)
 {
@@ -124,7 +124,7 @@ static int side_by_forces(const struct fbd_model *model, const struct tree_work 
     return upper_of(model, meeting) == corner.moving ? sense : -sense;
 }
 
-/* Without forces that which lies on the other is above it. */
+/* Without forces the shape that lies on the other is above it. */
 static int upper_side(const struct fbd_model *model, const struct tree_work *work, int index, int probe)
 {
     const struct meeting *meeting = &model->tree->meetings[index];

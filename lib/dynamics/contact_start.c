@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Contacts at the start, of the scene or of a motion that goes on: on which side of a line a body is, what touches and
- * rests already, and what is in each other.
+ * Contacts at the start of the scene or of a continued motion: the side of a line on which a body is, the
+ * touching contacts at rest, and penetrations.
  */
 #include <float.h>
 
@@ -15,16 +15,16 @@ static struct vec in_world(const struct tree_work *work, int link, struct vec ow
     return vec_add(work->links[link].p, vec_turn(work->links[link].turn, own));
 }
 
-/* Numbers of a start are as exact as those of a file: to the level of surfaces. */
+/* Numbers of a start have the accuracy of a file: the level of surfaces. */
 static const double start_share = contact_level / contact_near;
 
-/* The largest overlap of shapes in a run; a larger one shows that it has missed an impact. */
+/* The largest overlap of shapes in a run; a larger one is due to a missed impact. */
 static const double run_share = 1e3;
 
-/* The side of a line that a body stays on: the one that it says, or that its shape's middle is on. A point
- * that the line goes through but for what a file rounds, within a share of its distance from the centre of
- * mass, is on the side of that centre: set down on the line, a body does not get to its other side by a
- * rounding; nor does a particle, which has no other point. */
+/* Choose the side of a line on which a body stays: the given one, or that of its shape's middle. A point on
+ * the line up to rounding in the file, within a share of its distance from the centre of mass, is on the side
+ * of that centre: a body placed on the line must not be on its other side by a rounding; nor must a particle,
+ * which has no other point. */
 static void choose_side(const struct fbd_model *model, struct tree_work *work, int index)
 {
     const double share = 1e-6;
@@ -46,7 +46,7 @@ static void choose_side(const struct fbd_model *model, struct tree_work *work, i
         work->couplings[meeting->first_coupling + k].side[0] = side < 0 ? -1 : 1;
 }
 
-/* What rests on each other to rounding of its speeds. */
+/* Is the feature at rest, within the rounding of speeds? */
 static bool rests(const struct fbd_model *model, const struct tree_work *work, int index, int feature)
 {
     const double share = 1e-10;
@@ -102,7 +102,7 @@ void contacts_start(struct fbd_state *state)
     for (int i = 0; i < tree->meeting_count; i++) start_meeting(state, i);
 }
 
-/* Close what is in each other, and what is neither in nor apart: places that have to be kept. */
+/* Close penetrating features, and those that touch: their positions are constraints of the projection. */
 static void close_for_lifting(struct fbd_state *state, int index)
 {
     const struct fbd_model *model = state->model;

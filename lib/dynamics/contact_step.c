@@ -1,12 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Steps that are lower than the level of surfaces.
+ * Steps below the level of surfaces.
  */
 #include "dynamics/contact.h"
 
 #include "dynamics/constraint.h"
 
-/* How deep a corner of shape `moving` is behind a side of the other along which they move; 0 where another is deeper. */
+/* The depth of a corner of shape `moving` behind a side of the other along which they move; 0 if another
+ * corner is deeper than the level. */
 static double depth_along(const struct fbd_model *model, const struct tree_work *work, int index, int moving,
                           int side, double speed)
 {

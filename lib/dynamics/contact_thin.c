@@ -20,7 +20,7 @@ static struct gap gap_at(const struct fbd_model *model, const struct tree_work *
     return feature_gap(model, work, index, thin_feature(corner, side));
 }
 
-/* From the side of the bar on which the corner is. */
+/* From the bar, on the side on which the corner is. */
 static struct gap gap_at_side(const struct fbd_model *model, const struct tree_work *work, int index,
                               int probe)
 {
@@ -35,7 +35,7 @@ static struct gap gap_at_circle(const struct fbd_model *model, const struct tree
     return gap_at(model, work, index, probe, thin_round);
 }
 
-/* How far it is beyond the nearer end; negative over the bar. */
+/* The distance beyond the nearer end; negative over the bar. */
 static struct gap gap_at_ends(const struct fbd_model *model, const struct tree_work *work, int index,
                               int probe)
 {
@@ -50,7 +50,7 @@ static struct vec place_of(const struct fbd_model *model, const struct tree_work
                          thin_feature(thin_corner_of(meeting_of(model, index), probe), thin_left));
 }
 
-/* Is the corner in touch already, itself or by an end of the bar that is at its place? */
+/* Is the corner in a closed contact, its own or that of an end of the bar at its position? */
 static bool is_closed(const struct fbd_model *model, const struct instant *at, int index, int probe)
 {
     const struct meeting *meeting = meeting_of(model, index);

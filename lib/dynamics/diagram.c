@@ -28,7 +28,7 @@ bool arrow_is_reaction(const struct fbd_model *model, const struct arrow *arrow)
     return arrow->load < 0 || load_law(model->loads[arrow->load].source)->follows;
 }
 
-/* Of the point that is r from the point of the joint. */
+/* The acceleration of the point at r from the point of the joint. */
 static struct vec acceleration_beside(const struct model_body *body, const struct pose *pose, struct vec r,
                                       const double *a)
 {
@@ -97,8 +97,8 @@ struct vec drag_of_load(const struct model_load *load, struct vec v, const struc
     return vec_add(f, (struct vec){formula_value(&load->fx, at), formula_value(&load->fy, at)});
 }
 
-/* Where the joint of a body is and the direction of its +x: those of its link, or of its line or axis on the
- * ground. `turning`: the angle that a body turns by per length of its track. */
+/* The position of the joint of a body and the direction of its +x: those of its link, or of its line or axis
+ * on the ground. `turning`: the rotation of a body per length of its track. */
 struct joint {
     struct vec p, e;
     double turning;
@@ -120,7 +120,7 @@ struct vec body_direction(const struct model_body *body, const struct instant *a
     return joint_of(body, at).e;
 }
 
-/* What acts along the line of a slide or track, `f`; what goes along a curve acts where the curve is. */
+/* Set a force `f` along the line of a slide or track; on a track it acts at the curve. */
 static void act_along(const struct model_body *body, const struct joint *joint, double f, struct arrow *arrow)
 {
     arrow->force = vec_scale(f, joint->e);
@@ -145,7 +145,8 @@ static void spring_arrow(const struct fbd_model *model, const struct model_load 
               arrow);
 }
 
-/* -dV/dq of each of the body's coordinates, in the directions of its joint; V is a function of where that is. */
+/* -dV/dq for each of the body's coordinates, in the directions of its joint; V is a function of the joint's
+ * position. */
 static void potential_arrow(const struct model_body *body, const struct model_load *load,
                             const struct joint *joint, const struct instant *at, struct arrow *arrow)
 {
@@ -174,7 +175,7 @@ static void drive_arrow(const struct fbd_model *model, const struct model_body *
         act_along(body, joint, drive, arrow);
 }
 
-/* In its place: copies of what has just been written wait for it. */
+/* Written in place: a copy would have to wait for the stores. */
 static void pose_arrow(const struct fbd_model *model, int index, const struct pose *pose,
                        const struct instant *at, const double *slots, struct arrow *arrow)
 {
@@ -236,18 +237,19 @@ int diagram_account(const struct fbd_model *model, int b, const struct arrow *ar
     return load;
 }
 
-/* ---- shares and reactions */
+/* ---- generalized forces and reactions */
 
 bool arrow_is_of_joint(const struct fbd_model *model, int b, const struct arrow *arrow)
 {
     const struct model_body *body = &model->bodies[b];
     if (arrow->load < 0) return body->place.link == 0 || arrow->name == body->reaction;
-    /* What presses a rolling body against its line is not listed by it: no joint, though its load is a normal force. */
+    /* The normal force of a rolling body is not listed by it: no reaction of a joint, though its load is of
+     * that kind. */
     bool listed = arrow->load >= body->first_load && arrow->load < body->first_load + body->load_count;
     return listed && model->loads[arrow->load].source->kind == load_normal;
 }
 
-/* What the joint gives acts across its coordinates. */
+/* The reaction of the joint is orthogonal to its coordinates. */
 static void set_share(const struct fbd_model *model, int b, const struct instant *at, struct arrow *arrow)
 {
     const struct model_body *body = &model->bodies[b];
@@ -260,7 +262,7 @@ static void set_share(const struct fbd_model *model, int b, const struct instant
     case motion_track: arrow->share[0] = vec_dot(joint.e, arrow->force) + joint.turning * moment; break;
     case motion_pivot: arrow->share[0] = moment; break;
     case motion_planar:
-        arrow->share[2] = moment; /* and */
+        arrow->share[2] = moment;
         /* fall through */
     case motion_particle:
         arrow->share[0] = vec_dot(joint.e, arrow->force);
@@ -270,7 +272,8 @@ static void set_share(const struct fbd_model *model, int b, const struct instant
     }
 }
 
-/* On the ground the coordinates are all the motion that there is; else the point and the turning of its link. */
+/* On the ground by generalized forces and rates; else by the velocity of the point and the angular velocity
+ * of the link. */
 static double power_of(const struct model_body *body, const struct instant *at, const struct arrow *arrow)
 {
     if (body->place.link == 0) {
@@ -284,7 +287,7 @@ static double power_of(const struct model_body *body, const struct instant *at, 
     return vec_dot(arrow->force, v) + arrow->couple * s->omega;
 }
 
-/* The force that keeps the body on its axis or line: m a_G minus all that is listed; on a line, across it
+/* The reaction of the body's axis or line: m a_G minus all listed forces; of a line its normal component
  * only. */
 static struct vec guiding_force(const struct model_body *body, const struct instant *at, const double *a,
                                 struct vec listed)
@@ -294,7 +297,7 @@ static struct vec guiding_force(const struct model_body *body, const struct inst
     return body->kind == motion_pivot ? reaction : vec_scale(vec_dot(reaction, body->n), body->n);
 }
 
-/* Add the reaction of a guide or an axis on the ground, or give it to the `normal` that is listed. */
+/* Add the reaction of a guide or an axis on the ground, or set it as the listed `normal`. */
 static size_t add_guide(const struct fbd_model *model, const struct model_body *body, const struct pose *pose,
                         const struct instant *at, const double *a, struct arrow *arrows, size_t count)
 {

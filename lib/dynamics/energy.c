@@ -50,14 +50,14 @@ struct integrand {
     double *y; /* scratch: a state whose coordinate is varied */
 };
 
-/* The pose of a body of one coordinate on the ground at that coordinate, joined to others or not: the tree holds the
+/* The pose of a body of one coordinate on the ground at that coordinate, also if jointed: the tree holds the
  * present pose only. */
 static struct pose pose_at(const struct model_body *body, const struct instant *at)
 {
     return body_pose_turned(body, at, vec_cos_sin(at->y[body->first]));
 }
 
-/* The generalized force of a load of one coordinate that depends on nothing else. */
+/* The generalized force of a load that depends on one coordinate only. */
 static double force_at(double q, void *context)
 {
     struct integrand *integrand = context;
@@ -73,7 +73,7 @@ static double force_at(double q, void *context)
     return share;
 }
 
-/* From piece to piece of the formulas, so that no pulse between is missed. NAN where it is not known to some digits. */
+/* Integrate each piece of the formulas, so that no pulse is missed. NAN if the relative error is too large. */
 static double integrate(struct integrand *integrand, double from, double to)
 {
     enum { most_halves = 2000, most_pieces = 1000 };
@@ -126,7 +126,7 @@ static double constant_force_potential(const struct model_body *body, const stru
     return -vec_dot(f, point_motion(body, pose, load->point).p);
 }
 
-/* The constant generalized force is the share of the load in its body's equation. */
+/* The constant generalized force of the load. */
 static double linear_potential(const struct model_body *body, const struct model_load *load,
                                const struct pose *pose, const struct instant *at)
 {

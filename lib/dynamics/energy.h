@@ -11,12 +11,12 @@
 /* m v_G^2 / 2 + I_G omega^2 / 2; for a pivot I_O omega^2 / 2. */
 double kinetic_energy(const struct model_body *body, const struct instant *at);
 
-/* Of all jointed bodies together; the links are moved for it, or stand where the state is (after state_misfit). */
+/* Of all jointed bodies together; moves the links first, or expects them at the state (after state_misfit). */
 double jointed_kinetic_energy(struct fbd_state *state);
 double standing_kinetic_energy(struct fbd_state *state);
 
-/* V of a load at an instant; 0 when it has none. A load by quadrature is integrated from its reference (GSL's
- * QAG, relative 1e-12): `scratch` has 2 n entries. NAN when that fails, with GSL's error handler called. */
+/* V of a load at an instant; 0 when it has none. A load by quadrature is integrated from its reference
+ * (numeric/quadrature.h): `scratch` has plan_size entries. NAN when that fails. */
 double potential_energy(const struct fbd_model *model, const struct model_load *load,
                         const struct instant *at, double *scratch);
 

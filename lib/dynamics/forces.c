@@ -129,8 +129,7 @@ static void add_to_slots(const struct model_body *body, const struct pose *pose,
     if (body->normal_slot >= 0) slots[body->normal_slot] += vec_dot(f, body->n);
 }
 
-/* The variation of what add_to_slots adds: df at the point, and f on an arm that varies by the motion of the
- * point about the origin. */
+/* The variation of the terms of add_to_slots: df at the point, and f with a varying arm about the origin. */
 static void add_variation(const struct model_body *body, const struct pose *pose,
                           struct motion_of_point point, struct vec f, struct vec df,
                           const struct direction *along, struct motion_of_point d, double *slots)
@@ -148,8 +147,7 @@ static struct link_law law_of_link(const struct link_term *term)
     return (struct link_law){term->anchor, term->stiffness, term->free_length, term->damping};
 }
 
-/* The forces on one body at points of it: their sum and their moment about the frame's origin, or about the
- * axis. */
+/* The forces at points of one body: their sum and their moment about the frame's origin, or about the axis. */
 struct resultant {
     struct vec f;
     double moment;
@@ -258,7 +256,7 @@ static void point_variations(const struct fbd_model *model, const struct instant
         force_term_variation(model, &plan->forces[i], at, along, slots);
 }
 
-/* ---- all of them; lists that a body does not fill cost a comparison */
+/* ---- all terms; an empty list costs a comparison */
 
 void body_forces(const struct fbd_model *model, int b, const struct instant *at, struct vec turn,
                  double *slots)

@@ -1,18 +1,17 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * The plan's terms summed into slots, body by body: everything that acts except dry friction.
+ * The plan's terms summed into slots, body by body: all forces except dry friction.
  */
 #ifndef FBD_DYNAMICS_FORCES_H
 #define FBD_DYNAMICS_FORCES_H
 
 #include "dynamics/kinematics.h"
 
-/* The slots of body `b` alone. `turn` is cosine and sine of its angle where its terms need both (see
- * body_turn). */
+/* The slots of body `b`. `turn` is cosine and sine of its angle if its terms need both (see body_turn). */
 void body_forces(const struct fbd_model *model, int b, const struct instant *at, struct vec turn,
                  double *slots);
 
-/* Cosine and sine of the angle of body `b` where they are needed, once for all its terms. */
+/* Cosine and sine of the angle of body `b` if its terms need them. */
 static inline struct vec body_turn(const struct fbd_model *model, int b, const struct instant *at)
 {
     const struct model_body *body = &model->bodies[b];

@@ -2,22 +2,23 @@
  *
  * From forces to accelerations, and their variations.
  *
- * A body by itself has one inertia for each coordinate, its plan's: q'' = Q / m on a slide, Q / I_O about a pivot, Q / m
- * and Q / I_G in the plane, with Q the sum of the terms in its slot, positive along +q. Where its frame is not at its
- * centre of mass its three equations are coupled, see below. Dry friction comes last, since it goes with the normal force,
- * the sum N = -Q_n of the terms across the slide (positive to the side to which the surface pushes):
+ * An independent body has one inertia for each coordinate, that of the plan: q'' = Q / m on a slide, Q / I_O
+ * about a pivot, Q / m and Q / I_G in the plane, with Q the sum of the terms in its slot, positive along +q.
+ * If its frame is not at its centre of mass its three equations are coupled, see below. Dry friction comes
+ * last, since it depends on the normal force, the sum N = -Q_n of the terms across the slide (positive
+ * towards the outside of the surface):
  *
- *     slips    Q -= slip mu_k |N|, slip = +1 or -1 as it moves: against the motion
- *     sticks   q'' = s', the acceleration of the surface; what holds it is H = m s' - Q (friction.h)
+ *     slips    Q -= slip mu_k |N|, slip = +1 or -1, the sign of the velocity: against the motion
+ *     sticks   q'' = s', the acceleration of the surface; the friction is H = m s' - Q (friction.h)
  *
- * On a straight line by itself N has no part of the friction. Between jointed bodies it has, so that both come from one
- * solution: tree_accelerations.
+ * On a straight line of an independent body N does not depend on friction. Between jointed bodies it does, so
+ * that both come from one solution: tree_accelerations.
  *
- * Along a direction (dt, dq, dv, dz) all of this is linear and is varied term by term; a column of the Jacobian is the
- * variation along one component.
+ * Along a direction (dt, dq, dv, dz) all of this is linear and is varied term by term; a column of the
+ * Jacobian is the variation along one component.
  *
- * Checked by the forces of the diagrams, which are computed by other formulas: m a_G and I_G alpha of each body, and by
- * differences of the rates (tests/unit/test_dynamics.c).
+ * Checked by the forces of the diagrams, which are computed by other formulas: m a_G and I_G alpha of each
+ * body, and by differences of the rates (tests/unit/test_dynamics.c).
  */
 #include "dynamics/forward.h"
 
@@ -32,6 +33,7 @@
 /* ---- planar bodies whose frame's origin O is not their centre of mass
  *
  * With r = R(theta) arm from O to G, F and M_O the sums of forces and moments about O:
+ *
  *     a_G = F / m,   alpha = (M_O - r x F) / I_G,   a_O = a_G - alpha k x r + omega^2 r */
 
 static void offset_accelerations(const struct offset_body *body, const struct instant *at, int n,
@@ -65,7 +67,7 @@ static void offset_variations(const struct offset_body *body, const struct insta
     a_along[i + 2] = d_alpha;
 }
 
-/* ---- jointed bodies: their friction needs their accelerations, so both come from one solution */
+/* ---- jointed bodies: their friction depends on their accelerations, so both come from one solution */
 
 void force_balance(const struct fbd_model *model, const struct instant *given, double *slots)
 {
@@ -97,7 +99,7 @@ void force_balance_along(const struct fbd_model *model, const struct instant *gi
         tree_accelerations_along(model, at, along, slots, at->tree->a, slots_along, at->tree->a_along);
 }
 
-/* Only the entries of jointed bodies are theirs. */
+/* Copy the entries of jointed bodies only. */
 static void take_tree_variations(const struct tree *tree, const struct tree_work *work, double *a_along)
 {
     for (int i = 1; i < tree->count; i++) {
@@ -116,7 +118,7 @@ static void add_kinetic_friction(const struct fbd_model *model, int pair, const 
     slots[mode->coordinate] -= at->slip[pair] * formula_value(&mode->mu_k, at) * press;
 }
 
-/* Does the pair stick, and is it a coordinate that it holds? (A rolling body is held by a row.) */
+/* Does the mode hold a coordinate by sticking? (A rolling body is held by a row.) */
 static bool holds_coordinate(const struct plan *plan, const struct instant *at, int pair)
 {
     return at->slip[pair] == stick && plan->modes[pair].coupling < 0;
@@ -240,7 +242,8 @@ void state_rates(const struct fbd_model *model, const struct instant *at, double
                 friction_surface_speed(&plan->modes[pair], at, &acceleration);
 }
 
-/* The variation of accelerations along a direction: of what slides with its own solution each time. */
+/* The variation of accelerations along a direction; for sliding modes with a new solution of the weights each
+ * time. */
 typedef void vary_function(const struct fbd_model *model, const struct instant *at,
                            const struct direction *along, double *slots, double *slots_along,
                            double *a_along);

@@ -1,41 +1,41 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Forward dynamics: accelerations from the state, body by body, in stages with names: terms, friction,
- * inertia.
+ * Forward dynamics: accelerations from the state, body by body, in stages: terms, friction, inertia.
  */
 #ifndef FBD_DYNAMICS_FORWARD_H
 #define FBD_DYNAMICS_FORWARD_H
 
 #include "dynamics/friction.h"
 
-/* slots[plan.slots]: all that acts except dry friction, as force_slots says; the slots of jointed bodies
- * behind the n are those of their motion in the present modes. */
+/* slots[plan.slots]: all forces except dry friction, as in force_slots; the slots of jointed bodies behind
+ * the n are those of their motion in the present modes. */
 void force_balance(const struct fbd_model *model, const struct instant *given, double *slots);
 
-/* The same in the slots of body b, for who asks body after body; of a jointed body in all. */
+/* The same in the slots of body b only; for a jointed body in all slots. */
 void force_balance_of(const struct fbd_model *model, int b, const struct instant *given, double *slots);
 
 /* The variation of force_balance along a direction, right after it. */
 void force_balance_along(const struct fbd_model *model, const struct instant *given,
                          const struct direction *direction, const double *slots, double *slots_along);
 
-/* a[n] at an instant. On return slots[plan.slots] hold the generalized forces with kinetic friction included
- * (a sticking coordinate's slot has none) and the sums across slides. */
+/* Compute a[n] at an instant. On return slots[plan.slots] hold the generalized forces with kinetic friction
+ * included (not in the slot of a sticking coordinate) and the sums across slides. */
 void accelerations(const struct fbd_model *model, const struct instant *at, double *slots, double *a);
 
-/* The same with the shares of switches that are slid on as they are (sliding.h). */
+/* The same with the present weights of switches in sliding modes (sliding.h). */
 void accelerations_at_shares(const struct fbd_model *model, const struct instant *given, double *slots,
                              double *a);
 void accelerations_along_at_shares(const struct fbd_model *model, const struct instant *given,
                                    const struct direction *direction, double *slots, double *slots_along,
                                    double *a_along);
 
-/* The same for body `b` alone, which is not jointed: its entries of slots and a. The instant is extended
- * already (world_refs.h). */
+/* The same for the entries of slots and a of body `b`, which is not jointed. The instant is already extended
+ * (world_refs.h). */
 void body_accelerations(const struct fbd_model *model, int b, const struct instant *at, double *slots,
                         double *a);
 
-/* What acts in the joints of the tree, and on bodies beside it, in slots[plan.slots]; `a` is written for the latter. */
+/* Compute the forces in the joints of the tree, and on bodies beside it, in slots[plan.slots]; `a` is written
+ * for the latter. */
 void joint_forces(const struct fbd_model *model, const struct instant *at, double *slots, double *a);
 
 /* The variation of the accelerations along a direction. `slots` and `slots_along` (plan.slots each) are
@@ -43,10 +43,12 @@ void joint_forces(const struct fbd_model *model, const struct instant *at, doubl
 void accelerations_along(const struct fbd_model *model, const struct instant *at,
                          const struct direction *along, double *slots, double *slots_along, double *a_along);
 
-/* dydt[2 n] for an integrator, without the states of the file's own (user_states.h). A sticking coordinate moves with its surface. */
+/* dydt[2 n] for an integrator, without user states (user_states.h). A sticking coordinate moves with its
+ * surface. */
 void state_rates(const struct fbd_model *model, const struct instant *at, double *slots, double *dydt);
 
-/* The entries of body `b` alone, which is not jointed, in a model whose expressions name no places. */
+/* The same for the entries of body `b`, which is not jointed, in a model whose expressions refer to no
+ * positions. */
 void body_rates(const struct fbd_model *model, int b, const struct instant *at, double *slots, double *dydt);
 
 /* The exact Jacobian: dfdy[plan_size x plan_size] row by row and dfdt[plan_size]. `scratch` has 2 plan.slots + 3 n

@@ -84,17 +84,17 @@ struct friction_values friction_at(const struct fbd_model *model, int pair, cons
     const struct mode *mode = &model->plan.modes[pair];
     struct friction_values values = {0};
     if (mode_is_one_sided(mode)) return values;
-    double press = 1; /* a bearing states its limits as moments */
+    double press = 1; /* the limits of a bearing are moments */
     if (mode->normal_slot >= 0) {
         values.N = -slots[mode->normal_slot];
-        press = fmax(0, at->pull[pair] * values.N); /* a surface that would have to pull is not there */
+        press = fmax(0, at->pull[pair] * values.N); /* a surface cannot pull */
     }
     values.limit_static = friction_coefficient(model, pair, &mode->mu_s, at, NULL, NULL) * press;
     values.limit_kinetic = friction_coefficient(model, pair, &mode->mu_k, at, NULL, NULL) * press;
     double acceleration;
     friction_surface_speed(mode, at, &acceleration);
     values.hold = mode->inertia * acceleration - slots[mode->hold_slot];
-    /* A coefficient at its own zero may be rounding below it. */
+    /* A coefficient that vanishes may be slightly negative by rounding. */
     values.limit = fmax(0, fmax(values.limit_static, values.limit_kinetic));
     values.force = at->slip[pair] == stick ? values.hold : -at->slip[pair] * values.limit_kinetic;
     return values;
@@ -147,13 +147,13 @@ double friction_return(const struct friction_values *now)
 
 enum slip friction_decide(const struct friction_values *now, const struct friction_values *rate, double slack)
 {
-    /* With mu_k > mu_s (nobody's friction, but anybody's file) slipping would start against itself: then the
-     * larger one holds. */
+    /* With mu_k > mu_s, unphysical but possible in a file, slipping would reverse at once: the larger limit
+     * is used. */
     double limit = now->limit,
-           hold = now->hold != 0 ? now->hold : rate->hold; /* of none its rate tells the side */
+           hold = now->hold != 0 ? now->hold : rate->hold; /* if zero, its rate gives the side */
     double excess = fabs(now->hold) - limit;
     if (fabs(excess) <= friction_rounding(now) + slack)
         excess = (hold > 0 ? rate->hold : -rate->hold) - rate_of_limit(now, rate);
     if (excess <= 0) return stick;
-    return hold < 0 ? slip_plus : slip_minus; /* the other forces push by -hold */
+    return hold < 0 ? slip_plus : slip_minus; /* the sum of the other forces is -hold */
 }

@@ -14,7 +14,7 @@ void impulse_look(struct fbd_state *state)
     constraints_evaluate(state->model, &at, NULL);
 }
 
-/* The tree without loads and bias, factored for answers; prescribed joints give nothing. */
+/* Factor the tree without loads and bias; prescribed joints are locked. */
 static void factor_tree(struct fbd_state *state)
 {
     const struct fbd_model *model = state->model;
@@ -36,7 +36,7 @@ static bool is_asked_for(const struct impulse_lines *lines, int row)
     return false;
 }
 
-/* What holds on one side only holds nothing. What rolls without a limit does so on. */
+/* Deactivate one-sided constraints and friction. Rolling without a limit remains. */
 static void let_go(const struct fbd_model *model, const struct impulse_lines *lines, int *modes)
 {
     for (size_t i = 0; i < model->plan.mode_count; i++) {
@@ -58,14 +58,14 @@ static int link_of(const struct fbd_model *model, int pair)
     return model->bodies[model->plan.modes[pair].body].place.link;
 }
 
-/* The row along which friction of a slot rubs; NULL on a slide. */
+/* The row along which friction of a slot acts; NULL on a slide. */
 static const struct row *row_of(const struct fbd_state *state, int pair)
 {
     int coupling = state->model->plan.modes[pair].coupling;
     return coupling < 0 ? NULL : &state->tree->rows[state->model->tree->couplings[coupling].first_row + 1];
 }
 
-/* x for the impulse alone, and of all rows that hold what answers to it. */
+/* Solve x for the impulse alone, and set the right-hand side of all active rows. */
 static void answer(struct fbd_state *state, const struct instant *at, const struct impulse_lines *lines,
                    int j)
 {
@@ -84,7 +84,7 @@ static void answer(struct fbd_state *state, const struct instant *at, const stru
         work->z[k] = k < tree->row_count && tree_takes_part(tree, at, k) ? -tree_row_answer(work, k) : 0;
 }
 
-/* Add to column j what work->x and work->unit have, and what has been solved for, z or NULL. */
+/* Add the velocities in work->x and work->unit, and the solved multipliers, z or NULL, to column j. */
 static void add_column(struct fbd_state *state, const struct impulse_lines *lines, int j, const double *z,
                        double *W, double *B, double *velocities)
 {
@@ -109,7 +109,7 @@ void impulse_answers(struct fbd_state *state, const struct impulse_lines *lines,
     const struct fbd_model *model = state->model;
     struct tree_work *work = state->tree;
     size_t n = (size_t)model->plan.n, count = (size_t)lines->row_count + (size_t)lines->slide_count;
-    const double exact = 1e-13; /* slopes that are left alone; see project.c */
+    const double exact = 1e-13; /* slopes that are damped out; see project.c */
     const double immovable = 1e-12;
     struct instant at = state_instant(state);
     factor_tree(state);

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Instant: where a scene is, and in which discrete modes.
+ * Instant: the configuration of a scene and its discrete modes.
  *
- * y = [q_1 .. q_n, v_1 .. v_n, z_1 .. z_m] with the states z of the file's own. Between events the modes are fixed and everything is a smooth function of (t,
- * y); the modes change at located events only.
+ * y = [q_1 .. q_n, v_1 .. v_n, z_1 .. z_m] with the user states z. Between events the modes are fixed and all
+ * functions of (t, y) are smooth; the modes change at located events only.
  */
 #ifndef FBD_DYNAMICS_INSTANT_H
 #define FBD_DYNAMICS_INSTANT_H
@@ -14,11 +14,11 @@
 struct tree_work;
 struct sliding;
 
-/* What a friction pair does; what is one-sided sticks while it is closed. `loose` is for trials: neither held
- * nor rubbing. */
+/* The mode of a friction constraint; a one-sided constraint is `stick` while closed. `loose` is for trials:
+ * neither sticking nor with friction. */
 enum slip { slip_minus = -1, stick = 0, slip_plus = 1, loose = 2 };
 
-/* The side on which a pair slips: 0 when it sticks or is loose. */
+/* The side on which a constraint slips: 0 when it sticks or is loose. */
 static inline int slip_side(int slip)
 {
     return slip == loose ? 0 : slip;
@@ -31,11 +31,11 @@ struct instant {
     const int *slip;        /* plan.mode_count: enum slip */
     const int *pull;        /* plan.mode_count: sign of the normal force of a two-sided guide, +1 otherwise */
     struct tree_work *tree; /* scratch and results of the jointed bodies; NULL when there are none */
-    double *extended;       /* scratch of world_refs.h; NULL when no expression names a place in the world */
-    struct sliding *sliding; /* switches that the motion slides on; NULL when there are none */
+    double *extended; /* scratch of world_refs.h; NULL when no expression refers to positions in the world */
+    struct sliding *sliding; /* switches in a sliding mode; NULL when there are none */
 };
 
-/* A direction in which everything varies: (dt, dy). */
+/* A direction of variation: (dt, dy). */
 struct direction {
     double dt;
     const double *dy;
@@ -46,7 +46,7 @@ static inline const int *formula_branches(const struct formula *formula, const s
     return formula->branch < 0 || !at->branch ? NULL : at->branch + formula->branch;
 }
 
-/* In a formula with switches that are slid on: sliding.h. */
+/* Of a formula with switches in a sliding mode: sliding.h. */
 double sliding_value(const struct formula *formula, const struct instant *at);
 double sliding_value_along(const struct formula *formula, const struct instant *at,
                            const struct direction *along, double *variation);

@@ -1,9 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
  * Jets: a quantity along the motion, with its first and second rate of change, and the variations of all
- * three along a direction. Written once with jets, a constraint g has its velocity and acceleration, g' and
- * g'', and what the exact Jacobian needs of them, by the chain rule and without a formula of its own for
- * each.
+ * three along a direction. A constraint g written with jets has its velocity g', its acceleration g'' and
+ * their exact Jacobians by the chain rule, without further formulas.
  */
 #ifndef FBD_DYNAMICS_JET_H
 #define FBD_DYNAMICS_JET_H

@@ -3,7 +3,7 @@
 
 #include "dynamics/tree.h"
 
-/* A jointed body has its place in a link, and that is where the last tree_move put it. */
+/* The pose of a jointed body from its link, as set by the last tree_move. */
 static struct pose pose_in_link(const struct model_body *body, const struct instant *at)
 {
     const struct tree_state *link = &at->tree->links[body->place.link];

@@ -1,14 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Where the points of a body are and how they move, and how both vary with the coordinates.
+ * Positions and velocities of points of a body, and their variation with the coordinates.
  *
  *   slide      p = origin + x e + R(along) r            p' = v e
  *   pivot      p = O + R(theta) (r - pin)               p' = omega k x (p - O)
  *   particle   p = (x, y) + r                           p' = (vx, vy)
  *   planar     p = (x, y) + R(theta) r                  p' = (vx, vy) + omega k x R(theta) r
  *
- * A jointed body is where the tree has put it: its pose holds after accelerations() or tree_move() at the
- * same instant.
+ * The pose of a jointed body is that of its link, valid after accelerations() or tree_move() at the same
+ * instant.
  */
 #ifndef FBD_DYNAMICS_KINEMATICS_H
 #define FBD_DYNAMICS_KINEMATICS_H
@@ -28,7 +28,7 @@ struct motion_of_point {
 
 struct pose body_pose(const struct model_body *body, const struct instant *at);
 
-/* The same where cosine and sine of the body's angle are known already; what cannot turn ignores them. */
+/* The same, given cosine and sine of the body's angle; ignored for bodies that cannot turn. */
 static inline struct pose body_pose_turned(const struct model_body *body, const struct instant *at,
                                            struct vec cos_sin)
 {
@@ -59,7 +59,7 @@ static inline struct motion_of_point point_motion(const struct model_body *body,
     return (struct motion_of_point){vec_add(pose->origin, arm),
                                     vec_add(pose->velocity, vec_scale(pose->omega, vec_perp(arm)))};
 }
-/* How position and velocity of the point vary along a direction. */
+/* The variation of position and velocity of the point along a direction. */
 struct motion_of_point point_variation(const struct model_body *body, const struct pose *pose,
                                        struct vec point, const struct direction *along);
 

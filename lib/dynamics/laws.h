@@ -12,8 +12,8 @@
  *
  *     f = -(k (l - l0) + c l') u,    l' = u . p'
  *
- * A spring of no free length pulls with -k d, also at l = 0, where a damper has no direction and gives
- * nothing. */
+ * A spring of zero free length pulls with -k d, also at l = 0, where a damper has no direction and no force.
+ */
 struct link_law {
     struct vec anchor;
     double stiffness, free_length, damping;

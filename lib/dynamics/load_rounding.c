@@ -17,7 +17,7 @@ static bool has_formulas(const struct model_load *load)
     return load->value.expr || load->fx.expr || load->fy.expr;
 }
 
-/* Of an applied force: diagram.c, applied_force. */
+/* Of an applied force: see applied_force in diagram.c. */
 static struct vec force_rounding(const struct model_load *load, struct vec rotation, const struct instant *at)
 {
     double value = formula_rounding(&load->value, at);
@@ -50,7 +50,7 @@ double load_power_rounding(const struct fbd_model *model, size_t index, const st
     return vec_norm(of.force) * speed + fabs(of.couple * pose.omega);
 }
 
-/* The reach of couplings: they determine the position of a body relative to that, not to the origin. */
+/* The size of couplings: they determine the position of a body relative to that, not to the origin. */
 static double reach_of_couplings(const struct tree *tree)
 {
     double reach = 0;
@@ -65,7 +65,7 @@ static double reach_of_couplings(const struct tree *tree)
 
 struct rounded rounded_at(const struct fbd_state *state, struct arrow *arrows)
 {
-    const struct fbd_model *model = state->model; /* of a group, or the whole */
+    const struct fbd_model *model = state->model; /* of an island, or the whole */
     struct instant at = state_instant(state);
     struct rounded sum = {0, 0};
     double reach = reach_of_couplings(model->tree);

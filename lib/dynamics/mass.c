@@ -10,8 +10,8 @@ struct inertia body_inertia(const struct model_body *body, const struct instant 
     return inertia;
 }
 
-/* How what is in a slot of the mass changes, the time among them, and how that varies: coordinates by their rates,
- * states by theirs. */
+/* The rate of a variable of the mass, given by its slot (0 for the time), and its variation: of coordinates
+ * their rates, of user states theirs. */
 static double rate_of(const struct fbd_model *model, int slot, const struct instant *at)
 {
     int n = model->plan.n;
@@ -30,7 +30,7 @@ static double rate_of_along(const struct fbd_model *model, int slot, const struc
     return variation;
 }
 
-/* dm/dt = sum of m_a a' over the time and all that it depends on. */
+/* dm/dt = sum of m_a a' over the time and all other variables. */
 double body_mass_rate(const struct fbd_model *model, const struct model_body *body, const struct instant *at)
 {
     const struct formula *mass = &body->mass;

@@ -1,20 +1,22 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * What the modes become. With v the velocity against the surface, H the force that would hold, c = mu |N| its limit, g the
- * excess of a rope over its length or of a body into its surface (g <= 0), and F the force of what is closed:
+ * The transitions of the modes. With v the velocity relative to the surface, H the friction for sticking, c =
+ * mu |N| its limit, g the excess of a rope's path over its length or the penetration of a surface (g <= 0),
+ * and F the force of a closed constraint:
  *
- *     kind               moves                            at rest, or just closed
- *     friction           slips to the side of v           sticks while |H| <= c; at |H| = c to rounding while
+ *   kind               moving                           at rest, or just closed
+ *   friction           slips to the side of v           sticks while |H| <= c; at |H| = c within rounding while
  *                                                         d|H|/dt <= dc/dt; else slips against H
- *     rope, surface      closes where g = 0 and g' > 0    closed while F >= 0; at F = 0 while F' >= 0
- *     contact            closes by an impact              likewise
- *     drive              as the time says                 always
+ *   rope, surface      closes where g = 0 and g' > 0    closed while F >= 0; at F = 0 while F' >= 0
+ *   contact            closes by an impact              likewise
+ *   drive              as a function of time            always
  *
- * N, F and H go with what other pairs do: of bodies by themselves on straight lines they do not, and each pair decides by
- * itself, here. What rests between jointed bodies is decided together, as one complementarity problem (tree_holds.c).
- * Rates are those along the motion, d/dt = (1, v, a, z'), and need the modes in turn: so all is repeated until it agrees.
+ * N, F and H depend on other modes, except for independent bodies on straight lines: these modes are decided
+ * here, one by one. Constraints at rest between jointed bodies are decided together, as one complementarity
+ * problem (tree_holds.c). Rates are those along the motion, d/dt = (1, v, a, z'), which depend on the modes:
+ * so all is repeated until it is consistent.
  *
- * Checked by all modes tried one after the other (tests/unit/test_holds.c), by random pairs whose stops are known
+ * Checked by enumeration of all modes (tests/unit/test_holds.c), by random friction with known stops
  * (test_slip.c), and by starts at the limit (tests/hard/test_at_the_limit.c, test_coupled_friction.c).
  */
 #include "dynamics/modes.h"
@@ -51,7 +53,7 @@ double settling_slack(const struct fbd_state *state, const struct decided *decid
     return comes_back ? fmax(slack, friction_return(now)) : slack;
 }
 
-/* On the branch of the instant: of the time alone, the rates of the state do not matter. */
+/* Resolve the branches of a function of time; the rates of the state do not matter. */
 static void resolve_drive(struct fbd_state *state, const struct formula *law)
 {
     if (!formula_is_constant(law))
@@ -76,7 +78,7 @@ void modes_drive(struct fbd_state *state)
         if (tree->couplings[i].reels) resolve_drive(state, &tree->couplings[i].reel);
 }
 
-/* Is it another number? */
+/* Set a number; returns whether it changes. */
 static bool put(double *place, double x)
 {
     bool other = *place != x;
@@ -84,7 +86,7 @@ static bool put(double *place, double x)
     return other;
 }
 
-/* Whether coordinates or their rates have changed by that. `settling`: see sliding_project. */
+/* Returns whether coordinates or their rates have changed. `settling`: see sliding_project. */
 static bool hold(struct fbd_state *state, bool settling)
 {
     const struct plan *plan = &state->model->plan;
@@ -108,8 +110,8 @@ void modes_hold(struct fbd_state *state)
     hold(state, false);
 }
 
-/* What begins to slip at the limit of its friction has no acceleration against its surface yet: that is
- * rounding, by which expressions in its speed would go on on either side. It goes on where it slips. */
+/* Give friction that begins to slip at its limit a small acceleration in the slip direction. Its relative
+ * acceleration is still rounding, which would choose the branches of expressions in its speed at random. */
 static void lean(const struct fbd_state *state, double *dy)
 {
     const double little = 1e-9;
@@ -131,7 +133,7 @@ static void lean(const struct fbd_state *state, double *dy)
     }
 }
 
-/* The direction in which the state goes on: (1, v, a, z'). Kept in the scratch. */
+/* The direction of motion of the state: (1, v, a, z'), in the scratch. */
 static struct direction flow_of(struct fbd_state *state)
 {
     const struct plan *plan = &state->model->plan;
@@ -153,8 +155,8 @@ double press_slack(const struct fbd_model *model, const struct tree_work *tree, 
     return 1e-13 * size;
 }
 
-/* `around`: passes have been tried that lead to each other. z at its limit stands still on the branch beyond, which would
- * not be chosen where it stands still, and is driven back on the other: it stays. */
+/* `around`: the passes cycle. A state z at its limit is at rest on the branch beyond, which is not chosen for
+ * a state at rest, and returns on the other branch: it stays. */
 static bool settle_branches(struct fbd_state *state, const struct decided *decided,
                             const struct direction *flow, bool around)
 {
@@ -173,18 +175,18 @@ static bool settle_branches(struct fbd_state *state, const struct decided *decid
     return memcmp(state->branch_before, state->branch, size) == 0;
 }
 
-/* ---- what each kind of mode decides by itself */
+/* ---- decision of each kind of mode on its own */
 
 struct settling {
     struct fbd_state *state;
     const struct decided *decided; /* or NULL */
     const struct direction *flow;
-    const double *slots, *slots_along; /* the forces without friction, and how they go on */
+    const double *slots, *slots_along; /* the forces without friction, and their rates */
 };
 
-enum { together = loose }; /* that is for what rests to decide together: tree_settle_holds */
+enum { together = loose }; /* left to tree_settle_holds */
 
-/* Taut or slack, closed or open. What closes is closed until its force ends. */
+/* Taut or slack, closed or open. A constraint that closes stays closed until its force ends. */
 static int decide_one_sided(const struct settling *settling, int pair)
 {
     const struct fbd_state *state = settling->state;
@@ -197,7 +199,7 @@ static int decide_one_sided(const struct settling *settling, int pair)
     return now.rate > 0 && now.excess > -now.rounding ? stick : slip_plus;
 }
 
-/* Moving, friction slips to where it moves. */
+/* Moving friction slips in its direction of motion. */
 static int decide_friction(const struct settling *settling, int pair)
 {
     if (friction_is_never(&settling->state->model->plan.modes[pair])) return slip_plus;
@@ -206,7 +208,7 @@ static int decide_friction(const struct settling *settling, int pair)
     return v > 0 ? slip_plus : v < 0 ? slip_minus : aside != 0 ? aside : together;
 }
 
-/* At rest what is single sticks as long as friction can hold it (friction_decide). */
+/* At rest an independent body sticks within the limit of its friction (friction_decide). */
 static int decide_single(const struct settling *settling, int pair)
 {
     const struct fbd_model *model = settling->state->model;
@@ -220,7 +222,7 @@ static int decide_single(const struct settling *settling, int pair)
                            settling_slack(settling->state, settling->decided, pair, &now, &rate));
 }
 
-/* NULL: the time does (a drive), or impacts and what rests (a contact). */
+/* NULL: set by the time (a drive), or by impacts and tree_settle_holds (a contact). */
 static int (*const decide[mode_kinds])(const struct settling *settling,
                                        int pair) = {[mode_single] = decide_single,
                                                     [mode_joint] = decide_friction,
@@ -228,7 +230,7 @@ static int (*const decide[mode_kinds])(const struct settling *settling,
                                                     [mode_rope] = decide_one_sided,
                                                     [mode_surface] = decide_one_sided};
 
-/* A guide presses on the side that keeps the body on its line; false when that has changed and matters. */
+/* Set the loaded side of a two-sided guide; false when it has changed and the guide slips. */
 static bool settle_pull(const struct settling *settling, int pair)
 {
     struct fbd_state *state = settling->state;
@@ -265,8 +267,8 @@ static bool settle_slips(struct fbd_state *state, const struct decided *decided,
     return same;
 }
 
-/* Would another pass see what the first one has seen, where that has changed nothing? What is decided follows from the state
- * and its modes alone, but for holds that are decided together, and for what slides. */
+/* Is one pass without changes final? It is, if modes depend on the state and other modes only, not on
+ * constraints decided together or sliding modes. */
 static bool tells_at_once(const struct fbd_state *state)
 {
     return !state->tree && !state->sliding && state->model->plan.kink_count == 0;
@@ -278,7 +280,7 @@ static bool settle(struct fbd_state *state, const struct decided *decided)
     const struct plan *plan = &state->model->plan;
     bool first = true;
     state->settled = true;
-    if (state->holds.found == holds_no_memory) return false; /* once is for good */
+    if (state->holds.found == holds_no_memory) return false; /* final */
     state->holds = (struct holds_trouble){.found = holds_decided, .pair = -1, .contradicts = -1};
     for (int pass = 0; pass < most_passes; pass++) {
         state_evaluate(state);
@@ -296,7 +298,8 @@ static bool settle(struct fbd_state *state, const struct decided *decided)
     return false;
 }
 
-/* What begins to slip here was at rest, and is: rounding would have it slip already, perhaps to the other side. */
+/* Record sticking friction: if it begins to slip here it is at rest, and its velocity, with either sign, is
+ * rounding. */
 static void note_rests(struct fbd_state *state)
 {
     for (size_t pair = 0; pair < state->model->plan.mode_count; pair++)

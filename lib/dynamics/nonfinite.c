@@ -23,7 +23,7 @@ bool nonfinite_note(struct nonfinite *found, double value, struct pos at, const 
     if (isfinite(value)) return false;
     va_list args;
     va_start(args, format);
-    /* NOLINTNEXTLINE(clang-analyzer-valist.Uninitialized): it is, a line above */
+    /* NOLINTNEXTLINE(clang-analyzer-valist.Uninitialized): initialized a line above */
     vsnprintf(found->what, sizeof found->what, format, args);
     va_end(args);
     found->value = value;
@@ -84,7 +84,7 @@ static bool note_arrow(const struct fbd_model *model, const struct model_body *b
     const double moments[] = {arrow->couple, arrow_moment(arrow, G)};
     double sum = force[0] + force[1] + moments[0] + moments[1] + arrow->power;
     for (int k = 0; k < body->count; k++) sum += arrow->share[k];
-    if (isfinite(sum)) return false; /* mostly, and then so are all */
+    if (isfinite(sum)) return false; /* the usual case: then all are finite */
     const char *toward = arrow->load >= 0 ? model->loads[arrow->load].source->toward : NULL;
     if (toward && nonfinite_note(found, force[0], at,
                                  "the force `%s` on `%s`, which has no direction where "
@@ -105,7 +105,7 @@ static bool note_arrow(const struct fbd_model *model, const struct model_body *b
     return nonfinite_note(found, arrow->power, at, "the power of `%s` on `%s`", name, on);
 }
 
-/* What is given, what follows, or either. */
+/* Applied forces, reactions, or both. */
 enum which_arrows { given_arrows, reaction_arrows, all_arrows };
 
 static bool note_arrows(const struct fbd_state *state, struct arrow *arrows, enum which_arrows which,
@@ -147,7 +147,7 @@ static bool note_energies(const struct fbd_state *state, struct nonfinite *found
     return false;
 }
 
-/* A force within its limit may be finite while the limit, which outputs show beside it, is not. */
+/* A friction force may be finite while its limit, which is also output, is not. */
 static bool note_limits(const struct fbd_state *state, struct nonfinite *found)
 {
     const struct fbd_model *model = state->model;
@@ -170,7 +170,7 @@ enum finite nonfinite_check(const struct fbd_state *state, struct nonfinite *fou
 {
     struct arrow *arrows = block_alloc(diagram_most_arrows(state->model) * sizeof *arrows);
     if (!arrows) return finite_no_memory;
-    struct nonfinite unused; /* mostly all are finite, and no order is asked for */
+    struct nonfinite unused; /* all are finite usually, and no order is needed */
     bool fine = !note_arrows(state, arrows, all_arrows, &unused);
     bool odd = note_coordinates(state, found) || note_own(state, found) ||
                (!fine && note_arrows(state, arrows, given_arrows, found)) ||

@@ -7,16 +7,16 @@
 #include "dynamics/contact.h"
 #include "dynamics/tree_system.h"
 
-/* What is projected: y is that of the instant. */
+/* A projection; y is that of the instant. */
 struct place {
     const struct fbd_model *model;
     struct instant at;
     double *y;
-    bool assemble;  /* only bodies that the scene marks so move */
-    bool returning; /* from a step: what sticks does not move */
+    bool assemble;  /* only bodies that the scene marks for assembly */
+    bool returning; /* within a step: sticking joints do not move */
 };
 
-/* Must the joint of a link stay as it is? */
+/* Is the joint of a link fixed in the projection? */
 static bool stays(const struct place *place, int link)
 {
     const struct tree_link *joint = &place->model->tree->links[link];
@@ -36,14 +36,14 @@ static bool has_couplings(const struct fbd_model *model)
     return model->tree && model->tree->coupling_count > 0;
 }
 
-/* Where the links and rows are. */
+/* Evaluate links and rows. */
 static void look(const struct place *place)
 {
     tree_move(place->model, &place->at);
     constraints_evaluate(place->model, &place->at, NULL);
 }
 
-/* The rows where the state is, with the tree factored for answers: no loads, no bias. */
+/* Evaluate the rows at the state, and factor the tree without loads and bias. */
 static void prepare(const struct place *place)
 {
     const struct fbd_model *model = place->model;
@@ -139,7 +139,7 @@ static struct vec port_point(const struct place *place, const struct port *port)
     return vec_add(place->at.tree->links[port->link].p, port->arm);
 }
 
-/* The size of the parts that the rows join: their arms, or, where only points are joined, what joins them. */
+/* The size of the joined parts: arms of rows, or the distance of their points if there are no arms. */
 static double arm_length(const struct place *place)
 {
     double length = 0, apart = 0;
@@ -154,7 +154,7 @@ static double arm_length(const struct place *place)
     return length > 0 ? length : apart;
 }
 
-/* y[first ..] += share * (the answer to -value of each row), by the system as it is factored. */
+/* Add share times the response to -value of each row to positions or velocities. */
 static void move(const struct place *place, bool velocity, double share)
 {
     const struct tree *tree = place->model->tree;
@@ -194,13 +194,13 @@ enum { most_steps = 60 };
 
 static const double least_damping = 1e-13;
 
-/* Less and less: a light coupler between heavy bodies has slopes that differ by their masses. */
+/* Decreasing with the misfit: a light coupler between heavy bodies has slopes that differ by their masses. */
 static double start_damping(const struct place *place, double misfit)
 {
     return fmin(1e-6, fmax(least_damping, 1e-6 * misfit / arm_length(place)));
 }
 
-/* How fast the links are, turning at the ends of the arms that rows have. */
+/* The largest speed of the links, including rotation at the ends of the arms of rows. */
 static double speed_of(const struct place *place)
 {
     double length = arm_length(place), speed = 0;
@@ -211,7 +211,7 @@ static double speed_of(const struct place *place)
     return speed;
 }
 
-/* Is it at rest, and about to move by more than rounding of its forces, at an arm? */
+/* Is the state at rest, with accelerations beyond the rounding of its forces, at an arm? */
 static bool sets_out(const struct fbd_state *state, double arm)
 {
     const double rounding = 1e-6;
@@ -243,10 +243,10 @@ static bool has_redundant_row(const struct fbd_state *state)
     return false;
 }
 
-/* g = J q' + q'.H q' / 2 along q' = a T: with J a = 0, and J of less than full rank, there may be no q'' with
- * J q'' = -q'.H q'. What is missed is compared with the curvature of the motion, speed^2 / arm. What touches opens or slips
- * then: a box that tips beside another has the push of that one and the friction under its corner along one line, and
- * leaves it. */
+/* g = J q' + q'.H q' / 2 along q' = a T: with J a = 0, and J of less than full rank, J q'' = -q'.H q' may
+ * have no solution. The residual is compared with the curvature of the motion, speed^2 / arm. Contacts are
+ * excluded, since they open or slip then: a box that tips beside another has the normal force of that one and
+ * the friction under its corner along one line, and leaves it. */
 int state_locked_row(const struct fbd_state *state, struct fbd_state *other)
 {
     const double T = 1e3, rounding = 1e-6;
@@ -286,7 +286,7 @@ bool state_is_fixed(struct fbd_state *state)
 
 static void project_velocity(const struct place *place)
 {
-    /* Linear: the second step mends the rounding of the first. */
+    /* Linear: the second step corrects rounding of the first. */
     for (int pass = 0; pass < 2; pass++) {
         prepare(place);
         if (misfit_of(place).velocity == 0) break;
@@ -296,11 +296,12 @@ static void project_velocity(const struct place *place)
     prepare(place);
 }
 
-/* So many times what it is off by is too far to bring a state back: its rows nearly contradict each other. (Boxes that lean on
- * each other, with 1e4, lost up to half of their turning speed, and no energy check tells: tests/unit/test_shelf.c.) */
+/* A projection that changes the state by more than this times its misfit is rejected: its rows nearly
+ * contradict each other. (Boxes that lean on each other, with 1e4, lost up to half of their angular velocity,
+ * which no energy check shows: tests/unit/test_shelf.c.) */
 static const double far = 1e2;
 
-/* The largest change of a coordinate, or a rate, of what turns at an arm. */
+/* The largest change of a coordinate, or a rate; of angles at an arm. */
 static double change_since(const struct place *place, const double *y, const double *before, double arm)
 {
     const struct scene *scene = place->model->scene;
@@ -310,8 +311,8 @@ static double change_since(const struct place *place, const double *y, const dou
     return most;
 }
 
-/* What touches and sticks on both sides of what it is jammed in has rows that nearly contradict each other: velocities that
- * satisfy them all may be far from those that miss them by next to nothing. Then it slips by that. */
+/* Contacts that stick on both sides of a jammed body have nearly contradictory rows: velocities that satisfy
+ * all may be far from velocities with a tiny residual. Then friction slips by that residual. */
 bool state_project_velocity(struct fbd_state *state, bool assemble)
 {
     if (!has_couplings(state->model)) return true;
@@ -336,7 +337,7 @@ bool state_project_velocity(struct fbd_state *state, bool assemble)
     return there;
 }
 
-/* What the constraints make of the velocities `way`. */
+/* Project the velocities `way`. */
 static void find_way(struct fbd_state *state, double *way)
 {
     const struct place place = place_of(state, false);
@@ -353,7 +354,7 @@ void state_find_ways(struct fbd_state *state, double *ways)
     double *before = state_scratch(state).dy, *still = before + n;
     memcpy(before, state->y + n, bytes);
     memset(still, 0, bytes);
-    find_way(state, still); /* what moves by itself, as the length of a rope */
+    find_way(state, still); /* motion by drives, as the length of a rope */
     memset(ways, 0, n * bytes);
     for (size_t k = 0; k < n; k++) {
         ways[k * n + k] = 1;
@@ -364,7 +365,7 @@ void state_find_ways(struct fbd_state *state, double *ways)
     state_evaluate(state);
 }
 
-/* Is the misfit a rounding: of the places, at least of the arms, or of the size of a contact? */
+/* Is the misfit within rounding: of positions, or at least of the arms, or of the size of a contact? */
 static bool is_home(const struct place *place, const struct misfit *left)
 {
     const struct tree *tree = place->model->tree;
@@ -379,7 +380,7 @@ static bool bring_home(struct fbd_state *state, const struct place *place, doubl
     size_t bytes = (size_t)state->model->plan.n * sizeof *state->y;
     double share = 1;
     prepare(place);
-    slots_follow(place->model, place->at.tree); /* from afar: searched once, and not in every evaluation */
+    slots_follow(place->model, place->at.tree); /* global search here, not in every evaluation */
     struct misfit misfit = misfit_of(place);
     for (int k = 0; k < most_steps && misfit.position > rounding(place); k++) {
         memcpy(before, state->y, bytes);
@@ -401,8 +402,8 @@ static bool bring_home(struct fbd_state *state, const struct place *place, doubl
     return is_home(place, &misfit);
 }
 
-/* Friction that sticks has no place of its own: with it a body that stands by 1e-11 m in its neighbour would have to turn by
- * the root of that to get out. */
+/* Without sticking friction, which has no definite position: with it a body that penetrates its neighbour by
+ * 1e-11 m would have to turn by the square root of that to get out. */
 static bool settle_down(struct fbd_state *state, const struct place *place, double *before)
 {
     place->at.tree->settling_down = true;
@@ -434,14 +435,13 @@ bool state_project(struct fbd_state *state, bool assemble)
     return state_project_velocity(state, assemble) && there;
 }
 
-/* ---- from near by: a step or a stage of it
+/* ---- local: after a step or a stage of it
  *
- * Near a singular position a row has hardly any slope, and what it is off by says little of how far the state
- * is off: rounding e of g means e / s, with s the slope relative to what it is elsewhere, and velocities,
- * which go with positions, e / s^2. Where that is more than the accuracy of the state itself, or where the
- * state is off by more than s, so that it might as well belong to another branch, the state is left alone
- * (Levenberg and Marquardt's damping of s^2; Yamashita and Fukushima, Computing [Suppl] 15 (2001) 239, for
- * damping in proportion to what is left). */
+ * Near a singular position a row has hardly any slope, and its residual does not show the error of the state:
+ * rounding e of g is an error e / s, with s the slope relative to that elsewhere, and e / s^2 of velocities,
+ * which depend on positions. Where that exceeds the accuracy of the state, or the error exceeds s, so that
+ * the state may be on another branch, the state is not changed (Levenberg and Marquardt's damping of s^2;
+ * Yamashita and Fukushima, Computing [Suppl] 15 (2001) 239, for damping in proportion to the residual). */
 
 static double square(double x)
 {

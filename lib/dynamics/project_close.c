@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * The end of a step back on the constraints, with what that takes: every step with couplings asks, so that a loop of three
- * links says all of it by the way (tree_loop_return.c).
+ * Project the end of a step, with the misfits and energies before and after, which every step with couplings
+ * requires. For a loop of three links they follow from the projection itself (tree_loop_return.c).
  */
 #include "dynamics/energy.h"
 #include "dynamics/project.h"

@@ -9,8 +9,8 @@
 #include "dynamics/tree.h"
 #include "dynamics/tree_bare.h"
 
-/* Can every coordinate of the body be a row in the present modes? Its equations have to stand by themselves,
- * and its friction, if any, has to be a number. */
+/* Can every coordinate of the body be a row in the present modes? Its equations must be independent, and its
+ * friction, if any, constant. */
 static bool stands_by_itself(const struct plan *plan, const struct model_body *body,
                              const struct body_terms *terms, const struct fbd_state *state)
 {
@@ -23,7 +23,7 @@ static bool stands_by_itself(const struct plan *plan, const struct model_body *b
            (mode->normal_slot < 0 || plan->slot_constant[mode->normal_slot]);
 }
 
-/* Kinetic friction of a pair that slips with constant normal force, as in forward.c. */
+/* Kinetic friction that slips with constant normal force, as in forward.c. */
 static double constant_friction(const struct plan *plan, const struct body_terms *terms,
                                 const struct fbd_state *state)
 {
@@ -82,7 +82,7 @@ static void choose(struct row *row)
     row->steady = row->inverse * (row->c0 - row->friction);
 }
 
-/* In its place: a row is large. */
+/* Written in place: a row is large. */
 static void set_row(const struct rates *rates, int b, int coordinate, struct row *row)
 {
     const struct fbd_state *state = rates->state;
@@ -107,7 +107,7 @@ static bool is_pulled_particle(const struct model_body *body, const struct body_
     return body->kind == motion_particle && terms->forces.count == 0 && terms->potentials.count == 0;
 }
 
-/* Is there nothing but springs without dampers on its own point, and one part of a formula? */
+/* Are there only springs without dampers at the particle, and one part of a formula? */
 static bool has_springs_alone(const struct plan *plan, const struct row *row)
 {
     const struct link_term *link = plan->links + row->terms->links.first,
@@ -214,7 +214,8 @@ void rates_bind(struct rates *rates)
         rates->rows[rates->count++] = row_of_bare_tree(rates);
     } else if (free && model->tree && rates->state->tree->is_loop) {
         rates->rows[rates->count++] = row_of_loop(rates);
-    } else if (model->tree || model->names_places || state_sliding(rates->state)) { /* one solution for all */
+    } else if (model->tree || model->names_places ||
+               state_sliding(rates->state)) { /* one row for all bodies */
         rates->rows[rates->count++] = (struct row){.function = whole_row, .all = rates};
     } else {
         for (int b = 0; b < (int)rates->state->model->body_count; b++) bind_body(rates, b);
@@ -225,7 +226,7 @@ void rates_bind(struct rates *rates)
 
 struct rates *rates_new(struct fbd_state *state, enum rates_kind kind)
 {
-    size_t most = (size_t)state->model->plan.n + 2; /* a body that is a row has a coordinate at least */
+    size_t most = (size_t)state->model->plan.n + 2; /* a body with a row has at least one coordinate */
     struct rates *rates = block_alloc(sizeof *rates + most * sizeof *rates->rows);
     if (!rates) return NULL;
     rates->state = state;

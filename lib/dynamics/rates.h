@@ -1,28 +1,26 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Rates: the right-hand side that a stepper calls, made for one plan and one set of modes.
+ * Rates: the right-hand side that a stepper calls, built for one plan and one set of modes.
  *
- * Between two events the modes are fixed, and most coordinates need little: a block that slides down a plane
- * has a constant acceleration, a pendulum one sine. So each time the stepper starts, every coordinate that
- * stands by itself (diagonal mass matrix, no force at a point) becomes a row with a function that does just
- * what its terms ask for; the friction of a mode is a number in it. A body that needs more is one row that
- * does all that forward.h does. The right-hand side is the rows, and with one row it is the function of that
- * row.
+ * Between two events the modes are fixed, and most coordinates have few terms: a block that slides down a
+ * plane has a constant acceleration, a pendulum one sine. So each time the stepper starts, every independent
+ * coordinate (diagonal mass matrix, no force at a point) becomes a row with a function for its terms only;
+ * the friction of a mode is a number in it. Any other body is one row with all stages of forward.h. The
+ * right-hand side is the rows; a single row is called directly.
  *
- *     row          dv/dt                                                  needs
- *     steady       a                                                      terms and friction constant
- *     held         0, dx/dt = the speed of the surface                    stick on a surface of constant speed
- *     affine       (c0 - kq q - kv v - k |v| v - F) / m
- *     sine         (... + s sin q + c cos q - F) / m
- *     parts        (... + scale (sum of c u^k, c sin(w u + p)) - F) / m   one formula of this shape (expr/parts.h)
- *     formulas     (... + sum of scale f(t, q, v) - F) / m
- *     body         the stages of forward.h                                everything else
- *     bare tree    tree_bare.h                                            pivots under gravity and the like
- *     loop         tree_loop.h                                            slider-cranks, four-bars
- *     own          z' = f(t, q, v, z)                                     the states of the file's own
+ *   row          dv/dt                                                  for
+ *   steady       a                                                      terms and friction constant
+ *   held         0, dx/dt = the speed of the surface                    stick on a surface of constant speed
+ *   affine       (c0 - kq q - kv v - k |v| v - F) / m
+ *   sine         (... + s sin q + c cos q - F) / m
+ *   parts        (... + scale (sum of c u^k, c sin(w u + p)) - F) / m   one formula of this shape (expr/parts.h)
+ *   formulas     (... + sum of scale f(t, q, v) - F) / m
+ *   body         the stages of forward.h                                all others
+ *   bare tree    tree_bare.h                                            pivots under gravity and the like
+ *   loop         tree_loop.h                                            slider-cranks, four-bars
+ *   own          z' = f(t, q, v, z)                                     user states
  *
- * Each row adds up in the order of forces.c and multiplies by the same 1/m: the bits are those of
- * state_rates.
+ * Each row adds in the order of forces.c and multiplies by the same 1/m: the bits are those of state_rates.
  */
 #ifndef FBD_DYNAMICS_RATES_H
 #define FBD_DYNAMICS_RATES_H
@@ -32,26 +30,26 @@
 /* As in gsl_odeiv2_system: 0, and dydt[plan_size]. */
 typedef int rates_function(double t, const double y[], double dydt[], void *params);
 
-/* What is asked for: the whole, or always the general path (to hold the rows against), or none, of what cannot move. */
+/* Rows where possible; the general path always (for comparison); or zero rates, if the scene cannot move. */
 enum rates_kind { rates_by_rows, rates_general, rates_none };
 
 struct rates;
 
-/* Rates in the modes of `state`, whose branches, slips and pulls are read while they are in use. NULL when
- * memory is out. */
+/* Rates in the modes of `state`, whose branches, slips and pulls are read during their use. NULL when memory
+ * is out. */
 struct rates *rates_new(struct fbd_state *state, enum rates_kind kind);
 void rates_free(struct rates *rates);
 
-/* Make the rows for the present modes of the state; to be called after every change of the slips. */
+/* Build the rows for the present modes of the state; to be called after every change of the slips. */
 void rates_bind(struct rates *rates);
 
-/* What to call, and with which params. */
+/* The function to call, and its params. */
 rates_function *rates_call(struct rates *rates, void **params);
 
 /* The state behind the params of a call. */
 struct fbd_state *rates_state(void *params);
 
-/* How many rows of each kind there are, for those who want to know. */
+/* The number of rows of each kind. */
 struct rates_census {
     int steady, held, affine, sine, parts, formulas, particles, own, bare, bodies;
 };

@@ -73,7 +73,7 @@ int sine_row(double t, const double y[], double dydt[], void *params)
     return 0;
 }
 
-/* A pendulum, perhaps with a damper. */
+/* A pendulum, with or without a damper. */
 int swing_row(double t, const double y[], double dydt[], void *params)
 {
     const struct row *row = params;
@@ -112,8 +112,7 @@ int formulas_row(double t, const double y[], double dydt[], void *params)
     return 0;
 }
 
-/* Springs, dampers and drag on a particle at p: its frame does not turn, so the arm of a point stays as it
- * is. */
+/* Springs, dampers and drag on a particle at p: its frame does not turn, so the arm of a point is constant. */
 static inline struct vec pulls(const struct plan *plan, const struct body_terms *terms, struct vec p,
                                struct vec v)
 {
@@ -138,8 +137,8 @@ static void add_formulas(const struct row *row, double t, const double *y, doubl
         *(formula->slot == row->q ? x_sum : y_sum) += formula->scale * formula_value(&formula->value, &at);
 }
 
-/* The formula comes first: the processor works on its sine and on the square roots of the springs at a time.
- */
+/* The formula comes first: so the processor computes its sine and the square roots of the springs in
+ * parallel. */
 int particle_row(double t, const double y[], double dydt[], void *params)
 {
     const struct row *row = params;
@@ -164,8 +163,8 @@ int particle_row(double t, const double y[], double dydt[], void *params)
     return 0;
 }
 
-/* A particle between springs without dampers on its own point, pushed along one axis or not at all: as particle_row,
- * which does it where the square of a length would not have all digits. */
+/* A particle with springs without dampers at its own point, and a formula along one axis or none: as
+ * particle_row, which is called if the square of a length would lose digits. */
 int springs_row(double t, const double y[], double dydt[], void *params)
 {
     const double least = 1e-280, most = 1e280;
@@ -251,7 +250,7 @@ int three_pivots_row(double t, const double y[], double dydt[], void *params)
     return 0;
 }
 
-/* As the tree would have it, to rounding, and by it near singular positions. */
+/* Equal to the tree's result within rounding; near singular positions by the tree. */
 int loop_row(double t, const double y[], double dydt[], void *params)
 {
     const struct row *row = params;
@@ -273,7 +272,7 @@ int driven_loop_row(double t, const double y[], double dydt[], void *params)
     return 0;
 }
 
-/* The states of the file's own. */
+/* User states. */
 int own_row(double t, const double y[], double dydt[], void *params)
 {
     const struct row *row = params;

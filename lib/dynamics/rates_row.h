@@ -12,7 +12,7 @@
 struct row {
     rates_function *function;
     const struct rates *all;
-    int q, v;       /* where the coordinate and its rate are in y; of a body's row, `q` is the body */
+    int q, v;       /* indices of the coordinate and its rate in y; of a body's row, `q` is the body */
     double inverse; /* 1/m, 1/I_O or 1/I_G */
     double c0, kq, kv;
     double s, c;
@@ -22,11 +22,11 @@ struct row {
     const struct formula_term *formulas;
     int formula_count;
     double x_and_y[2][3]; /* particle: c0, kq, kv along x and y, */
-    bool sloped;          /* which are not all constant */
+    bool sloped;          /* if these are not constant */
     const struct body_terms *terms;
-    const struct link_term *springs; /* springs alone: those of a particle, */
-    int spring_count, driven;        /* and along which axis the formula acts */
-    double scale;                    /* of a single formula of one part */
+    const struct link_term *springs; /* the springs of a springs_row, */
+    int spring_count, driven;        /* and the axis of its formula */
+    double scale;                    /* of a single formula with one part */
     struct expr_part part;
     int u; /* its variable in y, -1 for t */
     bool one_part;
@@ -34,7 +34,7 @@ struct row {
     const struct tree_link *links;
     const struct tree_bare *bare;
     const struct tree_loop *loop;
-    double along[3]; /* what acts along the links of the loop, where that is constant */
+    double along[3]; /* the loads along the links of the loop, if constant */
 };
 
 struct rates {

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * The limits of what is shared, and what is left to them.
+ * The limits of redundant loads, and the distance to them.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -17,7 +17,7 @@ size_t rest_limits(const struct rest_system *system)
     return system->state->model->plan.contact_count + system->state->model->plan.mode_count;
 }
 
-/* What rubs on a guide with two sides as the scene moves, by its friction, stays on its side. */
+/* A two-sided guide with slipping friction keeps its loaded side as the scene moves. */
 static bool keeps_side(const struct rest_system *system, size_t pair)
 {
     const struct mode *mode = &system->state->model->plan.modes[pair];
@@ -26,8 +26,8 @@ static bool keeps_side(const struct rest_system *system, size_t pair)
            friction_coefficient(system->state->model, (int)pair, &mode->mu_k, &system->at, NULL, NULL) != 0;
 }
 
-/* Of friction both sides are limits, of others one; unused ones are empty: 0 >= 0. `slots` and `lambda` may
- * be those of a column; without lambda those of the rows. */
+/* Friction has two limits, other constraints one; unused ones are empty: 0 >= 0. `slots` and `lambda` may be
+ * those of a column; without lambda those of the rows. */
 static void limit_values(const struct rest_system *system, const double *slots, size_t stride,
                          const double *lambda, bool loads, double *values)
 {
@@ -98,7 +98,8 @@ void rest_read_limits(const struct rest_system *system, double *values)
     limit_values(system, system->forces, 1, NULL, true, values);
 }
 
-/* How the limits change with the coordinates of the null space: G, rest_limit_values x basis_count. */
+/* The slopes of the limits with respect to the coordinates of the null space: G, rest_limit_values x
+ * basis_count. */
 bool rest_limit_slopes(struct rest_system *system, double *G)
 {
     size_t count = rest_limit_values(system), d = system->basis_count, m = system->m;
@@ -116,9 +117,9 @@ bool rest_limit_slopes(struct rest_system *system, double *G)
     return true;
 }
 
-/* ---- what is left to the limits */
+/* ---- the distance to the limits */
 
-/* Value i moves by G[i] with the null space: does it, and is it one? */
+/* The largest slope of value i in the null space; 0 if the value is constant. */
 static double slope_size(const double *G, size_t d, size_t i)
 {
     double most = 0;
@@ -126,13 +127,13 @@ static double slope_size(const double *G, size_t d, size_t i)
     return most;
 }
 
-/* The pair that limit i belongs to, -1 for the normal force of a slide. */
+/* The mode of limit i, -1 for the normal force of a slide. */
 static int pair_of_limit(const struct plan *plan, size_t i)
 {
     return i < plan->contact_count ? plan->contacts[i].pair : (int)((i - plan->contact_count) / 2);
 }
 
-/* What a margin of one unit is for limit i: a force, or a moment on the length of the scene. */
+/* The change of limit i for a unit margin: a force, or a moment at the length of the scene. */
 static double unit_of_limit(const struct rest_system *system, size_t i)
 {
     const struct plan *plan = &system->state->model->plan;
@@ -157,12 +158,12 @@ static double limit_along(const struct rest_system *system, const double *slots_
     return (i - plan->contact_count) % 2 == 0 ? limit - rate.hold : limit + rate.hold;
 }
 
-/* The programme of a part: most s' with unit_i s' - G_i (y' - y'') <= b_i and s' <= cap, s', y', y'' >= 0, as the
- * complementarity of its optimality conditions. */
+/* The programme of a part: max s' with unit_i s' - G_i (y' - y'') <= b_i and s' <= cap, s', y', y'' >= 0, as
+ * the complementarity of its optimality conditions. */
 struct programme {
     const struct rest_part *part;
-    size_t limits, unknowns; /* inequalities with the last, s' <= cap; 1 + 2 size of the part */
-    size_t *row, *limit;     /* limits - 1: rows of the part, and which limits they are */
+    size_t limits, unknowns; /* inequalities including s' <= cap; 1 + 2 size of the part */
+    size_t *row, *limit;     /* limits - 1: rows of the part, and indices of the limits */
     double *M, *q, *z, *w;
 };
 
@@ -199,7 +200,7 @@ static void set_inequality(struct programme *of, size_t row, size_t column, doub
     of->M[i * n + column] = -a;
 }
 
-/* The largest margin over `size`; the multipliers are left in z. */
+/* The largest margin divided by `size`; leaves the multipliers in z. */
 static double solve_programme(struct programme *of, const struct rest_system *system, int which,
                               const double *values, double size)
 {
@@ -226,14 +227,15 @@ static double solve_programme(struct programme *of, const struct rest_system *sy
     return found == lcp_solved ? least + of->z[0] : least;
 }
 
-/* The rate of the margin of a part, and what gives when it is used up: the limits with multipliers. */
+/* The rate of the margin of a part, and the modes after it is exhausted: those of the limits with
+ * multipliers. */
 static double rate_of_margin(const struct rest_system *system, const struct programme *of,
                              const double *slots_along, const double *lambda_along,
                              const struct direction *flow, int *gives)
 {
     const double share = 1e-9;
     const struct plan *plan = &system->state->model->plan;
-    double sum = of->z[of->unknowns + of->limits - 1]; /* of the cap, which does not vary */
+    double sum = of->z[of->unknowns + of->limits - 1]; /* of the cap, which is constant */
     double rate = 0;
     for (size_t k = 0; k + 1 < of->limits; k++) {
         size_t i = of->limit[k];
@@ -260,8 +262,8 @@ static void mark_limits(const struct rest_system *system, const struct programme
     }
 }
 
-/* Of several parts the margin is that of the one with the least; of those with the same, the one that loses it the
- * fastest, and all of them give. */
+/* Combine parts: the margin is the smallest; of equal ones the fastest decreasing, and the modes of all of
+ * them change. */
 static void take_part(struct rest_margin *margin, double value, double rate, const int *gives, size_t pairs)
 {
     double slack = rest_margin_slack(margin);

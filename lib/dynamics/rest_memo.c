@@ -5,7 +5,7 @@
 #include <string.h>
 
 struct part_memo {
-    double *matrix; /* whose svd that is */
+    double *matrix; /* the decomposed matrix */
     struct svd svd;
     double *problem; /* M and q of n rows, then z and w */
     size_t n;
@@ -17,7 +17,7 @@ struct rest_memo {
     int count;
 };
 
-/* Of part `which`; NULL when memory is out. */
+/* Entry of part `which`; NULL when memory is out. */
 static struct part_memo *part_of(struct rest_memo **memo, int which)
 {
     if (!*memo) *memo = calloc(1, sizeof **memo);

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * The last singular value decomposition and the last complementarity problem of each part of the open system
- * (rest_system.h). A scene at rest needs them at the same position in the same modes repeatedly, at nearly all of its
- * cost. Input that is the same to the bit has the same results.
+ * The last singular value decomposition and the last complementarity problem of each part of the
+ * indeterminate system (rest_system.h). A scene at rest solves them at the same position in the same modes
+ * repeatedly, at nearly all of its cost. Bitwise equal input has the same results.
  */
 #ifndef FBD_DYNAMICS_REST_MEMO_H
 #define FBD_DYNAMICS_REST_MEMO_H
@@ -12,7 +12,8 @@
 
 struct rest_memo;
 
-/* svd_decompose for part `which`; it belongs to *memo, which is made when it is NULL. NULL when memory is out. */
+/* svd_decompose for part `which`; the result belongs to *memo, which is allocated if NULL. NULL when memory
+ * is out. */
 const struct svd *rest_memo_svd(struct rest_memo **memo, int which, size_t rows, size_t cols,
                                 const double *a);
 

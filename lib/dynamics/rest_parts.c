@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * What is open, part by part: which null vectors feel each other, and how the reactions go with them.
+ * The indeterminate reactions, part by part: which null vectors interact, and a basis of least reactions.
  */
 #include <math.h>
 
@@ -8,10 +8,10 @@
 #include "dynamics/rest_system.h"
 #include "holds/parts.h"
 
-/* A null vector's share in a reaction or a limit that is less than that of its largest is rounding. */
+/* The relative size below which the contribution of a null vector to a reaction or a limit is rounding. */
 static const double no_share = 1e-12;
 
-/* Rows that tell which null vectors meet: all reactions, then all limits. */
+/* The rows by which null vectors interact: all reactions, then all limits. */
 struct meeting_rows {
     size_t rows, cols;
     const double *of; /* rows x cols */
@@ -28,7 +28,7 @@ static bool meet(const void *context, int i, int j)
     return false;
 }
 
-/* R Z, then the slopes of the limits; the basis is Z. */
+/* Compute R Z, then the slopes of the limits; the basis is Z. */
 static double *follow_null_vectors(struct rest_system *system)
 {
     size_t m = system->m, d = system->basis_count, count = system->reactions;
@@ -54,7 +54,7 @@ static bool find_parts(struct rest_system *system, const double *rows)
     return true;
 }
 
-/* In one part: the least reactions, and a basis in which they change by w at the rate |w|. */
+/* In one part: the least reactions, and a basis in which the norm of their change by w is |w|. */
 static bool set_part_basis(struct rest_system *system, const double *RZ, int which, double *start)
 {
     size_t m = system->m, d = system->basis_count, count = system->reactions, size = 0;

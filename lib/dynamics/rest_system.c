@@ -9,9 +9,10 @@
 #include "dynamics/tree_system.h"
 #include "numeric/least_distance.h"
 
-/* ---- sizes: what zero is measured against */
+/* ---- scales with which zero is compared */
 
-/* The largest arm of a body's arrows about its centre of mass, then the largest load, couples over that. */
+/* The largest arm of a force about the centre of mass of its body, then the largest load, couples divided by
+ * that arm. */
 static bool find_sizes(struct rest_system *system)
 {
     const struct fbd_model *model = system->state->model;
@@ -33,7 +34,7 @@ static bool find_sizes(struct rest_system *system)
     }
     if (system->length == 0) system->length = 1;
     system->force = fmax(system->force, couple / system->length);
-    /* Where all loads vanish, as at the neutral place of a spring, a millionth of the weights is a size. */
+    /* Where all loads vanish, as at the neutral position of a spring: a millionth of the weights. */
     system->force = fmax(system->force, 1e-6 * heaviest * vec_norm(model->scene->gravity));
     return arrows != NULL;
 }
@@ -65,7 +66,7 @@ static void read_reactions(const struct rest_system *system, const double *slots
         r[rest_entry_of_row(system, j)] = system->state->tree->rows[system->rows[j]].lambda;
 }
 
-/* Row number j, and the friction that goes with it where its body slips. */
+/* Add to row j, and to its friction if its body slips. */
 static void add_to_row(struct rest_system *system, size_t j, double step)
 {
     int row = system->rows[j];
@@ -96,7 +97,7 @@ static void add_to_lambda(struct rest_system *system, const double *step)
     for (size_t j = 0; j < system->m; j++) add_to_row(system, j, step[j]);
 }
 
-/* Add what was there before lambda. */
+/* Add the forces before the change of lambda. */
 static void add_base(struct rest_system *system)
 {
     const struct rest_base *base = &system->base;
@@ -110,7 +111,7 @@ static void add_base(struct rest_system *system)
     for (int j = 0; j < tree->row_count; j++) work->rows[j].lambda += base->lambda[j];
 }
 
-/* Everything at the present lambda. */
+/* All forces at the present lambda. */
 static void evaluate(struct rest_system *system)
 {
     rest_forces(system->state->model, &system->at, system->lambda, !system->base.moves, system->forces,
@@ -130,7 +131,7 @@ static bool limits_hold(const struct rest_system *system, double *values)
     return true;
 }
 
-/* Go by w times `size` in the null space. */
+/* Move by w times `size` in the null space. */
 static bool move(struct rest_system *system, const double *w, double size)
 {
     double *step = ARENA_ARRAY(system->arena, system->m + 1, double);
@@ -151,7 +152,7 @@ bool rest_vary(struct rest_system *system, size_t k, double size)
     return move(system, w, size);
 }
 
-/* What the least reactions leave limits by is far more than the loads where a belt's tension is. */
+/* The scale of w: the limits may be exceeded by far more than the loads, as with the tension of a belt. */
 static double size_of_way(const struct rest_system *system, const double *values)
 {
     double size = system->force;
@@ -159,7 +160,8 @@ static double size_of_way(const struct rest_system *system, const double *values
     return size;
 }
 
-/* Least w of one part, times `size`, with which its limits hold, left by `slack`; nothing where there is none. */
+/* The least w of one part, divided by `size`, for which its limits hold within `slack`; unchanged if there is
+ * none. */
 static bool keep_part_limits(struct rest_system *system, const double *G, const double *values, int which,
                              double size, double slack, double *w)
 {
@@ -175,8 +177,8 @@ static bool keep_part_limits(struct rest_system *system, const double *G, const 
     return true;
 }
 
-/* The limits hold at the least reactions, or at others that balance as well: then at the least of these. At
- * first to the digit; where there is next to no room between them, to the slack that they have. */
+/* Keep the least reactions if they are within the limits, else find the least ones that are, first exactly,
+ * then, if the feasible set is nearly empty, within half of the tolerance. */
 static bool keep_limits(struct rest_system *system)
 {
     struct arena *arena = system->arena;
@@ -202,9 +204,9 @@ static bool keep_limits(struct rest_system *system)
     return true;
 }
 
-/* ---- the whole */
+/* ---- solution */
 
-/* What balance leaves open: columns of E that are others to this share. */
+/* Relative tolerance for dependent columns of E. */
 static const double dependent = 1e-10;
 
 static bool allocate(struct rest_system *system)
@@ -241,8 +243,8 @@ static void set_scales(struct rest_system *system)
     }
 }
 
-/* Guides that press on either side: on the one where they do. True when that changes anything that slips, or
- * with `any` anything at all. What slips as the scene moves is not asked again. */
+/* Set two-sided guides to the side of their normal force. True when that changes a slipping one, or with
+ * `any` any of them. Guides that slip as the scene moves are not changed. */
 static bool choose_sides(struct rest_system *system, bool any)
 {
     const struct plan *plan = &system->state->model->plan;
@@ -258,7 +260,7 @@ static bool choose_sides(struct rest_system *system, bool any)
     return changed;
 }
 
-/* lambda that balances, with the least reactions. */
+/* Solve for the lambda that balances, with the least reactions. */
 static bool balance(struct rest_system *system)
 {
     size_t n = system->n, m = system->m;
@@ -268,7 +270,7 @@ static bool balance(struct rest_system *system)
     set_columns(system);
     qr_free(&system->qr);
     if (!qr_decompose(&system->qr, n, m, system->E, dependent)) return false;
-    for (int pass = 0; pass < 2; pass++) { /* the second mends the rounding of the first */
+    for (int pass = 0; pass < 2; pass++) { /* the second corrects rounding of the first */
         evaluate(system);
         for (size_t k = 0; k < n; k++) left[k] = -system->scale[k] * system->Q[k];
         memset(step, 0, m * sizeof *step);
@@ -337,8 +339,8 @@ static bool keep_base(struct rest_system *system, const double *slots)
     return true;
 }
 
-/* As the scene moves what is open to rounding alone, which has the gaps of what is closed in it: along the others the
- * accelerations would change. */
+/* As the scene moves only columns dependent within rounding, including the gaps of closed contacts: along
+ * others the accelerations would change. */
 static double dependent_in_motion(const struct rest_system *system)
 {
     const double rounding = 1e-11;
@@ -360,9 +362,9 @@ bool rest_open(struct rest_system *system, struct fbd_state *state, const struct
                                    .slots = (size_t)plan->slots};
     if (!rest_is_open(state->model, at)) return false;
     if (!allocate(system) || !keep_base(system, slots) || !find_sizes(system)) return false;
-    for (size_t j = 0; system->force == 0 && j < system->m; j++) /* of what turns without a load */
+    for (size_t j = 0; system->force == 0 && j < system->m; j++) /* for rotations without a load */
         system->force = fabs(system->base.lambda[system->rows[j]]);
-    if (system->force == 0) return false; /* there is nothing to share */
+    if (system->force == 0) return false; /* all forces are zero */
     set_scales(system);
     set_columns(system);
     double *least = ARENA_ARRAY(arena, system->m + 1, double);

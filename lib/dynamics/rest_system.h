@@ -1,23 +1,23 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Reactions that equilibrium alone does not determine, shared within limits: at rest, and as a scene moves.
+ * Reactions that equilibrium does not determine, chosen within limits: at rest, and as a scene moves.
  *
- * The multipliers lambda of the constraints are the only unknowns: what joints pass on, what friction and
- * drives hold, follows from them (statics.h), affinely,
+ * The multipliers lambda of the constraints are the only unknowns: the forces of joints, sticking friction
+ * and drives follow from them (statics.h), affinely,
  *
  *     r = r_0 + R lambda,    limits h_0 + H lambda >= 0:    N >= 0, |F| <= mu_s N, T >= 0
  *
- * At rest lambda balances the coordinates that nothing holds, E lambda = -Q_0. As a scene moves its
- * accelerations are known, and lambda with them but for the null vectors Z of E. In both cases lambda + Z y
- * does as well for every y, and shown are the reactions of least |r|^2 within the limits (couples over a
- * length): a least-distance problem (least_distance.h).
+ * At rest lambda balances the coordinates without friction or drive, E lambda = -Q_0. As a scene moves its
+ * accelerations are given, and with them lambda up to the null vectors Z of E. In both cases lambda + Z y is
+ * a solution for every y; the one that is used has the reactions of least |r|^2 within the limits (couples
+ * over a length): a least-distance problem (least_distance.h).
  *
- * Null vectors that have neither a reaction nor a limit in common do not feel each other: each such part is a problem of
- * its own. In a stack of boxes that is how the two corners of each share what is between them.
+ * Null vectors that have neither a reaction nor a limit in common are independent: each such part is a
+ * problem of its own. In a stack of boxes each interface is a part, in which two corners share the load.
  *
- * Whether there are any within the limits is told by the largest s with h(y) >= s for all limits that y
- * moves: a linear programme, max s. It is below zero when there are none, and its rate of change is that of
- * the limits at its multipliers u, s' = sum u_i h_i', since u is orthogonal to whatever y does.
+ * There are solutions within the limits if the largest s with h(y) >= s, for all limits that depend on y, is
+ * not negative: a linear programme, max s. Its rate of change is that of the limits at its multipliers u, s'
+ * = sum u_i h_i', since u is orthogonal to all changes of y.
  */
 #ifndef FBD_DYNAMICS_REST_SYSTEM_H
 #define FBD_DYNAMICS_REST_SYSTEM_H
@@ -33,13 +33,13 @@ struct rest_system {
     struct fbd_state *state;
     struct instant at;
     struct arena *arena;
-    size_t n, m, slots, reactions; /* coordinates, rows that take part, plan.slots, entries of r */
+    size_t n, m, slots, reactions; /* coordinates, active rows, plan.slots, entries of r */
     int *rows;                     /* m: their numbers */
     const double *accelerations;   /* n */
     bool *held;                    /* n */
-    double *scale;                 /* n: 1, or one over the length for an angle; 0 for what is held */
-    double *lambda;                /* row_count: what is added to those of the base */
-    struct rest_base {             /* the forces as the scene moves; at rest nothing */
+    double *scale;                 /* n: 1, or one over the length for an angle; 0 if held */
+    double *lambda;                /* row_count: the change from those of the base */
+    struct rest_base {             /* the forces as the scene moves; at rest zero */
         bool moves;
         double *slots, *lambda; /* slots; row_count */
         struct wrench *F;       /* tree.count */
@@ -58,25 +58,25 @@ struct rest_system {
     bool within_limits;
 };
 
-/* Three entries of r for each link, then one for each row that takes part: of a pivot F_x, F_y and the moment
- * that is held; of a slide what is held along it, N and the couple. */
+/* Three entries of r for each link, then one for each active row: of a pivot F_x, F_y and the friction or
+ * drive moment; of a slide the friction or drive force along it, N and the couple. */
 static inline size_t rest_entry_of_row(const struct rest_system *system, size_t j)
 {
     return system->reactions - system->m + j;
 }
 
-/* Set up and solve for lambda: the state is left with the reactions. False when memory is out. */
+/* Set up and solve for lambda; leaves the reactions in the state. False when memory is out. */
 bool rest_solve(struct rest_system *system, struct fbd_state *state, struct arena *arena);
 void rest_free(struct rest_system *system);
 
-/* A limit of what is held; the kinds in the order of fbd_limit_kind. */
+/* A limit of a reaction; the kinds in the order of fbd_limit_kind. */
 struct rest_limit {
     enum rest_limit_kind { limit_normal, limit_friction, limit_rope } kind;
-    int index;          /* of the contact, or of the pair */
+    int index;          /* of the contact, or of the mode */
     double needed, may; /* normal and rope: the force, and 0; friction: |F| and its limit */
 };
 
-/* Is what the mode limits an entry of its own? What a surface may do is that of its normal force. */
+/* Does the mode have a limit of its own? A surface is limited by its normal force. */
 static inline bool rest_has_limit(const struct mode *mode)
 {
     return mode_is_friction(mode) || mode->kind == mode_rope;
@@ -86,21 +86,21 @@ static inline bool rest_has_limit(const struct mode *mode)
 size_t rest_limits(const struct rest_system *system);
 struct rest_limit rest_limit_at(const struct rest_system *system, size_t index);
 
-/* Do constraints that take part leave multipliers open, as far as the elimination tells? */
+/* Do the active constraints leave multipliers indeterminate, by the pivots of the elimination? */
 bool rest_is_open(const struct fbd_model *model, const struct instant *at);
 
-/* All limits as functions h >= 0 at the present lambda: their number, what they are, what counts as zero; and
- * their slopes in the basis, values x basis_count, added to G (false when memory is out). */
+/* All limits as functions h >= 0 at the present lambda: their number, values and tolerance for zero; their
+ * slopes in the basis, values x basis_count, are added to G (false when memory is out). */
 size_t rest_limit_values(const struct rest_system *system);
 void rest_read_limits(const struct rest_system *system, double *values);
 double rest_limit_slack(const struct rest_system *system);
 bool rest_limit_slopes(struct rest_system *system, double *G);
 
-/* Set the basis from the null vectors of E, and take from `start` what leads to the least reactions, limits or not. False
- * when memory is out. */
+/* Set the basis from the null vectors of E, and add to `start` the step to the least reactions, without
+ * limits. False when memory is out. */
 bool rest_set_basis(struct rest_system *system, double *start);
 
-/* Part `which`: its basis vectors and the limits that they move, with the slopes of these in it. */
+/* Part `which`: its basis vectors, the limits that depend on them, and the slopes of these. */
 struct rest_part {
     size_t size, limits;
     size_t *column, *limit; /* size, limits */
@@ -108,43 +108,43 @@ struct rest_part {
 };
 bool rest_part(const struct rest_system *system, const double *G, int which, struct rest_part *part);
 
-/* The same of a state as it moves, evaluated in its modes: false when its constraints leave nothing open, or
- * memory is out (arena->failed). */
+/* Set up the system of a moving state, evaluated in its modes. False when its constraints leave no
+ * multipliers indeterminate, or memory is out (arena->failed). */
 bool rest_open(struct rest_system *system, struct fbd_state *state, const struct instant *at,
                const double *slots, const double *accelerations, struct arena *arena);
 
-/* Share what is open: slots, and the forces in the links and rows of the state's tree, are then those of the
- * least reactions within limits. */
+/* Choose the indeterminate reactions: slots, and the forces in the links and rows of the state's tree, become
+ * those of the least reactions within limits. */
 void rest_share(struct rest_system *system, double *slots);
 
-/* Let what sticks on a guide with two sides press where the least reactions do; true when that is another
- * side than before. */
+/* Choose the loaded side of sticking two-sided guides by the minimum-norm reactions; true when a side has
+ * changed. */
 bool rest_choose_sides(struct rest_system *system);
 
-/* Put back what rest_open found. */
+/* Restore the forces that rest_open found. */
 void rest_restore(struct rest_system *system);
 
-/* Go from there by `size` along basis vector k: reactions that do as well, limits or not. Their slots are in
- * system->forces. False when memory is out. */
+/* Change the reactions by `size` along basis vector k, which leaves the equations satisfied, without regard
+ * to limits. Their slots are in system->forces. False when memory is out. */
 bool rest_vary(struct rest_system *system, size_t k, double size);
 
-/* What is left to the limits of a shared load, all together; what gives when it is used up. */
+/* The common distance of a redundant load to its limits, and the modes at zero distance. */
 struct rest_margin {
-    double size;         /* of the forces: zero is measured against it */
-    double value, rate;  /* HUGE_VAL where no limit takes part */
-    bool *of, *contacts; /* plan.mode_count, plan.contact_count: those that take part, in the arena */
-    int *gives;          /* plan.mode_count: the mode in which it gives, 0 for one that keeps */
+    double size;         /* of the forces: the scale of zero */
+    double value, rate;  /* HUGE_VAL if no limit is involved */
+    bool *of, *contacts; /* plan.mode_count, plan.contact_count: those involved, in the arena */
+    int *gives;          /* plan.mode_count: the mode after slipping or opening, 0 for an unchanged one */
 };
 
-/* The rounding of a margin: a load that only just reaches its limits does not break away by that. */
+/* The rounding of a margin: a load within this of its limits does not break away. */
 static inline double rest_margin_slack(const struct rest_margin *margin)
 {
     return 1e-12 * margin->size;
 }
 
-/* At the base, right after the rates of change of its slots and of the multipliers of the rows along `flow`.
- * With `guides` the normal forces of slides with one side count; without, these may pull. False when memory
- * is out. */
+/* Find the margin at the base, right after the rates of change of its slots and of the multipliers along
+ * `flow`. With `guides` the limits of one-sided slides are included; without, these may pull. False when
+ * memory is out. */
 bool rest_find_margin(struct rest_system *system, bool guides, const double *slots_along,
                       const double *lambda_along, const struct direction *flow, struct rest_margin *margin);
 

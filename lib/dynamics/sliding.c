@@ -104,7 +104,7 @@ void sliding_copy(const struct fbd_model *model, struct sliding *to, const struc
     memcpy(to->slide_at, from->slide_at, (size_t)model->plan.branches * sizeof *to->slide_at);
 }
 
-/* ---- which */
+/* ---- the list */
 
 void sliding_add(struct sliding *sliding, const struct kink *kink, int index, int part, int unit, int sign)
 {
@@ -147,7 +147,7 @@ void sliding_drop(struct sliding *sliding)
 
 enum { most_in_a_formula = 8 };
 
-/* The slides in a formula; its branches go to the scratch. */
+/* Find the sliding switches in a formula; its branches are copied to the scratch. */
 static int slides_of(const struct formula *formula, const struct instant *at, const struct slide **found)
 {
     struct sliding *sliding = at->sliding;
@@ -161,7 +161,7 @@ static int slides_of(const struct formula *formula, const struct instant *at, co
     return count;
 }
 
-/* The weight of the vertex whose bits say which slides are on their upper branch, and its variation. */
+/* The weight of the vertex whose bits give the slides on their upper branch, and its variation. */
 static double weight_of(const struct slide *const *slides, int count, unsigned vertex, double *variation)
 {
     double weight = 1, along = 0;

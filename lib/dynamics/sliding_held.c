@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Switches beside dry friction on the same coordinate, or on one that couplings move as one with it: the switch holds first,
- * and friction what is left.
+ * Switches beside dry friction on the same coordinate, or on a proportional one by couplings: the switch
+ * provides the holding force first, and friction the remaining part.
  */
 #include <math.h>
 #include <string.h>
@@ -33,7 +33,7 @@ int asked_parted(const struct fbd_state *state, const struct asked *asked)
     return sliding_parted(state->model, &at, &state->model->plan.kinks[asked->kink], asked->part);
 }
 
-/* Dry friction of a coordinate that is at rest on its surface; -1 without one. */
+/* The dry friction of a coordinate at rest on its surface; -1 without one. */
 static int friction_at_rest(const struct question *q, int coordinate)
 {
     const struct instant at = state_instant(q->state);
@@ -53,7 +53,7 @@ bool asked_is_held(const struct question *q, const struct asked *asked)
     return any;
 }
 
-/* What friction on the coordinates of a switch does: it sticks, or with `slips` is no longer decided. */
+/* Set friction on the coordinates of a switch to stick, or with `slips` mark it undecided. */
 static void leave_friction(const struct question *q, const struct asked *asked, bool *slips)
 {
     const struct plan *plan = &q->state->model->plan;
@@ -81,7 +81,7 @@ void question_take_rest(const struct question *q, const struct asked *asked)
     }
 }
 
-/* Friction whose surface moves off the switch slips: the switch holds its coordinate. */
+/* Set friction to slip if its surface moves off the switch, which holds its coordinate. */
 static void part_friction(const struct question *q, const struct asked *asked)
 {
     size_t n = (size_t)q->state->model->plan.n;
@@ -125,8 +125,8 @@ void question_hold_friction(const struct question *q, const struct asked *asked)
     part_friction(q, asked);
 }
 
-/* By how much more what drives the coordinates pushes to the upper side of the surface on the upper branch than on the lower
- * one, with friction holding them; `size`: what that is the difference of. */
+/* The difference of the driving forces towards the upper side of the surface, on the upper minus on the lower
+ * branch, with sticking friction; `size`: the sum of their magnitudes. */
 static double pushed_away(const struct question *q, const struct asked *asked, double *size)
 {
     struct fbd_state *state = q->state;
@@ -155,7 +155,7 @@ static double pushed_away(const struct question *q, const struct asked *asked, d
     return sum;
 }
 
-/* Friction sticks that is at rest there, unless it has just been decided that it slips: what may rest does. */
+/* Set friction at rest to stick, unless slipping has just been decided. */
 static void rest_on(const struct question *q, const struct asked *asked, const struct decided *decided)
 {
     size_t n = (size_t)q->state->model->plan.n;

@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Which switches are slid on, decided where modes are: at the start and after each event.
+ * Which switches are in a sliding mode: decided with the modes, at the start and after each event.
  *
- * Asked are switches at which the motion is: those that are slid on, that have just been crossed, or whose u
- * is zero to rounding. Each may take a branch, from whose side u' must not lead back, or be slid on, with a
- * share between 0 and 1. Where what has been chosen without them agrees, that is it: what is crossed is
- * crossed. Else all choices are tried, one surface a digit, and the one that agrees is taken. Choices with
- * the same accelerations are one.
+ * Candidates are switches at which the motion is: those in a sliding mode, those just crossed, and those
+ * whose u is zero within rounding. Each may take a branch, from whose side u' must not lead back, or slide,
+ * with a weight between 0 and 1. If the modes chosen without them are consistent, they are final: a switch is
+ * crossed. Else all choices are tried, one digit for each surface, and the consistent one is taken. Choices
+ * with the same accelerations count as one.
  */
 #include <stdlib.h>
 #include <string.h>
@@ -15,9 +15,9 @@
 #include "dynamics/tree_driven.h"
 #include "dynamics/world_refs.h"
 
-/* ---- does a choice agree? */
+/* ---- is a choice consistent? */
 
-/* How large a rate of a surface could be: to rounding it is zero against that. */
+/* The scale of the rate of a surface, with which its zero is compared. */
 static double size_of_rate(const struct question *q, const struct asked *asked)
 {
     const struct fbd_state *state = q->state;
@@ -32,7 +32,8 @@ static double size_of_rate(const struct question *q, const struct asked *asked)
     return size;
 }
 
-/* Accelerations, and those that couplings take and that friction could: what is left of them is rounding of these. */
+/* Accelerations, including those that couplings compensate and that friction could cause: the scale of their
+ * rounding. */
 static void take_sizes(struct question *q)
 {
     struct fbd_state *state = q->state;
@@ -82,7 +83,7 @@ static bool agrees(struct question *q)
     return true;
 }
 
-/* Is a sign zero, as it is where nothing moves yet? Then the least push would end that. */
+/* Is a sign zero, as it is before any motion? Then the smallest force would change it. */
 static bool is_undecided(const struct question *q)
 {
     for (int i = 0; i < q->count; i++) {
@@ -96,8 +97,8 @@ static bool is_undecided(const struct question *q)
 
 /* ---- all choices */
 
-/* Choice number `choice`: a digit for each surface, 0 slides, 1 and 2 its sides. False for one that slides
- * where the share is used up, or where it passes. */
+/* Set choice number `choice`: a digit for each surface, 0 slides, 1 and 2 its sides. False if it slides where
+ * the weight is at its end, or where the surface is crossed. */
 static bool choose(struct question *q, const struct decided *decided, int choice)
 {
     struct fbd_state *state = q->state;
@@ -124,7 +125,7 @@ static bool choose(struct question *q, const struct decided *decided, int choice
         sliding_add(s, kink, asked->kink, asked->part, asked->unit, asked->side);
     }
     if (s->count > 0) sliding_number(s);
-    if (lands) sliding_project(state, !ends); /* before friction asks whether it moves */
+    if (lands) sliding_project(state, !ends); /* before the decision of friction */
     for (int i = 0; i < q->count; i++) {
         if (!asked_is_held(q, &q->list[i])) continue;
         question_take_rest(q, &q->list[i]);
@@ -141,15 +142,15 @@ static bool same_accelerations(const struct question *q, const double *a)
     return true;
 }
 
-/* To which side shares would have to be beyond their ends, were all surfaces slid on: that of two branches between
- * which friction makes no difference leaves the least to it. */
+/* Record to which side the weights exceed their range if all surfaces slide: of two branches that differ by
+ * friction only, the one on that side is tried first, as it needs the least friction. */
 static void note_sides(struct question *q)
 {
     const struct sliding *s = q->state->sliding;
     for (int unit = 0; unit < q->units; unit++) q->back[unit] = !s->failed && s->delta[unit] < 0;
 }
 
-/* Has no switch been chosen otherwise than it was? */
+/* Do all switches keep their branches? */
 static bool keeps_sides(const struct question *q)
 {
     const struct sliding *s = q->state->sliding;
@@ -160,7 +161,7 @@ static bool keeps_sides(const struct question *q)
     return true;
 }
 
-/* The choice that agrees: its number, -1 when there is none, -2 when there are several. */
+/* Find the consistent choice: its number, -1 when there is none, -2 when there are several. */
 static int find_choice(struct question *q, const struct decided *decided,
                        bool (*settle)(struct fbd_state *state, const struct decided *decided))
 {
@@ -201,7 +202,7 @@ void sliding_keep_rest(struct fbd_state *state)
     }
 }
 
-/* With what couplings join, and each by itself, as where a rope goes slack. */
+/* With surfaces joined by couplings, then with separate ones, as when a rope becomes slack. */
 static int find_choice_of(struct question *q, const struct decided *decided,
                           bool (*settle)(struct fbd_state *state, const struct decided *decided))
 {
@@ -240,7 +241,7 @@ static bool settle_switches(struct question *q, const struct decided *decided, b
     const struct decided *given = decided;
     if (given) open = question_without_shared(q, given), decided = &open;
     int choice = find_choice_of(q, decided, settle);
-    /* A share that only just touches its end goes back. */
+    /* A weight that just touches its end may turn back. */
     for (int i = 0; choice == -1 && i < q->count; i++) q->list[i].left = false;
     if (choice == -1) choice = find_choice_of(q, decided, settle);
     if (state->holds.found == holds_no_memory) return false;

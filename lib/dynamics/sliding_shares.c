@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Surfaces that are slid on, and the shares that keep the motion there.
+ * The surfaces of sliding modes, and the weights that keep the motion on them.
  */
 #include "dynamics/sliding.h"
 
@@ -40,8 +40,7 @@ double sliding_watched(struct sliding *s, const struct fbd_model *model, const s
 double sliding_rounding(const struct fbd_state *state, const struct kink *kink, int part)
 {
     const struct instant given = state_instant(state), at = instant_extend(state->model, &given);
-    double *u =
-        calloc(3 * kink->count, sizeof *u); /* of switches that are never slid on a state has no room */
+    double *u = calloc(3 * kink->count, sizeof *u); /* the state has no room for non-sliding switches */
     if (!u) return 0;
     double *rates = u + kink->count, *roundings = rates + kink->count;
     expr_switchings(kink->formula.expr, at.t, at.y, 0, NULL, at.branch + kink->formula.branch, u, rates,
@@ -75,7 +74,7 @@ double sliding_surface_rate(struct sliding *s, const struct fbd_model *model, co
     return rate;
 }
 
-/* Of a unit the first counts. */
+/* The first switch of a unit defines the surface. */
 void sliding_rates(const struct fbd_model *model, const struct instant *given, double dt, const double *dy,
                    double *rates)
 {
@@ -87,8 +86,8 @@ void sliding_rates(const struct fbd_model *model, const struct instant *given, d
     }
 }
 
-/* The values of the surfaces, one for each unit. One that is zero to rounding is zero: to go there would take what rests on a
- * surface of friction off that. */
+/* The values of the surfaces, one for each unit. Zero within rounding is set to zero: a projection would move
+ * a body at rest off its surface of friction. */
 static void surfaces(struct sliding *s, const struct fbd_model *model, const struct instant *given,
                      double *values)
 {
@@ -145,7 +144,7 @@ static void solve(const struct sliding *s, double *x)
     }
 }
 
-/* ---- shares */
+/* ---- weights */
 
 static void set_shares(struct sliding *s)
 {
@@ -181,9 +180,10 @@ int sliding_rest(const struct sliding *s, const struct fbd_model *model, const s
     return -1;
 }
 
-/* Friction keeps the coordinates of a surface at rest. Where there is one, the switch holds first and friction what is
- * left: the share is that at which friction has nothing to do. Of several the share stays in the middle, and each
- * friction holds its own. As soon as one of them is free, the surface is its equation. */
+/* Find the friction that keeps the coordinates of a surface at rest. If there is one coordinate, the switch
+ * provides the holding force: its weight is that for which friction is zero. Of several the weight is 1/2,
+ * and each friction provides the rest. As soon as one coordinate is free, the equation is that of the
+ * surface. */
 static int held_coordinate(const struct fbd_model *model, const struct instant *at, int unit)
 {
     struct sliding *s = at->sliding;
@@ -207,7 +207,7 @@ static int held_coordinate(const struct fbd_model *model, const struct instant *
 int sliding_parted(const struct fbd_model *model, const struct instant *given, const struct kink *kink,
                    int part)
 {
-    static const double later[] = {1e-6, 1e-3, 0.1, 3.7}; /* s, of no period that anybody shakes with */
+    static const double later[] = {1e-6, 1e-3, 0.1, 3.7}; /* s, incommensurate with usual periods */
     const double rounding = 1e-9;
     struct sliding *s = given->sliding;
     size_t n = (size_t)model->plan.n, size = plan_size(&model->plan);
@@ -239,8 +239,8 @@ static void find_held(const struct fbd_model *model, const struct instant *at)
     for (int unit = 0; unit < s->units; unit++) s->held[unit] = held_coordinate(model, at, unit);
 }
 
-/* Where a coordinate is held, what its friction would have to hold takes the place of the rate of its surface; where all are, what the
- * share differs from the middle by, here `off`. */
+/* For a unit with one held coordinate replace the rate of its surface by the force of the friction; with
+ * several, by the deviation of the weight from 1/2, `off`. */
 static void put_held(const struct sliding *s, const double *slots, const double *off, double *rates)
 {
     for (int unit = 0; unit < s->units; unit++) {
@@ -249,7 +249,7 @@ static void put_held(const struct sliding *s, const double *slots, const double 
     }
 }
 
-/* How the motion goes on with the accelerations of the scratch. */
+/* Set the direction of motion from the accelerations in the scratch. */
 static void take_flow(const struct fbd_model *model, const struct instant *at)
 {
     struct sliding *s = at->sliding;
@@ -259,7 +259,7 @@ static void take_flow(const struct fbd_model *model, const struct instant *at)
     if (model->plan.own > 0) user_state_rates(model, at, s->flow + 2 * n);
 }
 
-/* c: the rates of the surfaces at the shares as they are. */
+/* c: the rates of the surfaces at the present weights. */
 static void residuals(const struct fbd_model *model, const struct instant *at)
 {
     struct sliding *s = at->sliding;
@@ -269,7 +269,7 @@ static void residuals(const struct fbd_model *model, const struct instant *at)
     put_held(s, s->slots, s->delta, s->c);
 }
 
-/* What the share of each unit does to the accelerations, and these to the surfaces. */
+/* The response of the accelerations to the weight of each unit, and of the surfaces to these. */
 static void responses(const struct fbd_model *model, const struct instant *at)
 {
     struct sliding *s = at->sliding;
@@ -291,18 +291,18 @@ static void responses(const struct fbd_model *model, const struct instant *at)
     factor(s);
 }
 
-/* It starts from the middle, whatever was before, so that an instant has one answer. */
+/* Starts from 1/2 always, so that the result depends on the instant only. */
 void sliding_solve(const struct fbd_model *model, const struct instant *at)
 {
     enum { most_steps = 12 };
     struct sliding *s = at->sliding;
-    assert(s); /* the motion slides */
+    assert(s); /* called in sliding modes only */
     memset(s->delta, 0, (size_t)s->units * sizeof *s->delta);
     set_shares(s);
     find_held(model, at);
     for (int step = 0; step < most_steps; step++) {
         residuals(model, at);
-        if (step != 1) responses(model, at); /* affine: the second step takes the rounding of the first */
+        if (step != 1) responses(model, at); /* affine: the second step corrects rounding of the first */
         if (s->failed) return;
         solve(s, s->c);
         double largest = 0;
@@ -328,7 +328,8 @@ void sliding_shift(struct sliding *s, int unit, double by)
         if (s->slides[j].unit == unit) s->slides[j].share += s->slides[j].sign * by;
 }
 
-/* An acceleration is the small difference of what drives it and what the shares of the switches, and couplings, do to it. */
+/* Set accelerations to zero that are within the rounding of their parts, by the weights of switches and by
+ * couplings. */
 static void clear_rounding(const struct fbd_model *model, const struct instant *at, bool along, double *a)
 {
     const double rounding = 8 * (model->tree ? model->tree->count : 1) * DBL_EPSILON;
@@ -354,8 +355,8 @@ void sliding_clear_rounding_along(const struct fbd_model *model, const struct in
     clear_rounding(model, at, true, a_along);
 }
 
-/* D^2 u [f, d] for the motion f: how the rates change with the place at which they are taken. By central
- * differences; zero to the last bit where u is affine, as it mostly is. */
+/* D^2 u [f, d] for the motion f: the change of the rates with position, by central differences; exactly zero
+ * for affine u, the usual case. */
 static void add_curvature(const struct fbd_model *model, const struct instant *at,
                           const struct direction *along, double *sum)
 {
@@ -382,7 +383,7 @@ void sliding_solve_along(const struct fbd_model *model, const struct instant *gi
     size_t n = (size_t)model->plan.n;
     for (int j = 0; j < s->count; j++) s->slides[j].along = 0;
     if (s->failed) return;
-    /* Both may stand in the room for places, which others pass through. */
+    /* Both may be in the extended vectors, which functions below overwrite. */
     size_t size = plan_size(&model->plan);
     memcpy(s->own_y, given->y, size * sizeof *s->own_y);
     memcpy(s->own_dy, direction->dy, size * sizeof *s->own_dy);
@@ -404,9 +405,9 @@ void sliding_solve_along(const struct fbd_model *model, const struct instant *gi
     direction_extend(model, &extended, &along);
 }
 
-/* ---- back onto the surfaces */
+/* ---- projection onto the surfaces */
 
-/* Take away the velocities across the surfaces. What is left of one that goes is rounding. */
+/* Remove the velocities across the surfaces. A remainder within rounding is set to zero. */
 static void project_velocities(struct fbd_state *state, bool settling)
 {
     const double rounding = 1e-14;
@@ -422,7 +423,7 @@ static void project_velocities(struct fbd_state *state, bool settling)
     }
 }
 
-/* Along what the unit's forces do, one slide after the other. */
+/* Along the accelerations by the unit's weight, one slide after the other. */
 static void project_places(struct fbd_state *state)
 {
     struct sliding *s = state->sliding;
@@ -444,9 +445,7 @@ static void project_places(struct fbd_state *state)
 
 void sliding_project(struct fbd_state *state, bool settling)
 {
-    enum {
-        passes = 2
-    }; /* the second takes the rounding of the first, and of u that is not linear the rest */
+    enum { passes = 2 }; /* the second for rounding, and for nonlinear u */
     struct sliding *s = state->sliding;
     for (int pass = 0; pass < passes; pass++) {
         struct instant at = state_instant(state);

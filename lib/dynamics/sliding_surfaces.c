@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Which switches are asked, and which of them have one surface: by themselves, and by what couplings make one.
+ * The switches for which sliding is to be decided, and their grouping into surfaces: by their gradients, and
+ * by couplings that make speeds proportional.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -12,7 +13,6 @@
 
 /* ---- surfaces */
 
-/* What may be left of u' where a switch that watches places is at rest: its value, or zero. */
 double asked_passing_speed(const struct question *q, const struct asked *asked)
 {
     const double rounding = 1e-10;
@@ -26,22 +26,21 @@ double asked_passing_speed(const struct question *q, const struct asked *asked)
     return fabs(w) > rounding * size ? w : 0;
 }
 
-/* ---- who is asked */
+/* ---- the list */
 
-/* What is passed with a speed is no place to rest; where there are too many places, none are asked but
- * those that are slid on. */
+/* A switch that is crossed with a speed is no rest position; if there are too many switches of positions,
+ * only those in a sliding mode are listed. */
 static bool is_asked(const struct question *q, const struct decided *decided, const struct kink *kink,
                      int part)
 {
     const struct sliding *s = q->state->sliding;
     int branch = kink->formula.branch + part;
-    if (isnan(s->u[part])) return false; /* in a side of an `if` that is not chosen */
+    if (isnan(s->u[part])) return false; /* in the unevaluated side of an `if` */
     if (q->without_places && kink_watches_places(kink, part) && s->slide_at[branch] == 0) return false;
     return s->slide_at[branch] > 0 || s->left[branch] || s->ended[branch] ||
            (decided && decided->branches[branch]) || fabs(s->u[part]) <= s->rounding[part];
 }
 
-/* False when there are too many. */
 bool question_gather(struct question *q, const struct decided *decided)
 {
     struct fbd_state *state = q->state;
@@ -73,7 +72,7 @@ static bool has_couplings(const struct question *q)
     return tree && tree->coupling_count > 0;
 }
 
-/* In the modes as they are. False when memory is out. */
+/* Project unit velocities in the present modes. False when memory is out. */
 static bool find_coupled(struct question *q)
 {
     size_t n = (size_t)q->state->model->plan.n;
@@ -86,7 +85,8 @@ static bool find_coupled(struct question *q)
     return q->coupled;
 }
 
-/* Entry i of the gradient of a surface, with time, coordinates, rates: along what couplings let through of one of these. */
+/* Entry i of the gradient of a surface, with time, coordinates, rates: along the projection of one of these
+ * onto the couplings. */
 static double slope_of(const struct question *q, const struct asked *asked, size_t i)
 {
     size_t n = (size_t)q->state->model->plan.n, size = plan_size(&q->state->model->plan);
@@ -98,7 +98,7 @@ static double slope_of(const struct question *q, const struct asked *asked, size
     return asked_rate(q, asked, 0, dy);
 }
 
-/* How many times as fast as i couplings move j, 0 where they do not move them as one. */
+/* The ratio of the speeds of j and i if couplings make them proportional, else 0. */
 static double coupled_ratio(const struct question *q, int i, int j)
 {
     const double rounding = 1e-10;
@@ -133,8 +133,8 @@ bool question_find_coordinates(struct question *q)
     return true;
 }
 
-/* The ratio of the gradients of b and a where they have one direction or opposite ones, so that both have one
- * surface; else 0. What couplings do not let move at all has none. */
+/* The ratio of the gradients of b and a if they are parallel, so that both have one surface; else 0. Also 0
+ * if couplings prevent all motion of a. */
 static double ratio_of(const struct question *q, const struct asked *a, const struct asked *b)
 {
     const double rounding = 1e-10;
@@ -151,8 +151,8 @@ static double ratio_of(const struct question *q, const struct asked *a, const st
     return moves && ab * ab >= (1 - rounding) * aa * bb && ab != 0 ? ab / aa : 0;
 }
 
-/* Of what will be at rest on its place, u = 0 and w = 0: will another switch, whose gradient is `ratio` times that of
- * w, be at zero with it? sign(v - 3) is not, nor is sign(x - 1). */
+/* At u = 0 and w = 0 of the switch that comes to rest, is another switch, whose gradient is `ratio` times
+ * that of w, at zero too? sign(v - 3) is not, nor is sign(x - 1). */
 static bool comes_along(const struct question *q, const struct asked *ended, const struct asked *other,
                         double ratio)
 {
@@ -178,7 +178,7 @@ static bool is_listed(const struct question *q, int branch)
     return false;
 }
 
-/* Is a switch of speeds zero where nothing moves, as sign(v) is? */
+/* Is a switch of speeds at zero when all speeds are, as sign(v)? */
 static bool is_zero_at_rest(const struct question *q, const struct asked *asked)
 {
     struct sliding *s = q->state->sliding;
@@ -193,7 +193,7 @@ static bool is_zero_at_rest(const struct question *q, const struct asked *asked)
     return fabs(sliding_watched(s, model, &at, kink, asked->part)) <= s->rounding[asked->part];
 }
 
-/* What rests by the end of its passages takes with it what watches that speed, though it is not zero yet. */
+/* Does a switch of the speed come to rest with one at its Zeno limit, though it is not zero yet? */
 static bool comes_to_rest(struct question *q, const struct asked *ended, const struct asked *other)
 {
     q->ways = q->coupled;
@@ -202,7 +202,8 @@ static bool comes_to_rest(struct question *q, const struct asked *ended, const s
     return ratio != 0 && comes_along(q, ended, other, ratio);
 }
 
-/* What comes to rest takes with it what a coupling moves as fast, a rounding off its switch. */
+/* Does a switch come to rest with another to which a coupling makes its speed proportional, a rounding off
+ * zero? */
 static bool rests_with(struct question *q, const struct asked *rests, const struct asked *other)
 {
     if (!has_couplings(q) || !is_zero_at_rest(q, other) || !is_zero_at_rest(q, rests)) return false;
@@ -213,7 +214,6 @@ static bool rests_with(struct question *q, const struct asked *rests, const stru
     return ratio != 0;
 }
 
-/* Those that come along with one that is listed. False when there are too many. */
 bool question_join(struct question *q)
 {
     const struct plan *plan = &q->state->model->plan;
@@ -236,7 +236,8 @@ bool question_join(struct question *q)
     return true;
 }
 
-/* A surface has been left when all that it is by itself have: what a coupling has just joined has not. */
+/* A surface has been left if all its switches have, by their own gradients: one that a coupling has just
+ * joined has not. */
 static void find_left(struct question *q)
 {
     for (int unit = 0; unit < q->units; unit++) q->left[unit] = true;
@@ -248,7 +249,6 @@ static void find_left(struct question *q)
     }
 }
 
-/* `coupled`: of speeds that couplings make one, as of two bodies on a taut rope, the switches are one surface. */
 void question_find_surfaces(struct question *q, bool coupled)
 {
     q->units = 0;
@@ -269,7 +269,6 @@ void question_find_surfaces(struct question *q, bool coupled)
     find_left(q);
 }
 
-/* The fewest that there are. False when memory is out. */
 bool question_find_fewest_surfaces(struct question *q)
 {
     bool couples = q->count > 1 && has_couplings(q);
@@ -278,15 +277,14 @@ bool question_find_fewest_surfaces(struct question *q)
     return true;
 }
 
-/* As though what watches places were passed. */
 bool question_gather_without_places(struct question *q, const struct decided *decided)
 {
     *q = (struct question){.state = q->state, .without_places = true, .most = q->most, .coupled = q->coupled};
     return question_gather(q, decided);
 }
 
-/* The share of a surface is that of its first switch. Is one that a coupling joined to it still of that surface? Where a
- * rope has gone slack it is not. */
+/* The weight of a surface is that of its first switch. Is a switch that a coupling joined to it still of that
+ * surface? No longer if a rope has become slack. */
 bool asked_is_joined(struct question *q, const struct asked *asked)
 {
     const struct sliding *s = q->state->sliding;

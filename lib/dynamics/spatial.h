@@ -64,7 +64,7 @@ static inline void inertia_add(struct inertia_about_O *sum, const struct inertia
     sum->yy += I->yy;
 }
 
-/* The acceleration of a point at d from O that comes from alpha alone. */
+/* The acceleration of a point at d from O, without the centripetal term. */
 static inline struct acceleration acceleration_at(struct acceleration A, struct vec d)
 {
     return (struct acceleration){A.alpha, {A.a.x - A.alpha * d.y, A.a.y + A.alpha * d.x}};

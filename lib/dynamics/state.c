@@ -68,7 +68,7 @@ static struct fbd_state *allocate(const struct fbd_model *model)
     return state;
 }
 
-/* What finds its place may slide along its slots; what rolls, rolls there. */
+/* Allow sliding along slots while positions are found; rolling without slip remains. */
 static void let_slots_slip(struct fbd_state *state)
 {
     const struct tree *tree = state->model->tree;
@@ -142,7 +142,7 @@ void state_still(struct fbd_state *state, double duration)
         if (fabs(state->y[n + i]) * duration < DBL_EPSILON * size[coordinates[i].angle]) state->y[n + i] = 0;
 }
 
-/* What constraints leave open. */
+/* Choose the indeterminate reactions. */
 static void share_out(struct fbd_state *state, double *slots)
 {
     struct arena arena = {0};

@@ -12,7 +12,7 @@
 
 /* ---- rest */
 
-/* -1 or +1 for a surface that moves under the body, 0 when it is at rest as well. */
+/* -1 or +1 for a surface that moves under the body, 0 if it is at rest as well. */
 static enum slip slip_at_rest(const struct mode *mode, const struct instant *at)
 {
     if (friction_is_never(mode)) return slip_plus;
@@ -28,10 +28,10 @@ static enum slip one_sided_at_rest(const struct fbd_state *state, int pair)
     const int index = model->plan.modes[pair].coupling;
     const struct coupling *coupling = &model->tree->couplings[index];
     const bool contact = coupling->kind == constraint_contact;
-    /* Shapes that are apart have no row, which would be at zero. */
+    /* Separated shapes have a row that is zero. */
     if (contact && at.tree->couplings[index].feature == no_feature) return slip_plus;
     struct one_sided now = one_sided_at(model, &at, pair);
-    /* What rests at the origin is near it by the size of the scene alone. */
+    /* At the origin the size of the scene is the only scale of rounding. */
     bool near = contact && fabs(now.excess) <= meeting_near(model, at.tree, coupling->meeting);
     return now.touches || now.excess > 0 || near ? stick : slip_plus;
 }
@@ -48,7 +48,7 @@ bool rest_begin(struct fbd_state *state)
     const struct fbd_model *model = state->model;
     stop(state);
     if (!modes_settle(state, NULL)) return false;
-    stop(state); /* what sticks to a moving surface had its velocity */
+    stop(state); /* bodies that stick to a moving surface had its velocity */
     state_evaluate(state);
     if (state->holds.found == holds_no_memory) return false;
     memset(state->a, 0, (size_t)model->plan.n * sizeof *state->a);
@@ -79,7 +79,7 @@ int rest_holder(const struct fbd_model *model, const struct instant *at, int coo
     return -1;
 }
 
-/* ---- what the joints pass on */
+/* ---- wrenches of the joints */
 
 static void add_ports(struct tree_work *work, int row_count, const double *lambda)
 {
@@ -97,7 +97,7 @@ static void transmit(const struct fbd_model *model, const struct instant *at, co
     struct tree_work *work = at->tree;
     for (int i = 0; i < tree->count; i++) work->x[i].p = (struct wrench){0, {0, 0}};
     if (loads) {
-        tree_bias(tree, at, model->plan.n); /* at rest that is the constant forces alone */
+        tree_bias(tree, at, model->plan.n); /* at rest these are the constant forces only */
         tree_load(tree, at);
     }
     add_ports(work, tree->row_count, lambda);
@@ -109,7 +109,7 @@ static void transmit(const struct fbd_model *model, const struct instant *at, co
     work->complete = true;
 }
 
-/* Q of the link's own coordinates. */
+/* Set Q of the link's coordinates. */
 static void leave_over(const struct tree_link *link, const struct tree_state *s, const double *slots,
                        double *Q)
 {
@@ -126,7 +126,7 @@ static void leave_over(const struct tree_link *link, const struct tree_state *s,
     }
 }
 
-/* A surface that moves under a body draws it along; a bearing that moves has a moment of its own. */
+/* Subtract the friction of moving surfaces; a moving bearing has a given moment. */
 static void add_slipping(const struct fbd_model *model, const struct instant *at, const double *slots,
                          bool loads, double *Q)
 {
@@ -140,8 +140,8 @@ static void add_slipping(const struct fbd_model *model, const struct instant *at
     }
 }
 
-/* Bodies without joints to others: friction_at expects what holds them on a surface whose velocity changes.
- */
+/* Bodies without joints to others: friction_at expects the friction force on a surface whose velocity
+ * changes. */
 static void stand_still(const struct fbd_model *model, const struct instant *at, double *slots)
 {
     const struct plan *plan = &model->plan;
@@ -154,7 +154,7 @@ static void stand_still(const struct fbd_model *model, const struct instant *at,
     }
 }
 
-/* The tension that a belt has anyway is a load. */
+/* The preload of a belt belongs to the loads. */
 static void drop_preloads(const struct tree *tree, double *slots)
 {
     for (int i = 0; i < tree->coupling_count; i++)

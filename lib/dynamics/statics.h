@@ -1,34 +1,34 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Forces at rest: what every joint passes on when nothing accelerates, given the multipliers of the
+ * Forces at rest: the wrenches in all joints for zero accelerations, given the multipliers of the
  * constraints.
  *
- * Without accelerations a tree is solved from its ends inward: what acts on a link and on all that hangs on
- * it, its joint passes on,
+ * Without accelerations a tree is solved from its ends inward: the joint of a link transmits all that acts on
+ * its subtree,
  *
  *     F_i = - (loads on i + sum of lambda_j g_j' on i) + sum of F_c over the links c that move on i,
  *
- * and what is left along a coordinate of the joint, Q = g - S . F with g the listed forces in the joint, has
- * to be zero, or is what its dry friction or its drive holds. All of this is affine in lambda:
- * rest_system.c finds lambda.
+ * and the residual along a coordinate of the joint, Q = g - S . F with g the listed forces in the joint, has
+ * to be zero, or is the force of its dry friction or drive. All of this is affine in lambda: rest_system.c
+ * computes lambda.
  */
 #ifndef FBD_DYNAMICS_STATICS_H
 #define FBD_DYNAMICS_STATICS_H
 
 #include "dynamics/state.h"
 
-/* Put the state to rest: rates zero, all that can stick sticks, a rope that is as long as its way is taut;
- * the links are where the coordinates say, the rows of the constraints evaluated. A surface that moves slips
- * under its body. False when no choice of branches agrees with the forces. */
+/* Set the state to rest: rates zero, friction sticking, a rope taut if its path has its length; the links are
+ * moved to the coordinates, the rows of the constraints evaluated. A moving surface slips under its body.
+ * False when no choice of branches is consistent with the forces. */
 bool rest_begin(struct fbd_state *state);
 
-/* The forces at rest with these multipliers (row_count of them), with all loads or without any: sets F of the
- * links, lambda of the rows, and slots[plan.slots] as friction_at and diagram_fill expect them; and Q[n],
- * what is left along each coordinate. */
+/* The forces at rest with these multipliers (row_count of them), with or without loads: sets F of the links,
+ * lambda of the rows, slots[plan.slots] as friction_at and diagram_fill expect them, and the residuals Q[n]
+ * along the coordinates. */
 void rest_forces(const struct fbd_model *model, const struct instant *given, const double *lambda, bool loads,
                  double *slots, double *Q);
 
-/* Is the coordinate held by dry friction that sticks, or by a drive? By index of the pair, or -1. */
+/* The sticking friction or drive that holds the coordinate, as the index of its mode, or -1. */
 int rest_holder(const struct fbd_model *model, const struct instant *at, int coordinate);
 
 #endif

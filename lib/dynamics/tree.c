@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * The recursion as a whole, and the friction that goes with the forces in the joints.
+ * The recursion as a whole, with closed loops and friction that depends on the forces in the joints.
  */
 #include "dynamics/tree.h"
 
@@ -13,7 +13,7 @@
 
 /* ---- memory */
 
-/* The doubles behind the structures. */
+/* The number of doubles behind the structures. */
 static size_t doubles_of(const struct fbd_model *model)
 {
     const struct tree *tree = model->tree;
@@ -85,7 +85,7 @@ void tree_work_init(struct tree_work *work, const struct fbd_model *model, void 
 
 /* ---- results */
 
-/* The accelerations of the links and what the joints pass to them, added to those that are there. */
+/* Add the accelerations of the links and the wrenches of the joints to the present ones. */
 static void add_result(const struct tree *tree, struct tree_work *work)
 {
     for (int i = 1; i < tree->count; i++) {
@@ -147,7 +147,7 @@ void tree_add_unit(const struct tree *tree, const struct tree_work *work, double
 
 /* ---- modes */
 
-/* Which joints stick, and how their surfaces accelerate. */
+/* Set which joints stick, and the accelerations of their surfaces. */
 static void lock(const struct fbd_model *model, const struct instant *at)
 {
     const struct tree *tree = model->tree;
@@ -159,7 +159,7 @@ static void lock(const struct fbd_model *model, const struct instant *at)
     }
 }
 
-/* The generalized forces in the joints; dry friction in bearings has a moment of its own. */
+/* Set the generalized forces in the joints, including the moments of dry friction in bearings. */
 static void set_joint_forces(const struct fbd_model *model, const struct instant *at, const double *slots)
 {
     const struct tree *tree = model->tree;
@@ -183,7 +183,7 @@ static void set_joint_forces(const struct fbd_model *model, const struct instant
     }
 }
 
-/* The largest of a coupling and of what it joins, for all of them. */
+/* Set the values of all links of a coupling to the largest one, or to its own. */
 static void spread_borne(const struct tree *tree, struct tree_work *work, const struct coupling *coupling)
 {
     double most = 0;
@@ -201,8 +201,8 @@ static void spread_borne(const struct tree *tree, struct tree_work *work, const 
         }
 }
 
-/* What the lowest of a pile bears is the sum of all above it, and cancels but for rounding. Along a pile two ways do,
- * for what touches each other is mostly numbered along it; where that is not so a size is too small somewhere. */
+/* The lowest body of a pile has forces from all above it, which cancel up to rounding. Two passes reach all
+ * bodies of a pile, if contacts are numbered along it, as is usual; otherwise some value is too small. */
 static void set_borne(const struct tree *tree, struct tree_work *work)
 {
     for (int i = 0; i < tree->count; i++) work->borne[i] = 0;
@@ -210,10 +210,10 @@ static void set_borne(const struct tree *tree, struct tree_work *work)
     for (int i = tree->coupling_count; i-- > 0;) spread_borne(tree, work, &tree->couplings[i]);
 }
 
-/* What rests on others has accelerations of rounding. No step would be short enough for them: there is no motion that
- * errors could be measured against. They grow with the number of those that press on it, and once more along a pile,
- * where each one turns a little against the one below: with the square of the number, of what the forces alone would
- * do. */
+/* Set accelerations of bodies at rest on others to zero if they are within rounding. No step would be short
+ * enough for them, as there is no motion as a scale of errors. Their rounding grows with the number of
+ * contact forces, and once more along a pile, where each body rotates slightly relative to the one below:
+ * with the square of the number, times the acceleration by one force. */
 static void drop_rounding(const struct tree *tree, struct tree_work *work, double *a)
 {
     double count = tree->count, rounding = 64 * count * DBL_EPSILON, sums = count * count * DBL_EPSILON;
@@ -229,7 +229,7 @@ static void drop_rounding(const struct tree *tree, struct tree_work *work, doubl
     }
 }
 
-/* What rows ask for before there are multipliers. */
+/* The accelerations of the links without multipliers. */
 static void add_accelerations(const struct tree *tree, struct tree_work *work)
 {
     for (int i = 1; i < tree->count; i++) {
@@ -239,7 +239,7 @@ static void add_accelerations(const struct tree *tree, struct tree_work *work)
     }
 }
 
-/* Does no row ask for anything, as of what flies? */
+/* Is no row active, as in free flight? */
 static bool is_free(const struct tree *tree, const struct instant *at)
 {
     if (tree->watched_count + tree->pair_count > 0) return false;
@@ -257,7 +257,7 @@ static void close_system(const struct fbd_model *model, const struct instant *at
     if (work->rates_only && is_free(tree, at)) {
         for (int j = 0; j < tree->row_count; j++) work->rows[j].lambda = 0;
         memset(work->unit, 0, (size_t)model->plan.n * sizeof *work->unit);
-        tree_add_unit(tree, work, a); /* no negative zeros, as where something is added */
+        tree_add_unit(tree, work, a); /* no negative zeros, as after an addition */
         return;
     }
     for (int j = 0; j < tree->row_count; j++) work->z[j] = -work->rows[j].g.x2;
@@ -273,7 +273,7 @@ static void close_system(const struct fbd_model *model, const struct instant *at
     if (tree->meeting_count > 0) drop_rounding(tree, work, a);
     if (work->rates_only) return;
     add_result(tree, work);
-    constraints_evaluate(model, at, NULL); /* with the accelerations that they lead to */
+    constraints_evaluate(model, at, NULL); /* with the resulting accelerations */
 }
 
 void tree_accelerations(const struct fbd_model *model, const struct instant *at, double *slots, double *a)

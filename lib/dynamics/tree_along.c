@@ -2,15 +2,14 @@
  *
  * The exact variation of the accelerations along a direction.
  *
- * The equations of motion, with the accelerations a of the joints, say that what every joint passes on
- * balances: R(t, q, v, a) = 0. Varied: M da = -dR at fixed a. So one outward sweep varies what each link
- * needs on its course, and the inward and outward sweeps that found a find da with the inertias that are
- * there.
+ * The equations of motion are the balance of the wrenches of all joints at the accelerations a of the joints:
+ * R(t, q, v, a) = 0. Varied: M da = -dR at fixed a. So one outward sweep varies the wrench for the bias of
+ * each link, and the inward and outward sweeps that computed a compute da with the same inertias.
  */
 #include "dynamics/friction.h"
 #include "dynamics/tree_system.h"
 
-/* The surface of a sticking pair: the variation of its acceleration. */
+/* The variation of the accelerations of the surfaces of sticking joints. */
 static void vary_held(const struct fbd_model *model, const struct instant *at, const struct direction *along)
 {
     const struct tree *tree = model->tree;
@@ -22,7 +21,7 @@ static void vary_held(const struct fbd_model *model, const struct instant *at, c
     }
 }
 
-/* Does friction hold a joint? */
+/* Does friction lock a joint? */
 static bool holds(const struct tree *tree, const struct tree_work *work)
 {
     for (int k = 0; k < tree->watched_count; k++)
@@ -30,14 +29,14 @@ static bool holds(const struct tree *tree, const struct tree_work *work)
     return false;
 }
 
-/* What a joint passes on acts about the parent's O on an arm that varies. */
+/* The wrench of a joint has a varying arm about the parent's O. */
 static void vary_arms(const struct tree *tree, struct tree_work *work)
 {
     for (int i = 1; i < tree->count; i++)
         work->x[tree->links[i].parent].p.moment += vec_cross(work->variation[i].d, work->links[i].F.force);
 }
 
-/* The forces in the joints vary, and so do the directions in which they are counted. */
+/* The forces in the joints vary, and so do their directions. */
 static void vary_joint_forces(const struct fbd_model *model, const struct instant *at,
                               const struct direction *along, const double *slots, const double *slots_along)
 {
@@ -65,20 +64,20 @@ static void vary_joint_forces(const struct fbd_model *model, const struct instan
     }
 }
 
-/* dN of the slide of link i in what was solved last: N = n . F. */
+/* dN of the slide of link i for the last right-hand side: N = n . F. */
 static double normal_along(const struct tree *tree, const struct tree_work *work, int i)
 {
     return tree_normal_in(tree, work, i);
 }
 
-/* The part of dN that comes with the direction of the surface. */
+/* The part of dN due to the direction of the surface. */
 static double normal_turned(const struct tree *tree, const struct tree_work *work, int i)
 {
     struct vec dn = vec_scale(tree->links[i].side, vec_perp(work->variation[i].e));
     return vec_dot(dn, work->links[i].F.force);
 }
 
-/* What the friction of slide i varies by with the normal forces as they are without it. */
+/* The variation of the friction of slide i without the response of the normal forces to it. */
 static double friction_along_base(const struct fbd_model *model, const struct instant *at,
                                   const struct direction *along, int i)
 {
@@ -91,8 +90,7 @@ static double friction_along_base(const struct fbd_model *model, const struct in
     return -at->slip[pair] * at->pull[pair] * (mu * dN + d_mu * N);
 }
 
-/* Add what the solution says to the slots behind the n. `first`: the parts that do not come from solutions
- * are added, too. */
+/* Add the solution to the slots behind the n. `first`: also the parts that are independent of solutions. */
 static void add_slots(const struct fbd_model *model, const struct instant *at, bool first,
                       double *slots_along)
 {

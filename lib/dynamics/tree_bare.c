@@ -5,7 +5,7 @@
 #include "dynamics/tree.h"
 #include "dynamics/tree_short.h"
 
-/* ---- which trees are */
+/* ---- conditions */
 
 static bool acts_in_joints_alone(const struct fbd_model *model, int b)
 {
@@ -35,18 +35,18 @@ bool tree_is_bare(const struct fbd_model *model)
     return tree_is_in_chains(tree);
 }
 
-/* ---- outward: the courses
+/* ---- outward: the bias
  *
- * A pivot on the ground has its O at rest and answers with J and a moment alone, a slide on the ground does not turn
- * and answers with M and a force. */
+ * A pivot on the ground has its O at rest, and only J and a moment; a slide on the ground does not turn, and
+ * has only M and a force. */
 
-/* What goes on from link to link. */
+/* Passed from link to link. */
 struct trajectory {
     double omega;
     struct vec turn, a;
 };
 
-/* All sines and cosines first: numbers that stand in registers do not outlive a call. Those of two links at a time. */
+/* All sines and cosines first, of two links at a time: values in registers do not survive a call. */
 static void turn_links(const struct tree_link *links, int count, const double *y, struct tree_bare *s)
 {
     bool turns = links->kind == motion_pivot;
@@ -96,7 +96,7 @@ static void set_joint_forces(const struct fbd_model *model, const double *y, str
     }
 }
 
-/* ---- inward: what a link passes on to the one before, about O of that */
+/* ---- inward: inertia and wrench passed to the previous link, about its O */
 
 struct passed {
     struct inertia_about_O I;

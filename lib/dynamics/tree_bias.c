@@ -1,14 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * How the links accelerate when no joint gives way, and what keeps a link on that course. With P the parent,
- * w the velocity in the joint (R e q' of a slide), and r from O to the centre of mass:
+ * The accelerations of the links for zero joint accelerations, and the wrench of each for that motion. With P
+ * the parent, w the velocity in the joint (R e q' of a slide), and r from O to the centre of mass:
  *
  *     alpha = alpha_P,  a = a_P + alpha_P k x d - omega_P^2 d + 2 omega_P k x w
  *     force = m a + alpha k x m r - omega^2 m r,   moment about O = m r x a + I_O alpha
  *
- * A sticking joint has the acceleration of its surface beside that, and on a track of curvature kappa
+ * A sticking joint also has the acceleration of its surface, and on a track of curvature kappa
  *
- *     a += kappa q'^2 k x e,   alpha += kappa' q'^2  where the body turns along.
+ *     a += kappa q'^2 k x e,   alpha += kappa' q'^2  if the body turns.
  */
 #include "dynamics/tree.h"
 
@@ -96,7 +96,7 @@ static struct vec joint_velocity_along(const struct tree_link *link, const struc
     return vec_add(own, vec_turn(d->e, (struct vec){v[0], v[1]}));
 }
 
-/* What the acceleration in the joint adds as its direction varies. */
+/* The term of the joint acceleration due to the variation of its direction. */
 static struct vec joint_acceleration_along(const struct tree_link *link, const struct tree_variation *d,
                                            const double *a)
 {

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Free-body diagrams of jointed bodies: every force in a joint stands in two of them, equal and opposite.
+ * Free-body diagrams of jointed bodies: every force in a joint is in two of them, equal and opposite.
  *
- * The sweeps know what a joint passes on as a whole. Less the listed forces in the joint it is the reaction:
- * of a pivot a force at its axis; of a slide a force across it and the couple that keeps it from turning; of
- * a weld, what the body needs beyond all else that acts on it.
+ * The sweeps give the total wrench of a joint. Minus the listed forces in the joint it is the reaction: of a
+ * pivot a force at its axis; of a slide a force across it and the couple that prevents rotation; of a weld,
+ * the difference of inertial and all other forces of the body.
  */
 #include "dynamics/constraint_view.h"
 #include "dynamics/diagram.h"
@@ -27,7 +27,8 @@ static struct vec mass_center(const struct model_body *body, const struct instan
     return point_motion(body, &pose, body->inertia.G).p;
 }
 
-/* Where the forces in the joint of a guided body act: of a slide at G, which moves as every other point does. */
+/* The point of application of the forces in the joint of a guided body: of a slide G, as all points move
+ * alike. */
 static struct vec guide_point(const struct model_body *body, const struct instant *at)
 {
     return body->kind == motion_track ? link_of(body, at)->p : mass_center(body, at);
@@ -87,7 +88,7 @@ static struct arrow opposite(struct arrow arrow, const char *name)
 
 /* ---- constraints: the multipliers as forces */
 
-/* What the row does at end k of its coupling. */
+/* The force of the row at end k of its coupling. */
 static struct arrow row_arrow(const struct instant *at, const struct row *row, int k, const char *name)
 {
     struct arrow arrow = {.name = name, .load = -1};
@@ -99,15 +100,15 @@ static struct arrow row_arrow(const struct instant *at, const struct row *row, i
         arrow.force = vec_add(arrow.force, vec_scale(row->lambda, port->force));
         couple += row->lambda * vec_cross(port->arm, port->force);
     }
-    /* The stop of a pivot: two forces that are a moment. */
+    /* The stop of a pivot: two forces that form a couple. */
     if (arrow.force.x == 0 && arrow.force.y == 0) arrow.couple = couple;
     return arrow;
 }
 
 enum { most_of_an_end = 2 };
 
-/* The strands at end k: a row has its ports at both ends of strand 0, then of strand 1. Those that rub take together
- * what friction takes. */
+/* The strands at end k: a row has its ports at both ends of strand 0, then of strand 1. Strands with friction
+ * share the load of that friction. */
 static size_t fill_strands(const struct fbd_model *model, int index, int k, const struct instant *at,
                            struct arrow *arrows)
 {
@@ -131,12 +132,12 @@ static size_t fill_strands(const struct fbd_model *model, int index, int k, cons
     return count;
 }
 
-/* What a coupling does at its end k: one force, or for a rolling body those along and across its line. */
+/* The forces of a coupling at its end k: one, or for a rolling body those along and normal to its line. */
 static size_t fill_end(const struct coupling *coupling, int k, const struct instant *at, struct arrow *arrows)
 {
     const struct row *rows = &at->tree->rows[coupling->first_row];
     arrows[0] = row_arrow(at, &rows[0], k, coupling->end[k].name[0]);
-    if (coupling->reels) arrows[0].load = coupling->load; /* any other rope does no work in all */
+    if (coupling->reels) arrows[0].load = coupling->load; /* other ropes do no net work */
     if (coupling->row_count == 1) return 1;
     arrows[1] = row_arrow(at, &rows[1], k, coupling->end[k].name[1]);
     if (!coupling->law->end_names[1]) {
@@ -167,7 +168,7 @@ static size_t fill_couplings(const struct fbd_model *model, int b, const struct 
     return count;
 }
 
-/* Names of ends belong to one end each. */
+/* Names of ends are unique. */
 int rope_load(const struct fbd_model *model, int b, const struct arrow *arrow)
 {
     for (int i = 0; model->tree && i < model->tree->coupling_count; i++) {
@@ -181,8 +182,8 @@ int rope_load(const struct fbd_model *model, int b, const struct arrow *arrow)
 
 /* ---- reactions */
 
-/* What the force across a slide is, and the couple about its point, given all that its joint passes on. The
- * listed forces in the joint are not among it. */
+/* The force across a slide, and the couple about its point, from the total wrench of its joint minus the
+ * listed forces in the joint. */
 static struct arrow slide_reaction(const struct fbd_model *model, const struct model_body *body,
                                    const struct instant *at, const double *slots)
 {
@@ -195,20 +196,21 @@ static struct arrow slide_reaction(const struct fbd_model *model, const struct m
         struct arrow arrow = load_arrow(model, i, at, slots);
         couple -= arrow_moment(&arrow, P);
     }
-    /* What turns it along a curve has no power: the couple goes with a force along the track. */
+    /* The reaction that turns a body along a curve has no power: a force along the track belongs to the
+     * couple. */
     if (body->kind == motion_track) force = vec_sub(force, vec_scale(s->turning * couple, s->e));
     return (struct arrow){.load = -1, .force = force, .point = P, .couple = couple};
 }
 
-/* The first body from b on, among those beside it, that is welded to their parent; or -1. */
+/* The first body that is welded to the parent, among b and its later siblings; or -1. */
 static int first_welded(const struct fbd_model *model, int b)
 {
     while (b >= 0 && model->bodies[b].kind != motion_weld) b = model->bodies[b].sibling;
     return b;
 }
 
-/* The body after b among those that are welded to `on`, directly or by others: first what is welded to b, then
- * what is beside it, then beside those on which it is. -1 after the last. */
+/* The body after b among those welded to `on`, directly or indirectly: first the bodies welded to b, then its
+ * siblings, then those of its ancestors. -1 after the last. */
 static int next_welded(const struct fbd_model *model, int b, int on)
 {
     int next = first_welded(model, model->bodies[b].child);
@@ -223,7 +225,8 @@ static void add_arrow(struct wrench *sum, const struct arrow *arrow, struct vec 
     sum->moment -= arrow_moment(arrow, about);
 }
 
-/* What body b, welded to `on`, needs beyond its loads, about `point`; what moves on it needs its part. */
+/* Add the inertial minus the applied forces of body b, welded to `on`, about `point`, and the wrenches of the
+ * joints of bodies that move on it. */
 static void add_needs(const struct fbd_model *model, int b, const struct instant *at, const double *slots,
                       struct vec point, struct wrench *sum)
 {
@@ -269,7 +272,7 @@ static struct arrow weld_reaction(const struct fbd_model *model, int b, const st
     return (struct arrow){.load = -1, .force = sum.force, .point = point, .couple = sum.moment};
 }
 
-/* The reaction of the joint of body b on it; in its place, as pose_arrow. */
+/* The reaction of the joint of body b, as a force on b; written in place, see pose_arrow. */
 static void reaction_fill(const struct fbd_model *model, int b, const struct instant *at, const double *slots,
                           struct arrow *arrow)
 {
@@ -288,7 +291,7 @@ static void reaction_fill(const struct fbd_model *model, int b, const struct ins
 
 /* ---- the whole */
 
-/* The forces in the joint of child c, as the body that it moves on feels them. */
+/* The forces in the joint of child c, as they act on its parent. */
 static size_t fill_child(const struct fbd_model *model, int c, const struct instant *at, const double *slots,
                          struct arrow *arrows)
 {

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
  * A drive that starts from rest, and a mechanism in a dead centre, have neither velocity nor acceleration
- * there, and more rates may be zero. So it is seen where the drives have taken it a little later, first a
- * very little and then more, until there is a velocity that is more than rounding.
+ * there, and further rates may be zero. So the drives are followed for increasing times, from 1e-12 s on,
+ * until a velocity exceeds rounding.
  */
 #include "dynamics/tree_driven.h"
 
@@ -23,8 +23,8 @@ double tree_hold_acceleration(const struct fbd_state *state, const struct instan
     return state->a[hold->coordinate] - surface;
 }
 
-/* Are the velocities such as the rows that take part let them be, by far and large? Else accelerations along rows tell of
- * that. What rests has rounding of what its accelerations [m/s^2] of this size would give it. */
+/* Do the velocities roughly satisfy the active rows? If not, accelerations along rows are due to that. At
+ * rest they have the rounding of accelerations [m/s^2] of this size over the time. */
 static bool velocities_fit(const struct fbd_state *state, double size)
 {
     const double large = 0.01, rounding = 1e-9;
@@ -73,7 +73,7 @@ double tree_unseen_speed(const struct fbd_state *state, double time)
     return fmax(share * fastest, time > 0 ? roundings * reach_of(state) / time : 0);
 }
 
-/* The velocity along a hold, 0 for what may well be rounding. */
+/* The velocity along a constraint, 0 within rounding. */
 static double velocity_along(const struct fbd_state *state, int pair, double dt)
 {
     const struct mode *hold = mode_of(state, pair);
@@ -118,7 +118,7 @@ bool tree_rests(const struct fbd_state *state)
            (state->t > 0 && fastest <= 64 * DBL_EPSILON * fmin(1, reach_of(state)) / state->t);
 }
 
-/* With q' = a T the rows have q'.H q' left, which says where it goes: by the sign of that, whatever T is. */
+/* With q' = a T the rows have the residual q'.H q', whose sign is that of the motion, for any T. */
 double tree_sets_out(struct fbd_state *state, const int *slip, int pair)
 {
     const double T = 1e3;
@@ -141,7 +141,7 @@ double tree_sets_out(struct fbd_state *state, const int *slip, int pair)
     return along;
 }
 
-/* Of a joint or a coupling; what touches is no mechanism. */
+/* Does friction of a joint or coupling stick? Contacts do not count. */
 static bool any_sticks(const struct fbd_state *state)
 {
     for (int pair = 0; pair < (int)state->model->plan.mode_count; pair++) {
@@ -162,9 +162,9 @@ bool tree_is_locked(struct fbd_state *state)
     return locked;
 }
 
-/* ---- other modes may agree as well */
+/* ---- other modes may be consistent as well */
 
-/* Does a surface that is rubbed on answer its normal force with the wrong sign (Painleve)? */
+/* Has a surface with friction a negative response to its normal force (Painleve)? */
 static bool answers_wrongly(const struct fbd_state *state)
 {
     const struct tree *tree = state->model->tree;
@@ -178,7 +178,8 @@ static bool answers_wrongly(const struct fbd_state *state)
     return false;
 }
 
-/* Is there a switch that is slid on, and whose branches what is closed leaves nothing to do but by rounding? */
+/* Is there a switch in a sliding mode whose branches have no effect beyond rounding, due to closed
+ * constraints? */
 static bool shares_fail(const struct fbd_state *state)
 {
     const double most = 1e9;

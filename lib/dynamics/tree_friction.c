@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Friction of slides between jointed bodies while they slip: f = -c N along the slide, c = slip mu_k. It goes
- * with the normal force, and the normal forces of all slides of the tree go with it: see tree_system.h.
+ * Friction of slides between jointed bodies while they slip: f = -c N along the slide, c = slip mu_k. It
+ * depends on the normal force, and the normal forces of all slides of the tree depend on it: see
+ * tree_system.h.
  */
 #include "dynamics/friction.h"
 #include "dynamics/tree.h"

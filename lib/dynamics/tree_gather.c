@@ -11,9 +11,9 @@
 #include "dynamics/tree_driven.h"
 #include "dynamics/tree_system.h"
 
-/* ---- which holds are in question */
+/* ---- the constraints to be decided */
 
-/* Is the surface that the friction is on, if it is on one, closed or to be decided? */
+/* Is the surface of the friction, if it has one, closed or to be decided? */
 static bool is_on_surface(const struct fbd_state *state, const struct decided *decided, const int *forced,
                           const struct mode *mode)
 {
@@ -52,7 +52,7 @@ int hold_slips_already(const struct fbd_state *state, const struct decided *deci
     return v > 0 ? 1 : v < 0 ? -1 : aside;
 }
 
-/* ---- one unit of a hold, and what answers */
+/* ---- a unit force along a constraint, and the response */
 
 static void apply_unit(struct fbd_state *state, int pair)
 {
@@ -64,7 +64,8 @@ static void apply_unit(struct fbd_state *state, int pair)
         state->tree->x[link_of(state, pair)].g = 1;
 }
 
-/* Add what the accelerations in work->x and work->unit are along hold i and to the guides, to column k. */
+/* Add to column k the response in work->x and work->unit: accelerations along the constraints and normal
+ * forces of the guides. */
 static void add_answers(struct gathered *all, size_t k)
 {
     struct fbd_state *state = all->state;
@@ -84,7 +85,7 @@ static void add_answers(struct gathered *all, size_t k)
             all->problem.B[g * count + k] += tree_normal_in(tree, state->tree, link_of(state, all->guide[g]));
 }
 
-/* What the constraints alone do not let move slips by rounding only, and no force along it moves anything. */
+/* The relative response below which the couplings make a constraint immovable: it moves by rounding only. */
 static const double immovable = 1e-12;
 
 static void hold_still(struct gathered *all, size_t k)
@@ -94,7 +95,7 @@ static void hold_still(struct gathered *all, size_t k)
     struct hold *still = &all->problem.holds[k];
     size_t count = all->problem.count;
     double surface, driven = tree_driven(state, all->trial, all->pair[k]);
-    /* A mechanism that passes its dead centre goes on by its momentum. */
+    /* The momentum of a mechanism moves it through its dead centre. */
     if (driven == 0 && mode_is_friction(hold) && tree_seen_acceleration(state, still->free))
         driven = still->free;
     if (driven == 0 && mode_is_friction(hold)) {
@@ -106,14 +107,15 @@ static void hold_still(struct gathered *all, size_t k)
     if (driven != 0) still->slip = driven > 0 ? 1 : -1;
     if (driven != 0 && mode_is_friction(hold))
         all->forced[all->pair[k]] = state->slip_driven[all->pair[k]] = still->slip;
-    if (hold->moving || driven != 0) return; /* below what stands still */
+    if (hold->moving || driven != 0) return; /* the rest is for immovable friction */
     still->slip = 0;
     if (all->forced[all->pair[k]] == 0) all->forced[all->pair[k]] = keeps_still;
     if (mode_is_joint_friction(hold))
         state->y[state->model->plan.n + hold->coordinate] = friction_surface_speed(hold, &all->at, &surface);
 }
 
-/* What one newton between two points of the links does to them at least [m/s^2], but in a dead centre: 1 over the mass of all. */
+/* A lower bound of the response to a unit force between two points of the links [m/s^2], except in a dead
+ * centre: 1 over the total mass. */
 static double least_answer(const struct fbd_state *state, int pair)
 {
     double mass = 0;
@@ -122,7 +124,8 @@ static double least_answer(const struct fbd_state *state, int pair)
     return mass > 0 ? 1 / mass : 0;
 }
 
-/* The links answer, and then the constraints that do not let them. True when these hold it still. */
+/* Add the responses of the links and of the couplings to a unit force. True when the couplings make the
+ * constraint immovable. */
 static bool answers_alone(struct gathered *all, size_t k)
 {
     struct fbd_state *state = all->state;
@@ -138,7 +141,7 @@ static bool answers_alone(struct gathered *all, size_t k)
         work->z[j] = j < tree->row_count ? -tree_row_answer(work, j) : 0;
     tree_system_solve(state->model, &all->at, work->z);
     add_answers(all, k);
-    for (size_t g = 0; g < all->problem.guide_count; g++) { /* of a slot: the multiplier of its row across */
+    for (size_t g = 0; g < all->problem.guide_count; g++) { /* of a slot: the multiplier of its normal row */
         const int coupling = mode_of(state, all->guide[g])->coupling;
         if (coupling >= 0)
             all->problem.B[g * all->problem.count + k] = work->z[tree->couplings[coupling].first_row];
@@ -146,7 +149,7 @@ static bool answers_alone(struct gathered *all, size_t k)
     return all->problem.A[k * all->problem.count + k] <= immovable * alone;
 }
 
-/* The same, and what it does to the surfaces that are slid on. */
+/* The same, with the rates of the surfaces of sliding modes. */
 static bool add_column(struct gathered *all, size_t k)
 {
     struct sliding *s = all->state->sliding;
@@ -158,7 +161,7 @@ static bool add_column(struct gathered *all, size_t k)
     return still;
 }
 
-/* Along hold i and to guide g, with the accelerations and forces of just now. */
+/* Along constraint i and at guide g, by the last accelerations and forces. */
 static double hold_answer(const struct gathered *all, size_t i)
 {
     return tree_hold_acceleration(all->state, &all->at, all->pair[i]);
@@ -169,7 +172,7 @@ static double guide_answer(const struct gathered *all, size_t g)
     return -all->state->scratch[mode_of(all->state, all->guide[g])->normal_slot];
 }
 
-/* What more of the share of a unit does. */
+/* The response to the weight of a unit. */
 static void find_share_answers(struct gathered *all, int unit)
 {
     struct fbd_state *state = all->state;
@@ -183,7 +186,7 @@ static void find_share_answers(struct gathered *all, int unit)
     for (size_t g = 0; g < problem->guide_count; g++) N[g] = guide_answer(all, g) - problem->guides[g].free;
 }
 
-/* Without any hold. */
+/* Without forces of the constraints. */
 static void set_free(struct gathered *all)
 {
     struct fbd_state *state = all->state;
@@ -196,8 +199,9 @@ static void set_free(struct gathered *all)
     accelerations_at_shares(state->model, &all->at, state->scratch, state->a);
 }
 
-/* What is slid on takes what a hold does to its surface: the shares answer, too. Where that leaves nothing along the hold
- * itself, as of a rope along which a switch holds, its own answer stays: it keeps or gives by what there is without it. */
+/* Add the response of the weights of sliding modes, which keep their surfaces. If that cancels the response
+ * of the constraint itself, as of a rope along which a switch holds, the latter is kept: its mode is then
+ * decided without the switch. */
 static void let_shares_answer(struct gathered *all, size_t k)
 {
     const double rounding = 1e-9;
@@ -240,14 +244,15 @@ static bool make_room_for_shares(struct gathered *all)
     return true;
 }
 
-/* Is what presses on a friction a guide, of a slide or of a slot that holds on both sides? */
+/* Is the normal force of a friction that of a guide: a slide, or a slot with two sides? */
 static bool has_guide(const struct fbd_model *model, const struct mode *mode)
 {
     return mode->normal_slot >= 0 &&
            (mode->coupling < 0 || model->tree->couplings[mode->coupling].surface < 0);
 }
 
-/* What presses on friction i: a hold of the same line, or a guide, which is noted. */
+/* Set the source of the normal force of friction i: a constraint on the same line, or a guide, which is
+ * added. */
 static void set_press(struct gathered *all, size_t i, size_t *guides)
 {
     struct hold *hold = &all->problem.holds[i];
@@ -259,7 +264,7 @@ static void set_press(struct gathered *all, size_t i, size_t *guides)
         hold->press = press_hold;
         hold->presses = all->hold[surface];
         if (hold->presses >= 0) return;
-        /* Closed already: with the force that it has, and look() says whether it keeps that. */
+        /* Closed and decided: the present normal force, which look() checks. */
         double N = fmax(0, one_sided_at(all->state->model, &all->at, surface).force);
         hold->press = press_constant;
         hold->mu_s *= N;

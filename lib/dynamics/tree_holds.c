@@ -1,14 +1,15 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * The holds between jointed bodies, decided together (holds/holds.h).
+ * The unilateral constraints between jointed bodies, decided together (holds/holds.h).
  *
- * While the modes that there are agree with the forces nothing is solved. Else all holds that touch are let
- * loose, and what each of them does when it pushes with one unit is found by the recursion and the system of
- * the constraints: a column of Delassus' matrix. What slips already is let loose with the others, since its
- * friction goes with a normal force that is still to be found.
+ * While the present modes are consistent with the forces no problem is solved. Else all closed ones are
+ * released, and the accelerations by a unit force along each are computed by the recursion and the system of
+ * the constraints: a column of Delassus' matrix. Slipping friction is released too, since it depends on a
+ * normal force that is still unknown.
  *
- * At a limit to rounding the rates of change decide: the forces do not tell. Of a load that several share
- * there is a share within all limits or not (rest_system.h); just beyond, all those that are at theirs give.
+ * At a limit, within rounding, the rates of change decide instead of the forces. A redundant load has a
+ * distribution within all limits or not (rest_system.h); if it just exceeds them, all constraints at their
+ * limits change their modes.
  */
 #include <float.h>
 #include <math.h>
@@ -23,9 +24,9 @@
 #include "dynamics/tree_shared.h"
 #include "dynamics/tree_system.h"
 
-/* ---- do the modes agree with the forces? */
+/* ---- are the modes consistent with the forces? */
 
-/* What the friction of a joint alone does to its body: an acceleration that is left of sums of such sizes. */
+/* The acceleration of a body by the friction of its joint: the scale of its rounding. */
 static double accelerated(const struct fbd_state *state, int pair)
 {
     const struct tree_state *link = &state->tree->links[link_of(state, pair)];
@@ -35,7 +36,7 @@ static double accelerated(const struct fbd_state *state, int pair)
     return inertia > 0 ? friction_at(state->model, pair, &at, state->scratch).limit / inertia : 0;
 }
 
-/* Does a slipping pair turn back at once? */
+/* Does a slipping constraint reverse at once? */
 static bool turns_back(const struct fbd_state *state, int pair)
 {
     const double rounding = 64 * DBL_EPSILON;
@@ -50,13 +51,13 @@ static bool turns_back(const struct fbd_state *state, int pair)
     return slip_side(state->slip[pair]) * (a - surface) < -least;
 }
 
-/* The size that forces of constraints have: what zero is measured against. */
+/* The scale of the forces of constraints, with which zero is compared. */
 static double largest_force(const struct fbd_state *state)
 {
     double most = 0;
     for (int j = 0; j < state->model->tree->row_count; j++)
         most = fmax(most, fabs(state->tree->rows[j].lambda));
-    for (int i = 1; i < state->model->tree->count; i++) /* what only just touches has none of its own */
+    for (int i = 1; i < state->model->tree->count; i++) /* a contact that just touches has no force */
         most = fmax(most, vec_norm(state->model->tree->links[i].force));
     return most;
 }
@@ -66,16 +67,16 @@ static bool is_on_contact(const struct fbd_state *state, const struct mode *hold
     return hold->coupling >= 0 && state->model->tree->couplings[hold->coupling].meeting >= 0;
 }
 
-/* Friction of what has just opened has nothing to hold or to slip on, whatever its mode. */
+/* Friction of a contact that has just opened has no force, whatever its mode. */
 static bool is_on_open_contact(const struct fbd_state *state, const struct mode *hold)
 {
     return mode_is_friction(hold) && is_on_contact(state, hold) &&
            state->slip[state->model->tree->couplings[hold->coupling].surface] != stick;
 }
 
-/* Does friction that sticks move all the same? Where a mechanism passes its dead centre nothing along the row moves it,
- * however large: so the row is redundant, and has no force. Where drives take it along some row is - this one, or one that
- * comes behind it - and the forces that there are mean nothing. */
+/* Does sticking friction have an acceleration? As a mechanism passes its dead centre no force along the row
+ * moves it: the row is redundant, without a force, and the momentum moves it. If drives move it some row is
+ * redundant, this one or a later one, and the forces are meaningless. */
 static bool moves_on(const struct fbd_state *state, const struct mode *hold)
 {
     const struct instant at = state_instant(state);
@@ -85,9 +86,9 @@ static bool moves_on(const struct fbd_state *state, const struct mode *hold)
            tree_seen_acceleration(state, hold_row(state, hold)->g.x2);
 }
 
-/* What a hold that is in question has to become: itself where it agrees. At its limit to rounding the rate
- * decides, and `by_rate` is set: there what is solved is as likely to have it hold as to have it give. What holds by
- * what is solved may be beyond its limit by what accelerations are solved to. */
+/* The next mode of a constraint that is to be decided: the same if it is consistent. At its limit, within
+ * rounding, the rate decides, and `by_rate` is set: there the solution may be on either side. A solved mode
+ * may exceed its limit by the accuracy of the solution. */
 static int next_mode(const struct fbd_state *state, const struct decided *decided, const double *slots,
                      const double *slots_along, int pair, bool solved, bool *by_rate)
 {
@@ -98,13 +99,13 @@ static int next_mode(const struct fbd_state *state, const struct decided *decide
     *by_rate = false;
     if (mode_is_one_sided(hold)) {
         struct one_sided now = one_sided_at(model, &at, pair);
-        /* Where nothing pulls or pushes but the rounding of what slides on, that of forces is no measure of it. */
+        /* Without loads but the rounding of a sliding mode, the rounding of forces is no scale. */
         if (is_on_contact(state, hold)) now.slack = fmax(now.slack, contact_slack(model, hold->coupling));
         double small = rounding * largest_force(state);
         if (state->slip[pair] != stick) return now.acceleration > 0 ? stick : state->slip[pair];
         double rate = hold_sign(hold) * state->tree->z[model->tree->couplings[hold->coupling].first_row];
         double least = now.force < -now.slack / 2 ? 0 : now.slack * now.turning;
-        double nothing = fmax(small, slacks * now.slack); /* its event function lets it pull, too */
+        double nothing = fmax(small, slacks * now.slack); /* its event function has the same tolerance */
         *by_rate = now.force <= nothing && now.force >= -beyond * nothing && rate < -least;
         return now.force < -beyond * nothing || *by_rate ? slip_plus : stick;
     }
@@ -119,9 +120,9 @@ static int next_mode(const struct fbd_state *state, const struct decided *decide
     return friction_decide(&now, &rate, slack);
 }
 
-/* Does a slide that rubs, or a slot, press the wrong way? Where it sticks a guide takes the side on which it presses. A
- * surface with one side that pulls is solved as one that does not press: that it is lost is for others to
- * say. */
+/* Does a slide with friction, or a slot, have a normal force of the wrong sign? While it sticks, a guide
+ * takes the side of its normal force. A one-sided surface that pulls is solved as one without a normal force:
+ * its loss is detected elsewhere. */
 static bool pulls(struct fbd_state *state, const double *slots, const struct decided *decided, bool solved,
                   int pair)
 {
@@ -136,11 +137,11 @@ static bool pulls(struct fbd_state *state, const double *slots, const struct dec
     return state->pull[pair] * N < -nothing;
 }
 
-/* ---- all of them */
+/* ---- all constraints */
 
-/* Friction that sticks, and something closed that does not let it: its surface accelerates, or what drives takes away what
- * it is closed with, as a cam that recedes. Both have their rows, and the forces of such rows mean nothing. The friction,
- * or -1. */
+/* Find sticking friction that contradicts a closed constraint: its surface accelerates, or a drive moves the
+ * other body away, as a receding cam. Both have rows, and the forces of such rows are meaningless. Returns
+ * the friction, or -1. */
 static int pulled_against(const struct fbd_state *state, const struct decided *decided, const int *forced)
 {
     const struct instant at = state_instant(state);
@@ -163,7 +164,7 @@ static int pulled_against(const struct fbd_state *state, const struct decided *d
     return -1;
 }
 
-/* `at_limit`: it differs by rates alone, or by next to nothing; what has to give is in `forced`, and does. */
+/* `at_limit`: inconsistent by rates only, or by a negligible amount; the changed modes are in `forced`. */
 static enum agreement look(struct fbd_state *state, const struct decided *decided, int *forced, bool solved)
 {
     double *slots = state_scratch(state).slots, *slots_along = state_scratch(state).slots_along;
@@ -175,7 +176,7 @@ static enum agreement look(struct fbd_state *state, const struct decided *decide
     struct arena arena = {0};
     struct rest_margin margin = {0};
     bool shared = tree_find_margin(state, &at, true, &flow, slots, slots_along, &arena, &margin);
-    if (shared && margin.value < 0) /* that a slide has lost its surface is for others to say */
+    if (shared && margin.value < 0) /* the loss of a slide's surface is detected elsewhere */
         shared = tree_find_margin(state, &at, false, &flow, slots, slots_along, &arena, &margin);
     int which = pulled_against(state, decided, forced), next = 0;
     if (which >= 0 || (!solved && tree_is_locked(state))) found = differs;
@@ -210,15 +211,15 @@ static enum agreement look(struct fbd_state *state, const struct decided *decide
     return found;
 }
 
-/* The contact that friction rubs on, which may hardly press; -1 without one. */
+/* The contact of a friction, whose normal force may be negligible; -1 without one. */
 static int surface_under(const struct fbd_state *state, int pair)
 {
     if (pair < 0 || !is_on_contact(state, mode_of(state, pair))) return -1;
     return state->model->tree->couplings[mode_of(state, pair)->coupling].surface;
 }
 
-/* Look at what has been solved. What slips by rounding and contradicts that keeps still: beside what sticks along the same
- * line it has no motion of its own. */
+/* Check the solved modes. Friction that slips only by rounding and contradicts its mode is set to stick:
+ * friction that sticks along the same line prevents its motion. */
 static enum agreement look_at_solved(struct fbd_state *state, const struct decided *decided, int *forced)
 {
     enum agreement found = look(state, decided, forced, true);
@@ -233,9 +234,10 @@ static enum agreement look_at_solved(struct fbd_state *state, const struct decid
     return found;
 }
 
-/* Modes agree, and no share of the forces is within the limits: where what slips presses on what is redundant, forces that
- * leave all holds at rest do not leave accelerations as they are, and what was solved has one of many. That one has nothing
- * at what holds barely: without it there is no other. */
+/* Open constraints at their limit, where modes are consistent but no reactions are within the limits: if
+ * slipping friction depends on redundant normal forces, reactions with the same modes have other
+ * accelerations, and the solution is one of many. It has no force at the constraints in `barely`, which are
+ * opened to exclude the others. */
 static bool open_what_barely_holds(struct fbd_state *state, int *forced)
 {
     const int *barely = state->slip_barely;
@@ -249,7 +251,7 @@ static bool open_what_barely_holds(struct fbd_state *state, int *forced)
     return any;
 }
 
-/* What was opened and closes again, since something else has changed after that, is closed. Does anything? */
+/* Close constraints that were opened and close again after later changes. Returns true if there are any. */
 static bool close_again(struct fbd_state *state, int *forced)
 {
     const struct instant at = state_instant(state);
@@ -267,7 +269,7 @@ static bool close_again(struct fbd_state *state, int *forced)
     return any;
 }
 
-/* Of modes that agree: do they still, with what is open and closes again closed, each but once? */
+/* Are consistent modes still so after closing again those that close, each once? */
 static enum agreement keep_closed(struct fbd_state *state, const struct decided *decided, int *forced)
 {
     enum agreement found = agrees;
@@ -275,8 +277,8 @@ static enum agreement keep_closed(struct fbd_state *state, const struct decided 
     return found;
 }
 
-/* Solve, and let rates decide what is at its limit, one after the other. False where the forces do not agree
- * with what was solved. */
+/* Solve, and let rates decide constraints at their limit, one after the other. False where the resulting
+ * forces contradict the solution. */
 static bool decide(struct fbd_state *state, const struct decided *decided, int *forced, bool shares_answer)
 {
     int count = (int)state->model->plan.mode_count, *barely = state->slip_barely;
@@ -302,7 +304,8 @@ static bool decide(struct fbd_state *state, const struct decided *decided, int *
     return false;
 }
 
-/* Do switches that are slid on have shares? What is closed may leave them nothing to do, or more than they can. */
+/* Do all switches in sliding modes have weights within their range? Closed constraints may make the branches
+ * ineffective, or too weak. */
 static bool shares_fit(const struct sliding *s)
 {
     const double rounding = 1e-10;
@@ -312,8 +315,8 @@ static bool shares_fit(const struct sliding *s)
     return fit;
 }
 
-/* Where switches that are slid on have no share that fits, or nothing has been decided: once more, with shares that answer. A
- * rope that is tried first leaves nothing to the switch along it, and may have to go slack. */
+/* Where switches in sliding modes have no weights in range, or no modes are found: solve again with the
+ * weights as unknowns. A taut rope makes the switch along it ineffective, and may have to become slack. */
 static bool decide_with_shares(struct fbd_state *state, const struct decided *decided, int *forced,
                                bool agreed)
 {
@@ -324,7 +327,7 @@ static bool decide_with_shares(struct fbd_state *state, const struct decided *de
     return decide(state, decided, forced, true);
 }
 
-/* Of those at rest, to the side that they begin to move to. */
+/* Set friction at rest that has no force to the side of the beginning motion. */
 static void turn_idle(struct fbd_state *state, const struct decided *decided)
 {
     for (int pair = 0; pair < (int)state->model->plan.mode_count; pair++)
@@ -333,8 +336,8 @@ static void turn_idle(struct fbd_state *state, const struct decided *decided)
             state->slip[pair] = -state->slip[pair];
 }
 
-/* Does friction hold what drives, surfaces or, in a dead centre, its momentum move, whatever the forces are? No friction
- * is enough for that. (Of friction along a coupling in a dead centre its row tells, see moves_on.) */
+/* Does sticking friction contradict a motion by drives, by surfaces, or by momentum in a dead centre, which
+ * no force prevents? (Friction along a coupling in a dead centre is found by its row, see moves_on.) */
 static bool holds_what_is_driven(struct fbd_state *state, const struct decided *decided, int *forced)
 {
     struct gathered all;
@@ -358,10 +361,10 @@ static bool holds_what_is_driven(struct fbd_state *state, const struct decided *
     return moves;
 }
 
-/* ---- to the second order */
+/* ---- second order */
 
-/* At rest, and about to turn: a moment later, T, at which what its motion makes of the rows is 1e-4 of the accelerations; 0
- * where nothing of this counts. */
+/* At rest, and about to turn: a time T after which the motion changes the rows by 1e-4 of the accelerations;
+ * 0 if second order is irrelevant. */
 static double moment_later(const struct fbd_state *state)
 {
     const double share = 1e-2;
@@ -374,7 +377,7 @@ static double moment_later(const struct fbd_state *state)
     return turning > 0 ? share / sqrt(turning) : 0;
 }
 
-/* What touches, and the friction there, in the modes of a moment later, where these are others. */
+/* Set contacts and their friction to their modes after that time, if different. */
 static bool take_later_modes(struct fbd_state *state, const struct fbd_state *later,
                              const struct decided *decided, int *forced)
 {
@@ -389,8 +392,8 @@ static bool take_later_modes(struct fbd_state *state, const struct fbd_state *la
     return any;
 }
 
-/* Rows that are redundant let a body turn all the same, and are so no more when it has: then what presses opens, and what sticks
- * slips, by as little as that is. */
+/* Redundant rows do not prevent a small rotation of a body, and are independent after it: then contacts open,
+ * and friction slips, to second order. */
 static bool look_later(struct fbd_state *state, const struct decided *decided, int *forced)
 {
     const size_t n = (size_t)state->model->plan.n, count = state->model->plan.mode_count;

@@ -4,7 +4,8 @@
 #include "dynamics/modes.h"
 #include "dynamics/tree_gather.h"
 
-/* Painleve's paradox has a friction by which its own normal force grows: the one that does so most. */
+/* In Painleve's paradox a friction increases its own normal force: find the one with the largest such
+ * response. */
 static struct holds_trouble trouble_of(const struct gathered *all, enum holds_found found)
 {
     struct holds_trouble trouble = {.found = found, .pair = -1, .contradicts = -1};
@@ -30,10 +31,10 @@ void hold_set_pull(struct fbd_state *state, int pair, double N)
     if (mode_of(state, pair)->two_sided) state->pull[pair] = N < 0 ? -1 : 1;
 }
 
-/* Where a corner touches two surfaces, what one of them holds by friction the other one presses: how much each of them
- * takes is open, and what is found has one at its limit that does not move. Then it slips, by nothing. Of two surfaces
- * that press at nearly the same place one may have no force, and open by next to nothing. And what slips by rounding may
- * as well keep still: keeps_still. */
+/* The alternative mode of a constraint at its limit, or 0. If a corner touches two surfaces, the friction on
+ * one of them and the normal force of the other are redundant, and the solution has one at its limit at rest:
+ * it may slip with zero velocity. Of two contacts at nearly the same place one may have no force, and may
+ * open. Friction that slips only by rounding may as well stick: keeps_still. */
 static int barely_holds(const struct gathered *all, size_t i)
 {
     const double rounding = 1e-9;

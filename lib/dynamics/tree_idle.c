@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Friction that has no force in any of its modes: there is nothing to decide.
+ * Friction that is zero in all of its modes: its mode is not decided.
  */
 #include <math.h>
 #include <string.h>
@@ -9,7 +9,7 @@
 #include "dynamics/tree_gather.h"
 #include "dynamics/tree_shared.h"
 
-/* It slips, to the side that it moves to; at rest as before. */
+/* Set it to slip to the side of its motion; at rest to the side before. */
 static void leave_idle(struct fbd_state *state, const struct decided *decided, int *forced, int pair)
 {
     int side = hold_slips_already(state, decided, forced, pair);

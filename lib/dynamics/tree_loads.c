@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * What acts on the links beside their joints, as wrenches about O, and how it varies. Constant forces fixed
- * in the world are in the bias already.
+ * Applied loads on the links, as wrenches about O, and their variation. Constant forces fixed in the world
+ * are in the bias already.
  */
 #include "dynamics/laws.h"
 #include "dynamics/tree.h"
@@ -104,7 +104,7 @@ static void force_along(const struct tree_force *force, const struct instant *at
     apply_along(&at->tree->x[force->link], &arm, &d, f, df);
 }
 
-/* ---- all of them */
+/* ---- all loads */
 
 void tree_load(const struct tree *tree, const struct instant *at)
 {

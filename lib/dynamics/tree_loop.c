@@ -6,13 +6,13 @@
 
 /* ---- constants */
 
-/* In the frame of a link, or, of what does not turn, in the world. */
+/* In the frame of a link, or, if it does not turn, in the world. */
 static struct vec arm_of(const struct tree_link *link, struct vec point)
 {
     return link->kind == motion_slide ? (struct vec){link->e.y, -link->e.x} : point;
 }
 
-/* What an end of the pin at `point` of a link adds to the b of all that move it. */
+/* Add the contribution of an end of the pin at `point` of a link to b of all links that move it. */
 static void add_end(const struct tree *tree, struct tree_loop *loop, int link, struct vec point, double sign)
 {
     for (; link > 0; link = tree->links[link].parent) {
@@ -25,7 +25,7 @@ static void add_end(const struct tree *tree, struct tree_loop *loop, int link, s
     loop->gap = vec_add(loop->gap, vec_scale(sign, point));
 }
 
-/* Everything in units of sqrt(inertia). */
+/* Scale to units of sqrt(inertia). */
 static void scale(struct tree_loop_link *own, double inertia)
 {
     own->unit = 1 / sqrt(inertia);
@@ -37,7 +37,8 @@ static void scale(struct tree_loop_link *own, double inertia)
     own->steady *= own->unit;
 }
 
-/* A link with the mass and the constant forces of all behind it, which begin at the O of `next`. */
+/* Set a link with the mass and the constant forces of all links behind it, applied at the O of `next`.
+ * Returns its inertia. */
 static double set_link(const struct tree_link *link, const struct tree_link *next, double mass,
                        struct vec force, struct tree_loop_link *own)
 {
@@ -57,7 +58,7 @@ static double set_link(const struct tree_link *link, const struct tree_link *nex
     return link->I_O + mass * vec_dot(at, at);
 }
 
-/* A constant moment, or along a slide a force in its frame. */
+/* Add a constant moment, or on a slide a constant force in its frame. */
 static void add_following(const struct tree *tree, const struct tree_following *following,
                           struct tree_loop_link *own)
 {
@@ -66,7 +67,7 @@ static void add_following(const struct tree *tree, const struct tree_following *
     own->steady += own->unit * (own->turns ? following->moment : along);
 }
 
-/* What acts on links beside constant forces: along their coordinates, wherever they are. */
+/* Do all loads beside constant forces act along coordinates, independently of positions? */
 static bool is_loaded_simply(const struct tree *tree)
 {
     if (tree->spring_count + tree->drag_count + tree->bulk_count > 0) return false;
@@ -80,7 +81,7 @@ static bool is_loaded_simply(const struct tree *tree)
     return true;
 }
 
-/* Where the links stand in the loop: those of a chain of two come first. */
+/* The order of the links in the loop: those of a chain of two come first. */
 static void set_order(const struct tree *tree, struct tree_loop *loop, struct tree_loop_link **of)
 {
     bool alone_first = tree->links[2].parent == 0;
@@ -88,7 +89,7 @@ static void set_order(const struct tree *tree, struct tree_loop *loop, struct tr
     for (int i = 1; i <= 3; i++) of[i] = &loop->links[alone_first ? (i + 1) % 3 : i - 1];
 }
 
-/* The pin is at the end of the first chain, and on what is alone or on the ground. */
+/* The pin joins the end of the first chain to the third link or to the ground. */
 static bool close_loop(const struct tree *tree, struct tree_loop *loop)
 {
     const struct coupling_end *end = tree->couplings[0].end;
@@ -118,7 +119,7 @@ bool tree_loop_is_steady(const struct fbd_model *model)
     return tree->force_count + tree->moment_count == 0;
 }
 
-/* Expressions that name places in the world or accelerations need the tree. */
+/* Expressions with positions in the world or accelerations need the tree. */
 static bool names_others(const struct fbd_model *model)
 {
     return model->names_places && (model->plan.own > 0 || !tree_loop_is_steady(model));
@@ -157,7 +158,7 @@ bool tree_loop_find(const struct fbd_model *model, struct tree_loop *loop)
     return true;
 }
 
-/* ---- what varies */
+/* ---- variable terms */
 
 void tree_loop_forces(const struct tree_loop *loop, const struct instant *at, const double *slots, double *f)
 {
@@ -185,7 +186,7 @@ void tree_loop_forces(const struct tree_loop *loop, const struct instant *at, co
 
 #define INLINE static inline __attribute__((always_inline))
 
-/* Of what turns as a link does. */
+/* Turn a vector of a link, if the link turns. */
 INLINE struct vec turned(bool turns, struct vec turn, struct vec own)
 {
     return turns ? vec_turn(turn, own) : own;
@@ -196,8 +197,8 @@ INLINE double force_along(const struct tree_loop_link *link, bool turns, double 
     return turns ? f + link->sine * turn.y + link->cosine * turn.x : f;
 }
 
-/* Two links in one chain: the inertia that they share, and what their motions do to each other. The O of the second is
- * where b of the first ends. */
+/* Two links in one chain: returns their coupling inertia, and adds their centrifugal forces. The O of the
+ * second is at the end of b of the first. */
 INLINE double couple(struct vec b, struct vec S, double z_first, double z_second, double *f_first,
                      double *f_second)
 {
@@ -207,7 +208,7 @@ INLINE double couple(struct vec b, struct vec S, double z_first, double z_second
     return vec_dot(b, S);
 }
 
-/* Accelerations of two links that fit the pin: u_1 k x b_1 + u_2 k x b_2 = G; and what inertia answers to them along N. */
+/* Accelerations of two links for the pin: u_1 k x b_1 + u_2 k x b_2 = G. Returns their inertia force along N. */
 INLINE double fit(struct vec G, struct vec b1, struct vec b2, double inverse, double K1, double K2,
                   double *u1, double *u2)
 {
@@ -216,8 +217,8 @@ INLINE double fit(struct vec G, struct vec b1, struct vec b2, double inverse, do
     return K1 * *u1 + K2 * *u2;
 }
 
-/* The motion along N beside accelerations that fit the pin and leave one link as it is, if it may be the first. All sines
- * and cosines first: numbers that stand in registers do not outlive a call. */
+/* The motion along N plus accelerations that satisfy the pin with one link at rest, the first if possible.
+ * All sines and cosines first: values in registers do not survive a call. */
 INLINE bool solve(const struct tree_loop *loop, bool chain, bool turns0, bool turns2, const double *f,
                   const double *y, const double *v, double *a)
 {

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Back to the pin of a loop, by Newton's method: changes u of the links that mend what it is off by, sum u_j k x b_j = -g,
- * and of which u . M N = 0, so that they have the least u . M u (Hairer and Wanner II, VII.2).
+ * Projection onto the pin of a loop, by Newton's method: changes u of the links that cancel its error, sum
+ * u_j k x b_j = -g, with u . M N = 0, so that u . M u is least (Hairer and Wanner II, VII.2).
  */
 #include <float.h>
 #include <string.h>
@@ -9,8 +9,8 @@
 #include "base/sine.h"
 #include "dynamics/tree_loop.h"
 
-/* The loop at y: its vectors, the inertia that two links share, the motion N that is free with K = M N, and what the pin is
- * off by. */
+/* The loop at y: its vectors, the coupling inertias, the free motion N with K = M N, and the error of the
+ * pin. */
 struct look {
     double angle[3];
     struct vec turn[3], b[3], gap;
@@ -23,7 +23,7 @@ static bool goes_on(const struct tree_loop *loop, int i)
     return i == 1 || (i == 2 && loop->chain);
 }
 
-/* The direction at an angle that is next to one looked at before: by the series of sine and cosine, exact to rounding. */
+/* The direction at an angle near the one before: by the series of sine and cosine, exact to rounding. */
 static struct vec turned_on(struct vec turn, double by)
 {
     double half = by * by / 2;
@@ -31,7 +31,7 @@ static struct vec turned_on(struct vec turn, double by)
         (struct vec){turn.x - (half * turn.x + by * turn.y), turn.y - (half * turn.y - by * turn.x)});
 }
 
-/* `at` is the loop elsewhere, or nothing is known of it yet. */
+/* Turn the links to y. `known`: `at` is the loop at another y. */
 static void turn_links(const struct tree_loop *loop, const double *y, bool known, struct look *at)
 {
     const double near = 5e-6;
@@ -51,7 +51,7 @@ static void turn_links(const struct tree_loop *loop, const double *y, bool known
     }
 }
 
-/* Once the links are turned. */
+/* After the links are turned. */
 static void set_free_motion(const struct tree_loop *loop, const struct vec *S, struct look *at)
 {
     at->c01 = vec_dot(at->b[0], S[1]);
@@ -80,7 +80,7 @@ static void look_at(const struct tree_loop *loop, const double *y, bool known, s
     set_free_motion(loop, S, at);
 }
 
-/* Add to x, coordinates or rates, what moves the point of the pin by -off. */
+/* Add to x, coordinates or rates, the change that moves the point of the pin by -off. */
 static void mend(const struct tree_loop *loop, const struct look *at, struct vec off, double *x)
 {
     int still = 0;
@@ -99,7 +99,7 @@ static void mend(const struct tree_loop *loop, const struct look *at, struct vec
     }
 }
 
-/* How the links move in the world, in their units. */
+/* The velocities of the links in the world, in their units. */
 static void set_motion(const struct tree_loop *loop, const double *v, double *u)
 {
     double w = 0;
@@ -129,7 +129,7 @@ static double largest(struct vec a)
     return fmax(fabs(a.x), fabs(a.y));
 }
 
-/* To rounding, which is where it gets no less. `at` is the loop at q, before and after. */
+/* Iterate to rounding, until the error no longer decreases. `at` is the loop at q, before and after. */
 static bool close_gap(const struct tree_loop *loop, double *q, struct look *at)
 {
     enum { most = 8 };

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Links with bodies whose mass varies. Of such a body, with its G at r from O and the radius of gyration k about it,
- * the link has m, m r and m (k^2 + r^2): all of them go with m, and are those of the start plus what has come since,
- * dm, so that a link of several bodies is the sum of them.
+ * Links with bodies of variable mass. Of such a body, with its G at r from O and the radius of gyration k
+ * about it, the link has m, m r and m (k^2 + r^2): all proportional to m, and equal to the values at the
+ * start plus those of the mass gained since, dm, so that a link of several bodies is a sum.
  */
 #include "dynamics/tree.h"
 
@@ -10,7 +10,7 @@ static void restore(const struct tree_link *link, struct tree_state *s)
 {
     s->mass = link->mass;
     s->I_O = link->I_O;
-    s->mr = link->moment; /* in the frame of the link, until all has come */
+    s->mr = link->moment; /* in the frame of the link, until all dm are added */
     s->across = link->across;
 }
 
@@ -21,7 +21,7 @@ static void come(const struct tree_bulk *bulk, double dm, struct tree_state *s)
     s->I_O += dm * (bulk->square + vec_dot(bulk->G, bulk->G));
 }
 
-/* m I_G / I_O: of one body it goes with m. */
+/* m I_G / I_O: of a single body proportional to m. */
 static double across(const struct tree_link *link, const struct tree_state *s, double square)
 {
     double I_G = s->I_O - square / s->mass;
@@ -57,7 +57,8 @@ void tree_weights(const struct tree *tree, const struct instant *at)
     }
 }
 
-/* At fixed accelerations: what more mass takes beyond its weight, and the moment of that as the arm turns. */
+/* At fixed accelerations: the inertial force of more mass minus its weight, and the moment of the weight as
+ * the arm turns. */
 void tree_bulk_along(const struct tree *tree, const struct instant *at, const struct direction *along)
 {
     for (size_t i = 0; i < tree->bulk_count; i++) {

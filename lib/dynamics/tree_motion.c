@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Where the links are and how they move. With P the parent, R its rotation:
+ * Positions and velocities of the links. With P the parent, R its rotation:
  *
  *     pivot   d = R at,           omega = omega_P + q',  v = v_P + omega_P k x d
  *     slide   d = R (at + q e),   omega = omega_P,       v = v_P + omega_P k x d + q' R e
  *     track   d = R (at + r(q)),  omega = omega_P + kappa q' if it turns,  v = v_P + omega_P k x d + q' R e(q)
- *     free    d = R (at + x e + y k x e) likewise, with a rate of turning of its own when it is planar
+ *     free    d = R (at + x e + y k x e) likewise, with an angular velocity of its own when it is planar
  *
- * e is given in the frame of the parent's link: a body that is welded into it at an angle has other axes.
+ * e is given in the frame of the parent's link: a body that is welded to it at an angle has other axes.
  */
 #include "base/sine.h"
 #include "dynamics/tree.h"

@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * The three sweeps where every joint is a free pivot, which is what pendulums, chains and linkages are made
- * of. A pivot passes on no moment but its own, so that of what a link answers with, I A + p, only M and the
- * force go on to its parent:
+ * The three sweeps where every joint is a free pivot, as in pendulums, chains and linkages. A pivot transmits
+ * its own moment only, so that of the wrench I A + p only M and the force are passed to the parent:
  *
  *     R = M - h h^T / J,   p + h u / J   with   u = g - moment of p
  *
@@ -11,7 +10,7 @@
 #include "base/sine.h"
 #include "dynamics/tree.h"
 
-/* A link: tree_move and tree_bias in one. */
+/* tree_move and tree_bias of a link in one. */
 static void set_out(const struct tree_link *link, const struct tree_state *parent, double q, double v,
                     struct tree_state *s, struct tree_rhs *x)
 {
@@ -45,7 +44,7 @@ static void sweep_courses(const struct fbd_model *model, const struct instant *a
     }
 }
 
-/* What a link passes on to its parent, about the parent's O. */
+/* The articulated inertia and wrench that a link passes to its parent, about the parent's O. */
 struct passed {
     struct inertia_about_O I;
     struct wrench p;
@@ -68,7 +67,7 @@ static struct passed pass(const struct inertia_about_O *R, double g, struct vec 
     return (struct passed){{vec_dot(k, Rk), Rk, R->xx, R->xy, R->yy}, {g + vec_cross(d, f), f}};
 }
 
-/* From link to link of a chain what is passed on stays out of memory. */
+/* Along a chain the passed values stay in registers. */
 static void sweep_inward(const struct tree *tree, struct tree_work *work)
 {
     struct passed passed = {{0, {0, 0}, 0, 0, 0}, {0, {0, 0}}};
@@ -76,7 +75,7 @@ static void sweep_inward(const struct tree *tree, struct tree_work *work)
     for (int i = tree->count - 1; i > 0; i--) {
         struct tree_state *s = &work->links[i];
         struct tree_rhs *x = &work->x[i];
-        bool last = to != i; /* nothing hangs on it */
+        bool last = to != i; /* a leaf */
         if (last) {
             take(&work->links[to].I, &work->x[to].p, &passed);
             passed = (struct passed){{0, {0, 0}, 0, 0, 0}, {0, {0, 0}}};

@@ -1,17 +1,20 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * What rounding couplings leave in accelerations that are zero, as of what friction, or a switch that is slid on, holds by them.
+ * Rounding errors due to couplings in accelerations that are zero, as of bodies that friction, or a switch in
+ * a sliding mode, holds through couplings.
  *
- * The forces of rows on a link may be large and cancel, as on a wheel between two others at rest. What is left is
- * measured against the sum of what each would do by itself, and that of what a row joins it to. Its roundings are one for each link that sums go along: measured are
- * up to 4 eps for each (tests/unit/test_coupled_switches.c), 8 are taken.
+ * The forces of rows on a link may be large and cancel, as on a wheel between two others at rest. The error
+ * is relative to the sum of the accelerations by each force, and to that sum for the links that a row joins.
+ * There is one rounding for each link along a sum: up to 4 eps for each occur
+ * (tests/unit/test_coupled_switches.c), 8 are assumed.
  */
 #include <float.h>
 #include <math.h>
 
 #include "dynamics/tree_system.h"
 
-/* A joint that gives way behind a port, or below: how far the row gets by each of its coordinates, and what these give way. */
+/* A movable joint at a port, or below: the generalized forces of a unit force of the row, and the inverse
+ * inertias. */
 struct lever {
     int first, count; /* of the coordinates */
     double gain[3], inverse[3];
@@ -34,7 +37,7 @@ static struct lever lever_at(const struct tree *tree, const struct tree_work *wo
     return lever;
 }
 
-/* What the row does to itself by these coordinates. */
+/* The acceleration of the row by its own unit force through these coordinates. */
 static double answer_of(const struct lever *lever)
 {
     double sum = 0;
@@ -42,7 +45,7 @@ static double answer_of(const struct lever *lever)
     return sum;
 }
 
-/* What a force at a port, of this size, does to the joints of the link and below. */
+/* Add the accelerations by a force of this size at a port, of the joints of the link and below. */
 static void add_taken(const struct tree *tree, const struct tree_work *work, const struct port *port,
                       double size, double *taken)
 {
@@ -53,7 +56,8 @@ static void add_taken(const struct tree *tree, const struct tree_work *work, con
     }
 }
 
-/* A row makes its ends go on together: the rounding of one is that of the others, but not of what it hardly gets hold of. */
+/* A row makes its ends move together: the rounding of one is that of the others, unless the row hardly moves
+ * them. */
 static void spread_taken(const struct tree *tree, const struct tree_work *work, const struct row *row,
                          double *taken)
 {
@@ -77,7 +81,7 @@ static void spread_taken(const struct tree *tree, const struct tree_work *work, 
     }
 }
 
-/* Along a train one way and the other, as couplings are mostly numbered along it. */
+/* In both directions along a train, as couplings are mostly numbered along it. */
 static void spread(const struct tree *tree, const struct instant *at)
 {
     struct tree_work *work = at->tree;
@@ -107,7 +111,7 @@ const double *tree_rounding(const struct fbd_model *model, const struct instant 
 void tree_rest(const struct fbd_model *model, const struct instant *at, bool along, double *a)
 {
     if (model->tree->coupling_count == 0 || model->tree->meeting_count > 0)
-        return; /* tree.c sees to what touches */
+        return; /* contacts: drop_rounding in tree.c */
     const double *rounding = tree_rounding(model, at, along);
     for (int i = 0; i < model->plan.n; i++)
         if (fabs(a[i]) <= rounding[i]) a[i] = 0;

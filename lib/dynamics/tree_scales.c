@@ -1,15 +1,15 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * How large the diagonals of the system of the constraints could be: what a weak row, and the shift of all rows, are measured
- * against (constraint_solve.c).
+ * Upper bounds for the diagonals of the system of the constraints: the scales of weak rows, and of the shift
+ * of all rows (constraint_solve.c).
  */
 #include <float.h>
 #include <math.h>
 
 #include "dynamics/tree_system.h"
 
-/* How much the joint of a link could move a point at `arm` from its O, by a unit force in the best direction;
- * where it cannot, the joint before it. */
+/* The acceleration of a point at `arm` from the O of a link by a unit force in the best direction, through
+ * its joint, or if that is locked, through the joint before it. */
 static double mobility(const struct tree *tree, const struct tree_work *work, int link, struct vec arm)
 {
     for (; link > 0; link = tree->links[link].parent) {
@@ -28,17 +28,17 @@ static double mobility(const struct tree *tree, const struct tree_work *work, in
     return 0;
 }
 
-/* Of the masses of links: up to here two corrections make up for the shift. */
+/* The ratio of masses up to which two corrections compensate the shift. */
 static const double masses_near = 1e3;
 
-/* A row counts as weak against what its coupling could do in other positions or directions: so a pin, turned in
- * the plane, is the same pin, and a rod notices when all that it joins has come in line with it.
+/* The scale of a row is the largest response of its coupling in other positions or directions: so it does not
+ * change as a pin turns in the plane, and a rod becomes weak when all joined parts are in line with it.
  *
- * What nothing can move has all of that of the order of rounding, when it sits on the axis but for rounding
- * (the pin of a welded body). So whether it moves is measured against the lightest link too, as a whole.
+ * An immovable row has a response of rounding only, if its port is on the axis up to rounding (the pin of a
+ * welded body). So `most`, with which it is compared, includes the response of the lightest link.
  *
- * Rows that a light body joins differ by what the heavy bodies alone would do: a massless pulley is no singular position.
- * So what is weak, and the shift with it, is measured as if masses were no further apart than the shift allows for. */
+ * Rows of a light body differ by the responses of the heavy bodies only: a massless pulley is no singular
+ * position. So the scales are those for a ratio of masses that the shift allows. */
 void tree_set_scales(const struct tree *tree, struct tree_work *work)
 {
     const double apart = fmax(1, tree->mass_ratio / masses_near);

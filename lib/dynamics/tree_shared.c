@@ -55,7 +55,7 @@ bool tree_find_margin(struct fbd_state *state, const struct instant *at, bool gu
     return found && margin->value < HUGE_VAL;
 }
 
-/* All that is at its limit gives; what rubs on a guide presses on its other side. */
+/* Change the modes of all constraints at their limit; a guide with slipping friction changes its loaded side. */
 static void give(struct fbd_state *state, const struct rest_margin *margin, int *forced)
 {
     for (size_t pair = 0; pair < state->model->plan.mode_count; pair++) {
@@ -80,7 +80,7 @@ bool tree_give_shared(struct fbd_state *state, int pair, struct decided *decided
 {
     struct arena arena = {0};
     struct rest_margin margin;
-    if (!state->tree) return false; /* bodies by themselves share nothing */
+    if (!state->tree) return false; /* independent bodies have no redundant loads */
     struct scratch scratch = state_scratch(state);
     struct direction flow = tree_evaluate(state);
     struct instant at = state_instant(state);

@@ -1,17 +1,17 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Chains of two and three links as Lagrange's equations, in the angles of the links in the world. With d_i the way from
- * the O of link i to that of the next, h the mass times the way to the centre of the last link, turned into the world,
- * and C_i = d_i . h, X_i = d_i x h, the last row is
+ * Chains of two and three links by Lagrange's equations, in the angles of the links in the world. With d_i
+ * the vector from the O of link i to that of the next, h the mass times the vector to the centre of the last
+ * link, in the world, and C_i = d_i . h, X_i = d_i x h, the last row is
  *
  *     I alpha = tau - sum_i (C_i alpha_i + X_i omega_i^2)
  *
- * and eliminates alpha. What that leaves of the inertia of the last link between links i and j is
+ * and eliminates alpha. The inertia of the last link that remains between links i and j is
  *
  *     m d_i . d_j - C_i C_j / I = across d_i . d_j + X_i X_j / I,    across = m I_G / I, I = I_G + h^2 / m:
  *
- * in this form nothing cancels for a bob on a light cart. A slide on the ground is a row with its direction e for d and
- * a force for the moment.
+ * in this form there is no cancellation for a bob on a light cart. A slide on the ground is a row with its
+ * direction e for d and a force for the moment.
  */
 #include "dynamics/tree_short.h"
 
@@ -42,7 +42,7 @@ struct tree_pole tree_pole_of(const struct tree_link *links)
                               .force = vec_dot(slide->e, vec_add(slide->force, pole->force))};
 }
 
-/* The O of the pole goes along e, as one at the end of a d with k x d = e would: C = h x e, X = h . e. */
+/* The O of the pole moves along e as the end of a d with k x d = e: C = h x e, X = h . e. */
 void tree_pole(const struct tree_pole *pole, double force, double moment, const double *y, const double *v,
                double *a)
 {
@@ -88,8 +88,7 @@ void tree_three_pivots(const struct tree_link *links, const struct tree_bare *s,
     struct vec m1 = vec_turn(turn1, second->moment), h = vec_turn(turn2, last->moment);
     double C0 = vec_dot(d0, h), X0 = vec_cross(d0, h), C1 = vec_dot(d1, h), X1 = vec_cross(d1, h);
     double D = last->inverse_I_O, across = last->across, beyond = vec_dot(last->at, last->at);
-    double X =
-        vec_cross(d0, m1) + last->mass * vec_cross(d0, d1); /* of the second link with the mass of the last */
+    double X = vec_cross(d0, m1) + last->mass * vec_cross(d0, d1); /* second link with the mass of the last */
     double u = D * (s[2].g + moment_of_forces(last, turn2) - z0 * X0 - z1 * X1);
     double moment1 = s[1].g - s[2].g + moment_of_forces(second, turn1) + vec_cross(d1, last->force) +
                      z2 * X1 - z0 * X - C1 * u;
@@ -98,7 +97,7 @@ void tree_three_pivots(const struct tree_link *links, const struct tree_bare *s,
     double J01 = vec_dot(d0, m1) + across * vec_dot(d0, d1) + D * X0 * X1;
     double J00 = first->I_O + (second->mass + across) * vec_dot(second->at, second->at) + D * X0 * X0;
     double J11 = second->I_O + across * beyond + D * X1 * X1, E = 1 / J11;
-    double alpha0 = (moment0 * J11 - J01 * moment1) / (J00 * J11 - J01 * J01); /* which does not wait for E */
+    double alpha0 = (moment0 * J11 - J01 * moment1) / (J00 * J11 - J01 * J01); /* independent of E */
     double alpha1 = E * (moment1 - J01 * alpha0);
     a[q0] = alpha0;
     a[q1] = alpha1 - alpha0;

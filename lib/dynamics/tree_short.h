@@ -1,14 +1,15 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Chains of tree_bare.h that are so short that a closed form is less work than a recursion: the double pendulum, three
- * links, the cart with a pole. s[i].g is what acts in the joint of link i; y, v and a are the coordinates of the scene.
+ * Chains of tree_bare.h for which a closed form is faster than a recursion: the double pendulum, three links,
+ * the cart with a pole. s[i].g is the force in the joint of link i; y, v and a are the coordinates of the
+ * scene.
  */
 #ifndef FBD_DYNAMICS_TREE_SHORT_H
 #define FBD_DYNAMICS_TREE_SHORT_H
 
 #include "dynamics/tree_bare.h"
 
-/* The one that a chain has. */
+/* The closed form of a chain. */
 static inline enum tree_form tree_form_of(const struct tree_link *links, int count)
 {
     if (count == 2) return links->kind == motion_slide ? tree_form_pole : tree_form_two_pivots;

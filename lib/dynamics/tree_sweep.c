@@ -1,40 +1,43 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * The sweeps: what a joint passes on, and how it gives way (Featherstone, Rigid Body Dynamics Algorithms, section 7.3).
+ * The sweeps: the wrench and inertia that a joint transmits, and its acceleration (Featherstone, Rigid Body
+ * Dynamics Algorithms, section 7.3).
  *
- * All is counted from the bias (tree_bias.c), about the reference point O of each link, with components in the world. A
- * link with all that hangs on it accelerates with A = (alpha, a) when its joint gives it the wrench
+ * Accelerations are relative to the bias (tree_bias.c), about the reference point O of each link, with
+ * components in the world. A link with its subtree has the acceleration A = (alpha, a) when its joint exerts
+ * the wrench
  *
- *     F = I A + p,   p = what keeps it on the bias - what is applied
+ *     F = I A + p,   p = wrench for the bias - applied wrench
  *
- * F is what the joint does to the link; the parent feels -F. The joint gives way along S, A = A' + S q'' with A' the
- * acceleration that the parent has there, and F has along it the generalized force of the joint, S . F = g. With
+ * F acts on the link, -F on the parent. The joint moves along S, A = A' + S q'' with A' the acceleration of
+ * the parent at O, and the component of F along S is the generalized force of the joint, S . F = g. With
  *
  *     U = I S,   D = 1 / (S . U),   u = g - S . p
  *
- * this gives q'' and, as a function of A' alone, what the parent has to provide for:
+ * this gives q'' and, as a function of A' only, the wrench that the parent has to exert:
  *
  *     q'' = D (u - U . A')
  *     F = I' A' + p',   I' = I - D U U^T,   p' = p + D u U
  *
- * inward, from the last link to the first, I' and p' are shifted by d to the O of the parent and added to its own; outward
- * q'' and A follow from A'. A joint that sticks has no S: I' = I, p' = p, A = A'. Joint by joint, S = (alpha; a):
+ * Inward, from the last link to the first, I' and p' are shifted by d to the O of the parent and added to its
+ * own; outward q'' and A follow from A'. A sticking joint has no S: I' = I, p' = p, A = A'. Joint by joint, S
+ * = (alpha; a):
  *
- *     pivot   (1; 0)         U = (J; h). What is left of the moment is g: the first row and column of I' are zero
+ *     pivot   (1; 0)         U = (J; h). The transmitted moment is g: the first row and column of I' are zero
  *     slide   (0; e)         U = (h . e; M e) = (Uh; U)
- *     track   (kappa; e)     U = (kappa J + h . e; kappa h + M e), kappa 0 where the body does not turn along
- *     free    a, and alpha when planar, in two steps: a = M^-1 (gf - p_f - h alpha) leaves of the moment
- *             J_G alpha + p_m + h . M^-1 (gf - p_f) with J_G = J - h . M^-1 h, which is g when it turns by itself; the
- *             parent of a particle feels J_G, of a planar body nothing but g and gf
+ *     track   (kappa; e)     U = (kappa J + h . e; kappa h + M e), kappa 0 if the body does not turn
+ *     free    a, and alpha when planar, in two steps: a = M^-1 (gf - p_f - h alpha) leaves the moment
+ *             J_G alpha + p_m + h . M^-1 (gf - p_f) with J_G = J - h . M^-1 h, which is g for a planar body; the
+ *             parent of a particle receives J_G, of a planar body only g and gf
  *
- * Checked against Kane's equations with a mass matrix of their own, Newton's and Euler's for each body
+ * Checked against Kane's equations with a separate mass matrix, Newton's and Euler's for each body
  * (tests/unit/test_tree.c), and inverse dynamics of long chains (test_chain.c).
  */
 #include <math.h>
 
 #include "dynamics/tree.h"
 
-/* ---- inertias: what each joint passes on */
+/* ---- the inertia that each joint transmits */
 
 static void factor_pivot(const struct tree_link *link, int i, struct tree_state *s,
                          struct inertia_about_O *rest)
@@ -55,7 +58,7 @@ static void factor_slide(struct tree_state *s, struct inertia_about_O *rest)
                                      I->xx - UD.x * s->U.x, I->xy - UD.x * s->U.y, I->yy - UD.y * s->U.y};
 }
 
-/* As a slide that turns by `turning` as it goes on. */
+/* As a slide that rotates by `turning` per length. */
 static void factor_track(struct tree_state *s, struct inertia_about_O *rest)
 {
     const struct inertia_about_O *I = &s->I;
@@ -81,7 +84,7 @@ static void factor_free(const struct tree_link *link, struct tree_state *s, stru
     *rest = (struct inertia_about_O){link->kind == motion_planar ? 0 : J, {0, 0}, 0, 0, 0};
 }
 
-/* Trees without tracks do not ask for them, link by link: `curved` is a constant in each of its uses. */
+/* Trees without tracks skip that test for each link: `curved` is a constant in each use. */
 static inline __attribute__((always_inline)) void
 factor_link(const struct tree_link *link, int i, struct tree_state *s, struct tree_state *parent, bool curved)
 {
@@ -107,7 +110,7 @@ static inline __attribute__((always_inline)) void inward_link(const struct tree_
 {
     struct wrench rest = x->p;
     if (s->locked) {
-        /* gives nothing away */
+        /* rigid */
     } else if (link->kind == motion_pivot) {
         x->u = x->g - x->p.moment;
         rest.moment = x->g;
@@ -124,7 +127,7 @@ static inline __attribute__((always_inline)) void inward_link(const struct tree_
         x->uf = vec_sub(x->gf, x->p.force);
         rest.force = x->gf;
         rest.moment += vec_dot(s->U, x->uf);
-        x->u = x->g - rest.moment; /* planar: what is left to turn it about its centre */
+        x->u = x->g - rest.moment; /* planar: the moment about its centre */
         if (link->kind == motion_planar) rest.moment = x->g;
     }
     wrench_add(&parent->p, rest, s->d);

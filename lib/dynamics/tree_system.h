@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * The linear system that closes a tree: multipliers of its constraints, and friction of its slides that slip.
+ * The linear system of a tree with closed loops: multipliers of its constraints, and friction of its slipping
+ * slides.
  */
 #ifndef FBD_DYNAMICS_TREE_SYSTEM_H
 #define FBD_DYNAMICS_TREE_SYSTEM_H
@@ -12,14 +13,14 @@ int tree_unknowns(const struct tree *tree);
 /* Set up and factor the system from the rows' ports and the factored tree. Overwrites work->x. */
 void tree_system_factor(const struct fbd_model *model, const struct instant *at);
 
-/* Of the rows of the system, whose diagonal is known: work->scale, work->most and work->apart. */
+/* Set work->scale, work->most and work->apart for the rows of the system, given its diagonal. */
 void tree_set_scales(const struct tree *tree, struct tree_work *work);
 
-/* Factor it once more, with another damping. */
+/* Factor it again with another damping. */
 void tree_system_refactor(const struct tree *tree, struct tree_work *work);
 
-/* Solve for the right-hand side z, which becomes the unknowns; leaves in work->x the right-hand side of their
- * forces alone, solved, and in work->unit the accelerations of the joints. */
+/* Solve for the right-hand side z, which becomes the unknowns; leaves in work->x the solved right-hand side
+ * of their forces only, and in work->unit the accelerations of the joints. */
 void tree_system_solve(const struct fbd_model *model, const struct instant *at, double *z);
 
 /* Add work->unit to the entries of a that belong to joints. */
@@ -35,14 +36,14 @@ void row_apply(const struct row *row, double lambda, struct tree_rhs *x);
 void tree_apply_variations(const struct fbd_model *model, const struct instant *at,
                            const struct direction *along);
 
-/* Does unknown k take part in the modes of the instant? */
+/* Is unknown k active in the modes of the instant? */
 bool tree_takes_part(const struct tree *tree, const struct instant *at, int k);
 
-/* What the row after row k has of its multiplier where that row's body slips on its surface and rubs, else 0.
- */
+/* The ratio of the multiplier of the row after row k to that of row k, if the body of row k slips with
+ * friction on its surface; else 0. */
 double tree_rubbing_share(const struct fbd_model *model, const struct instant *at, int k);
 
-/* After tree_system_solve of work->z: the multipliers of the rows. */
+/* After tree_system_solve of work->z: set the multipliers of the rows. */
 void tree_take_multipliers(const struct fbd_model *model, const struct instant *at);
 
 #endif

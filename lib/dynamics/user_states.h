@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * The states of the file's own: z' = rate(t, q, v, z), any number of equations of first order beside those of motion.
- * Forces may name the z, and the rates may name whatever a force may.
+ * User states: z' = rate(t, q, v, z), any number of equations of first order beside those of motion. Forces
+ * may depend on z, and the rates on the same quantities as forces.
  */
 #ifndef FBD_DYNAMICS_USER_STATES_H
 #define FBD_DYNAMICS_USER_STATES_H
@@ -15,8 +15,8 @@ void user_state_rates(const struct fbd_model *model, const struct instant *given
 void user_state_rates_along(const struct fbd_model *model, const struct instant *given,
                             const struct direction *direction, double *rates_along);
 
-/* How large the rate of state `own` is at a state of rest, as a sum of magnitudes: what zero is measured against. Of each
- * number that it depends on its size counts, at least 1 rad or a thousandth. */
+/* The scale of the rate of state `own` at rest, as a sum of magnitudes, with which zero is compared. Each
+ * number on which it depends counts with its size, at least 1 rad or a thousandth. */
 double user_state_rate_size(const struct fbd_state *state, int own);
 
 #endif

@@ -36,11 +36,10 @@ static double choose(enum absolute_kind kind, struct motion_of_point at, double 
     return 0;
 }
 
-/* ---- the speed of a pair on its surface
+/* ---- the slip speed of a friction constraint
  *
- * slip = |v - s|, which is sigma (v - s) in the mode sigma: smooth across the end of a mode, as a step that
- * goes beyond needs it, with the slope d slip / d v = sigma. While the pair sticks it is 0 whatever varies.
- */
+ * slip = |v - s|, computed as sigma (v - s) in the mode sigma: smooth across the end of a mode, as required
+ * for a step beyond it, with the slope d slip / d v = sigma. In sticking it is identically 0. */
 
 static double relative_speed(const struct fbd_model *model, int pair, const struct instant *at)
 {
@@ -73,7 +72,7 @@ static double slip_along(const struct fbd_model *model, const struct model_absol
 
 /* ---- all of them */
 
-/* How fast masses change goes with the rates of states, which may name any of the others. */
+/* Rates of masses depend on the rates of user states, which may contain any of the others. */
 static void write_mass_rates(const struct fbd_model *model, const struct instant *at, double *y)
 {
     double *places = y + plan_size(&model->plan) + hand_slots;
@@ -159,7 +158,7 @@ struct direction direction_extend(const struct fbd_model *model, const struct in
     if (along->dy != dy) memcpy(dy, along->dy, size * sizeof *dy);
     if (model->tree) tree_move_along(model, at, along);
     const struct direction extended = {along->dt, dy};
-    for (int rates = 0; rates < 2; rates++) /* how fast masses change goes with all the others */
+    for (int rates = 0; rates < 2; rates++) /* rates of masses depend on all others */
         for (size_t k = 0; k < model->absolute_count; k++)
             if ((model->absolutes[k].kind == absolute_mass_rate) == (rates == 1))
                 dy[size + hand_slots + k] = varied(model, &model->absolutes[k], at, &extended);

@@ -1,24 +1,24 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Places in the world that expressions name: `rod.right.x`, `rod.angle`. They are functions of coordinates
- * and rates, and follow these in an extended vector: [q, v, z, the slots of derivations by hand, places].
+ * Positions in the world that expressions refer to: `rod.right.x`, `rod.angle`. They are functions of
+ * coordinates and rates, and stand behind these in an extended vector: [q, v, z, the slots of derivations by
+ * hand, positions].
  *
- * A model without such names has none of this: an instant then stays as it is. Where derivations by hand alone have them
- * it does, too, and the places are written with the forces only (state_evaluate).
+ * Without such references an instant is not extended; nor if only derivations by hand contain them, which are
+ * written after the forces (state_evaluate).
  */
 #ifndef FBD_DYNAMICS_WORLD_REFS_H
 #define FBD_DYNAMICS_WORLD_REFS_H
 
 #include "dynamics/kinematics.h"
 
-/* The length of an extended vector, that of y without places. */
+/* The length of an extended vector, that of y without references. */
 size_t extended_size(const struct fbd_model *model);
 
-/* The instant with its y extended, in at->extended. For jointed bodies the links are moved there. */
+/* The instant with its y extended, in at->extended. Moves the links of jointed bodies. */
 struct instant instant_extend(const struct fbd_model *model, const struct instant *at);
 
-/* The same for the right-hand side, which copies nothing that it need not: extended into `room`, or as it is.
- */
+/* The same for the right-hand side, without unneeded copies: extended into `room`, or unchanged. */
 static inline const struct instant *instant_with_places(const struct fbd_model *model,
                                                         const struct instant *at, struct instant *room)
 {
@@ -27,11 +27,11 @@ static inline const struct instant *instant_with_places(const struct fbd_model *
     return room;
 }
 
-/* A direction likewise, behind the instant's vector. `at` is extended. */
+/* Extend a direction likewise, behind the instant's vector. `at` is extended. */
 struct direction direction_extend(const struct fbd_model *model, const struct instant *at,
                                   const struct direction *along);
 
-/* Write the places behind `y`, which has room for them; poses are those of the instant. */
+/* Write the positions behind `y`, which has room for them; poses are those of the instant. */
 void world_refs_write(const struct fbd_model *model, const struct instant *at, double *y);
 
 #endif

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * What can be written as C, and what is missing for the rest.
+ * The scenes that can be written as C, and messages about unsupported elements of others.
  *
- * Two looks, so that nothing new slips through: the keys of the file against those that are known here, and the
- * compiled model against what the other files of this room write.
+ * Two checks, so that additions to the language are not overlooked: the keys of the file, and the compiled
+ * model, each compared with the elements that the other files of this room write.
  */
 #include <assert.h>
 #include <string.h>
@@ -69,7 +69,7 @@ static const struct node *value_of(const struct node *map, const char *key)
     return pair ? pair->value : NULL;
 }
 
-/* A kind by itself, or with its keys behind it. */
+/* Check the kind of an entry, with or without keys. */
 static void check_kind(const struct node *entry, const struct words *kinds, const struct words *keys,
                        const char *what, fbd_errors *errors)
 {
@@ -90,7 +90,7 @@ static void check_entries(const struct node *list, const struct words *kinds, co
 
 enum { most_laws = 32 };
 
-/* The names of the laws that say so in their row. */
+/* The names of the laws marked `written_as_c`. */
 static struct words laws_written(const struct kinds *kinds, const char *names[static most_laws])
 {
     size_t count = 0;

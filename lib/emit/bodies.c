@@ -1,15 +1,15 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * What acts on a body that moves by itself, and within the joint of one that does not: the terms of the plan
- * (model/plan.c), each with its load. Constants are summed in `derive`, in the order of the loads; what varies
- * stands in the function of the body.
+ * The loads on a body outside the tree, and those within the joint of a body in the tree: the terms of the
+ * plan (model/plan.c). Constants are summed in `derive`, in the order of the loads; variable terms are in the
+ * function of the body.
  */
 #include <string.h>
 
 #include "emit/bodies.h"
 #include "emit/placed.h"
 
-/* From the origin of the frame, or the axis, to a point. */
+/* The vector from the origin of the frame, or from the axis, to a point. */
 static const char *arm_of(struct body_writer *writer, const char *point)
 {
     if (writer->body->kind != motion_pivot) return point;
@@ -52,7 +52,7 @@ static void add_world_moment(struct body_writer *writer, int slot, const char *a
     add_term(writer, slot, "cosine", emit_printf(emitter, "vec_cross(%s, %s)", arm, force), load);
 }
 
-/* A constant force on a planar body that turns with it. */
+/* Add a constant force that turns with a planar body. */
 static void add_turning_force(struct body_writer *writer, const char *arm, const char *f,
                               const struct load *load)
 {
@@ -65,7 +65,7 @@ static void add_turning_force(struct body_writer *writer, const char *arm, const
     add_term(writer, i + 2, "constant", emit_printf(emitter, "vec_cross(%s, %s)", arm, f), load);
 }
 
-/* The slots are independent of each other, so that the order within a slot is all that matters. */
+/* Add a constant force; only the order within a slot matters, since slots are independent. */
 static void add_constant_force(struct body_writer *writer, const char *point, const char *value,
                                bool body_frame, const struct load *load)
 {
@@ -111,7 +111,7 @@ static void add_formula(struct body_writer *writer, int slot, const char *scale,
         text_printf(&writer->lines, "    f[%s] += %s; /* %s */\n", emitter->slot[slot], product, load->name);
 }
 
-/* A factor that is a constant of the scene. */
+/* A constant factor, stored among the constants. */
 static const char *scale_of(struct body_writer *writer, const char *suffix, const char *value,
                             const struct load *load)
 {
@@ -122,7 +122,7 @@ static const char *scale_of(struct body_writer *writer, const char *suffix, cons
     return emit_printf(emitter, "c->%s", name);
 }
 
-/* A force at a point whose direction or arm varies. */
+/* Add a force at a point with variable direction or arm. */
 static void add_force_at_point(struct body_writer *writer, const char *point, bool body_frame,
                                const char *value, const char *direction, const struct load *load)
 {
@@ -138,9 +138,9 @@ struct directed {
     const struct formula *formula;
     const char *value, *point;
     struct vec d;
-    const char *direction; /* the same in C */
+    const char *direction; /* d as a C expression */
     bool body_frame;
-    bool turns; /* its direction may be changed */
+    bool turns; /* the direction is a parameter */
 };
 
 static void add_varying_force(struct body_writer *writer, const struct directed *force,
@@ -351,7 +351,7 @@ static void add_own_load(struct body_writer *writer, const struct model_load *lo
     }
 }
 
-/* Of a jointed body what acts within the joint; the rest goes to its link (tree.c). */
+/* Add a load that acts within the joint of a body; other loads are applied to its link (tree.c). */
 static void add_joint_load(struct body_writer *writer, const struct model_load *load)
 {
     const struct model_body *body = writer->body;

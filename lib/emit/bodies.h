@@ -1,20 +1,20 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * What the files that write the forces on bodies share.
+ * Common declarations of the files that write the forces on bodies.
  */
 #ifndef FBD_EMIT_BODIES_H
 #define FBD_EMIT_BODIES_H
 
 #include "emit/emit.h"
 
-/* Which coefficients the sum of a slot has, and what is in them. */
+/* The coefficients of a slot's sum that occur, and the loads that contribute to them. */
 struct slot_terms {
-    const char *name; /* of its struct terms among the constants; NULL without one */
+    const char *name; /* its struct terms among the constants; NULL if none */
     bool constant, stiffness, damping, sine, quadratic;
     const char *loads;
 };
 
-/* What is written of one body. */
+/* The texts of one body. */
 struct body_writer {
     struct emitter *emitter;
     int b;
@@ -25,7 +25,7 @@ struct body_writer {
     struct text points;       /* forces at points */
 };
 
-/* Add to a coefficient of the sum of a slot, in derive. */
+/* Add a value to a coefficient of the sum of a slot, in derive. */
 void add_term(struct body_writer *writer, int slot, const char *coefficient, const char *value,
               const struct load *load);
 
@@ -35,10 +35,10 @@ const char *load_point(struct emitter *emitter, const struct model_load *load, c
 /* The other end of a spring or damper: in the frame of `load->partner`, or of the world. */
 const char *load_anchor(struct emitter *emitter, const struct model_load *load);
 
-/* Where one of its texts stands. */
+/* The position of one of its texts in the file. */
 struct emit_origin load_origin(const struct model_load *load, const char *key, struct dim dim);
 
-/* A number of a load, and one of its formulas. */
+/* Write a number of a load; or one of its formulas. */
 const char *load_number(struct emitter *emitter, const struct model_load *load, const char *key, double value,
                         struct dim dim);
 const char *load_formula(struct emitter *emitter, const struct model_load *load, const char *key,
@@ -49,10 +49,10 @@ static inline const struct mode *mode_of(const struct emitter *emitter, int pair
     return &emitter->model->plan.modes[pair];
 }
 
-/* Where the file says how a body is driven. */
+/* The position of a body's prescribed motion in the file. */
 struct emit_origin drive_origin(const struct emitter *emitter, const struct mode *mode);
 
-/* A function of the program around its lines: what of its arguments they do not use is said so. */
+/* Write a function around its lines, with a cast to void for each unused argument. */
 void emit_function(struct text *out, const char *head, const char *arguments, const struct text *lines);
 
 #endif

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "emit/emit.h"
 #include "base/api_check.h"
+#include "fbd_export.h"
 #include "loop/options.h"
 
 char *fbd_emit_c(const fbd_model *model, const fbd_options *options, fbd_errors *list)

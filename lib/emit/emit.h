@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Emit: a scene as one C program that a student could have written, with the formulas of dynamics/ in their
- * order, so that its accelerations have the digits of the library's.
+ * Emit: a scene as one readable C program, with the formulas of dynamics/ in their order, so that its
+ * accelerations have the digits of the library's.
  *
- * Each file here writes a part of the program into a text of its own; program.c puts them together. What is
- * not taken is refused before anything is written (admit.c): an entry of the language that this room does not
- * know is refused like one that it knows it cannot write.
+ * Each file here writes a part of the program into a text of its own; program.c joins them. Scenes that
+ * cannot be written are refused first (admit.c), including those with entries of the language that this room
+ * does not handle yet.
  */
 #ifndef FBD_EMIT_EMIT_H
 #define FBD_EMIT_EMIT_H
@@ -30,71 +30,72 @@ struct emitter {
     struct text forces;             /* functions of bodies */
     struct text links;              /* passes over the links of a tree */
     struct text start;              /* statements that set the state */
-    struct text rest;               /* modes, events, main */
-    struct live *live;              /* parameters, see live.h */
+    struct text rest;               /* passes over the links of the tree */
+    struct live *live;              /* statements that set the initial state */
     bool *fixed;                    /* those that are part of other numbers, by parameter; the caller's */
-    bool *used;                     /* absolutes that a formula of the program names */
-    const char **rods;              /* their constants, by part through all bodies; NULL without one */
-    const char **pose, **forces_on; /* functions, by body; NULL until they are written */
-    bool walks;                     /* the tree has functions of its own */
-    /* C names: by body, coordinate, load, absolute, branch, friction, slot of forces */
+    bool *used;                     /* parameters of the file, see live.h */
+    const char **rods;              /* by parameter: it is contained in other numbers; array of the caller */
+    const char **pose, **forces_on; /* by absolute: named in a formula of the program */
+    bool walks;                     /* constants of rods, by part through all bodies; NULL if none */
+    /* function names, by body; NULL until written */
     const char **body, **coordinate, **rate, **load, **place, **branch, **pair, **slot;
 };
 
-/* Where the file says a number: the entry of the body, part or load, and the key in it. */
+/* the program has a function load_links */
 struct emit_origin {
     struct pos at;
     const char *key;
     struct dim dim;
-    int body; /* of formulas: whose coordinates have no dot; -1 for none */
+    int body; /* of formulas: body whose coordinates have no prefix; -1 for none */
 };
 
-/* ---- names.c */
+/* The position of a number in the file: the entry of the body, part or load, and the key in it. */
 
-/* A C identifier like `wanted` that nothing else in the program has. */
+/* A unique C identifier similar to `wanted`. */
 const char *emit_name(struct emitter *emitter, const char *wanted);
 const char *emit_join(struct emitter *emitter, const char *first, const char *second);
 
 const char *emit_printf(struct emitter *emitter, const char *format, ...)
     __attribute__((format(printf, 2, 3)));
 
-/* Does the program name places in the world? */
+/* True if the program uses positions in the world. */
 bool emit_has_places(const struct emitter *emitter);
 
-/* The names that many parts use. False when memory is out. */
+/* Choose the names used by several parts. Returns false when memory is out. */
 bool emit_names(struct emitter *emitter);
 
 /* ---- write.c */
 
-/* A number as C reads it back to the bit. */
+/* A number as text that C reads back exactly. */
 const char *emit_number(struct emitter *emitter, double value);
 
-/* Words of the file within a comment, which they cannot end. */
+/* Append text of the file to a comment, changed so that it cannot end the comment. */
 void emit_comment(struct text *text, const char *words);
 
-/* A member of struct parameters like `wanted`, with the value of the file and its unit; returns "p->NAME". */
+/* Add a member of struct parameters named like `wanted`, with the value of the file and its unit; returns
+ * "p->NAME". */
 const char *emit_parameter(struct emitter *emitter, const char *wanted, double value,
                            struct emit_origin origin);
-/* A point likewise, or the end of a rod; origin.body: in whose frame, -1 for the ground. */
+/* The same for a point, or the end of a rod; origin.body: the body of its frame, -1 for the ground. */
 const char *emit_vector(struct emitter *emitter, const char *wanted, struct vec value,
                         struct emit_origin origin);
 
-/* Are points of a body and the lengths of its rods written as the file says them? Where a body moves freely by
- * itself they decide what its equations look like. */
+/* True if points of a body and the lengths of its rods are parameters. For a free body they are not, since
+ * the form of its equations depends on them. */
 bool emit_tells_points(const struct emitter *emitter, int b);
 
-/* The end of a rod that a word of the file names, among the constants; NULL where it is none (inertia.c). */
+/* The end of a rod named by `word`, among the constants; NULL if it is none (inertia.c). */
 const char *emit_rod_end(struct emitter *emitter, int b, const char *word, struct vec value);
 
-/* A member of struct constants like `wanted`; returns its name. */
+/* Add a member of struct constants named like `wanted`; returns its name. */
 const char *emit_constant(struct emitter *emitter, const char *type, const char *wanted);
 
 /* ---- expression.c */
 
-/* The C expression of a program in the branches that begin with branch `first` of the plan. */
+/* The C expression of a program; its switches are branch `first` of the plan and the following ones. */
 const char *emit_expression(struct emitter *emitter, const struct expr *expr, int first);
 
-/* What each switch of the program watches, and when: NULL for always. */
+/* The argument of a switch of the program, and the condition under which it is evaluated: NULL for always. */
 struct emit_switch {
     const struct instr *instr;
     const char *a, *b, *condition;
@@ -103,11 +104,11 @@ bool emit_switches(struct emitter *emitter, const struct expr *expr, int first, 
 
 /* ---- formula.c */
 
-/* The value of a formula: "p->NAME" of a constant, else the call of a function, which is written. */
+/* The value of a formula: "p->NAME" of a constant, else the call of a function, which is written too. */
 const char *emit_formula(struct emitter *emitter, const struct formula *formula, const char *wanted,
                          struct emit_origin origin);
 
-/* The call of a function whose result, a struct dual, has the first and second derivative by a slot (0: t). */
+/* The call of a function that returns a struct dual with the first and second derivative by a slot (0: t). */
 const char *emit_slope(struct emitter *emitter, const struct formula *formula, const char *wanted, int slot,
                        struct emit_origin origin);
 
@@ -119,20 +120,21 @@ void emit_tree(struct emitter *emitter);     /* tree.c */
 void emit_solution(struct emitter *emitter); /* solve.c */
 void emit_modes(struct emitter *emitter);    /* modes.c */
 
-/* How many things can happen on the way. */
+/* The number of watched functions. */
 int emit_watches(const struct emitter *emitter);
 
-/* The functions of the lists that `calls` has need of, each once (helpers.c). */
+/* Write the functions of the list that `calls` needs, each once (helpers.c). */
 struct helper;
 void emit_helpers(struct emitter *emitter, const struct helper *list, size_t count, const struct text *calls,
                   struct text *out);
 
-/* All of it (program.c). NULL when memory is out, or with notes in `errors` (`cannot-emit`): what is missing. */
+/* The complete program (program.c). NULL when memory is out, or with notes in `errors` (`cannot-emit`) about
+ * unsupported elements. */
 char *emit_program(const struct fbd_model *model, double until, double tolerance, fbd_errors *errors);
 
 /* ---- admit.c */
 
-/* Can all of it be written? Notes in `errors` (`cannot-emit`) say what cannot. */
+/* Check that the scene can be written. Notes in `errors` (`cannot-emit`) list unsupported elements. */
 bool emit_admits(const struct fbd_model *model, fbd_errors *errors);
 
 #endif

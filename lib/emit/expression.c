@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Programs of expr/ back to expressions, with as few parentheses as C needs to do the same operations in the
- * same order.
+ * Translation of programs of expr/ to C expressions, with the minimum of parentheses for the same operations
+ * in the same order.
  */
 #include "emit/expression.h"
 #include "emit/live.h"
@@ -17,7 +17,7 @@ static struct piece piece_of(const struct reading *reading, const char *text, en
     return (struct piece){text ? text : "", bond};
 }
 
-/* In parentheses where it binds more loosely than it must. */
+/* The text, in parentheses if its precedence is lower than `least`. */
 static const char *within(const struct reading *reading, struct piece piece, enum bond least)
 {
     if (piece.bond >= least) return piece.text;
@@ -38,7 +38,7 @@ static const char *variable(const struct reading *reading, int slot)
     return arena_printf(arena_of(reading), "y[%s]", name);
 }
 
-/* A slot, or -1 for a number. In duals the one that is derived by has the rate 1. */
+/* A slot, or -1 for a number. In duals the derivative of the chosen slot is 1. */
 static struct piece leaf(const struct reading *reading, int slot, const char *text, enum bond bond)
 {
     if (!reading->dual) return piece_of(reading, text, bond);
@@ -167,7 +167,7 @@ static struct piece switched(const struct reading *reading, const struct instr *
                     bond_whole);
 }
 
-/* The same in duals, by a function for each operation. */
+/* The operation on dual numbers, by a function for each. */
 static struct piece operate_dual(const struct reading *reading, const struct instr *i)
 {
     struct arena *arena = arena_of(reading);
@@ -230,7 +230,7 @@ static struct piece operate(const struct reading *reading, const struct instr *i
     }
 }
 
-/* ---- choices: a jump over one side, and one over the other */
+/* ---- choices: two jumps, one over each side */
 
 static const char *both(const struct reading *reading, const char *outer, const char *inner, bool holds)
 {
@@ -240,7 +240,7 @@ static const char *both(const struct reading *reading, const char *outer, const 
     return all ? all : "";
 }
 
-/* The register that instructions [from, to) end in. */
+/* The register with the result of the instructions [from, to). */
 static size_t last_register(const struct expr *expr, size_t from, size_t to)
 {
     while (to > from && (expr->code[to - 1].op == op_jump || expr->code[to - 1].op == op_jump_unless)) to--;

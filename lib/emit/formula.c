@@ -46,7 +46,7 @@ bool emit_dual_takes_two(unsigned op)
            op == op_hypot || op == op_atan2;
 }
 
-/* A function of (s, t, y) with one line; arguments that it does not use are said so. */
+/* Write a function of (s, t, y) with one line. */
 static const char *write_function(struct emitter *emitter, const char *type, const char *wanted,
                                   const char *comment, const char *value)
 {

@@ -5,8 +5,9 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-/* Whether a program has pairs of friction, switches, surfaces that are pressed on, events, a tree of bodies: a line of a text that
- * begins with `@pairs surfaces|` is written where it has one of these, with `@!pairs !events|` where none. */
+/* Features of a program: friction pairs, switches, one-sided surfaces, events, a tree of bodies. A line of a
+ * text that begins with `@pairs surfaces|` is written if the program has one of these, with `@!pairs
+ * !events|` if it has none. */
 struct helper_features {
     bool pairs, branches, surfaces, events, tree;
 };

@@ -1,14 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * The functions that the texts of a program call: those of base/vec.h, dynamics/ and expr/ that it needs, and no
- * others.
+ * The functions of base/vec.h, dynamics/ and expr/ that the texts of a program call, and no others.
  */
 #include <string.h>
 
 #include "emit/emit.h"
 #include "emit/helper.h"
 
-/* Does `text` call a function, or name a structure? */
+/* True if `text` calls the function, or names the structure. */
 static bool calls_it(const char *text, const char *name)
 {
     size_t length = strlen(name);
@@ -22,7 +21,7 @@ static bool calls_it(const char *text, const char *name)
     return false;
 }
 
-/* ---- lines for some programs only */
+/* ---- conditional lines */
 
 static bool has(const struct helper_features *features, const char *word, size_t length)
 {
@@ -34,7 +33,7 @@ static bool has(const struct helper_features *features, const char *word, size_t
     return false;
 }
 
-/* Is the line written whose condition is in [from, to)? */
+/* Evaluate the condition of a line, in [from, to). */
 static bool is_wanted(const struct helper_features *features, const char *from, const char *to)
 {
     bool any = false, none = true;
@@ -73,7 +72,7 @@ static struct helper_features features_of(const struct fbd_model *model)
                                     plan->watch_count > 0, model->tree != NULL};
 }
 
-/* A later helper may call an earlier one. */
+/* Goes backward, since later helpers call earlier ones. */
 void emit_helpers(struct emitter *emitter, const struct helper *list, size_t count, const struct text *calls,
                   struct text *out)
 {

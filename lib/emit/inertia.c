@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Masses, centres of mass and moments of inertia, as model/inertia.c sums them up, and the directions of
- * slides.
+ * Masses, centres of mass and moments of inertia, summed as in model/inertia.c, and the directions of slides.
  */
 #include <string.h>
 
@@ -30,7 +29,7 @@ static struct emit_origin origin_in(const struct part *part, const char *key, in
     return (struct emit_origin){part->at, key, DIM_LENGTH, b};
 }
 
-/* A rod by its ends, or by its length, direction and centre. */
+/* Write a rod by its ends, or by its length, direction and centre. */
 static void write_rod(struct emitter *emitter, const struct part *part, const char *owner, int b)
 {
     const char *name = emit_constant(emitter, "struct rod", emit_join(emitter, owner, "ends"));
@@ -41,7 +40,7 @@ static void write_rod(struct emitter *emitter, const struct part *part, const ch
     if (from && to) {
         struct vec ends[2];
         if (!emit_live_pair(emitter, from, &ends[0]) || !emit_live_pair(emitter, to, &ends[1])) {
-            emitter->rods[part_index(emitter, b, part)] = NULL; /* by digits */
+            emitter->rods[part_index(emitter, b, part)] = NULL; /* written by digits */
             return;
         }
         const char *a =
@@ -87,7 +86,7 @@ static const char *center_of(struct emitter *emitter, const struct part *part, c
                        origin_in(part, "center", b));
 }
 
-/* ---- the moment of inertia of a shape about its own centre: the usual table */
+/* ---- moments of inertia of shapes about their centres */
 
 static const char *hollow(struct emitter *emitter, const struct part *part, const char *owner, const char *m)
 {
@@ -142,7 +141,7 @@ static const char *shape_inertia(struct emitter *emitter, const struct part *par
     case shape_rod:
         if (part->axis == 'x') return "0";
         if (rod) return emit_printf(emitter, "%s*square(c->%s.length)/12", m, rod);
-        plain = *part; /* the length is in the names of its ends too */
+        plain = *part; /* not a parameter: the names of the rod's ends depend on the length too */
         plain.at = (struct pos){0, 0};
         size = number_of(emitter, &plain, owner, "length", part->length, DIM_LENGTH);
         return emit_printf(emitter, "%s*square(%s)/12", m, size);
@@ -160,7 +159,7 @@ static const char *shape_inertia(struct emitter *emitter, const struct part *par
     return "0";
 }
 
-/* One part keeps its centre to the last bit. */
+/* Write a single part, whose centre is used without rounding. */
 static void one_part(struct emitter *emitter, const struct part *part, const char *body, int b)
 {
     struct text *out = &emitter->derive;
@@ -186,7 +185,7 @@ static void many_parts(struct emitter *emitter, const char *body, int b)
     for (size_t i = 0; i < source->part_count; i++) {
         const struct part *part = &source->parts[i];
         const char *owner = emit_join(emitter, body, part->name);
-        /* Of a planar body they decide whether its equations are coupled, so these are no parameters. */
+        /* The masses of a planar body determine whether its equations are coupled, so they are no parameters. */
         struct part plain = *part;
         if (source->motion.kind == motion_planar) plain.at = (struct pos){0, 0};
         m[i] = number_of(emitter, &plain, owner, "mass", part->mass, DIM_MASS);
@@ -205,7 +204,7 @@ static void many_parts(struct emitter *emitter, const char *body, int b)
     }
 }
 
-/* The angle of the frame of a slide's parent at the start, by the angles of slides that may be set. */
+/* The angle of the frame of a slide's parent at the start, with the angles of slides as parameters. */
 static const char *carrier_angle(struct emitter *emitter, const struct fbd_model *model, int carrier)
 {
     double turned = start_angle(model->scene, carrier);
@@ -229,7 +228,7 @@ static void slide(struct emitter *emitter, const struct model_body *body, const 
                 name);
 }
 
-/* The side that its surface pushes to, when the directions of all slides are there. */
+/* Write the direction of the normal force; requires the directions of all slides. */
 static void side_of_slide(struct emitter *emitter, const struct model_body *body, const char *name)
 {
     struct text *out = &emitter->derive;

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Parameters of the file that stay parameters of the program.
+ * Parameters of the file that become parameters of the program.
  *
  * A model has numbers where the file has expressions of its parameters. So the texts are read once more, with
- * parameters as variables. A text counts as taken when this gives the model's number, or formula, to the bit. A
- * parameter that stands in any text that is not taken is no member of the program: its value is part of numbers
- * there, and changing it in some places alone would be another scene.
+ * parameters as variables. A text is taken over when it reproduces the model's number, or formula, bitwise. A
+ * parameter that occurs in any other text is no member of the program: its value is contained in numbers
+ * there, and changing only some of its occurrences would give an inconsistent scene.
  */
 #include "emit/live.h"
 
@@ -14,11 +14,11 @@
 
 #include "emit/live_texts.h"
 
-/* ---- names in them */
+/* ---- names */
 
 struct live_scope {
     struct emitter *emitter;
-    int body; /* whose coordinates have no dot; -1 for none */
+    int body; /* body whose coordinates have no prefix; -1 for none */
     bool constant;
 };
 
@@ -86,7 +86,7 @@ static const struct expr *read_text(struct live_scope *scope, const struct node 
     return failed ? NULL : expr;
 }
 
-/* ---- is it the same? */
+/* ---- comparison */
 
 static bool same_bits(double a, double b)
 {
@@ -103,7 +103,7 @@ static bool names_anything(const struct live *live, const struct expr *expr)
     return count > 0 && slots[count - 1] >= live->first;
 }
 
-/* At points all over the place, the plain values and those of the smooth formulas. */
+/* Compare two expressions at pseudorandom points of different magnitudes. */
 static bool agree(const struct emitter *emitter, const struct expr *given, const struct expr *live)
 {
     enum { points = 12 };
@@ -123,7 +123,7 @@ static bool agree(const struct emitter *emitter, const struct expr *given, const
 
 /* ---- members */
 
-/* Define a parameter, after those that its definition names. */
+/* Define a parameter, after those in its definition. */
 static void define(struct emitter *emitter, size_t index)
 {
     struct live *live = emitter->live;
@@ -161,7 +161,6 @@ bool emit_is_live(const struct emitter *emitter, int slot)
     return emitter->live && slot >= emitter->live->first;
 }
 
-/* The expression of a number of the file, or its digits. */
 const char *emit_live_number(struct emitter *emitter, double value, struct emit_origin origin)
 {
     struct live *live = emitter->live;
@@ -191,7 +190,7 @@ void emit_live_spoil_body(struct emitter *emitter, int b)
     }
 }
 
-/* One component by parameters; NULL where that is another number. */
+/* One component by parameters; NULL if that gives another value. */
 static const char *component(struct emitter *emitter, const struct node *node, double value)
 {
     struct live_scope scope = {emitter, -1, true};
@@ -250,7 +249,7 @@ const struct expr *emit_live(const struct emitter *emitter, const struct expr *g
     return given;
 }
 
-/* An event has a formula on each side of its sign. */
+/* Take over an event, which has a formula on each side of its relation. */
 static void live_relation(struct emitter *emitter, const struct node *node, const struct expr *left,
                           const struct expr *right)
 {
@@ -301,7 +300,7 @@ const char *emit_live_gravity(struct emitter *emitter)
     return emitter->live->pulls_down ? emit_live_number(emitter, magnitude, origin) : NULL;
 }
 
-/* Where the start of a body stands. */
+/* The position of an initial value of a body in the file. */
 struct emit_origin emit_live_start(const struct emitter *emitter, struct pos body, const char *key)
 {
     const struct node *node = texts_find_at(emitter->live->document.root, body);

@@ -12,10 +12,9 @@ static bool same_place(struct pos a, struct pos b)
     return a.line == b.line && a.column == b.column && a.line > 0;
 }
 
-/* What stands at `at`: the value behind the key there, or the value itself. */
 const struct node *texts_find_at(const struct node *node, struct pos at)
 {
-    const struct node *found = NULL; /* a mapping begins where its first key does, which is meant then */
+    const struct node *found = NULL; /* keys first: a mapping has the position of its first key */
     for (size_t i = 0; node->kind == node_map && i < node->count && !found; i++)
         found = same_place(node->pairs[i].at, at) ? node->pairs[i].value
                                                   : texts_find_at(node->pairs[i].value, at);
@@ -24,7 +23,7 @@ const struct node *texts_find_at(const struct node *node, struct pos at)
     return found ? found : same_place(node->at, at) ? node : NULL;
 }
 
-/* The text behind `key` in a node or right below it; the node itself where it is a short form. */
+/* The text of `key` in a node or one level below it; the node itself if it is a scalar (short form). */
 static const struct node *find_key(const struct node *node, const char *key, int depth)
 {
     if (node->kind == node_scalar) return depth == 0 ? node : NULL;
@@ -55,7 +54,7 @@ static bool is_in(const struct live_node *list, const struct node *node)
     return false;
 }
 
-/* In how many places a value stands, by aliases. */
+/* The number of occurrences of a node, more than one with aliases. */
 static int count_places(const struct node *from, const struct node *node)
 {
     int count = from == node;
@@ -74,7 +73,7 @@ static void add_to(struct emitter *emitter, const struct live_node **list, const
     *list = added;
 }
 
-/* A text that is taken stands in one place, and nothing else was made of it. */
+/* True if a text was taken over, occurs once, and was not used elsewhere. */
 static bool is_taken(const struct live *live, const struct node *node)
 {
     return is_in(live->taken, node) && !is_in(live->spoilt, node) &&
@@ -100,7 +99,7 @@ void texts_spoil_all(struct emitter *emitter, const struct node *node)
     texts_spoil(emitter, node);
 }
 
-/* ---- what is left */
+/* ---- remaining texts */
 
 static bool is_letter(char c)
 {
@@ -112,7 +111,7 @@ static bool is_digit(char c)
     return c >= '0' && c <= '9';
 }
 
-/* Does a text name a parameter? Units stand in brackets, or behind a number that is all else of the text. */
+/* True if a text names a parameter. Units are in brackets, or follow a number that is the rest of the text. */
 static bool mentions(const char *text, const char *name)
 {
     size_t length = strlen(name), digits = strspn(text, "+-.0123456789eE");
@@ -127,7 +126,7 @@ static bool mentions(const char *text, const char *name)
     return false;
 }
 
-/* Keys whose texts do not say how the scene moves. */
+/* True for keys whose texts do not affect the motion. */
 static bool is_silent(const char *key)
 {
     static const char *const keys[] = {"hand",      "exact",    "description", "title", "output",
@@ -149,7 +148,7 @@ static void fix_those_in(struct emitter *emitter, const struct node *node)
         if (mentions(node->text, scene->parameters[i].name)) emitter->fixed[i] = true;
 }
 
-/* Definitions of parameters that nothing asks for count for nothing. */
+/* Fix the parameters in texts not taken over, except definitions of parameters, which may be unused. */
 static void fix_others(struct emitter *emitter)
 {
     const struct node *root = emitter->live->document.root;
@@ -158,7 +157,7 @@ static void fix_others(struct emitter *emitter)
             fix_those_in(emitter, root->pairs[i].value);
 }
 
-/* What a definition names is part of a number too where it has become one. */
+/* Fix the parameters in definitions of fixed parameters, and in definitions that were not taken over. */
 static void fix_in_definitions(struct emitter *emitter)
 {
     const struct scene *scene = emitter->model->scene;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Which texts of the file have been taken over into the program, and which parameters stand in others.
+ * The texts of the file whose expressions the program contains, and the parameters that occur in other texts.
  */
 #ifndef FBD_EMIT_LIVE_TEXTS_H
 #define FBD_EMIT_LIVE_TEXTS_H
@@ -30,13 +30,13 @@ struct live {
     bool pulls_down; /* gravity is given by its magnitude */
 };
 
-/* What stands at a place of the file: the value behind the key there, or the value itself. */
+/* The node at a position of the file: the value of the key there, or the value itself. */
 const struct node *texts_find_at(const struct node *node, struct pos at);
 
 /* The text of a number or formula, or NULL. */
 const struct node *texts_find(const struct live *live, struct emit_origin origin);
 
-/* It is taken; or more was made of it than that. */
+/* Mark a text as taken over; or as also used in another number. */
 void texts_take(struct emitter *emitter, const struct node *node);
 void texts_spoil(struct emitter *emitter, const struct node *node);
 void texts_spoil_all(struct emitter *emitter, const struct node *node);

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * What a force or moment names: its numbers, its formulas, and the points between which it acts.
+ * The numbers and formulas of a force or moment, and its points of application.
  */
 #include "emit/bodies.h"
 
-/* Of some loads one text makes several numbers: those are not told by parameters. */
+/* The position is empty for loads with several numbers from one text: these are not expressed by parameters. */
 struct emit_origin load_origin(const struct model_load *load, const char *key, struct dim dim)
 {
     const struct load *source = load->source;
@@ -26,7 +26,7 @@ const char *load_formula(struct emitter *emitter, const struct model_load *load,
     return emit_formula(emitter, formula, emit_join(emitter, owner, key), load_origin(load, key, dim));
 }
 
-/* The ends of a coupling, that of `load->body` first; of a load of one body its point and nothing. */
+/* An end of a coupling, that of `load->body` first; for a load on one body its point, and NULL as second end. */
 static const struct point *end_of(const struct fbd_model *model, const struct model_load *load, int end)
 {
     size_t i = (size_t)(load - model->loads);

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * What the run asks of a scene: how its modes hold it, what switches and events watch, and tables of names.
+ * The functions of a scene for the run: projection onto its modes, arguments of switches and events, and
+ * tables of names.
  */
 #include "emit/bodies.h"
 #include "emit/live.h"
@@ -19,7 +20,7 @@ struct emit_origin drive_origin(const struct emitter *emitter, const struct mode
                                 -1};
 }
 
-/* ---- what sticks and what is driven goes with its surface */
+/* ---- velocities of sticking and driven coordinates */
 
 static void write_complete(struct emitter *emitter)
 {
@@ -74,7 +75,7 @@ static const char *switch_kind(unsigned op)
     return op == op_ceil ? "by_ceil" : op == op_round ? "by_round" : "by_floor";
 }
 
-/* On which side a switch is where both are equal. */
+/* The branch of a switch at equality. */
 static int branch_at_zero(unsigned op)
 {
     if (op == op_sign || op == op_equal) return 0;
@@ -122,7 +123,7 @@ static void write_switches(struct emitter *emitter)
 static void quote(struct text *text, const char *words)
 {
     text_add(text, "\"");
-    emit_comment(text, words); /* names are letters, digits and _ */
+    emit_comment(text, words); /* comment rules suffice: names are letters, digits and _ */
     text_add(text, "\"");
 }
 
@@ -213,7 +214,7 @@ static void write_pairs(struct emitter *emitter)
     text_add(out, "};\n\n");
 }
 
-/* Surfaces that only press, and how little below zero counts as that. */
+/* Write the table of one-sided surfaces, and the tolerance of negative normal forces. */
 static void write_surfaces(struct emitter *emitter)
 {
     const struct plan *plan = &emitter->model->plan;

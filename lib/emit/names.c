@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * C identifiers. All names of a program are in one list, whatever they name, so that no two clash: those of
- * its own functions and those of the language come first.
+ * C identifiers. All names of a program are in one list, so that none clash; keywords and the names of the
+ * program's own functions are reserved.
  */
 #include <stdarg.h>
 #include <stdio.h>
@@ -15,7 +15,7 @@ struct emit_name {
     const struct emit_name *before;
 };
 
-/* Words of C, macros without parentheses in the headers that are included, and what the program calls its own. */
+/* Keywords, object-like macros of the included headers, and names used by the program. */
 static const char *const reserved[] = {
     "auto",        "break",
     "case",        "char",
@@ -73,7 +73,7 @@ static bool is_taken(const struct emitter *emitter, const char *name)
     return false;
 }
 
-/* Macros are in capitals, and names of the implementation begin with `_`. */
+/* True for names like macros (capitals), of the implementation (`_`) and of libraries. */
 static bool is_foreign(const char *name)
 {
     bool small = false;
@@ -146,7 +146,7 @@ static void use_places(struct emitter *emitter, const struct formula *formula)
         if (slots[i] >= first) emitter->used[slots[i] - first] = true;
 }
 
-/* Derivations by hand name places too, which nothing here asks for. */
+/* Mark positions that the program uses; derivations by hand, which also name some, are not written. */
 static void find_used_places(struct emitter *emitter)
 {
     const struct fbd_model *model = emitter->model;
@@ -168,7 +168,7 @@ static void find_used_places(struct emitter *emitter)
     }
 }
 
-/* Forces across slides, and what holds jointed bodies, have slots of their own. */
+/* Name the slots of forces across slides and of reactions along sticking joint coordinates. */
 static void name_slots(struct emitter *emitter)
 {
     const struct fbd_model *model = emitter->model;

@@ -5,7 +5,7 @@
 
 #include "emit/bodies.h"
 
-/* Is `at`, within `text`, no end of a longer name? */
+/* True if `at`, within `text`, is not inside a longer name. */
 static bool begins_name(const char *text, const char *at)
 {
     char before = at > text ? at[-1] : ' ';
@@ -20,7 +20,7 @@ static bool mentions(const char *text, const char *word)
     return false;
 }
 
-/* As an argument or operand: a letter by itself. */
+/* True if the letter occurs as an argument or operand. */
 static bool mentions_argument(const char *lines, char name)
 {
     for (const char *at = strchr(lines, name); at; at = strchr(at + 1, name))
@@ -103,7 +103,7 @@ const char *emit_link_force(struct emitter *emitter, const struct model_load *lo
     return emit_printf(emitter, "damper(%s, %s, %s)", c, reach, velocity);
 }
 
-/* ---- places in the world that expressions name */
+/* ---- positions in the world */
 
 const char emit_new_links[] = "    struct links l = {0};\n    l.ground.turn = (struct vec){1, 0};\n";
 

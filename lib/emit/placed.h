@@ -1,23 +1,24 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Where points of bodies are, and forces along the line between two.
+ * Positions of points of bodies, and forces along the line between two points.
  */
 #ifndef FBD_EMIT_PLACED_H
 #define FBD_EMIT_PLACED_H
 
 #include "emit/emit.h"
 
-/* The function that gives the pose of a body that moves by itself; it is written when it is first asked for. */
+/* The function that computes the pose of a body outside the tree; written at its first use. */
 const char *emit_pose(struct emitter *emitter, int b);
 
-/* The force of a spring or damper on the end that is at `reach` from the other and moves so against it. */
+/* The force of a spring or damper on an end; `reach` and `velocity` are its position and velocity relative to
+ * the other end. */
 const char *emit_link_force(struct emitter *emitter, const struct model_load *load, const char *reach,
                             const char *velocity);
 
-/* C: the links of the tree `l`, of which only the ground has its place, on which the others move. */
+/* C: the links of the tree `l`; only the pose of the ground is set. */
 extern const char emit_new_links[];
 
-/* The function that writes places in the world behind the coordinates and rates, if any are named. */
+/* Write the function that computes positions in the world after coordinates and rates, if any are used. */
 void emit_places(struct emitter *emitter);
 
 #endif

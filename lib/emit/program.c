@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * The program as a whole.
+ * The complete program.
  */
 #include <stdlib.h>
 #include <string.h>
@@ -94,7 +94,7 @@ static void write_gravity(struct emitter *emitter, struct text *out)
                     emit_number(emitter, gravity.y));
 }
 
-/* Those that cannot be changed by themselves. */
+/* Write comments about the parameters that cannot be changed independently. */
 static void write_fixed(struct emitter *emitter, struct text *out)
 {
     const struct scene *scene = emitter->model->scene;
@@ -117,7 +117,7 @@ static void write_setup(struct emitter *emitter, struct text *out)
     text_add(out, "}\n\n");
 }
 
-/* The run and gravity come first: formulas may name the magnitude. */
+/* Write the members for the run and gravity first, since formulas may use its magnitude. */
 static void write_first(struct emitter *emitter, double until, double tolerance)
 {
     const struct value *given = &emitter->model->scene->simulate.until;
@@ -133,7 +133,7 @@ static void write_first(struct emitter *emitter, double until, double tolerance)
                 emit_number(emitter, tolerance));
 }
 
-/* Where the motion starts, as parameters. */
+/* Write the initial state as parameters. */
 static void write_start(struct emitter *emitter)
 {
     const struct fbd_model *model = emitter->model;
@@ -209,7 +209,7 @@ static void write_runner(bool watched, struct text *out)
         watched ? "integrate" : "integrate_smoothly");
 }
 
-/* The functions of the run that its texts need, in front of those. */
+/* Write the functions of the run, preceded by those that they call. */
 static void write_run(struct emitter *emitter, struct text *out)
 {
     struct text end = {0};
@@ -259,7 +259,7 @@ static void write_all(struct emitter *emitter, double until, double tolerance, s
     text_free(&below);
 }
 
-/* One try: parameters that prove to be part of other numbers leave for the next one. */
+/* Write the program once; *settled is false if further parameters must be fixed, and the writing repeated. */
 static char *write_once(struct emitter emitter, double until, double tolerance, bool *settled,
                         fbd_errors *errors)
 {

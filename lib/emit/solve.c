@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Accelerations: the tree in its modes, bodies by themselves, dry friction.
+ * Accelerations: the tree in its modes, bodies outside the tree, dry friction.
  */
 #include <string.h>
 
@@ -121,7 +121,7 @@ static const char *link_name(const struct emitter *emitter, int link)
     return link == 0 ? "ground" : emitter->body[emitter->model->tree->links[link].body];
 }
 
-/* What sticks gives nothing away, and bearings that slip have a moment. */
+/* Lock sticking joints. */
 static void lock_joints(struct emitter *emitter, struct text *lines)
 {
     const struct tree *tree = emitter->model->tree;
@@ -156,7 +156,8 @@ static const char *normal_of(struct emitter *emitter, int i, const char *force)
                        force);
 }
 
-/* The friction of slides goes with their normal forces, and those with all frictions: a linear system. */
+/* Solve for the friction of slides: it is proportional to normal forces, which depend on all frictions (a
+ * linear system). */
 static void close_frictions(struct emitter *emitter, struct text *lines)
 {
     const struct tree *tree = emitter->model->tree;
@@ -311,7 +312,7 @@ static void write_accelerations(struct emitter *emitter)
     close_text(emitter, &lines);
 }
 
-/* What an integrator asks for: a coordinate that sticks goes with its surface. */
+/* Write the right-hand side; the rate of a sticking coordinate is that of its surface. */
 static void write_rates(struct emitter *emitter)
 {
     const struct fbd_model *model = emitter->model;

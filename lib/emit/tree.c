@@ -7,7 +7,7 @@
 #include "emit/bodies.h"
 #include "emit/placed.h"
 
-/* What acts on the links, in the order in which it is summed. */
+/* The loads on the links, in the order of summation. */
 struct tree_writer {
     struct emitter *emitter;
     struct text following, forces, moments, springs, drags;
@@ -102,7 +102,7 @@ static void world_force(struct emitter *emitter, const struct model_load *load, 
                 place_of(emitter, load->body, point), force, emitter->body[load->body], load->source->name);
 }
 
-/* A constant force and couple that turn with the link. */
+/* Write a constant force and couple that turn with the link. */
 static void following(struct tree_writer *writer, const struct model_load *load, const char *suffix,
                       const char *point, const char *force, const char *couple)
 {
@@ -143,7 +143,7 @@ static void moment(struct tree_writer *writer, const struct model_load *load, co
                     load->source->name);
 }
 
-/* A force along one direction that is given by its angle. */
+/* Write a force with a direction given by its angle. */
 static void directed(struct tree_writer *writer, const struct model_load *load, const struct formula *formula,
                      const char *suffix, const char *value, const char *angle, bool frame)
 {
@@ -208,7 +208,7 @@ static void drag(struct tree_writer *writer, const struct model_load *load)
         link, link, name, linear, quadratic, link, name, source->name);
 }
 
-/* A spring or damper between two points; each end has a place in its link. */
+/* Write a spring or damper between two points, each fixed in its link. */
 static void linked(struct tree_writer *writer, const struct model_load *load)
 {
     struct emitter *emitter = writer->emitter;
@@ -288,7 +288,7 @@ static const char *kind_name(enum motion_kind kind)
                                    : "particle";
 }
 
-/* A function that treats link after link, outward or inward. */
+/* Write a function with a line for each link, outward or inward. */
 static void write_pass(struct emitter *emitter, const char *head, const char *arguments, bool outward,
                        const char *format(struct emitter *, int))
 {
@@ -365,7 +365,7 @@ static const char *outward(struct emitter *emitter, int i)
                        emitter->coordinate[link->coordinate]);
 }
 
-/* Where all joints are free pivots the passes are shorter. */
+/* A shorter pass, for trees with free pivots only. */
 static const char *set_out(struct emitter *emitter, int i)
 {
     const struct tree_link *link = &emitter->model->tree->links[i];

@@ -15,7 +15,7 @@ const char *emit_number(struct emitter *emitter, double value)
     return copy ? copy : "";
 }
 
-/* In a comment neither its end nor what older compilers make of `??/` and a backslash may stand. */
+/* Also avoids trigraphs (`??/`) and backslashes, which older compilers interpret in comments. */
 void emit_comment(struct text *text, const char *words)
 {
     for (const char *at = words; *at;) {

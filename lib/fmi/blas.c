@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * The error exit of CBLAS. That of GSL's archive prints to a stream of the C library in a way that cannot be linked into
- * a shared object; GSL calls BLAS with arguments of its own, so nothing ever comes here.
+ * The error exit of CBLAS. That of GSL's archive writes to a stream of the C library in a way that cannot be
+ * linked into a shared object. It is never called, since GSL checks the arguments of its BLAS calls.
  */
 #include <stdlib.h>
 

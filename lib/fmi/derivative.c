@@ -14,7 +14,7 @@ struct jacobian {
     size_t n;     /* coordinates */
     double *dfdy; /* 2n x 2n: (rates, accelerations) by (coordinates, rates) */
     double *dfdu; /* 2n for each parameter or input */
-    bool *known;  /* for each: has its column been made? */
+    bool *known;  /* for each: its column was computed */
 };
 
 static bool jacobian_init(struct jacobian *jacobian, const struct plant *plant)

@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Directional derivatives: how rates and accelerations change at once with coordinates, rates and inputs.
+ * Directional derivatives: the instantaneous dependence of rates and accelerations on coordinates, rates and
+ * inputs.
  *
- * By coordinates and rates they are the exact Jacobian of the equations of motion. By an input they are that of a model in
- * which the input stands in the place of the time, and the time is a constant: the derivative by the time that its
- * dual numbers carry then is the one by the input.
+ * Derivatives by coordinates and rates are those of the exact Jacobian of the equations of motion. For those
+ * by an input, a model is compiled in which the input replaces the time and the time is a constant: the
+ * derivative by time of its dual numbers is then that by the input.
  */
 #ifndef FBD_FMI_DERIVATIVE_H
 #define FBD_FMI_DERIVATIVE_H

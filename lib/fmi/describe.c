@@ -70,7 +70,7 @@ static void variable_of(const struct package *package, size_t index, struct text
     text_add(xml, "/>\n");
 }
 
-/* Coordinates and rates are states: no input changes them at once. */
+/* Coordinates and rates are states: they do not depend on inputs directly. */
 static void unknown(const struct package *package, const char *element, size_t index, struct text *xml)
 {
     enum fmi_kind kind = package->variables.list[index].kind;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * modelDescription.xml by FMI 2.0.5, sections 2.2 and 4.3. Variables are numbered from 1 where the structure names
- * them; a value reference is counted from 0, as in FMI 3.0.
+ * modelDescription.xml by FMI 2.0.5, sections 2.2 and 4.3. The model structure numbers variables from 1;
+ * value references start at 0, as in FMI 3.0.
  */
 #include "fmi/package.h"
 #include "model/model.h"
@@ -72,7 +72,7 @@ static void variable_of(const struct package *package, size_t index, struct text
     text_add(xml, "/></ScalarVariable>\n");
 }
 
-/* Coordinates and rates are states: no input changes them at once. */
+/* Coordinates and rates are states: they do not depend on inputs directly. */
 static void unknown(const struct package *package, size_t index, struct text *xml)
 {
     enum fmi_kind kind = package->variables.list[index].kind;
@@ -96,7 +96,7 @@ static bool is_initial_unknown(const struct fmi_variable *variable)
     return fmi_is_output(variable) || variable->kind == fmi_calculated;
 }
 
-/* The variables that belong to a list of the structure, if there are any; with what they depend on. */
+/* Append a list of the model structure, if it is not empty, with the dependencies of its variables. */
 static void list(const struct package *package, const char *name, bool belongs(const struct fmi_variable *),
                  bool depends, struct text *xml)
 {

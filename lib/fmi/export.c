@@ -8,20 +8,21 @@
 #include "api/record.h"
 #include "base/api_check.h"
 #include "base/file.h"
+#include "fbd_export.h"
 #include "fmi/package.h"
 #include "fmi/zip.h"
 #include "loop/options.h"
 #include "model/model.h"
 #include "rest/start.h"
 
-/* ---- its name */
+/* ---- the name */
 
 static bool is_letter(char c)
 {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';
 }
 
-/* The name of the file without folder and ending, made an identifier of C. */
+/* The name of the file without folder and ending, converted to a C identifier. */
 static void name_package(struct package *package)
 {
     const char *path = package->options->name ? package->options->name : package->model->scene->file;
@@ -164,7 +165,7 @@ static char *pack(const struct package *package, size_t *length, fbd_errors *err
     return NULL;
 }
 
-/* ---- may it be exported? */
+/* ---- checks before the export */
 
 static bool has_start(const struct fbd_model *model, fbd_errors *errors)
 {

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * FMI 2.0 for co-simulation. A step that an event of the file ends is discarded there, as the standard has it: the
- * importer asks with fmi2GetBooleanStatus whether the FMU has terminated, and with fmi2GetRealStatus at what time.
+ * FMI 2.0 for co-simulation. A step ended by an event of the file is discarded, as the standard requires: the
+ * importer queries fmi2GetBooleanStatus whether the FMU has terminated, and fmi2GetRealStatus for the time.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -30,7 +30,7 @@ fmi2Status fmi2SetDebugLogging(fmi2Component component, fmi2Boolean on, size_t c
     return (fmi2Status)instance_set_logging(component, on != 0, count, categories);
 }
 
-/* ---- making */
+/* ---- instantiation */
 
 static void log_message(const struct instance *instance, enum instance_status status, const char *category,
                         const char *message)
@@ -49,7 +49,8 @@ static int hexadecimal(char c)
                                   : -1;
 }
 
-/* The folder that a URI `file:///tmp/a%20b/resources` names, to be freed; NULL when it names none, or memory is out. */
+/* The folder of a URI `file:///tmp/a%20b/resources`, to be freed; NULL for another URI, or when memory is
+ * out. */
 static char *folder_of(const char *uri)
 {
     if (!uri || strncmp(uri, "file:", 5) != 0) return NULL;
@@ -98,7 +99,7 @@ void fmi2FreeInstance(fmi2Component component)
     free(component);
 }
 
-/* ---- from state to state */
+/* ---- state machine */
 
 fmi2Status fmi2SetupExperiment(fmi2Component component, fmi2Boolean has_tolerance, fmi2Real tolerance,
                                fmi2Real start, fmi2Boolean has_stop, fmi2Real stop)
@@ -175,7 +176,7 @@ fmi2Status fmi2SetReal(fmi2Component component, const fmi2ValueReference referen
     return (fmi2Status)instance_set(component, "fmi2SetReal", references, count, values);
 }
 
-/* No variable is of another type, and none has derivatives to be set or got. */
+/* There are no variables of other types, and no derivatives of inputs or outputs. */
 static fmi2Status none(struct instance *instance, const char *function, size_t count)
 {
     if (!instance_allows(instance, phase_any, function)) return fmi2Error;
@@ -284,13 +285,13 @@ fmi2Status fmi2DeSerializeFMUstate(fmi2Component component, const fmi2Byte bytes
     return fmi2OK;
 }
 
-/* ---- how the last step ended */
+/* ---- status of the last step */
 
 static fmi2Status unasked(struct instance *instance, const char *function, bool place)
 {
     if (!instance) return fmi2Error;
     if (!place) return (fmi2Status)instance_fail(instance, function, "there is no place for an answer");
-    return fmi2Discard; /* of a step that is not asynchronous nothing more is known */
+    return fmi2Discard; /* steps are not asynchronous: no other status exists */
 }
 
 fmi2Status fmi2GetStatus(fmi2Component component, fmi2StatusKind kind, fmi2Status *value)

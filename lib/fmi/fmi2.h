@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * The C interface of FMI 2.0.5 for co-simulation, declared by its specification (sections 2.1 and 4.2). With
- * FBD_FMI_HEADERS the published headers stand in its place.
+ * The C interface of FMI 2.0.5 for co-simulation, as declared in its specification (sections 2.1 and 4.2).
+ * With FBD_FMI_HEADERS the published headers are used instead.
  */
 #ifndef FBD_FMI_FMI2_H
 #define FBD_FMI_FMI2_H

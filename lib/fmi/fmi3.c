@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * FMI 3.0 for co-simulation: life of an instance, steps, saved states.
+ * FMI 3.0 for co-simulation: life cycle of an instance, steps, saved states.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -24,7 +24,7 @@ fmi3Status fmi3SetDebugLogging(fmi3Instance instance, fmi3Boolean on, size_t cou
     return (fmi3Status)instance_set_logging(instance, on, count, categories);
 }
 
-/* ---- making */
+/* ---- instantiation */
 
 static void log_message(const struct instance *instance, enum instance_status status, const char *category,
                         const char *message)
@@ -92,7 +92,7 @@ void fmi3FreeInstance(fmi3Instance instance)
     free(instance);
 }
 
-/* ---- from state to state */
+/* ---- state machine */
 
 fmi3Status fmi3EnterInitializationMode(fmi3Instance instance, fmi3Boolean has_tolerance,
                                        fmi3Float64 tolerance, fmi3Float64 start, fmi3Boolean has_stop,
@@ -109,7 +109,7 @@ fmi3Status fmi3ExitInitializationMode(fmi3Instance instance)
     return (fmi3Status)instance_begin(instance);
 }
 
-/* Go from one phase to another where the importer has said that it does. */
+/* Change the phase, if the importer supports event mode. */
 static fmi3Status change(struct instance *instance, enum phase from, enum phase to, const char *function)
 {
     if (!instance_allows(instance, from, function)) return fmi3Error;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * The C interface of FMI 3.0.2 for co-simulation, declared by its specification (sections 2.2.1 to 2.3.8 and 4.2). With
- * FBD_FMI_HEADERS the published headers stand in its place: a test compiles it both ways.
+ * The C interface of FMI 3.0.2 for co-simulation, as declared in its specification (sections 2.2.1 to 2.3.8
+ * and 4.2). With FBD_FMI_HEADERS the published headers are used instead: a test compiles both.
  */
 #ifndef FBD_FMI_FMI3_H
 #define FBD_FMI_FMI3_H
@@ -137,7 +137,7 @@ FMI3 fmi3Status fmi3GetVariableDependencies(fmi3Instance, fmi3ValueReference, si
 FMI3 fmi3Status fmi3GetOutputDerivatives(fmi3Instance, const fmi3ValueReference[], size_t,
                                          const fmi3Int32 orders[], fmi3Float64[], size_t);
 
-/* ---- what this kind of FMU has not */
+/* ---- functions not supported by this FMU */
 
 FMI3 fmi3Status fmi3EnterConfigurationMode(fmi3Instance);
 FMI3 fmi3Status fmi3ExitConfigurationMode(fmi3Instance);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * FMI 3.0: functions of the standard that a co-simulation without clocks, structural parameters and derivatives of outputs
- * has no use for. An importer that has read the description calls none of them; they answer an error.
+ * FMI 3.0: functions that a co-simulation without clocks, structural parameters and derivatives of outputs
+ * does not need. An importer that follows the description does not call them; they return an error.
  */
 #include "fmi/fmi3.h"
 #include "fmi/instance.h"

@@ -26,7 +26,7 @@ fmi3Status fmi3SetFloat64(fmi3Instance instance, const fmi3ValueReference refere
     return (fmi3Status)instance_set(instance, "fmi3SetFloat64", references, count, values);
 }
 
-/* No variable is of another type: nothing can be asked of it. */
+/* There are no variables of other types. */
 static fmi3Status none(struct instance *instance, const char *function, size_t count)
 {
     if (!instance_allows(instance, phase_any, function)) return fmi3Error;

@@ -13,7 +13,7 @@
 
 const char *const log_category_names[log_categories] = {"logStatusError", "logStatusWarning", "logEvents"};
 
-/* The copy of GSL in this binary is its own; every status is looked at. */
+/* This binary contains its own copy of GSL; every status is checked. */
 __attribute__((constructor)) static void prepare(void)
 {
     gsl_set_error_handler_off();
@@ -23,7 +23,7 @@ __attribute__((constructor)) static void prepare(void)
 
 enum { longest_message = 700 };
 
-/* The standard has `#` begin the reference of a variable, and `##` be one. */
+/* Escape `#` as `##`, since `#` begins the reference of a variable in messages. */
 static void double_hashes(const char *from, char *to, size_t room)
 {
     size_t used = 0;
@@ -142,7 +142,7 @@ void instance_close(struct instance *instance)
     instance->name = NULL;
 }
 
-/* ---- life */
+/* ---- life cycle */
 
 enum instance_status instance_initialize(struct instance *instance, double start, double stop,
                                          double tolerance)
@@ -222,7 +222,7 @@ enum instance_status instance_set(struct instance *instance, const char *functio
 
 /* ---- a step */
 
-/* Times that differ by rounding are the same. */
+/* True if two times agree to rounding. */
 static bool is_time(double t, double other, double size)
 {
     const double rounding = 1e-9;
@@ -255,7 +255,8 @@ static void log_step_events(const struct instance *instance, double from)
     }
 }
 
-/* Where it does not, what is shown is no motion of the model, whatever its steps say of their errors. */
+/* Check the energy balance: if it is violated, the result is not a motion of the model, whatever the error
+ * estimates. */
 static bool step_balances(struct instance *instance)
 {
     double residual, explained;

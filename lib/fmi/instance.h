@@ -1,10 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Instance: a plant with the state machine of the standard around it, whatever its version. Functions answer a status
- * of the standard, whose first five have the same numbers in both versions: 0 ok, 1 warning, 2 discard, 3 error.
+ * Instance: a plant with the state machine of the standard, common to all versions. Functions return a status
+ * of the standard, whose first five have the same numbers in both versions: 0 ok, 1 warning, 2 discard, 3
+ * error, 4 fatal.
  *
- * A call that is not allowed where the instance is answers an error with a message, and ends the simulation, as the
- * standard says of every error; a state that was saved, or a reset, brings it back.
+ * A call that is not allowed in the present phase returns an error with a message, and ends the simulation,
+ * as the standard requires for every error; restoring a saved state, or a reset, makes the instance usable
+ * again.
  */
 #ifndef FBD_FMI_INSTANCE_H
 #define FBD_FMI_INSTANCE_H
@@ -35,25 +37,26 @@ struct instance {
     struct plant *plant;
     enum phase phase;
     bool logs[log_categories];
-    bool event_mode, early_return; /* what the importer can do */
+    bool event_mode, early_return; /* capabilities of the importer */
     bool stopped;                  /* an event of the file has ended the run */
     instance_log *log;
     char *name;
     void *environment;
-    void (*callback)(void); /* of the version that it is */
+    void (*callback)(void); /* function pointer of the standard's version */
 };
 
-/* What is read from `resources`, when `token` is that of it. False with messages; the instance has no plant then. */
+/* Open the files in `resources`, if `token` is theirs. Returns false with messages; the instance has no plant
+ * then. */
 bool instance_open(struct instance *instance, const char *name, const char *resources, const char *token);
 void instance_close(struct instance *instance);
 
 void instance_say(const struct instance *instance, enum instance_status status, enum log_category category,
                   const char *format, ...) __attribute__((format(printf, 4, 5)));
 
-/* Say what is wrong in `function`; ends the simulation. */
+/* Report an error in `function`, and end the simulation. */
 enum instance_status instance_fail(struct instance *instance, const char *function, const char *what);
 
-/* May `function` be called in these phases? `instance` may be NULL. */
+/* Check that `function` may be called in the present phase; if not, report an error. `instance` may be NULL. */
 bool instance_allows(struct instance *instance, unsigned phases, const char *function);
 
 enum instance_status instance_set_logging(struct instance *instance, bool on, size_t count,
@@ -64,7 +67,7 @@ enum instance_status instance_initialize(struct instance *instance, double start
 enum instance_status instance_begin(struct instance *instance);
 enum instance_status instance_reset(struct instance *instance);
 
-/* Values of variables by reference. */
+/* Get, or set, values of variables by reference. */
 enum instance_status instance_get(struct instance *instance, const char *function, const unsigned *references,
                                   size_t count, double *values);
 enum instance_status instance_set(struct instance *instance, const char *function, const unsigned *references,
@@ -77,14 +80,14 @@ struct instance_step {
 };
 enum instance_status instance_step(struct instance *instance, double t, double h, struct instance_step *step);
 
-/* ---- saved states (saved.c): bytes with a head that tells them from anything else */
+/* ---- saved states (saved.c): bytes with a header that identifies them */
 
 struct saved;
 enum instance_status saved_get(struct instance *instance, struct saved **saved);
 enum instance_status saved_set(struct instance *instance, const struct saved *saved);
 size_t saved_size(const struct saved *saved);
 const unsigned char *saved_bytes(const struct saved *saved);
-/* NULL when they are no such state, or memory is out. */
+/* NULL if the bytes are not a saved state, or memory is out. */
 struct saved *saved_from_bytes(const unsigned char *bytes, size_t size);
 
 #endif

@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * The binary of an FMU goes to other machines. The linker takes the newest version of each function of the C library,
- * and would ask for glibc 2.35 for `hypot` and 2.33 for `stat64` alone; the link option --wrap leads both here, to their
- * first versions, which every glibc for x86-64 has. The other functions need 2.29 (lib/meson.build).
+ * Compatibility of the FMU binary with older systems. The linker takes the newest version of each function of
+ * the C library, and would require glibc 2.35 only for `hypot` and 2.33 for `stat64`; the link option --wrap
+ * redirects both to these functions, which call the first versions, available in every glibc for x86-64. The
+ * other functions need 2.29 (lib/meson.build).
  */
 #include <sys/stat.h>
 

@@ -45,7 +45,7 @@ static bool is_whole(struct dim dim)
     return dim.mass % dim_unit == 0 && dim.length % dim_unit == 0 && dim.time % dim_unit == 0;
 }
 
-/* The dimension of a unit does not count radians; its name does. */
+/* The number of radians in the name of a unit, which its dimension does not contain. */
 static int radians(const char *name)
 {
     return strncmp(name, "rad", 3) == 0 ? dim_unit : strstr(name, "/rad") ? -dim_unit : 0;

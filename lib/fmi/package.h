@@ -1,13 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * What is in an FMU beside its binary, and how the binary finds it again.
+ * The contents of an FMU other than its binary, and their access by the binary.
  *
- *   modelDescription.xml
- *   binaries/x86_64-linux/NAME.so         (FMI 2.0: binaries/linux64)
- *   resources/model.yaml                  the model file as it is
- *   resources/settings                    lines of what was set when it was made: KEY VALUE
- *   resources/tables/NAME                 data files of its tables
- *   documentation/                        what it is, and its licence
+ * modelDescription.xml binaries/x86_64-linux/NAME.so         (FMI 2.0: binaries/linux64) resources/model.yaml
+ * the unchanged model file resources/settings                    settings at the export, as lines: KEY VALUE
+ * resources/tables/NAME                 data files of its tables documentation/
+ * description and licence
  */
 #ifndef FBD_FMI_PACKAGE_H
 #define FBD_FMI_PACKAGE_H
@@ -16,6 +14,7 @@
 
 #include "base/text.h"
 #include "fbd.h"
+#include "fbd_export.h"
 #include "fmi/variables.h"
 
 enum { package_name_size = 64, package_token_size = 40 };
@@ -26,11 +25,11 @@ struct package {
     struct fmi_variables variables;
     struct text settings;
     char name[package_name_size];   /* an identifier */
-    char token[package_token_size]; /* tells what was made of one model from what was made of another */
-    double until, tolerance;        /* as a run would have them */
+    char token[package_token_size]; /* identifies the model and settings */
+    double until, tolerance;        /* of a run with these settings */
 };
 
-/* What resources/settings says, in the words of options. */
+/* The contents of resources/settings as options. */
 struct package_settings {
     struct arena arena;
     fbd_options run;
@@ -38,15 +37,15 @@ struct package_settings {
     size_t count;
 };
 
-/* Read them from `text`, which is cut into pieces; tables stand in the folder `resources`. False when they are not
- * understood, or memory is out; free them all the same. */
+/* Read them from `text`, which is cut into pieces; tables are in the folder `resources`. Returns false when
+ * they are invalid, or memory is out; free them also then. */
 bool package_settings_read(struct package_settings *settings, char *text, const char *resources);
 void package_settings_free(struct package_settings *settings);
 
-/* The token of a model's text under such settings. */
+/* The token of a model's text with these settings. */
 void package_token(const char *text, size_t length, const char *settings, char token[package_token_size]);
 
-/* A number that tells bytes from others, from that of what stands before them: against accidents, not against malice. */
+/* Continue a hash, starting with package_hash_start; no protection against deliberate collisions. */
 extern const uint64_t package_hash_start;
 uint64_t package_hash(uint64_t before, const void *bytes, size_t length);
 
@@ -58,16 +57,16 @@ void package_describe_2(const struct package *package, struct text *xml);
 extern const unsigned char license_of_gpl[], license_of_libyaml[];
 extern const size_t license_of_gpl_length, license_of_libyaml_length;
 
-/* ---- what both have in common */
+/* ---- common to both versions */
 
-/* A text between the quotes of an attribute. */
+/* Append an attribute; the value is escaped. */
 void xml_attribute(struct text *xml, const char *name, const char *value);
 void xml_number(struct text *xml, const char *name, double value);
 
-/* Units of all variables, each once. */
+/* Append the units of all variables, each once. */
 void package_units(const struct package *package, struct text *xml);
 
-/* What a variable is, in a few words: "rate of change of block.x". */
+/* Append a short description of a variable: "rate of change of block.x". */
 void package_says(const struct package *package, const struct fmi_variable *variable, struct text *text);
 
 #endif

@@ -23,7 +23,7 @@ static bool no_memory(struct plant *plant)
     return fail(plant, "out of memory");
 }
 
-/* The first note is the reason. */
+/* Set the reason to the first error. */
 static bool fail_by(struct plant *plant, fbd_errors *errors)
 {
     const fbd_error *first = diag_get(errors, 0);
@@ -45,7 +45,7 @@ static bool is_own(const struct plant *plant, size_t index)
     return !parameter->derived && plant->values[index] != parameter->value;
 }
 
-/* Settings of the file, then what differs from it. */
+/* The settings of the FMU, then the changed values. */
 static fbd_setting *list_settings(const struct plant *plant, struct arena *arena, size_t *count)
 {
     size_t most = plant->settings.count + plant->parameter_count;
@@ -63,7 +63,7 @@ static fbd_setting *list_settings(const struct plant *plant, struct arena *arena
     return list;
 }
 
-/* The model with the values as they are. */
+/* Compile the model with the present values. */
 static struct fbd_model *make_model(struct plant *plant)
 {
     struct arena arena = {0};
@@ -83,7 +83,7 @@ static struct fbd_model *make_model(struct plant *plant)
 
 /* ---- opening */
 
-/* A copy that ends with a zero, in the place of `content`. */
+/* A zero-terminated copy of `content`, which is freed. */
 static char *terminate(char *content, size_t length, fbd_errors *errors)
 {
     char *text = content ? malloc(length + 1) : NULL;
@@ -96,7 +96,7 @@ static char *terminate(char *content, size_t length, fbd_errors *errors)
     return text;
 }
 
-/* A file of the resources and its path, both to be freed. */
+/* Read a file of the resources; text and path are to be freed. */
 static char *read_resource(const char *resources, const char *name, size_t *length, char **path,
                            fbd_errors *errors)
 {
@@ -148,7 +148,7 @@ struct plant *plant_open(const char *resources, fbd_errors *errors)
     return NULL;
 }
 
-/* Free what was made of the base. */
+/* Free model, simulation and state. */
 static void drop_run(struct plant *plant)
 {
     fbd_state_free(plant->state);
@@ -213,7 +213,7 @@ static fbd_options options_of(const struct plant *plant)
 
 void plant_begin(struct plant *plant, double start, double stop, double tolerance)
 {
-    const double least = 1e-14; /* what numbers resolve */
+    const double least = 1e-14; /* the smallest meaningful one in double precision */
     drop_run(plant);
     plant->running = true;
     plant->start = plant->t = start;
@@ -226,7 +226,7 @@ void plant_begin(struct plant *plant, double start, double stop, double toleranc
     plant->base.of_file = true;
 }
 
-/* The state that the base says, of its model. */
+/* A state of the model with the numbers of the base. */
 static fbd_state *state_of_base(struct plant *plant)
 {
     fbd_state *state = fbd_state_new(plant->model);
@@ -260,7 +260,7 @@ static bool start_simulation(struct plant *plant)
     return plant->simulation != NULL;
 }
 
-/* ---- looking and going on */
+/* ---- states and steps */
 
 static bool has_failed(const struct plant *plant)
 {
@@ -289,7 +289,7 @@ static bool look(struct plant *plant, double t)
     return true;
 }
 
-/* Make the simulation of the base, and let it make the steps that cover t. */
+/* Make the simulation of the base, and advance it to the step that contains t. */
 static bool make_run(struct plant *plant)
 {
     drop_run(plant);
@@ -309,7 +309,7 @@ static bool values_differ(const struct plant *plant)
     return false;
 }
 
-/* What follows begins at the state that there is. */
+/* Make the present state the base. */
 static bool take_state(struct plant *plant, double until)
 {
     size_t count = fbd_state_pack(plant->state, NULL, 0);
@@ -332,7 +332,7 @@ bool plant_update(struct plant *plant)
         take_values(plant);
         return make_run(plant);
     }
-    /* The state with the values before is what goes on. */
+    /* The state must first be reached with the previous values. */
     if (!fresh) {
         double *wanted = malloc((plant->parameter_count + 1) * sizeof *wanted);
         size_t size = plant->parameter_count * sizeof *wanted;
@@ -350,7 +350,7 @@ bool plant_update(struct plant *plant)
     return make_run(plant);
 }
 
-/* The end that its steps know of is reached, and the importer goes on: so do they, for as long again. */
+/* Prolong the simulation by its length, when the importer steps beyond its end. */
 static bool prolong(struct plant *plant)
 {
     double until = plant->base.until, length = fmax(until - plant->start, plant->settings.run.until);
@@ -358,7 +358,7 @@ static bool prolong(struct plant *plant)
     return look(plant, until) && take_state(plant, until + length) && make_run(plant);
 }
 
-/* The first event after t that the simulation has come to, or NAN. */
+/* The first event after t that the simulation has reached, or NAN. */
 static double next_event(const struct plant *plant)
 {
     const struct ensemble *ensemble = plant->simulation->ensemble;
@@ -402,7 +402,7 @@ double plant_get(const struct plant *plant, const struct fmi_variable *variable)
 
 /* ---- saving */
 
-/* The numbers before those of the state. */
+/* Indices of the numbers saved before the state. */
 enum {
     save_running,
     save_start,
@@ -444,7 +444,7 @@ static bool are_finite(const double *numbers, size_t count)
     return true;
 }
 
-/* Is the simulation that there is the one of these numbers, and does its last step cover their time? */
+/* True if the existing simulation is that of these numbers, and its last step contains their time. */
 static bool is_there(const struct plant *plant, const double *numbers, size_t count)
 {
     size_t parameters = plant->parameter_count;

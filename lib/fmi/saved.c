@@ -10,7 +10,7 @@ struct saved_head {
     char token[package_token_size];
     unsigned phase, stopped;
     size_t count;
-    uint64_t check; /* of all the rest */
+    uint64_t check; /* checksum of the rest */
 };
 
 struct saved {
@@ -20,7 +20,7 @@ struct saved {
 
 static const char magic[8] = {'f', 'b', 'd', ' ', 'f', 'm', 'u', '1'};
 
-/* What `check` is: of the head with 0 in its place, and of the numbers. */
+/* The checksum of the header, with 0 as `check`, and of the numbers. */
 static uint64_t check_of(const struct saved *saved)
 {
     struct saved_head head = saved->head;

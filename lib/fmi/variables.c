@@ -26,7 +26,7 @@ static void add_parameters(struct fmi_variables *variables, const struct scene *
     }
 }
 
-/* A coordinate, its rate and its acceleration one after the other. */
+/* Add each coordinate, followed by its rate and its acceleration. */
 static void add_motion(struct fmi_variables *variables, const struct fbd_model *model)
 {
     size_t n = model->scene->coordinate_count;
@@ -86,7 +86,7 @@ bool fmi_is_output(const struct fmi_variable *variable)
     return variable->kind >= fmi_coordinate;
 }
 
-/* Does an expression remember (`hysteresis`)? With the time as a constant it may have no place for that. */
+/* True if an expression has a memory (`hysteresis`), which a model with constant time may lack. */
 static bool remembers(const struct plan *plan)
 {
     for (size_t i = 0; i < plan->kink_count; i++)

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * The variables of an FMU: time, the parameters and inputs of the file, then what a run computes. A variable's value
- * reference is its place in the list, so that its description and the binary agree by making the same list.
+ * The variables of an FMU: time, the parameters and inputs of the file, then the results of a run. The value
+ * reference of a variable is its index in the list, which description and binary construct in the same way.
  */
 #ifndef FBD_FMI_VARIABLES_H
 #define FBD_FMI_VARIABLES_H
@@ -12,13 +12,13 @@
 enum fmi_kind {
     fmi_time,
     fmi_parameter,
-    fmi_calculated, /* a parameter that the file defines by others */
+    fmi_calculated, /* a parameter defined in the file by others */
     fmi_input,
     fmi_coordinate,
     fmi_rate,
     fmi_acceleration,
     fmi_state, /* of `states` */
-    fmi_point, /* a place, velocity or acceleration of `output: {points: ...}` */
+    fmi_point, /* position, velocity or acceleration of `output: {points: ...}` */
 };
 
 struct fmi_variable {
@@ -35,17 +35,17 @@ struct fmi_variables {
     size_t count;
 };
 
-/* False when memory is out; free it all the same. The model must outlive the list. */
+/* Returns false when memory is out; free it also then. The model must outlive the list. */
 bool fmi_variables_init(struct fmi_variables *variables, const struct fbd_model *model);
 void fmi_variables_free(struct fmi_variables *variables);
 
 bool fmi_is_output(const struct fmi_variable *variable);
 
-/* Can directional derivatives be had of all outputs? Not of points, not where a motion is prescribed, and not with a
- * memory. */
+/* True if directional derivatives of all outputs are available: not with points, prescribed motions or
+ * expressions with a memory. */
 bool fmi_has_derivatives(const struct fbd_model *model);
 
-/* The value of one that is no parameter or input; the state has been evaluated. */
+/* The value of a variable that is no parameter or input, in an evaluated state. */
 double fmi_value(const struct fmi_variable *variable, const struct fbd_state *state);
 
 #endif

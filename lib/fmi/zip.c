@@ -4,7 +4,7 @@
 #include <stdint.h>
 #include <string.h>
 
-/* CRC-32 of ISO 3309, bit by bit: its table would be longer than what is gained. */
+/* CRC-32 of ISO 3309, bit by bit: a table is not worth its length. */
 static uint32_t checksum(const char *bytes, size_t length)
 {
     uint32_t crc = UINT32_MAX;
@@ -15,7 +15,7 @@ static uint32_t checksum(const char *bytes, size_t length)
     return ~crc;
 }
 
-/* Little endian. */
+/* Append a number, little endian. */
 static void put(struct text *text, uint32_t number, int bytes)
 {
     for (int i = 0; i < bytes; i++) {
@@ -24,8 +24,8 @@ static void put(struct text *text, uint32_t number, int bytes)
     }
 }
 
-/* What the header of a file and its entry in the directory have in common: version 1.0, names in UTF-8, stored, midnight
- * of 1 January 1980. */
+/* Append the common part of a file header and a directory entry: version 1.0, names in UTF-8, stored,
+ * midnight of 1 January 1980. */
 static void put_common(struct text *text, uint32_t crc, size_t length, size_t name_length)
 {
     put(text, 10, 2);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
  * A zip archive of stored files (PKWARE's APPNOTE.TXT 6.3, sections 4.3.7 and 4.3.12 to 4.3.16): nothing is
- * compressed, so that no library is needed for it, and equal contents make equal bytes, for all files are of 1980.
+ * compressed, so that no library is needed. Equal contents give equal bytes, since all files are dated 1980.
  */
 #ifndef FBD_FMI_ZIP_H
 #define FBD_FMI_ZIP_H
@@ -11,12 +11,12 @@
 struct zip {
     struct text files, directory;
     unsigned count;
-    bool failed; /* memory, or more than 4 GB or 65,535 files */
+    bool failed; /* out of memory, or more than 4 GB or 65,535 files */
 };
 
 void zip_add(struct zip *zip, const char *name, const char *bytes, size_t length);
 
-/* The archive, to be freed with free(); NULL when something failed. The zip is empty afterwards. */
+/* The archive, to be freed with free(); NULL after a failure. The zip is empty afterwards. */
 char *zip_finish(struct zip *zip, size_t *length);
 
 #endif

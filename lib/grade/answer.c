@@ -7,6 +7,7 @@
 #include <sys/stat.h>
 
 #include "base/file.h"
+#include "fbd_grade.h"
 #include "grade/lines.h"
 #include "output/hand_forces.h"
 #include "scene/node_edit.h"

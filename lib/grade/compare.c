@@ -8,6 +8,7 @@
 
 #include "dynamics/diagram.h"
 #include "dynamics/kinematics.h"
+#include "fbd_grade.h"
 #include "grade/compare.h"
 #include "grade/reactions.h"
 #include "grade/verdict.h"

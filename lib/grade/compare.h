@@ -5,6 +5,7 @@
 #ifndef FBD_GRADE_COMPARE_H
 #define FBD_GRADE_COMPARE_H
 
+#include "fbd_grade.h"
 #include "grade/grade.h"
 
 /* A force and a moment at one state: in the world, in the units of the key, about the key's centre of mass. */

@@ -9,6 +9,7 @@
 #include <string.h>
 
 #include "base/text.h"
+#include "fbd_grade.h"
 #include "grade/lines.h"
 #include "scene/node_edit.h"
 

@@ -11,6 +11,7 @@
 #include <string.h>
 
 #include "base/text.h"
+#include "fbd_grade.h"
 #include "grade/lines.h"
 #include "scene/node_edit.h"
 #include "scene/quantity.h"

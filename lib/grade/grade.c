@@ -8,6 +8,7 @@
 #include "base/api_check.h"
 #include "base/file.h"
 #include "base/text.h"
+#include "fbd_grade.h"
 #include "grade/grade.h"
 
 /* The name of a file without folders and ending. */

@@ -15,6 +15,7 @@
 #define FBD_GRADE_GRADE_H
 
 #include "dynamics/modes.h"
+#include "fbd_grade.h"
 #include "model/model.h"
 #include "scene/names.h"
 #include "scene/node.h"

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/text.h"
+#include "fbd_grade.h"
 #include "grade/grade.h"
 
 static char *finish(struct text *text)

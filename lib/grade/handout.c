@@ -7,6 +7,7 @@
 
 #include "base/api_check.h"
 #include "base/text.h"
+#include "fbd_grade.h"
 #include "grade/handout.h"
 
 /* Of the file, and of a body: what the student is to find out, and what the teacher says for himself. */

@@ -6,6 +6,7 @@
 #define FBD_GRADE_HANDOUT_H
 
 #include "base/text.h"
+#include "fbd_grade.h"
 #include "grade/grade.h"
 
 struct handout {

@@ -10,6 +10,7 @@
 #include "base/file.h"
 #include "base/text.h"
 #include "dynamics/diagram.h"
+#include "fbd_grade.h"
 #include "grade/grade.h"
 #include "output/hand_forces.h"
 #include "study/draws.h"

@@ -5,6 +5,7 @@
 #ifndef FBD_GRADE_LINES_H
 #define FBD_GRADE_LINES_H
 
+#include "fbd_grade.h"
 #include "grade/grade.h"
 #include "output/hand.h"
 

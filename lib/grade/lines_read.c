@@ -4,6 +4,7 @@
  */
 #include <string.h>
 
+#include "fbd_grade.h"
 #include "grade/lines.h"
 #include "scene/node_edit.h"
 

@@ -10,6 +10,7 @@
 #include <limits.h>
 #include <string.h>
 
+#include "fbd_grade.h"
 #include "grade/grade.h"
 
 /* Lines from..to of the text, the last one not included; counted from 1. */

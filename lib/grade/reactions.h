@@ -10,6 +10,7 @@
 #define FBD_GRADE_REACTIONS_H
 
 #include "dynamics/diagram.h"
+#include "fbd_grade.h"
 #include "grade/compare.h"
 
 /* The coupling, contact or guide that exerts it. */

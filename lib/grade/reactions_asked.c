@@ -9,6 +9,7 @@
 
 #include "dynamics/constraint.h"
 #include "dynamics/tree.h"
+#include "fbd_grade.h"
 
 /* Forces below this share of the largest one are zero: reactions are solutions of systems of equations. */
 const double reaction_zero = 1e-7;

@@ -9,6 +9,7 @@
  */
 #include <stdlib.h>
 
+#include "fbd_grade.h"
 #include "grade/reactions_work.h"
 
 /* A force or moment of the key, or the sum of two at one point. */

@@ -9,6 +9,8 @@
 #include "dynamics/diagram.h"
 #include "dynamics/kinematics.h"
 #include "dynamics/project.h"
+#include "fbd_export.h"
+#include "fbd_grade.h"
 #include "grade/handout.h"
 #include "output/random_state.h"
 #include "output/words.h"

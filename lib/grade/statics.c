@@ -12,6 +12,7 @@
 #include <string.h>
 
 #include "dynamics/project.h"
+#include "fbd_grade.h"
 #include "grade/lines.h"
 #include "output/hand_forces.h"
 #include "output/random_state.h"

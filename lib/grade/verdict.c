@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/text.h"
+#include "fbd_grade.h"
 #include "grade/verdict_work.h"
 
 static const struct pos nowhere = {0, 0};

@@ -5,6 +5,7 @@
 #ifndef FBD_GRADE_VERDICT_H
 #define FBD_GRADE_VERDICT_H
 
+#include "fbd_grade.h"
 #include "grade/compare.h"
 
 /* The body is not there; it moves in another way. */

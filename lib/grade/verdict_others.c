@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/text.h"
+#include "fbd_grade.h"
 #include "grade/verdict.h"
 
 static const struct pos nowhere = {0, 0};

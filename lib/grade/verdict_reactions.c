@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/text.h"
+#include "fbd_grade.h"
 #include "grade/reactions_work.h"
 #include "grade/verdict_work.h"
 

@@ -5,6 +5,7 @@
 #ifndef FBD_GRADE_VERDICT_WORK_H
 #define FBD_GRADE_VERDICT_WORK_H
 
+#include "fbd_grade.h"
 #include "grade/reactions.h"
 #include "grade/verdict.h"
 

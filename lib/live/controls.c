@@ -1,16 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * What of a file can be moved by a slider or switched off, and where it stands in the text:
+ * The elements of a file that can be changed by a slider or switched off, and their positions in the text:
  *
- * - parameters: {name, unit, value, low, high, description, input, derived, written}
- * - initial: {name, unit, value, written} of coordinates, rates and states of the file's own
- * - until, method, tolerance: {unit, value, written}
- * - effects: {name, line}
- * - methods: their names
+ * - parameters: {name, unit, value, low, high, description, input, derived, written} - initial: {name, unit,
+ * value, written} of coordinates, rates and user states - until, method, tolerance: {unit, value, written} -
+ * effects: {name, line} - methods: their names
  *
- * written: {from, to} of the text in UTF-16 units, as scripts count; with `number` and `factor` where it is a number with
- * a unit (value = factor * number), else whatever the file has there (an expression, a word). Without `to` nothing is
- * written yet: at `from` stands then `before`, the value, and `behind`.
+ * written: {from, to} of the text in UTF-16 units, as scripts count; with `number` and `factor` if it is a
+ * number with a unit (value = factor * number), otherwise the file has an expression or a word there. Without
+ * `to` the value is not written yet: it is to be inserted at `from` between the texts `before` and `behind`.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -20,6 +18,7 @@
 #include "base/diag.h"
 #include "draw/page_json.h"
 #include "expr/unit.h"
+#include "fbd_export.h"
 #include "integrate/method.h"
 #include "live/live.h"
 
@@ -27,10 +26,11 @@ struct controls {
     const struct fbd_model *model;
     const struct spans *spans;
     struct text *text;
-    size_t at, units; /* bytes from the start, and how many units they are */
+    size_t at, units; /* bytes from the start, and the equivalent number of UTF-16 units */
 };
 
-/* How many UTF-16 units stand before a byte: places are mostly asked for in ascending order. */
+/* The number of UTF-16 units before a byte; continues from the last position, since calls are mostly in
+ * ascending order. */
 static size_t units_before(struct controls *controls, size_t at)
 {
     if (at < controls->at) controls->at = controls->units = 0;
@@ -41,14 +41,14 @@ static size_t units_before(struct controls *controls, size_t at)
     return controls->units;
 }
 
-/* ---- what is written */
+/* ---- existing values */
 
 static size_t span_length(struct span span)
 {
     return span.to - span.from;
 }
 
-/* A number with a unit of the table behind it, or without one. */
+/* True for a number, with or without a unit of the table. */
 static bool is_quantity(struct controls *controls, struct span span, size_t *digits, double *factor)
 {
     const char *source = controls->model->source + span.from;
@@ -93,7 +93,7 @@ static void write_place(struct controls *controls, int value)
     text_printf(text, "\"to\":%zu}", units_before(controls, span.to));
 }
 
-/* The value would stand at `from` between two texts. */
+/* Write the position `from` of a missing value, and the texts around it. */
 static void write_gap(struct controls *controls, size_t from, const char *before, const char *behind)
 {
     text_printf(controls->text, "{\"from\":%zu,", units_before(controls, from));
@@ -103,7 +103,7 @@ static void write_gap(struct controls *controls, size_t from, const char *before
     text_add(controls->text, "}");
 }
 
-/* The blanks in front of a byte that stands first on its line; NULL when it does not. */
+/* The blanks before the first character of a line; NULL if `at` is not the first one. */
 static char *indent_of(const struct controls *controls, size_t at)
 {
     const char *source = controls->model->source;
@@ -117,7 +117,7 @@ static char *indent_of(const struct controls *controls, size_t at)
     return indent;
 }
 
-/* A pair `key` behind the last one of a mapping that has some. */
+/* Write the position of a new pair `key` after the last one of a nonempty mapping. */
 static void write_new_pair(struct controls *controls, int map, const char *key, const char *open,
                            const char *close)
 {
@@ -134,7 +134,7 @@ static void write_new_pair(struct controls *controls, int map, const char *key, 
         text_printf(&before, ", %s: %s", key, open);
     else if (indent)
         text_printf(&before, "\n%s%s: %s", indent, key, open);
-    if (indent) { /* behind a comment on that line */
+    if (indent) { /* after a comment on that line */
         const char *end = memchr(controls->model->source + at, '\n', controls->model->source_length - at);
         at = end ? (size_t)(end - controls->model->source) : controls->model->source_length;
     }
@@ -181,7 +181,7 @@ static void write_parameters(struct controls *controls)
     text_add(controls->text, "],\n");
 }
 
-/* Can its initial value be given freely, though the file does not? */
+/* True if initial values may be added that the file does not give. */
 static bool starts_freely(const struct body *body)
 {
     return !body->assemble && body->motion.kind != motion_track && !body->motion.prescribed.expr;

@@ -1,17 +1,18 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * The text of a model without some of its effects. What stands on lines of its own becomes a comment, so that the
- * lines keep their numbers and whoever reads the file sees what is missing; what stands in brackets is cut out. A body
- * that lacks an effect loses its derivations by hand as well: they were made for the whole scene.
+ * The text of a model without some of its effects. Entries on lines of their own become comments, so that
+ * line numbers are kept and the missing effects remain visible; entries in brackets are cut out. A body that
+ * lacks an effect also loses its derivations by hand, which are those of the complete scene.
  */
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/api_check.h"
 #include "base/diag.h"
+#include "fbd_export.h"
 #include "live/live.h"
 
-/* Bytes `from` to before `to` give way to `with`. */
+/* Replace the bytes `from` to before `to` by `with`. */
 struct change {
     size_t from, to;
     const char *with;
@@ -48,7 +49,7 @@ static size_t line_start(const struct changes *changes, size_t at)
     return at;
 }
 
-/* The lines from `from` on, where the entry begins, to that of `to`, each from the same column on. */
+/* Comment out the lines from `from`, the start of the entry, to that of `to`, each from the same column on. */
 static void comment_out(struct changes *changes, size_t from, size_t to)
 {
     size_t column = from - line_start(changes, from);
@@ -64,7 +65,7 @@ static void comment_out(struct changes *changes, size_t from, size_t to)
     }
 }
 
-/* The dash in front of an entry of a list. */
+/* The position of the dash before an entry of a list. */
 static size_t dash_before(const struct changes *changes, size_t from)
 {
     size_t at = from;
@@ -72,7 +73,7 @@ static size_t dash_before(const struct changes *changes, size_t from)
     return at > 0 && changes->text[at - 1] == '-' ? at - 1 : from;
 }
 
-/* ---- entries in brackets: with the comma that follows, those at the end with the one before */
+/* ---- entries in brackets: cut with the following comma, at the end of the list with the preceding one */
 
 static void cut_entry(struct changes *changes, const struct span *entries, const bool *off, size_t count,
                       size_t index)
@@ -99,7 +100,7 @@ struct leaving {
     struct changes changes;
 };
 
-/* The entries of the list that effect `first` is the first one of; returns the effect behind them. */
+/* Remove entries of the list of effect `first`, its first one; returns the index after its last effect. */
 static size_t leave_out_of_list(struct leaving *leaving, size_t first)
 {
     const struct live_effect *effect = &leaving->effects[first];
@@ -136,7 +137,7 @@ static size_t leave_out_of_list(struct leaving *leaving, size_t first)
     return end;
 }
 
-/* Of the mapping of a body. */
+/* Remove the derivations in the mapping of a body. */
 static void leave_out_hand(struct leaving *leaving, int body)
 {
     const struct spans *spans = leaving->spans;
@@ -172,7 +173,7 @@ static void apply(struct text *text, struct changes *changes)
     if (changes->count > 0) qsort(changes->list, changes->count, sizeof *changes->list, by_place);
     for (size_t i = 0; i < changes->count; i++) {
         const struct change *now = &changes->list[i];
-        if (now->from < at) continue; /* within what has gone already */
+        if (now->from < at) continue; /* inside a removed part */
         text_add_bytes(text, changes->text + at, now->from - at);
         text_add(text, now->with);
         at = now->to;
@@ -184,7 +185,7 @@ static void apply(struct text *text, struct changes *changes)
 static void leave_out(struct leaving *leaving)
 {
     for (size_t i = 0; i < leaving->count;) i = leave_out_of_list(leaving, i);
-    int done = 0; /* effects of one body follow each other */
+    int done = 0; /* effects of one body are contiguous */
     for (size_t i = 0; i < leaving->count; i++) {
         if (!leaving->off[i] || !leaving->effects[i].body || leaving->effects[i].owner == done) continue;
         done = leaving->effects[i].owner;

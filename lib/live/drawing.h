@@ -8,8 +8,9 @@
 #include "base/text.h"
 #include "dynamics/state.h"
 
-/* The bodies of a sheet in an evaluated state as a JSON array (its members are listed in drawing_body.c), and their pictures as
- * elements of SVG in HTML. A sheet has nothing of its key, and so have these. False when memory is out. */
+/* Append the bodies of a sheet in an evaluated state as a JSON array (its members: drawing_body.c), and their
+ * pictures as SVG elements for HTML. Neither contains any part of the key, as the sheet has none. Returns
+ * false when memory is out. */
 bool drawing_add_bodies(struct text *text, struct text *pictures, const struct fbd_state *state);
 
 #endif

@@ -2,11 +2,10 @@
  *
  * The data of each body for the drawing page, with lengths on paper in millimetres, y down:
  *
- * - name, box: [left, top, width, height] of its picture
- * - points: to which a force may be snapped, {name, paper: [x, y], at}, `at` as the file says it, "" for the usual place
- * - directions: {name, degrees, angle, body}, `angle` as the file says it, `body`: it turns with the body
- * - frame of places beside the points: {paper: [x, y] of its origin, degrees, millimetres per length}, or
- *   null where the body has no size
+ * - name, box: [left, top, width, height] of its picture - points: snap points of forces, {name, paper: [x,
+ * y], at}, `at` as in the file, "" for the default point - directions: {name, degrees, angle, body}, `angle`
+ * as in the file, `body`: it turns with the body - frame for positions other than the points: {paper: [x, y]
+ * of its origin, degrees, millimetres per length}, or null if the body has no size
  */
 #include "live/drawing.h"
 
@@ -18,6 +17,7 @@
 #include "draw/panel.h"
 #include "dynamics/constraint.h"
 #include "dynamics/tree.h"
+#include "fbd_export.h"
 #include "model/outline.h"
 
 static const double pi = 3.141592653589793;
@@ -64,7 +64,7 @@ static void add_named_point(struct cut_free *cut, const char *name, struct vec p
     if (begin_point(cut, on_paper(cut, point))) end_point(cut, name, name);
 }
 
-/* A point of the body frame. */
+/* Add a point of the body frame. */
 static void add_point(struct cut_free *cut, const char *name, struct vec point)
 {
     char at[80];
@@ -72,7 +72,7 @@ static void add_point(struct cut_free *cut, const char *name, struct vec point)
     if (begin_point(cut, on_paper(cut, point))) end_point(cut, name, at);
 }
 
-/* A point that keeps its distance from the centre of a circle along the axes of the world. */
+/* Add a point at a constant offset, in the axes of the world, from the centre of a circle. */
 static void add_point_beside(struct cut_free *cut, const char *name, struct vec center, struct vec offset)
 {
     const struct panel *panel = &cut->panel;
@@ -84,7 +84,7 @@ static void add_point_beside(struct cut_free *cut, const char *name, struct vec 
     if (begin_point(cut, vec_add(on_paper(cut, center), on_body))) end_point(cut, name, at);
 }
 
-/* "lower left": the nearest of eight directions on paper. */
+/* The nearest of eight directions on paper: "lower left". */
 static const char *side_of(struct vec way)
 {
     static const char *const words[3][3] = {{"upper left", "upper", "upper right"},
@@ -100,7 +100,7 @@ static const char *side_of(struct vec way)
     return words[row][column];
 }
 
-/* Corner i lies between the middles of two sides, and is called so, however long they are. */
+/* Add corners; corner i is named by the two sides that meet there. */
 static void add_corners(struct cut_free *cut, const struct outline_part *part)
 {
     char name[60];
@@ -156,7 +156,8 @@ static struct vec in_body(const struct cut_free *cut, struct vec world)
     return vec_add(cut->panel.body->pin, vec_turn(back, arm));
 }
 
-/* Where a coupling, a contact or another body acts: on a circle, at the place that it keeps while the body turns. */
+/* Add the point of action of a coupling, a contact or another body; on a circle, at a constant offset from
+ * its centre. */
 static void add_place(struct cut_free *cut, const char *acting, struct vec world)
 {
     const struct body *source = cut->panel.body->source;
@@ -173,7 +174,7 @@ static void add_place(struct cut_free *cut, const char *acting, struct vec world
     add_point(cut, name, point);
 }
 
-/* Those of one end of a coupling or contact; one that is open has none. */
+/* Add the points of one end of a coupling or contact; an open one has none. */
 static void add_places_of_end(struct cut_free *cut, const struct coupling *coupling, int end)
 {
     const struct tree_work *tree = cut->panel.at.tree;
@@ -192,7 +193,7 @@ static void add_places(struct cut_free *cut)
     for (int i = 0; tree && i < tree->coupling_count; i++)
         for (int end = 0; end < tree->couplings[i].end_count; end++)
             if (tree->couplings[i].end[end].body == index) add_places_of_end(cut, &tree->couplings[i], end);
-    for (size_t b = 0; b < model->body_count; b++) { /* a slide acts on all of its surface */
+    for (size_t b = 0; b < model->body_count; b++) { /* a slide acts on its whole surface */
         const struct model_body *other = &model->bodies[b];
         if (other->parent == index && other->kind != motion_slide)
             add_place(cut, other->name, cut->panel.at.tree->links[other->place.link].p);
@@ -230,7 +231,7 @@ static void add_direction(struct cut_free *cut, const char *name, double world, 
     text_printf(cut->text, ",\"body\":%s}", body ? "true" : "false");
 }
 
-/* Along a line and across it, both ways. */
+/* Add the directions along a line and across it, in both senses. */
 static void add_line(struct cut_free *cut, const char *along, const char *across, double angle, bool body)
 {
     for (int quarter = 0; quarter < 4; quarter++) {
@@ -263,7 +264,7 @@ static struct vec place_of_end(const struct cut_free *cut, const struct constrai
     return point_motion(body, &pose, point->kind == point_fixed ? point->where : body->inertia.G).p;
 }
 
-/* From a place of a rod or rope on this body to its next place, and back. */
+/* Add the directions from a point of a rod or rope on this body to its next point, and back. */
 static void add_strand(struct cut_free *cut, const struct constraint *source, int from, int to)
 {
     int index = (int)(cut->panel.body - cut->panel.model->bodies);

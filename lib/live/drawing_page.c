@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * The sheet of a student as one HTML file to draw on: lib/live/drawing, with the key and the library itself where the
+ * The sheet of a student as one HTML file to draw on: lib/live/drawing, with the key and the library if the
  * page grades the drawing.
  */
 #include <stdlib.h>
@@ -11,6 +11,8 @@
 #include "draw/page.h"
 #include "draw/page_json.h"
 #include "draw/svg.h"
+#include "fbd_export.h"
+#include "fbd_grade.h"
 #include "grade/handout.h"
 #include "live/drawing.h"
 #include "live/live.h"
@@ -41,12 +43,12 @@ static bool write_sheet(const struct drawing_page *page, struct text *text, bool
     return done;
 }
 
-/* The sheet as the student gets it, compiled, with the inertia that a motion needs: the pictures and points of its bodies
- * follow from nothing else. */
+/* Compile the sheet of the student with the inertia that a motion requires; the pictures and points of its
+ * bodies depend on nothing else. */
 static bool compile_sheet(struct drawing_page *page, fbd_errors *errors)
 {
     struct text plain = {0};
-    fbd_errors *others = fbd_errors_new(); /* its warnings are for the author of the key, who has been told */
+    fbd_errors *others = fbd_errors_new(); /* warnings are for the author of the key, who got them before */
     if (others && write_sheet(page, &plain, false))
         page->sheet = fbd_model_parse(plain.data, plain.length, page->key->file, NULL, 0, others);
     const fbd_error *error = page->sheet || !others || others->out_of_memory ? NULL : first_error(others);
@@ -87,7 +89,7 @@ static bool add_bodies(struct drawing_page *page, fbd_errors *errors)
     return done;
 }
 
-/* A member with a text that is made of pieces. */
+/* Append a member with a composed text. */
 static void add_made(struct text *text, const char *name, struct text *made)
 {
     text_add_bytes(made, "", 1);
@@ -96,7 +98,7 @@ static void add_made(struct text *text, const char *name, struct text *made)
     text_free(made);
 }
 
-/* The text before and behind the places where an answer has its lists: see drawing_body.c for the bodies. */
+/* Make the data: the texts around the lists of an answer, and the bodies (drawing_body.c). */
 static bool make_data(struct drawing_page *page, bool exam, fbd_errors *errors)
 {
     struct text *text = &page->data, reactions = {0};
@@ -176,7 +178,7 @@ static char *fill(const struct drawing_page *page, bool grades, fbd_errors *erro
                                 {"LIVE-PARTS", live_write_parts, &page->engine},
                                 {"LIVE-ENGINE", write_engine, "engine.js"},
                                 {0}};
-    if (!grades) parts[5] = (struct page_part){0}; /* no list behind it either */
+    if (!grades) parts[5] = (struct page_part){0}; /* nor a list after it */
     struct text text = {0};
     page_fill(&text, page_asset_find("drawing.html"), parts);
     if (!text.failed && !page->data.failed && !page->engine.failed) return text.data;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Which entries of the text list an effect. A load or coupling of the scene knows where its entry begins: that tells
- * its name.
+ * The entries of the text that list an effect. A load or coupling of the scene has the position of its entry,
+ * by which its name is found.
  */
 #include <string.h>
 
@@ -36,7 +36,7 @@ static const char *coupling_at(const struct scene *scene, int line, int column)
     return NULL;
 }
 
-/* Entries of `body`, or without one of the file; what stands outside of the list is an alias. */
+/* Add the entries of `body`, or of the file if it is NULL; a position outside the list is that of an alias. */
 static void list_entries(struct listing *listing, const struct body *body, int owner, const char *key)
 {
     const struct spans *spans = listing->spans;

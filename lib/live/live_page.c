@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * The page of a run with the library itself in it: lib/live/page on top of lib/draw/page.
+ * The page of a run with the library included: lib/live/page on top of lib/draw/page.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -11,10 +11,11 @@
 #include "base/file.h"
 #include "draw/page.h"
 #include "draw/page_json.h"
+#include "fbd_export.h"
 #include "live/live.h"
 #include "record/result.h"
 
-/* What the page may have in all; what is not its numbers takes some 900 KB, and base 64 four bytes for three. */
+/* Maximum sizes. The page without its numbers takes some 900 KB, and base 64 makes four bytes of three. */
 enum { most_page_bytes = 2000000, most_script_bytes = 260000 };
 
 struct live_page {
@@ -31,7 +32,7 @@ bool fbd_has_live(void)
 
 /* ---- the parts */
 
-/* WebAssembly is compiled, and a worker is made of the page's own text; still nothing is asked for. */
+/* Permits compiling WebAssembly, and a worker from the page's own text, but no requests. */
 void live_write_policy(struct text *text, const void *context)
 {
     (void)context;
@@ -77,7 +78,7 @@ static void add_script(struct text *text, const char *name)
     text_free(&copy);
 }
 
-/* The data file of a table under the name that the model has for it. */
+/* Append the data file of a table under its name in the model. */
 static bool add_file(struct text *text, const struct scene *scene, const char *path, size_t index,
                      fbd_errors *errors)
 {
@@ -111,7 +112,7 @@ bool live_add_engine(struct text *text, const struct scene *scene, fbd_errors *e
     return done;
 }
 
-/* What was said on the command line, by the keys of the sliders. */
+/* Append the settings of the command line, by the keys of the sliders. */
 static void add_moved(struct text *text, const fbd_live_options *options)
 {
     const fbd_options *run = options->run;
@@ -148,7 +149,7 @@ static bool make_parts(struct live_page *page, const struct fbd_model *model, co
     return done;
 }
 
-/* What is left for the numbers of the run that the page comes with. */
+/* The bytes that remain for the numbers of the initial run. */
 static size_t room_for_numbers(const struct live_page *page)
 {
     size_t taken = page->wasm->size + page->parts.length + most_script_bytes;

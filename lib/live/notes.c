@@ -4,6 +4,7 @@
  */
 #include "base/diag.h"
 #include "draw/page_json.h"
+#include "fbd_export.h"
 
 static void write_note(struct text *text, const fbd_error *error)
 {

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 
 #include "dynamics/kinematics.h"
+#include "fbd_export.h"
 #include "output/display_units.h"
 #include "output/kinematic_lines.h"
 #include "output/terms.h"

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/api_check.h"
+#include "fbd_export.h"
 #include "output/kinematic_lines.h"
 
 /* N*m, kg*m^2, m/s^2 upright. */

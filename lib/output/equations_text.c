@@ -5,6 +5,7 @@
 #include <stdlib.h>
 
 #include "dynamics/friction.h"
+#include "fbd_export.h"
 #include "output/equations.h"
 #include "output/formulas.h"
 #include "output/kinematic_lines.h"

@@ -9,6 +9,7 @@
 
 #include "base/api_check.h"
 #include "dynamics/modes.h"
+#include "fbd_export.h"
 #include "integrate/method.h"
 #include "output/couplings.h"
 #include "output/explain_structure.h"

@@ -8,6 +8,7 @@
 #include "base/diag.h"
 #include "dynamics/diagram.h"
 #include "dynamics/mass.h"
+#include "fbd_grade.h"
 #include "output/hand_forces.h"
 #include "output/random_state.h"
 

@@ -3,6 +3,7 @@
  * A linearisation as one JSON object (docs/output.md).
  */
 #include "base/text.h"
+#include "fbd_study.h"
 #include "output/display_units.h"
 #include "rest/linearize.h"
 

@@ -5,6 +5,7 @@
 #include <math.h>
 
 #include "base/text.h"
+#include "fbd_study.h"
 #include "output/display_units.h"
 #include "rest/linearize.h"
 

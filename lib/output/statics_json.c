@@ -3,6 +3,7 @@
  * A scene at rest for programs: its free-body diagrams by name, and as one JSON object (docs/output.md).
  */
 #include "dynamics/spatial.h"
+#include "fbd_study.h"
 #include "output/display_units.h"
 #include "output/equations.h"
 #include "record/result.h"

@@ -4,6 +4,7 @@
  */
 #include <string.h>
 
+#include "fbd_study.h"
 #include "output/display_units.h"
 #include "output/equations.h"
 #include "output/words.h"

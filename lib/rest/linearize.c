@@ -11,6 +11,7 @@
 #include "dynamics/nonfinite.h"
 #include "dynamics/project.h"
 #include "dynamics/tree_driven.h"
+#include "fbd_study.h"
 #include "rest/eigenvalues.h"
 #include "rest/equilibrium.h"
 #include "rest/independent.h"

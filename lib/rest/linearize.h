@@ -15,6 +15,7 @@
 #define FBD_REST_LINEARIZE_H
 
 #include "dynamics/state.h"
+#include "fbd_study.h"
 
 struct fbd_linearization {
     const struct fbd_model *model;

@@ -12,6 +12,7 @@
 #include "dynamics/statics.h"
 #include "dynamics/user_states.h"
 #include "expr/table.h"
+#include "fbd_study.h"
 #include "rest/balance.h"
 #include "rest/equilibrium.h"
 #include "rest/start.h"

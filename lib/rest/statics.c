@@ -9,6 +9,7 @@
 #include "base/diag.h"
 #include "dynamics/nonfinite.h"
 #include "dynamics/project.h"
+#include "fbd_study.h"
 #include "rest/start.h"
 
 /* ---- the start: it has to fit its couplings */

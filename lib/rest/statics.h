@@ -18,6 +18,7 @@
 #include "dynamics/constraint.h"
 #include "dynamics/diagram.h"
 #include "dynamics/rest_system.h"
+#include "fbd_study.h"
 
 /* The free-body diagram of one body at rest. */
 struct rest_diagram {

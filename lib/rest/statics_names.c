@@ -7,6 +7,7 @@
 #include <gsl/gsl_linalg.h>
 #include <math.h>
 
+#include "fbd_study.h"
 #include "model/labels.h"
 #include "numeric/svd.h"
 #include "rest/statics.h"

@@ -1,20 +1,22 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * What the points of a study say: the Pareto front, the observed orders, the cheapest way to an accuracy.
+ * Analysis of the points of a study: the Pareto front, the observed orders, the cheapest setting for an
+ * accuracy.
  */
 #include <math.h>
 #include <string.h>
 
+#include "fbd_study.h"
 #include "integrate/method.h"
 #include "study/cost.h"
 
-/* Below the floor all errors are alike. */
+/* The error, but at least the floor, below which errors are indistinguishable. */
 static double certain_error(const struct fbd_cost *cost, const fbd_point *point)
 {
     return fmax(point->error, cost->reference.floor);
 }
 
-/* An error of the size of the motion itself is no answer, however cheap. */
+/* False for an error as large as the motion itself. */
 static bool is_answer(const fbd_point *point)
 {
     return point->state == FBD_POINT_MEASURED && point->error < 1 && point->seconds > 0;
@@ -35,7 +37,7 @@ static void mark_front(struct fbd_cost *cost)
     }
 }
 
-/* Where a ladder stops to get better: beyond it roundings add up. */
+/* The most accurate point of a ladder: beyond it rounding errors accumulate. */
 static size_t best_of(const struct fbd_cost *cost, const fbd_series *series)
 {
     size_t best = series->first;
@@ -58,7 +60,7 @@ static void fit_add(struct fit *fit, double x, double y)
     fit->xx += x * x, fit->xy += x * y, fit->yy += y * y;
 }
 
-/* The slope, or NAN where the points are too few, too near, or not on a line (r^2 below 0.9). */
+/* The slope, or NAN if the points are too few, too close, or not on a line (r^2 below 0.9). */
 static double fit_slope(const struct fit *fit)
 {
     const double least_spread = 0.5; /* of log(steps), squared and summed: a factor of 2 over three points */
@@ -69,8 +71,8 @@ static double fit_slope(const struct fit *fit)
 }
 
 /* p in error ~ (mean step)^p by least squares, over points that are neither coarse nor at the floor. Where
- * stability and not accuracy sets the steps, hardly longer for a loose tolerance, the slope comes out far too
- * steep and is none. */
+ * stability instead of accuracy limits the steps, these hardly depend on the tolerance; the slope is then far
+ * too steep and meaningless. */
 static double observed_order(const struct fbd_cost *cost, const fbd_series *series)
 {
     const double coarse = 0.03, above_floor = 10, highest = 13;
@@ -93,9 +95,9 @@ void cost_analyse(struct fbd_cost *cost)
         cost->series[s].order = observed_order(cost, &cost->series[s]);
 }
 
-/* ---- the cheapest way */
+/* ---- the cheapest setting */
 
-/* The error is met here and at every tighter setting that was measured: not by luck. */
+/* True if the error is met here and, to exclude coincidence, at every tighter measured setting. */
 static bool meets(const struct fbd_cost *cost, const fbd_series *series, size_t index, double error)
 {
     if (!is_answer(&cost->points[index])) return false;

@@ -9,7 +9,7 @@
 
 /* ---- values */
 
-/* Between the ends of a grid. */
+/* A value between the ends of a grid. */
 static double even(const struct member *m, uint64_t i)
 {
     double last = (double)(m->count - 1), at = (double)i;
@@ -77,8 +77,8 @@ static struct slice trim(struct slice slice)
     return slice;
 }
 
-/* Cut off what stands before the first `mark` that is in no parentheses; false when there is none, and all is
- * taken. */
+/* Cut off the part before the first `mark` outside parentheses; false, with all in `first`, when there is
+ * none. */
 static bool cut(struct slice *rest, char mark, struct slice *first)
 {
     int depth = 0;
@@ -95,7 +95,7 @@ static bool cut(struct slice *rest, char mark, struct slice *first)
     return false;
 }
 
-/* The bytes at the start that look like a number. */
+/* The length of the leading part that looks like a number. */
 static size_t number_length(struct slice slice)
 {
     size_t i = 0;
@@ -122,7 +122,7 @@ static bool set_unit(const struct vary *vary, struct member *member, struct slic
     return member->unit != NULL;
 }
 
-/* A number, and a unit perhaps. */
+/* A number with an optional unit. */
 static bool read_quantity(const struct vary *vary, struct member *member, struct slice slice, double *value)
 {
     size_t length = number_length(slice);
@@ -186,7 +186,7 @@ static bool read_grid(const struct vary *vary, struct member *m, struct slice sl
     return read_count(vary, count, &m->count);
 }
 
-/* The name of a file: no number, with a dot or a slash in it. */
+/* True for the name of a file: not a number, with a dot or a slash in it. */
 static bool is_file(struct slice slice)
 {
     bool number = number_length(slice) > 0 && strchr("0123456789+-", slice.text[0]);

@@ -58,7 +58,7 @@ static bool add_world(struct list *list, const char *name, const struct world_qu
     return add(list, (struct column){.title = text, .kind = column_world, .point = *point});
 }
 
-/* Of y[index], or of a point where that is below zero. */
+/* Of y[index], or of a point if index is negative. */
 static bool add_extreme(struct list *list, int sign, int index, const char *name,
                         const struct world_quantity *point)
 {
@@ -171,7 +171,7 @@ static bool add_group(struct list *list, const char *name)
     return fine;
 }
 
-/* FUNCTION(argument), cut in two; false when it is no such thing. */
+/* Cut FUNCTION(argument) in two; false for any other text. */
 static bool cut_call(char *name, char **argument)
 {
     char *brace = strchr(name, '(');
@@ -295,7 +295,7 @@ static unsigned long rhs_of(const struct run *run)
     return run->system.rhs;
 }
 
-/* The sum over the groups. */
+/* Append the sum over the islands. */
 static void put_total(const struct ensemble *run, unsigned long (*count)(const struct run *),
                       struct text *text)
 {

@@ -1,18 +1,19 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Columns: what a sweep notes of each run. They have the names of fbd-run's CSV where it has them:
+ * Columns: the outputs of each run of a sweep. They have the names of fbd-run's CSV where it has the same
+ * quantity:
  *
  *     t, block.x, block.v          at the end of the run
  *     rod.right.x, .vx, .ax ...    of a point in the world, at the end of the run
  *     min(block.x), max(rod.right.y)   over the run
- *     time(land), count(land)      of an event of the file: when first, how often; also of a kind of event,
+ *     time(land), count(land)      of an event of the file: time of the first, number; also of a kind of event,
  *                                  time(stick), and of one body, time(block.stick)
  *     energy.kinetic, .potential, .work, .residual    at the end
- *     block.friction.work          what a force or moment has done
- *     steps, rhs                   what the run has cost
+ *     block.friction.work          work of a force or moment
+ *     steps, rhs                   cost of the run
  *
- * and in groups: `final` (t, all coordinates and rates), `times` (when each event of the file happened
- * first), `energy` (all four).
+ * and in groups: `final` (t, all coordinates and rates), `times` (time of the first occurrence of each event
+ * of the file), `energy` (all four).
  */
 #ifndef FBD_STUDY_COLUMNS_H
 #define FBD_STUDY_COLUMNS_H
@@ -37,33 +38,33 @@ struct column {
         column_rhs,
     } kind;
     int index;
-    double size; /* final, extreme: of the unit that it is shown in */
+    double size; /* final, extreme: size of the unit that it is shown in */
     struct world_quantity point;
-    /* time, count: of which events; -1 for any */
+    /* time, count: which events; -1 for any */
     int event, body, watch;
 };
 
 struct columns {
     struct column *list;
     size_t count, room;
-    struct extreme *extremes; /* what is looked for; each run has its own values */
+    struct extreme *extremes; /* quantities to watch; each run has its own values */
     size_t extreme_count;
-    bool ledger; /* energies or works are wanted */
+    bool ledger; /* energies or works are required */
 };
 
-/* Read lists of names, separated by commas; without any, `final` and `times`; angles in degrees if that is asked for.
- * False with notes in `errors` (id `unknown-output`). Memory comes from `arena`. */
+/* Read lists of names, separated by commas; without any, `final` and `times`; angles in degrees if `degrees`.
+ * Returns false with notes in `errors` (id `unknown-output`). Memory comes from `arena`. */
 bool columns_read(struct columns *columns, struct arena *arena, const struct fbd_model *model,
                   const char *const *texts, size_t count, bool degrees, fbd_errors *errors);
 
-/* What was seen of a run. */
+/* The data of a run from which columns are computed. */
 struct observed {
     struct ensemble *run;
-    struct ledger *ledger;          /* NULL when it is not wanted */
+    struct ledger *ledger;          /* NULL when not required */
     const struct extreme *extremes; /* as in columns */
 };
 
-/* Append `,value` for each column: nothing behind the comma for what has not happened. */
+/* Append `,value` for each column; the value is empty if it does not exist. */
 void columns_put(const struct columns *columns, const struct observed *observed, struct text *text);
 
 #endif

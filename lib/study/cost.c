@@ -6,6 +6,7 @@
 
 #include "base/api_check.h"
 #include "base/diag.h"
+#include "fbd_study.h"
 #include "model/variant.h"
 #include "study/stopwatch.h"
 
@@ -66,7 +67,7 @@ bool quantities_choose(const fbd_model *model, const fbd_cost_options *options, 
     return true;
 }
 
-/* ---- making it */
+/* ---- construction */
 
 static const fbd_cost_options no_options = FBD_COST_OPTIONS_DEFAULT;
 
@@ -168,7 +169,7 @@ static fbd_cost *cost_new(const fbd_model *model, const fbd_cost_options *option
     cost->progress = (struct progress){options->progress, options->progress_context};
     cost->errors = errors;
     bool done = study(cost, options);
-    cost->errors = NULL; /* the list is that of this call */
+    cost->errors = NULL; /* the list is valid only during this call */
     if (done) return cost;
     if (fbd_errors_failed_count(errors) == 0) diag_out_of_memory(errors);
     fbd_cost_free(cost);
@@ -193,7 +194,7 @@ void fbd_cost_free(fbd_cost *cost)
     free(cost);
 }
 
-/* ---- asking */
+/* ---- access */
 
 fbd_reference fbd_cost_reference(const fbd_cost *cost)
 {

@@ -4,6 +4,7 @@
  */
 #include <math.h>
 
+#include "fbd_study.h"
 #include "study/cost.h"
 
 static const char *state_name(fbd_point_state state)
@@ -11,7 +12,7 @@ static const char *state_name(fbd_point_state state)
     return state == FBD_POINT_MEASURED ? "measured" : state == FBD_POINT_FAILED ? "failed" : "skipped";
 }
 
-/* ---- CSV; what was not measured is empty */
+/* ---- CSV; values not measured are empty */
 
 static void cell(struct text *text, bool there, double value)
 {
@@ -62,7 +63,7 @@ char *fbd_cost_csv(const fbd_cost *cost)
     return text.data;
 }
 
-/* ---- JSON; what was not measured is null */
+/* ---- JSON; values not measured are null */
 
 static void member(struct text *text, const char *name, double value)
 {

@@ -1,17 +1,18 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * The work-precision diagram: error across (more accurate to the right), time of a run upward, both
- * logarithmic; one line for each method, named at its end; the Pareto front as a broad grey band beneath;
- * what lies beyond the floor of the reference shaded.
+ * The work-precision diagram: error on the x axis (more accurate to the right), time of a run on the y axis,
+ * both logarithmic; one line for each method, labelled at its end; the Pareto front as a broad grey band
+ * beneath; the range below the floor of the reference shaded.
  *
- * Lines differ by colour (Okabe and Ito's set, which colour-blind readers can tell apart) and by marker, so
- * that the drawing reads in black and white too. Text stays text.
+ * Lines differ by colour (the set of Okabe and Ito, which colour-blind readers can distinguish) and by
+ * marker, so that the drawing is readable in black and white too. Text stays text.
  */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "draw/svg.h"
+#include "fbd_study.h"
 #include "study/cost.h"
 
 enum { width = 960, height = 640, left = 86, right = 800, top = 74, bottom = 560, label_pitch = 17 };
@@ -33,7 +34,7 @@ static double upward(const struct axes *axes, double seconds)
     return bottom - (bottom - top) * y;
 }
 
-/* ---- what is drawn */
+/* ---- ranges */
 
 static bool is_drawn(const fbd_point *point)
 {
@@ -61,7 +62,7 @@ static bool find_axes(const fbd_cost *cost, struct axes *axes)
                           .x_last = ceil(-log10(cost->reference.floor) + 0.3),
                           .y_first = log10(least) - air,
                           .y_last = log10(most) + air};
-    if (axes->y_last - axes->y_first < 1) { /* one labelled decade at least */
+    if (axes->y_last - axes->y_first < 1) { /* at least one labelled decade */
         axes->y_first = floor(axes->y_first);
         axes->y_last = ceil(axes->y_last);
     }
@@ -71,7 +72,7 @@ static bool find_axes(const fbd_cost *cost, struct axes *axes)
 
 /* ---- pieces */
 
-/* A coordinate on the paper, to a hundredth. */
+/* Append a coordinate on the paper, to a hundredth. */
 static void place(struct text *text, double value)
 {
     text_number(text, round(value * 100) / 100, 7);
@@ -212,7 +213,7 @@ static void front(struct text *text, const fbd_cost *cost, const struct axes *ax
 
 enum { colour_count = 8, marker_count = 5 };
 
-/* Its colour is that of a class, c0 to c7: another one on dark paper. */
+/* The class of its colour, c0 to c7: the style sheet has other colours on dark paper. */
 static int colour_of(size_t series)
 {
     return (int)(series % colour_count);
@@ -232,7 +233,7 @@ static void marker(struct text *text, size_t series, double x, double y)
     text_printf(text, "%s", shapes[series % marker_count]);
 }
 
-/* Draws one method and says where its line ends. */
+/* Draw one method and return the end of its line. */
 static bool curve(struct text *text, const fbd_cost *cost, const struct axes *axes, size_t s, double end[2])
 {
     const fbd_series *series = &cost->series[s];
@@ -259,7 +260,7 @@ static bool curve(struct text *text, const fbd_cost *cost, const struct axes *ax
 
 struct label {
     size_t series;
-    double x, y; /* where the line ends */
+    double x, y; /* end of the line */
     double at;   /* height of the name */
 };
 
@@ -269,7 +270,8 @@ static int by_height(const void *one, const void *other)
     return (a->y > b->y) - (a->y < b->y);
 }
 
-/* Names keep their order and a distance; each goes down as far as it must, then all go up together. */
+/* Separate the labels without changing their order: shift each one down as far as necessary, then up from the
+ * bottom. */
 static void spread(struct label *labels, size_t count)
 {
     double least = top + 4;
@@ -327,8 +329,8 @@ static void curves(struct text *text, const fbd_cost *cost, const struct axes *a
 
 /* ---- the whole */
 
-/* For drawings of ours alone, wherever they are put; dark only on a screen. Colours are apart from the paper as text
- * has to be, 4.5 to 1. */
+/* Restricted to these drawings on any page; dark only on a screen. The contrast of colours to the paper is
+ * that of text, 4.5 to 1. */
 static const char style[] =
     ".fbd-cost text{font:13px Helvetica,Arial,sans-serif;fill:#111}.fbd-cost .paper{fill:#fff}"
     ".fbd-cost .title{font-size:17px;font-weight:bold}.fbd-cost .small{font-size:11px;fill:#555}"

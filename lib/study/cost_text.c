@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * The cost of accuracy as a table and plain answers.
+ * The cost of accuracy as a table and sentences.
  */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
+#include "fbd_study.h"
 #include "model/model.h"
 #include "study/cost.h"
 
@@ -20,7 +21,7 @@ void text_seconds(struct text *text, double seconds)
     text_printf(text, " %s", units[k].unit);
 }
 
-/* 1e-6 rather than 1e-06. */
+/* 1e-6, not 1e-06. */
 static void power(struct text *text, double value)
 {
     int exponent = (int)floor(log10(value) + 1e-9);
@@ -88,7 +89,7 @@ static void row(struct text *text, const struct fbd_cost *cost, const fbd_point 
     text_add(text, "\n");
 }
 
-/* Skipped rungs to the end of a ladder are one row. */
+/* Skipped points at the end of a ladder are one row. */
 static void rows(struct text *text, const struct fbd_cost *cost, const fbd_series *series)
 {
     size_t end = series->first + series->count, last = end;
@@ -118,9 +119,9 @@ static void table(struct text *text, const struct fbd_cost *cost)
     text_add(text, "* on the Pareto front: nothing is both more accurate and cheaper\n");
 }
 
-/* ---- what it is measured by */
+/* ---- the reference */
 
-/* Blanks in place of line ends at about the width of the report. */
+/* Break lines at blanks, at about the width of the report. */
 static void paragraph(struct text *text, const char *sentences)
 {
     enum { width = 108 };

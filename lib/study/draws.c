@@ -28,7 +28,7 @@ static unsigned long next_integer(void *state)
     return (unsigned long)(next(state) >> 32);
 }
 
-/* The 53 bits that a double holds, in [0, 1). */
+/* The upper 53 bits as a double in [0, 1). */
 static double next_double(void *state)
 {
     return (double)(next(state) >> 11) * 0x1p-53;

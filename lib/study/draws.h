@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Draws: random numbers that depend on where they stand and not on which were drawn before.
+ * Draws: random numbers that depend only on their position, not on earlier draws.
  *
- * Draw i of a member of a sweep is the same whichever worker makes it, and in whatever order. So each draw
- * has a generator of its own: SplitMix64, whose state is a counter, started at a hash of (seed, member, i)
- * and written as a GSL generator for the sake of GSL's distributions.
+ * Draw i of a member of a sweep is the same for any worker and any order. So each draw has its own generator:
+ * SplitMix64, whose state is a counter, started at a hash of (seed, member, i) and written as a GSL generator
+ * for use with GSL's distributions.
  *
  * Source: Steele, Lea & Flood, "Fast splittable pseudorandom number generators", OOPSLA 2014, section 5 and
  * figure 17 (variant 13 of the mixing function).
@@ -17,10 +17,10 @@
 enum distribution {
     draw_uniform,    /* between a and b */
     draw_normal,     /* mean a, standard deviation b */
-    draw_loguniform, /* between a and b, the logarithm uniform: Benford's law, scales alike */
+    draw_loguniform, /* between a and b, uniform in the logarithm */
 };
 
-/* Where a draw stands. */
+/* The position of a draw. */
 struct draw_place {
     uint64_t seed, member, index;
 };

@@ -6,16 +6,18 @@
 #include <string.h>
 
 #include "base/diag.h"
+#include "fbd_study.h"
 #include "study/cost.h"
 #include "study/stopwatch.h"
 
 enum { grid_intervals = 240 };
 
-/* What changes is measured tighter than by default, and held against what still tighter runs change. */
+/* The changes are computed at a tolerance tighter than the default, and compared with the difference to a
+ * still tighter run. */
 static const struct setting measured = {.tolerance = 1e-11}, tighter = {.tolerance = 1e-13};
 static const double default_budget = 6, longest_share = 0.1;
 
-/* ---- the scene itself */
+/* ---- the complete scene */
 
 static bool run_scene(struct fbd_effects *effects, const fbd_cost_options *options)
 {
@@ -89,8 +91,8 @@ static bool run_without(struct fbd_effects *effects, size_t index, fbd_model *mo
     return done;
 }
 
-/* Compile the scene without the effect and run it once. *model is NULL where the row has a reason instead.
- * False when memory is out. */
+/* Compile the scene without the effect and run it once. *model is NULL if the row has a reason instead.
+ * Returns false when memory is out. */
 static bool try_without(struct fbd_effects *effects, size_t index, fbd_model **model, double *seconds)
 {
     fbd_effect *effect = &effects->effects[index];
@@ -143,7 +145,7 @@ static bool run_all(struct fbd_effects *effects, fbd_model **models, struct time
                              effects->errors))
             return false;
     }
-    /* A fraction of the budget tells times of some milliseconds well enough. */
+    /* For times of some milliseconds a fraction of the budget is sufficient. */
     double seconds =
         fmin(effects->budget / 2, 0.05 * (double)count + 20 * effects->track.seconds * (double)count);
     if (!timing_in_turn(timed, count, seconds, &effects->progress, effects->errors)) return false;
@@ -175,7 +177,7 @@ static fbd_effects *effects_new(const fbd_model *model, const fbd_cost_options *
     effects->progress = (struct progress){options->progress, options->progress_context};
     effects->errors = errors;
     bool done = study(effects, options);
-    effects->errors = NULL; /* the list is that of this call */
+    effects->errors = NULL; /* the list is valid only during this call */
     if (done) return effects;
     if (fbd_errors_failed_count(errors) == 0) diag_out_of_memory(errors);
     fbd_effects_free(effects);

@@ -1,13 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Effects: the scene beside itself with one thing left out.
+ * Effects: comparison of the scene with the same scene without one effect.
  *
- * What can be left out of a scene is listed by kind (effects_list.c); each entry is an edit of the typed
- * scene that model/variant.h compiles anew. Lists, modes and events that belonged to the effect go with it.
+ * The removable effects of a scene are listed by kind (effects_list.c); each entry is an edit of the typed
+ * scene, which model/variant.h compiles anew. Lists, modes and events of the effect are removed with it.
  */
 #ifndef FBD_STUDY_EFFECTS_H
 #define FBD_STUDY_EFFECTS_H
 
+#include "fbd_study.h"
 #include "model/variant.h"
 #include "study/reference.h"
 #include "study/timing.h"
@@ -16,8 +17,8 @@ enum edit_kind {
     edit_leave_out,      /* a force or moment */
     edit_uncouple,       /* a coupling */
     edit_static,         /* static friction: mu_s becomes mu_k */
-    edit_surface,        /* the surface stands still */
-    edit_wind,           /* the air stands still */
+    edit_surface,        /* the surface at rest */
+    edit_wind,           /* the air at rest */
     edit_part,           /* the mass of a part */
     edit_rotary,         /* the moment of inertia about the centre of mass */
     edit_linear_gravity, /* sin(theta) becomes theta about the equilibrium */
@@ -35,10 +36,10 @@ struct equilibrium {
 struct edit {
     enum edit_kind kind;
     int body, index;        /* load, part or coupling */
-    double value, value2;   /* of the kind: stiffness and neutral angle; speed */
-    const fbd_model *model; /* the scene itself */
+    double value, value2;   /* by kind: stiffness and neutral angle; speed */
+    const fbd_model *model; /* the complete scene */
     struct equilibrium about;
-    const char *refusal; /* why it cannot be done; NULL otherwise */
+    const char *refusal; /* why the edit is impossible; NULL otherwise */
 };
 
 struct fbd_effects {
@@ -48,19 +49,18 @@ struct fbd_effects {
     struct edit *edits;
     size_t count, room;
     struct grid grid;
-    struct track track, tight; /* of the scene itself */
+    struct track track, tight; /* of the complete scene */
     double *scale;
-    double floor; /* what these two differ by */
+    double floor; /* difference between these two */
     double until, budget, seconds;
     struct progress progress;
-    fbd_errors *errors; /* of the caller, while the study runs */
+    fbd_errors *errors; /* of the caller, during the study */
 };
 
-/* List what can be left out; `track` tells how the scene moves. False when memory is out. */
+/* List the removable effects; `track` is the motion of the scene. Returns false when memory is out. */
 bool effects_list(struct fbd_effects *effects);
 
-/* The scene that an edit_linear_scene puts in the place of the present one. NULL with a note in `errors` when
- * memory is out. */
+/* The linear scene of an edit_linear_scene. NULL with a note in `errors` when memory is out. */
 fbd_model *effects_linear_scene(const struct fbd_effects *effects, const struct equilibrium *about,
                                 fbd_errors *errors);
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * The edits of a scene that leave an effect out.
+ * Edits of a scene that remove an effect.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -12,7 +12,7 @@
 
 /* ---- Taylor polynomials */
 
-/* The polynomial is put together as text over the names s1, s2, ... of the slots, without dimensions. */
+/* The polynomial is written as text over the names s1, s2, ... of the slots, without dimensions. */
 static struct symbol slot_symbol(void *context, const char *name, struct pos at)
 {
     (void)context, (void)at;
@@ -53,8 +53,8 @@ static bool write_taylor(struct text *text, const struct expr *expr, const doubl
     return finite && !text->failed;
 }
 
-/* A formula of the scene as its Taylor polynomial of degree 1 or 2 about t = 0 and the state `at`: compiled
- * into `arena`. NULL when that is not finite or memory is out. */
+/* The Taylor polynomial of degree 1 or 2 of a formula of the scene about t = 0 and the state `at`, compiled
+ * into `arena`. NULL when a coefficient is not finite or memory is out. */
 static const struct expr *taylor_expr(const struct expr *expr, const double *at, int degree,
                                       struct arena *arena, fbd_errors *errors)
 {
@@ -85,7 +85,7 @@ static void leave_out_load(struct body *body, int index)
     for (size_t i = (size_t)index; i < body->load_count; i++) body->loads[i] = body->loads[i + 1];
 }
 
-/* With what another body feels of it. */
+/* Remove a load and its reaction on another body. */
 static void leave_out(struct scene *scene, int b, int index)
 {
     const struct load *load = &scene->bodies[b].loads[index];
@@ -126,7 +126,7 @@ static void gather_mass(struct body *body, const struct model_body *known)
                                    .center = known->inertia.G};
 }
 
-/* m g L sin(theta - theta_0) by its tangent at theta_0: a torsional spring. */
+/* Replace m g L sin(theta - theta_0) by its tangent at theta_0: a torsional spring. */
 static void linear_gravity(struct load *load, const struct edit *edit)
 {
     *load = (struct load){.kind = moment_spring,
@@ -143,7 +143,7 @@ void effect_edit(struct scene *scene, void *context, fbd_errors *errors)
     bool of_load = edit->kind != edit_part && edit->kind != edit_rotary && edit->kind != edit_uncouple &&
                    edit->kind != edit_linear_scene;
     struct load *load = of_load ? &body->loads[edit->index] : NULL;
-    for (size_t b = 0; b < scene->body_count; b++) scene->bodies[b].hand_count = 0; /* of another scene */
+    for (size_t b = 0; b < scene->body_count; b++) scene->bodies[b].hand_count = 0; /* now invalid */
     switch (edit->kind) {
     case edit_leave_out: leave_out(scene, edit->body, edit->index); break;
     case edit_uncouple: uncouple(scene, edit->index); break;
@@ -163,6 +163,6 @@ void effect_edit(struct scene *scene, void *context, fbd_errors *errors)
         replace(&load->fy, edit, 1, scene, errors);
         replace(&load->potential, edit, 2, scene, errors);
         break;
-    case edit_linear_scene: break; /* not an edit of this scene */
+    case edit_linear_scene: break; /* made by effects_linear_scene */
     }
 }

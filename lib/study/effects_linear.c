@@ -1,15 +1,16 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * A scene of jointed bodies as its linearisation about an equilibrium (q_0, 0),
+ * The linearisation of a scene of jointed bodies about an equilibrium (q_0, 0),
  *
  *     q'' = K (q - q_0) + C q',   (K C) the lower half of the system matrix,
  *
- * which is a scene as well: a mass of 1 kg on a line of its own for each coordinate.
+ * as a scene itself: a mass of 1 kg on a line of its own for each coordinate.
  */
 #include <string.h>
 
 #include "base/text.h"
 #include "dynamics/state.h"
+#include "fbd_study.h"
 #include "study/effects.h"
 
 static void coefficient(struct text *text, double value)
@@ -18,7 +19,7 @@ static void coefficient(struct text *text, double value)
     text_number(text, fabs(value), 17);
 }
 
-/* Force i as an expression of all coordinates and rates; the names are those of the bodies below. */
+/* Write force i as an expression of all coordinates and rates; the names are those of the bodies below. */
 static void write_force(struct text *text, size_t n, size_t i, const struct equilibrium *about)
 {
     const double *row = about->matrix + (n + i) * 2 * n;

@@ -1,12 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * What can be left out of a scene, and what cannot, and why.
+ * The removable effects of a scene, and the reasons why others are not removable.
  */
 #include <math.h>
 #include <string.h>
 
 #include "base/diag.h"
 #include "dynamics/state.h"
+#include "fbd_study.h"
 #include "study/effects.h"
 
 /* ---- entries */
@@ -42,7 +43,7 @@ static void add_load(struct fbd_effects *effects, int b, int i)
     const struct body *body = &effects->model->scene->bodies[b];
     const struct load *load = &body->loads[i], *friction = friction_of(body);
     struct edit edit = {.kind = edit_leave_out, .body = b, .index = i};
-    if (load->reaction) return; /* goes with the force that it is the other side of */
+    if (load->reaction) return; /* removed with its counterpart */
     if (load->kind == load_normal && friction)
         edit.refusal =
             arena_printf(&effects->arena, "`%s` needs it: no other force presses the surfaces together",
@@ -53,7 +54,7 @@ static void add_load(struct fbd_effects *effects, int b, int i)
 static bool same_constant(const struct value *a, const struct value *b)
 {
     if (!a->expr || !b->expr) return true;
-    bool one_law = a->at.line == b->at.line && a->at.column == b->at.column; /* read at rest and in motion */
+    bool one_law = a->at.line == b->at.line && a->at.column == b->at.column; /* of rest and motion */
     return one_law || (expr_is_constant(a->expr) && expr_is_constant(b->expr) &&
                        expr_value(a->expr) == expr_value(b->expr));
 }
@@ -79,8 +80,8 @@ static const double *copy_of(struct fbd_effects *effects, const double *numbers,
     return copy;
 }
 
-/* The equilibrium nearest to the start, or the one where the scene comes to rest; NULLs when there is none,
- * or friction could hold anywhere. False when memory is out. */
+/* The equilibrium near the start, or (`at_rest`) the one where the scene comes to rest; NULLs when there is
+ * none, or friction permits a range of equilibria. Returns false when memory is out. */
 static bool find_equilibrium(struct fbd_effects *effects, bool at_rest, struct equilibrium *about)
 {
     fbd_errors *errors = fbd_errors_new();
@@ -101,7 +102,7 @@ static bool find_equilibrium(struct fbd_effects *effects, bool at_rest, struct e
 
 /* ---- nonlinearities */
 
-/* A body by itself: its equation of motion has no other body's mass in it. */
+/* True if no joint connects the body to another one: its equation of motion contains no other mass. */
 static bool stands_alone(const struct scene *scene, int b)
 {
     bool alone = scene->bodies[b].motion.parent == ground_body;
@@ -109,7 +110,8 @@ static bool stands_alone(const struct scene *scene, int b)
     return alone;
 }
 
-/* The angle at which G lies along gravity from the axis, of all turns the nearest to the start. */
+/* Linearise gravity on a pivot about the angle at which G is below the axis, modulo full turns the one
+ * nearest to the start. */
 static void add_linear_gravity(struct fbd_effects *effects, int b, int i)
 {
     const struct fbd_model *model = effects->model;
@@ -129,7 +131,7 @@ static void add_linear_gravity(struct fbd_effects *effects, int b, int i)
         body->source->loads[i].name, change);
 }
 
-/* The largest speed of the body in the run, at the point where the drag acts on a pivot. */
+/* The largest speed of the body in the run; for a pivot, of the point where the drag acts. */
 static double largest_speed(const struct fbd_effects *effects, const struct model_body *body,
                             struct vec point)
 {
@@ -155,7 +157,7 @@ static void add_linear_drag(struct fbd_effects *effects, int b, int i)
         arena_printf(&effects->arena, "linear: |v| v -> %.4g %s v", speed, unit));
 }
 
-/* Does the second derivative show anywhere along the run? */
+/* True if a second derivative is nonzero at a sample of the run. */
 static bool is_nonlinear(const struct fbd_effects *effects, const struct expr *expr)
 {
     enum { looks = 12 };
@@ -176,8 +178,8 @@ static bool is_nonlinear(const struct fbd_effects *effects, const struct expr *e
     return false;
 }
 
-/* A potential is linear in its force when it is quadratic: its third derivative would tell. Two second
- * derivatives that differ do so as well. */
+/* True if a potential is not quadratic, so that its force is not linear: the second derivatives differ along
+ * the run. */
 static bool is_beyond_quadratic(const struct fbd_effects *effects, const struct expr *expr)
 {
     const struct track *track = &effects->track;
@@ -195,7 +197,8 @@ static bool is_beyond_quadratic(const struct fbd_effects *effects, const struct 
     return false;
 }
 
-/* Does it read a place in the world? That is no coordinate, and has no tangent in one. */
+/* True if the expression contains a position in the world, which is no coordinate: the Taylor polynomial does
+ * not cover it. */
 static bool reads_places(const struct fbd_effects *effects, const struct expr *expr)
 {
     const int *slots;
@@ -216,7 +219,7 @@ static void add_linear_formula(struct fbd_effects *effects, int b, int i, struct
     const struct expr *all[] = {load->value.expr, load->fx.expr, load->fy.expr, load->potential.expr};
     for (int k = 0; k < 4; k++)
         if (reads_places(effects, all[k])) return;
-    if (load->toward || load_is_placed(load)) return; /* their directions and moments would stay behind */
+    if (load->toward || load_is_placed(load)) return; /* directions and moments are not linearised */
     bool nonlinear = is_beyond_quadratic(effects, load->potential.expr), timed = false;
     for (int k = 0; k < 3; k++) nonlinear = nonlinear || is_nonlinear(effects, all[k]);
     for (int k = 0; k < 4; k++) timed = timed || (all[k] && expr_uses_time(all[k]));
@@ -243,8 +246,8 @@ static bool any_uses_time(const struct scene *scene)
     return false;
 }
 
-/* Of jointed bodies no nonlinearity can be left out alone: sines of sums of angles are in every term. False
- * when memory is out. */
+/* Linearise the whole scene. In jointed scenes no single nonlinearity can be removed: every term contains
+ * sines of sums of angles. Returns false when memory is out. */
 static bool add_linear_scene(struct fbd_effects *effects)
 {
     const struct scene *scene = effects->model->scene;

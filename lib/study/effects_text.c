@@ -1,17 +1,18 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * What each effect does and costs, as text, CSV and JSON.
+ * The influence and cost of each effect, as text, CSV and JSON.
  */
 #include <math.h>
 #include <stdio.h>
 
+#include "fbd_study.h"
 #include "model/model.h"
 #include "study/cost.h"
 #include "study/effects.h"
 
 enum { all_digits = 17 };
 
-/* Below this share of the size of each quantity an effect is hardly called for. */
+/* Relative change below which an effect is reported as dispensable. */
 static const double small = 1e-3;
 
 static void change(struct text *text, const struct fbd_effects *effects, double value)
@@ -24,7 +25,7 @@ static void change(struct text *text, const struct fbd_effects *effects, double 
         text_printf(text, "%.1e", value);
 }
 
-/* "block.friction", or what is of the whole scene. */
+/* "block.friction", or the name of an effect of the whole scene. */
 static void name(struct text *text, const fbd_effect *effect)
 {
     text_printf(text, "%s%s%s", effect->body, effect->body[0] ? "." : "", effect->name);
@@ -93,7 +94,7 @@ char *fbd_effects_text(const fbd_effects *effects)
 
 /* ---- data */
 
-/* Empty where there is none. */
+/* Append a number, or nothing if it is NAN. */
 static void number(struct text *text, double value)
 {
     if (isfinite(value)) text_number(text, value, all_digits);

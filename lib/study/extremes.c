@@ -16,7 +16,7 @@ void extremes_start(struct extreme *extremes, size_t count, const struct fbd_sta
     for (size_t i = 0; i < count; i++) extremes[i].value = value_of(&extremes[i], state);
 }
 
-/* What is looked at: the greatest value of sign * y[index]. */
+/* The function sign * y[index], to be maximized. */
 struct look {
     struct ensemble *run;
     struct fbd_state *probe;
@@ -30,7 +30,7 @@ static double value_at(struct look *look, double t)
     return look->extreme->sign * value_of(look->extreme, look->probe);
 }
 
-/* The greatest value in [a, b], which holds one maximum. */
+/* The maximum in [a, b], assumed to be the only one there. */
 static double golden_section(struct look *look, double a, double b)
 {
     const double ratio = (sqrt(5) - 1) / 2;
@@ -64,7 +64,8 @@ static bool one(struct extreme *extreme, struct ensemble *run, struct fbd_state 
     for (int k = 1; k <= parts; k++)
         if (samples[k] > samples[at]) at = k;
     best = fmax(best, samples[at]);
-    /* Where the curve rises toward both sides of the sample no more than it could reach is looked at. */
+    /* Search between the neighbours only if the maximum there can exceed the present extreme, by an estimate
+     * from their differences. */
     int low = at > 0 ? at - 1 : 0, high = at < parts ? at + 1 : parts;
     double reach = samples[at] + fmax(samples[at] - samples[low], samples[at] - samples[high]);
     if (!(reach < best)) best = fmax(best, golden_section(&look, from + low * width, from + high * width));

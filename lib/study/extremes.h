@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Extremes: the least and the greatest value of coordinates, rates and points in the world over a run.
+ * Extremes: the minimum and maximum of coordinates, rates and points in the world over a run.
  *
- * Each step is looked at on its dense output at equal distances, ends included; where a sample goes beyond
- * what was seen so far and its neighbours do not, the extreme lies between them and is closed in by golden
- * section (Kiefer 1953). Near an extreme q(t) is flat, so a bracket of 1e-6 of the step leaves an error of
- * 1e-12 of the curve's rise in it, which is below that of the motion.
+ * The dense output of each step is sampled at equal intervals, ends included; where a sample exceeds the
+ * extreme so far and its neighbours do not, the extreme lies between them and is bracketed by golden section
+ * (Kiefer 1953). Near an extreme q(t) is flat, so a bracket of 1e-6 of the step leaves an error of 1e-12 of
+ * the variation in it, which is below the error of the motion.
  */
 #ifndef FBD_STUDY_EXTREMES_H
 #define FBD_STUDY_EXTREMES_H
@@ -20,11 +20,11 @@ struct extreme {
     double value;
 };
 
-/* Start at a state. */
+/* Initialize at a state. */
 void extremes_start(struct extreme *extremes, size_t count, const struct fbd_state *state);
 
-/* Account for the last step of a run. `probe` is a state of the same model, for looking. False when the dense
- * output has no value. */
+/* Update with the last step of a run. `probe` is a scratch state of the same model. Returns false when the
+ * dense output is not available. */
 bool extremes_step(struct extreme *extremes, size_t count, struct ensemble *run, struct fbd_state *probe);
 
 #endif

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Hash: 64 bits that tell texts apart. FNV-1a (Fowler, Noll & Vo; RFC 9923), against accidents and not
- * against malice.
+ * Hash: 64 bits to distinguish texts. FNV-1a (Fowler, Noll & Vo; RFC 9923); no protection against deliberate
+ * collisions.
  */
 #ifndef FBD_STUDY_HASH_H
 #define FBD_STUDY_HASH_H

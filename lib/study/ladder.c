@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Ladder: each method from loose to tight, as far as the budget reaches.
+ * Ladder: each method from loose to tight settings, within the budget.
  */
 #include <math.h>
 #include <stdio.h>
@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "base/diag.h"
+#include "fbd_study.h"
 #include "integrate/method.h"
 #include "study/cost.h"
 #include "study/stopwatch.h"
@@ -19,7 +20,7 @@ static const double tolerances[tolerance_rungs] = {1e-3, 1e-4,  1e-5,  1e-6,  1e
 
 static const char automatic[] = "auto", students[] = "rk4";
 
-/* ---- what is run */
+/* ---- plan */
 
 static bool wanted(const fbd_cost_options *options, const char *name)
 {
@@ -29,7 +30,7 @@ static bool wanted(const fbd_cost_options *options, const char *name)
     return false;
 }
 
-/* A name that no method has is answered like that of any run. */
+/* Check the names of methods, with the messages of a run. */
 static bool check_methods(const struct fbd_cost *cost, const fbd_cost_options *options)
 {
     for (size_t i = 0; options->methods && i < options->method_count; i++) {
@@ -57,9 +58,8 @@ static void add_series(struct fbd_cost *cost, const char *method, bool fixed)
     }
 }
 
-/* Tolerances for all methods, and fixed steps for the one that is programmed by hand with these; or fixed
- * steps for all that allow them. A multistep method has no fixed steps of its own: it starts by small ones.
- */
+/* Plan tolerances for all methods, and fixed steps for rk4, which students program with these; or fixed steps
+ * for all methods that allow them. A multistep method does not: it starts with small steps. */
 bool ladder_plan(struct fbd_cost *cost, const fbd_cost_options *options)
 {
     if (!check_methods(cost, options)) return false;
@@ -82,8 +82,7 @@ bool ladder_plan(struct fbd_cost *cost, const fbd_cost_options *options)
 
 /* ---- fixed steps */
 
-/* The largest of ..., 0.1, 0.2, 0.5, 1, ... that is not above `size`: the number that such a text reads as.
- */
+/* The largest of ..., 0.1, 0.2, 0.5, 1, ... not above `size`, as the double that its decimal text denotes. */
 static double round_step(double size)
 {
     int decade = (int)floor(log10(size));
@@ -94,9 +93,8 @@ static double round_step(double size)
     return strtod(text, NULL);
 }
 
-/* Steps from some that are too coarse, by the steps that a loose tolerance takes, down in the sequence 5,
- * 2, 1.
- */
+/* Fixed steps in the sequence 5, 2, 1, starting at a size that is too coarse: four times the mean step at a
+ * loose tolerance. */
 static bool plan_steps(struct fbd_cost *cost)
 {
     struct track track;
@@ -119,14 +117,14 @@ static bool plan_steps(struct fbd_cost *cost)
 
 /* ---- runs */
 
-/* How far up its ladder a series is. */
+/* The position of a series on its ladder. */
 struct climber {
     size_t rung;     /* the next one */
-    double last;     /* seconds of the one before, ... */
+    double last;     /* seconds of the previous one, ... */
     double expected; /* ... and of the next one */
 };
 
-/* What the next rung takes at least: work ~ tolerance^(-1/(p + 1)), or twice as many steps. */
+/* The expected time of the next rung: at least by work ~ tolerance^(-1/(p + 1)), or by twice as many steps. */
 static double next_seconds(const fbd_series *series, const struct climber *climber, double seconds)
 {
     const struct method *method = method_find(series->method);
@@ -167,7 +165,7 @@ static void judge(struct fbd_cost *cost, fbd_point *point, const struct track *t
     point->same_events = errors.same_events;
 }
 
-/* The rest of a ladder is left out, from `rung` on. */
+/* Skip a ladder from `rung` on. */
 static void skip_rest(struct fbd_cost *cost, const fbd_series *series, size_t rung, const char *reason)
 {
     for (size_t r = rung; r < series->count; r++)
@@ -188,15 +186,15 @@ static bool run_point(struct fbd_cost *cost, size_t index, double most_seconds)
         point->seconds = track.seconds;
     } else if (done) {
         judge(cost, point, &track);
-        /* Its text goes with the track. */
+        /* The text of the track is freed with it. */
         point->reason = arena_text(&cost->arena, point->reason, strlen(point->reason));
     }
     arena_free(&arena);
     return done && !cost->arena.failed;
 }
 
-/* The series whose next rung is the cheapest, so that the fast methods get to the end of their ladders; count
- * when all are done. */
+/* The series with the cheapest next rung, so that fast methods complete their ladders; series_count when all
+ * are done. */
 static size_t next_series(const struct fbd_cost *cost, const struct climber *climbers)
 {
     size_t best = cost->series_count;
@@ -222,7 +220,7 @@ static bool climb_rung(struct fbd_cost *cost, const fbd_series *series, struct c
     climber->rung++;
     climber->expected = next_seconds(series, climber, point->seconds);
     climber->last = point->seconds;
-    if (point->state == FBD_POINT_SKIPPED) { /* given up: what is tighter takes longer */
+    if (point->state == FBD_POINT_SKIPPED) { /* abandoned: tighter settings take longer */
         skip_rest(cost, series, climber->rung, point->reason);
         climber->rung = series->count;
     }

@@ -11,7 +11,7 @@
 
 enum { grid_intervals = 240, rungs = 4 };
 
-/* Methods of different families, those first that are likely to agree best. */
+/* Methods of different families, in the order of expected agreement. */
 static const char *const candidates[] = {"rk8pd", "dop853", "rodas5p", "msadams", "bsimp"};
 static const double tolerances[rungs] = {1e-11, 1e-12, 1e-13, 1e-14};
 
@@ -33,7 +33,7 @@ struct search {
 
 /* ---- the runs */
 
-/* How long the next tighter run takes: at most ten times as long as this one by the growth seen so far. */
+/* The expected time of the next tighter run: extrapolated by the growth so far, at most tenfold. */
 static double expected(const struct attempt *rung, int r)
 {
     double ratio = r > 0 && rung[-1].track.seconds > 0 ? rung->track.seconds / rung[-1].track.seconds : 2;
@@ -51,7 +51,7 @@ static bool climb(struct search *search, int c, double seconds)
         if (!track_make(&attempt->track, search->model, &attempt->setting, &search->reference->grid,
                         fmax(left, 1e-3), search->arena, search->errors))
             return false;
-        /* A scene that breaks is known up to there. */
+        /* A run that ends by a violated assumption is usable up to there. */
         attempt->usable = track_ended(&attempt->track) || attempt->track.outcome == FBD_BROKEN;
     }
     return true;
@@ -73,7 +73,7 @@ void reference_scales(double *scale, const struct track *track, const bool *chos
         double *most = &largest[i >= n][model->scene->coordinates[i < n ? i : i - n].angle];
         *most = fmax(*most, scale[i]);
     }
-    for (size_t i = 0; i < track->size; i++) { /* a state has no fellows to be small beside */
+    for (size_t i = 0; i < track->size; i++) { /* user states have no minimum scale */
         double least =
             i < 2 * n ? least_share * largest[i >= n][model->scene->coordinates[i < n ? i : i - n].angle] : 0;
         scale[i] = chosen && !chosen[i] ? 0 : fmax(scale[i], least);
@@ -98,7 +98,7 @@ static double difference(const struct certified_reference *reference, const stru
 struct pair {
     const struct attempt *one, *other;
     double difference;
-    size_t known; /* times of the grid up to which it is below what is good */
+    size_t known; /* number of grid times up to which the difference is at most `good` */
 };
 
 static const double good = 1e-6;
@@ -111,7 +111,7 @@ static size_t known_times(const struct certified_reference *reference, const str
     return k;
 }
 
-/* Among the rungs first <= r < last. Where none agree to the end, what agrees longest is best. */
+/* Replace `best` if this pair agrees for longer, or for as long with a smaller difference. */
 static void consider(const struct search *search, const struct attempt *one, const struct attempt *other,
                      struct pair *best)
 {
@@ -133,10 +133,10 @@ static struct pair best_pair(const struct search *search, int first, int last)
     return best;
 }
 
-/* ---- how far it is known */
+/* ---- accuracy of the reference */
 
-/* The largest differences up to each time grow; the part between the rounding and the saturation is fitted by
- * a line through their logarithms. */
+/* The time of tenfold growth: a line is fitted to the logarithm of the running maximum of the differences,
+ * between rounding and saturation. */
 static double growth(const struct certified_reference *reference, const struct pair *pair)
 {
     const double least = 1e-14, most = 1e-2, least_decades = 3;
@@ -156,7 +156,7 @@ static double growth(const struct certified_reference *reference, const struct p
     return slope > 0 ? 1 / slope : NAN;
 }
 
-/* Where the pair parts by more than is good, the rest of the grid is given up. */
+/* Cut the grid where the difference of the pair exceeds `good`. */
 static void cut_grid(struct certified_reference *reference, const struct pair *pair)
 {
     const struct track *one = &pair->one->track, *other = &pair->other->track;
@@ -179,16 +179,16 @@ static void finish(struct certified_reference *reference, const struct search *s
     reference->whole_floor = pair->difference;
     reference->loose_floor = loose.difference;
     cut_grid(reference, pair);
-    /* Both runs round; that they agree to the last bit shows no more than that. */
+    /* Both runs have rounding errors, even if they agree to the last bit. */
     reference->floor = fmax(reference->floor, 4 * DBL_EPSILON);
     reference->floor_end = fmax(reference->floor_end, 4 * DBL_EPSILON);
     reference->tenfold = pair->difference > 1e-9 ? growth(reference, pair) : NAN;
 }
 
-/* ---- the file's own solution */
+/* ---- the exact solution of the file */
 
-/* Value of quantity i at t, with the floor that its rounding makes: that of t, magnified by the rate, and
- * that of the value. False when the file does not give it. A rate follows from its coordinate. */
+/* The value of quantity i at t, and its rounding error: that of t, magnified by the rate, plus that of the
+ * value. Returns false when the file does not give it. A rate follows from its coordinate. */
 static bool exact_value(const struct fbd_model *model, size_t i, double t, double *value, double *rounding)
 {
     size_t n = model->scene->coordinate_count;
@@ -215,13 +215,13 @@ static void check_exact(struct certified_reference *reference, size_t i, double 
     if (apart <= allowed) return;
     if (!reference->exact_differs) reference->exact_from = t;
     reference->exact_differs = true;
-    if (isnan(apart)) apart = INFINITY; /* it has no value there */
+    if (isnan(apart)) apart = INFINITY; /* the expression is undefined there */
     if (!(apart > reference->exact_error)) return;
     reference->exact_error = apart;
     reference->exact_worst = i;
 }
 
-/* Put the file's solution in the place of the computed one. */
+/* Replace computed quantities by the exact solution of the file. */
 static void take_exact(struct certified_reference *reference, const struct fbd_model *model)
 {
     struct track *track = &reference->track;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * What the errors are measured against, in sentences.
+ * A description of the reference, in sentences.
  */
 #include <math.h>
 
@@ -31,7 +31,7 @@ static const char *exact_says(struct arena *arena, const struct certified_refere
     return "The exact solution of the file where it gives one. ";
 }
 
-/* Why it is known to a part of the run only. */
+/* The reason why it is accurate only for a part of the run. */
 static const char *cut_says(struct arena *arena, const struct certified_reference *reference)
 {
     const double shrinks = 0.1;

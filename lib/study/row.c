@@ -4,6 +4,7 @@
  */
 #include "base/format.h"
 #include "base/utf8.h"
+#include "fbd_study.h"
 #include "loop/options.h"
 #include "record/finite_result.h"
 #include "study/sweep.h"
@@ -49,7 +50,7 @@ bool row_maker_set(struct row_maker *maker, uint64_t run)
         maker->starts[i] = values->length;
         axes_value(axes, member, run, values);
         if (member->unit[0]) text_add(values, " ");
-        text_add_bytes(values, member->unit, strlen(member->unit) + 1); /* with its end */
+        text_add_bytes(values, member->unit, strlen(member->unit) + 1); /* with its terminating zero */
     }
     for (size_t i = 0; i < axes->member_count && !values->failed; i++)
         maker->overrides[i].value = values->data + maker->starts[i];
@@ -58,8 +59,8 @@ bool row_maker_set(struct row_maker *maker, uint64_t run)
 
 /* ---- pieces of a row */
 
-/* A field of CSV (RFC 4180) on one line: a row that was cut off is known by its missing end of line. What a
- * table program would take for a formula (a file may be called `=1+1.yaml`) is marked as a text. */
+/* Append a CSV field (RFC 4180) on one line: a truncated row is recognized by its missing newline. A field
+ * that a spreadsheet would take for a formula (a file may be called `=1+1.yaml`) is marked as text. */
 static void put_field(struct text *text, const char *field)
 {
     text_add(text, ",");
@@ -94,18 +95,18 @@ static void put_end(struct text *text, const char *status, const char *reason)
     text_add(text, "\n");
 }
 
-/* Without memory there is no row: what a row says depends on the scene alone. */
+/* Mark the row as failed when memory is out: rows may only depend on the scene. */
 static void lose(struct text *text)
 {
     text->failed = true;
 }
 
-/* The first error, with its place; without any it is the memory that is out. */
+/* Append the first error with its position; no error means that memory is out. */
 static void put_wrong(const struct row_maker *maker, fbd_errors *errors, struct text *text)
 {
     const struct columns *columns = &maker->sweep->columns;
     char reason[600] = "";
-    for (size_t i = 0; i < columns->count + 1; i++) text_add(text, ","); /* and the number of events */
+    for (size_t i = 0; i < columns->count + 1; i++) text_add(text, ","); /* plus the number of events */
     const fbd_error *note;
     for (size_t i = 0; (note = errors->out_of_memory ? NULL : diag_get(errors, i)) != NULL; i++) {
         if (note->severity != FBD_ERROR) continue;
@@ -148,8 +149,8 @@ static void account_again(void *context, struct ensemble *run, size_t group)
     ledger_restart(context, run, group);
 }
 
-/* Carry the run to its end, looking where a column asks for it. False when it was stopped or memory is out.
- */
+/* Carry the run to its end, with ledger and extremes if required. Returns false when it was stopped or memory
+ * is out. */
 static bool carry(struct row_maker *maker, struct ensemble *run, struct ledger *ledger,
                   struct fbd_state *probe)
 {
@@ -165,7 +166,7 @@ static bool carry(struct row_maker *maker, struct ensemble *run, struct ledger *
     return true;
 }
 
-/* Does energy balance? `ledger` may be NULL. */
+/* Check the energy balance. `ledger` may be NULL. */
 static bool is_balanced(struct ensemble *run, struct ledger *ledger, char *reason, size_t size)
 {
     struct energy_balance balance = ensemble_energy_balance(run);
@@ -182,7 +183,7 @@ static bool is_balanced(struct ensemble *run, struct ledger *ledger, char *reaso
     return !(fabs(balance.residual) > balance.explained);
 }
 
-/* A start that is refused has its id, and mostly a place in the file. */
+/* Append the outcome; for a refused start its id and, mostly, a position in the file. */
 static void put_outcome(const struct ensemble *run, struct text *text)
 {
     char reason[600];
@@ -195,7 +196,7 @@ static void put_outcome(const struct ensemble *run, struct text *text)
     put_end(text, status_of(run->outcome), run->refused ? reason : run->reason);
 }
 
-/* What is noted of a run that has come to its end. */
+/* Append the columns of a finished run. */
 static enum row_end put_run(struct row_maker *maker, struct ensemble *run, struct ledger *ledger,
                             struct text *text)
 {
@@ -221,7 +222,7 @@ static enum row_end put_run(struct row_maker *maker, struct ensemble *run, struc
     return run->outcome == FBD_DONE || run->outcome == FBD_STOPPED ? row_well : row_failed;
 }
 
-/* A run at its start; NULL where the values do not go with the options, or memory is out. */
+/* A run at its start; NULL if the values do not permit the options, or memory is out. */
 static struct ensemble *start_run(const struct row_maker *maker, const struct fbd_model *model,
                                   fbd_errors *errors)
 {
@@ -257,8 +258,8 @@ static enum row_end simulate(struct row_maker *maker, struct ensemble *run, stru
 
 /* ---- its model */
 
-/* The values of the run, moved by different parts of themselves to where the same structure is to be expected. False
- * when one is no number, or zero. */
+/* Perturb the values of the run, each by a different small fraction, so that the structure of the scene is
+ * likely the same. Returns false when one is not a number, or zero. */
 static bool move_values(const struct row_maker *maker, struct text *moved, size_t *starts)
 {
     size_t count = maker->sweep->axes.member_count;
@@ -290,8 +291,9 @@ static struct patch *make_patch(const struct row_maker *maker)
     return patch;
 }
 
-/* Reading twice for a patch costs as much as a few rows, and is tried in a few rows; again where it has served for some
- * and the values have come to where it does not fit any more, as beyond zero. */
+/* The scene of the current values by a patch, or NULL. Making a patch reads the file twice, which costs as
+ * much as a few rows; it is attempted after a few rows, and again when the patch has served for some rows and
+ * no longer fits the values, as after a change of sign. */
 static struct scene *patched(struct row_maker *maker)
 {
     enum { first_row = 3, last_row = 6, worth = 16 };
@@ -303,7 +305,7 @@ static struct scene *patched(struct row_maker *maker)
     patch_free(maker->patch);
     maker->served = 0;
     maker->patch = make_patch(maker);
-    if (!maker->patch) maker->rows = 0; /* to be tried in some of the next rows */
+    if (!maker->patch) maker->rows = 0; /* retry after a few rows */
     return maker->patch ? patch_apply(maker->patch, maker->overrides) : NULL;
 }
 

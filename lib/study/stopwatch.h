@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Stopwatch: how long something took on this machine.
+ * Stopwatch: elapsed time on this machine.
  */
 #ifndef FBD_STUDY_STOPWATCH_H
 #define FBD_STUDY_STOPWATCH_H
@@ -11,9 +11,9 @@ struct stopwatch {
 
 struct stopwatch stopwatch_start(void);
 
-/* Seconds since the start: wall time, or processor time where the process was held up by others (it had the
- * processor for less than 95 % of the time). A clock of the processor that counts in ticks may not have moved: then wall time.
- * Budgets are counted by it as well, so that a study measures the same points on a loaded machine. */
+/* Seconds since the start: wall time, or processor time if other processes took the processor (it was
+ * available for less than 95 % of the time). A processor clock that has not ticked yet is ignored. Budgets
+ * use the same time, so that a study measures the same points on a loaded machine. */
 double stopwatch_seconds(const struct stopwatch *stopwatch);
 
 #endif

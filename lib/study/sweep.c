@@ -3,6 +3,7 @@
 
 #include "base/api_check.h"
 #include "base/file.h"
+#include "fbd_study.h"
 #include "loop/options.h"
 #include "scene/names.h"
 #include "scene/node.h"
@@ -12,7 +13,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* ---- the parameters that vary */
+/* ---- the varying parameters */
 
 static const struct parameter *find_parameter(const struct scene *scene, const char *name)
 {
@@ -21,7 +22,7 @@ static const struct parameter *find_parameter(const struct scene *scene, const c
     return NULL;
 }
 
-/* How another number of the file is made to vary. `block.v`, say, becomes a parameter `v0`. */
+/* How to vary another number of the file: `block.v`, say, becomes a parameter `v0`. */
 static const char *hint_of_parameters(const char *name, const struct node *map, fbd_errors *errors)
 {
     const char *names[most_members], *dot = strrchr(name, '.'), *last = dot ? dot + 1 : name;
@@ -41,7 +42,7 @@ static const struct node *find_map(const struct fbd_sweep *sweep, const char *ke
     return pair && pair->value->kind == node_map ? pair->value : NULL;
 }
 
-/* A table varies over files, a parameter over values. */
+/* The values of a table must be files. */
 static bool check_table(const struct member *member, fbd_errors *errors)
 {
     if (member->kind == values_words) return true;
@@ -79,7 +80,7 @@ static bool check_members(const struct fbd_sweep *sweep, fbd_errors *errors)
     return fine;
 }
 
-/* Take over what is wrong with a value itself. False when it was an error. */
+/* Copy a note about a value itself. Returns false if it was an error. */
 static bool pass_on(const fbd_error *error, fbd_errors *errors)
 {
     const char *option = "--set ";
@@ -92,8 +93,8 @@ static bool pass_on(const fbd_error *error, fbd_errors *errors)
     return error->severity != FBD_ERROR;
 }
 
-/* A value of the wrong dimension is wrong in every run: the first and the last are tried. What they make of
- * the scene is for the rows to say. */
+/* Try the values of a run, for errors such as a wrong dimension, which occur in every run. Errors of
+ * the resulting scene are reported by the rows. */
 static bool try_values(const struct fbd_sweep *sweep, uint64_t run, fbd_errors *errors)
 {
     struct row_maker maker;
@@ -134,7 +135,7 @@ static void set_header(struct fbd_sweep *sweep)
     text_add(header, ",events,status,reason\n");
 }
 
-/* The data behind the rows, in the tables of the file and the files that vary. */
+/* Add hashes of the data of the tables of the file, and of the varying files, to the key. */
 static bool add_data(struct fbd_sweep *sweep, fbd_errors *errors)
 {
     const struct scene *scene = sweep->base->scene;
@@ -158,7 +159,7 @@ static bool add_data(struct fbd_sweep *sweep, fbd_errors *errors)
     return true;
 }
 
-/* Everything that the rows depend on, a line for each: what is continued later has to be the same. */
+/* Write everything that determines the rows, one line for each: a sweep is only continued with the same key. */
 static void set_key(struct fbd_sweep *sweep, const fbd_sweep_plan *plan)
 {
     struct text *key = &sweep->key;
@@ -197,7 +198,7 @@ static bool copy_settings(struct fbd_sweep *sweep, const fbd_sweep_plan *plan)
     return !sweep->arena.failed;
 }
 
-/* Read the file once: all that is wrong with it is said now, and what holds for all runs is compiled. */
+/* Read the file once: report all its errors, and compile the common part of all runs. */
 static bool prepare(struct fbd_sweep *sweep, fbd_errors *errors)
 {
     size_t varying = sweep->axes.member_count, count = varying + sweep->fixed_count;
@@ -207,7 +208,7 @@ static bool prepare(struct fbd_sweep *sweep, fbd_errors *errors)
     for (size_t i = varying; i < count; i++) overrides[i] = sweep->fixed[i - varying];
     if (!document_prepare(&sweep->document, overrides, count, errors)) return false;
     sweep->document.without_hands = true;
-    fbd_errors *again = fbd_errors_new(); /* warnings are given already */
+    fbd_errors *again = fbd_errors_new(); /* warnings were given before */
     struct scene *scene =
         again ? scene_make(&sweep->document, overrides + varying, sweep->fixed_count, again) : NULL;
     sweep->base = scene ? model_compile(scene, errors) : NULL;
@@ -215,8 +216,7 @@ static bool prepare(struct fbd_sweep *sweep, fbd_errors *errors)
     return sweep->base != NULL;
 }
 
-/* Every row is one run: no second one estimates its error, and an accuracy, which takes several, is not
- * looked for. */
+/* Refuse error bars and accuracies, which need several runs: every row is one run. */
 static bool refuse_errors(const fbd_options *options, fbd_errors *errors)
 {
     if (!options->error_bars && options->accuracy == 0) return false;
@@ -225,7 +225,7 @@ static bool refuse_errors(const fbd_options *options, fbd_errors *errors)
     return true;
 }
 
-/* The same of an accuracy that the file asks for, which does not keep it from being swept. */
+/* Warn of an accuracy in the file, which a sweep does not use. */
 static void warn_of_accuracy(const struct fbd_sweep *sweep, fbd_errors *errors)
 {
     const fbd_options *options = &sweep->options;
@@ -259,7 +259,7 @@ static bool build(struct fbd_sweep *sweep, const char *name, const fbd_sweep_pla
     return !sweep->header.failed && !sweep->key.failed;
 }
 
-/* Make a sweep; `text` is taken over. NULL with notes in `errors`: those of a wrong file, `bad-vary`,
+/* Make a sweep and take ownership of `text`. NULL with notes in `errors`: those of a wrong file, `bad-vary`,
  * `unknown-output`, `unknown-parameter`, `varied-twice`, and those of options_choose. */
 static struct fbd_sweep *sweep_make(char *text, size_t length, const char *name, const fbd_sweep_plan *plan,
                                     fbd_errors *errors)
@@ -278,15 +278,15 @@ static struct fbd_sweep *sweep_make(char *text, size_t length, const char *name,
     return NULL;
 }
 
-/* ---- the public face */
+/* ---- public functions */
 
-/* A plan as it is known here. */
+/* The caller's plan with the current size of the structs. */
 struct asked {
     fbd_sweep_plan plan;
     fbd_options run;
 };
 
-/* Is there what is to be read, and a plan? */
+/* Check that there is a text and a plan. */
 static bool is_asked(struct asked *asked, const char *text, const fbd_sweep_plan *given, fbd_errors *errors)
 {
     const fbd_sweep_plan *plan = &asked->plan;

@@ -1,16 +1,17 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Sweep: a model under many values of its parameters.
+ * Sweep: a model with many values of its parameters.
  *
- * What all runs share is made once and is constant from then on: the tree of the file, the programs that name
- * no parameter that varies (scene/programs.h), the axes, the columns. A run evaluates what depends on its
- * values, folds it into a plan of its own, and is carried to its end; nothing of it remains but its row. A
- * value is handed to the reader as the text that the row shows, so that `fbd-run --set` with it makes the
- * same model, to the last bit.
+ * The common data of all runs are made once and constant from then on: the tree of the file, the programs
+ * that contain no varying parameter (scene/programs.h), the axes, the columns. A run evaluates the programs
+ * that depend on its values, compiles a plan of its own, and is carried to its end; only its row is kept. A
+ * value is passed to the reader as the text that the row shows, so that `fbd-run --set` with it makes a
+ * bitwise equal model.
  */
 #ifndef FBD_STUDY_SWEEP_H
 #define FBD_STUDY_SWEEP_H
 
+#include "fbd_study.h"
 #include "loop/ensemble.h"
 #include "model/model.h"
 #include "scene/patch.h"
@@ -33,17 +34,17 @@ struct fbd_sweep {
 
 /* ---- rows (row.c) */
 
-/* What one thread needs to make rows, one after the other. */
+/* The data of one thread that makes rows one after another. */
 struct row_maker {
     const struct fbd_sweep *sweep;
-    struct override *overrides; /* those that vary, then the fixed ones */
+    struct override *overrides; /* the varying ones, then the fixed ones */
     size_t *starts;             /* of the texts of the values */
     struct text values;
     struct extreme *extremes;
-    struct patch *patch; /* a scene that takes the values of one run after the other, or NULL */
-    uint64_t rows;       /* since the last one was asked for */
-    uint64_t served;     /* by this patch */
-    fbd_stop *stop;      /* asked in every step, or NULL */
+    struct patch *patch; /* a scene into which the values of successive runs are patched, or NULL */
+    uint64_t rows;       /* rows since the last attempt to make a patch */
+    uint64_t served;     /* rows made with this patch */
+    fbd_stop *stop;      /* called in every step, or NULL */
     void *stop_context;
 };
 
@@ -55,23 +56,24 @@ bool row_maker_set(struct row_maker *maker, uint64_t run);
 
 enum row_end {
     row_well,   /* the run reached its end, or an event of the file stopped it */
-    row_failed, /* it did not, and its row says why */
-    row_stopped /* `stop` said so: no row was added */
+    row_failed, /* it did not, and its row has the reason */
+    row_stopped /* stopped by `stop`: no row was added */
 };
 
 /* Make run `run` (from 0) and append its row to `text`. */
 enum row_end row_make(struct row_maker *maker, uint64_t run, struct text *text);
 
-/* A row whose run is under way. */
+/* A row whose run has not ended. */
 struct open_row {
     fbd_errors *errors;
     struct fbd_model *model;
     struct ensemble *run;
 };
 
-/* The same in parts, for a run that somebody else carries to its end, of which no column asks for more than that. Append
- * the start of the row and begin the run: false where there is none, and the row is whole (row_failed). Then, at the end
- * of the run, the rest of it. The maker is not to be used for another row until this one is closed. */
+/* row_make in two parts, for a run that the caller advances, if no column requires more than its end.
+ * row_open appends the start of the row and starts the run; returns false if that fails, and the row is then
+ * complete (row_failed). row_put appends the rest at the end of the run. The maker must not be used for
+ * another row until this one is closed. */
 bool row_open(struct row_maker *maker, uint64_t run, struct open_row *row, struct text *text);
 enum row_end row_put(struct row_maker *maker, const struct open_row *row, struct text *text);
 void row_close(struct open_row *row);

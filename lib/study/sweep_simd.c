@@ -5,23 +5,24 @@
 
 #include "base/block_alloc.h"
 #include "batch/batch.h"
+#include "fbd_study.h"
 
-/* Rows that are waited for at a time: a full share. */
+/* Rows kept at a time: a full share. */
 enum { most_rows = 64 };
 
 /* A row of `sweep_simd_make`. */
 struct kept_row {
     size_t start, length; /* in `pile` */
-    enum row_end end;     /* row_stopped: it is not there */
+    enum row_end end;     /* row_stopped: not made */
     bool out_of_memory;
 };
 
-/* Each lane has a maker of its own: the scene of one takes the values of one run at a time. */
+/* Each lane has its own maker, since a patched scene holds the values of one run at a time. */
 struct lane {
     struct row_maker maker;
-    struct open_row row; /* without a run where the lane is empty */
+    struct open_row row; /* without a run if the lane is empty */
     struct text text;
-    size_t index; /* of the row among those that are made */
+    size_t index; /* index of the row in `rows` */
 };
 
 struct sweep_simd {
@@ -29,7 +30,7 @@ struct sweep_simd {
     void *stop_context;
     struct batch *batch;
     struct lane lanes[batch_most_lanes];
-    struct text pile; /* rows, as they came to their ends */
+    struct text pile; /* rows, in the order of their completion */
     struct kept_row rows[most_rows];
     uint64_t first; /* run of rows[0] */
     size_t begun, count;
@@ -76,7 +77,7 @@ void sweep_simd_free(struct sweep_simd *simd)
     free(simd);
 }
 
-/* The row of a lane is whole. */
+/* Keep the completed row of a lane. */
 static void keep(struct sweep_simd *simd, struct lane *lane, enum row_end end)
 {
     struct kept_row *row = &simd->rows[lane->index];
@@ -86,8 +87,8 @@ static void keep(struct sweep_simd *simd, struct lane *lane, enum row_end end)
     row_close(&lane->row);
 }
 
-/* Make what steps a run has to make by itself, until it can be put into its lane. False where it comes to its end before:
- * its row is kept. */
+/* Advance a run without the batch until it fits into its lane. Returns false if it ends before; its row is
+ * then kept. */
 static bool carry(struct sweep_simd *simd, unsigned i)
 {
     struct lane *lane = &simd->lanes[i];
@@ -100,7 +101,7 @@ static bool carry(struct sweep_simd *simd, unsigned i)
     return false;
 }
 
-/* Begin rows until one is in the lane. */
+/* Start rows until one is in the lane. */
 static void fill(struct sweep_simd *simd, unsigned i)
 {
     struct lane *lane = &simd->lanes[i];
@@ -120,7 +121,7 @@ static bool is_stopped(const struct sweep_simd *simd)
     return simd->stop && simd->stop(simd->stop_context) != 0;
 }
 
-/* Runs that are under way come to nothing. */
+/* Abandon the runs in the lanes. */
 static void empty_lanes(struct sweep_simd *simd)
 {
     for (unsigned i = 0; i < batch_lanes(simd->batch); i++) {
@@ -144,7 +145,7 @@ static void make_rows(struct sweep_simd *simd)
     empty_lanes(simd);
 }
 
-/* In order, up to the first one that is not there. */
+/* Append the rows in order, up to the first missing one. */
 static struct rows_made deliver(const struct sweep_simd *simd, struct text *text)
 {
     struct rows_made rows = {0};

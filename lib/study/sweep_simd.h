@@ -1,20 +1,22 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Rows in SIMD lanes: the runs of some rows at a time, in the lanes of a batch (batch.h). A row whose run is at its end is kept until
- * those before it are there, and the lane gets the next one. The rows are those of row_make, to the last byte.
+ * Rows by SIMD batches: the runs of several rows at the same time, in the lanes of a batch (batch.h). A
+ * finished row is kept until those before it are complete, and its lane gets the next one. The rows are
+ * bytewise those of row_make.
  */
 #ifndef FBD_STUDY_SWEEP_SIMD_H
 #define FBD_STUDY_SWEEP_SIMD_H
 
+#include "fbd_study.h"
 #include "study/sweep.h"
 
-/* Does it gain anything: may the runs be put into lanes, and does no column ask for more than their ends? */
+/* True if the runs fit into lanes, and no column requires more than their ends. */
 bool sweep_simd_suits(const struct fbd_sweep *sweep);
 
 struct sweep_simd;
 
-/* What one thread needs, with at most so many lanes; asks `stop`, unless that is NULL, every few steps. NULL when memory is
- * out. */
+/* The data of one thread, with at most `lanes` lanes; calls `stop`, unless NULL, every few steps. NULL when
+ * memory is out. */
 struct sweep_simd *sweep_simd_new(const struct fbd_sweep *sweep, unsigned lanes, fbd_stop *stop,
                                   void *stop_context);
 unsigned sweep_simd_lanes(const struct sweep_simd *simd);
@@ -22,8 +24,8 @@ void sweep_simd_free(struct sweep_simd *simd);
 
 /* Rows of one share. */
 struct rows_made {
-    uint64_t made; /* fewer than were asked for where `stop` said so, or memory is out (text->failed) */
-    size_t failed; /* of them: runs that came to no good end */
+    uint64_t made; /* fewer than requested if `stop` returned nonzero, or memory is out (text->failed) */
+    size_t failed; /* of these: failed runs */
 };
 
 /* Append the rows of the runs `first` to before `end`, in this order, to `text`. */

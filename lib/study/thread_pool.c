@@ -3,6 +3,7 @@
 
 #include "base/api_check.h"
 #include "batch/batch.h"
+#include "fbd_study.h"
 #include "study/sweep_simd.h"
 
 #include <math.h>
@@ -10,13 +11,13 @@
 #include <time.h>
 #include <unistd.h>
 
-/* A share takes about this long, and has no more runs than these: larger ones would gain nothing. */
+/* Approximate duration of a share, and the largest number of its runs; larger shares have no advantage. */
 static const double share_seconds = 5e-3;
 enum { most_share = 64 };
 
 /* ---- the ring; the lock is held */
 
-/* No more rows, for this reason; the first one counts. */
+/* End the sweep; the first reason is kept. */
 static void end_early(fbd_sweep_workers *crew, fbd_sweep_end why)
 {
     if (crew->end == FBD_SWEEP_DONE) crew->end = why;
@@ -49,7 +50,7 @@ static void tell_progress(fbd_sweep_workers *crew)
     if (crew->work.progress(crew->work.progress_context, &now) != 0) end_early(crew, FBD_SWEEP_STOPPED);
 }
 
-/* A share is done: write it, and those behind it that waited, or leave it for later. */
+/* Mark a share as done; write all completed shares at the head of the ring. */
 static void put_in_order(fbd_sweep_workers *crew, struct place *place)
 {
     bool first = place == &crew->ring[crew->head % crew->room];
@@ -61,8 +62,8 @@ static void put_in_order(fbd_sweep_workers *crew, struct place *place)
     pthread_cond_broadcast(&crew->changed);
 }
 
-/* How many runs the next share has: what takes some milliseconds for each thread of who takes it, and toward
- * the end a part of what is left; where runs go into lanes, enough of them. */
+/* The number of runs of the next share: some milliseconds for each thread of the worker, and near the end a
+ * fraction of the remaining runs; with SIMD batches at least enough to fill the lanes. */
 static uint64_t share_size(const fbd_sweep_workers *crew, size_t jobs)
 {
     double workers = (double)(crew->jobs + crew->helpers);
@@ -120,7 +121,7 @@ static void make_rows(struct row_maker *maker, struct place *place)
     place->rows.length = whole;
 }
 
-/* The same in the lanes of a batch. */
+/* make_rows by SIMD batches. */
 static void make_rows_simd(struct sweep_simd *simd, struct place *place)
 {
     const struct rows_made rows = sweep_simd_make(simd, place->first, place->end, &place->rows);
@@ -163,7 +164,7 @@ static void *work(void *context)
     return NULL;
 }
 
-/* ---- the crew */
+/* ---- the pool */
 
 static size_t processors(void)
 {
@@ -181,7 +182,7 @@ static void dismiss(fbd_sweep_workers *crew)
     free(crew);
 }
 
-/* One thread alone is the caller's, in fbd_sweep_finish. */
+/* Start the threads. A single one is not started: fbd_sweep_finish does its work in the caller's thread. */
 static void start_threads(fbd_sweep_workers *crew)
 {
     if (crew->jobs == 1 && crew->helpers == 0) return;
@@ -195,7 +196,7 @@ fbd_sweep_workers *fbd_sweep_start(const fbd_sweep *sweep, const fbd_sweep_work 
     const fbd_sweep_work *work = &own;
     if (!sweep || !api_take_options(&own, sizeof own, given, NULL) || !own.write) return NULL;
     enum { places_of_a_thread = 4, places_of_a_helper = 4, most_jobs = 1024 };
-    const size_t usual_rows = 16000; /* bytes of a full share: none of them grows in most sweeps */
+    const size_t usual_rows = 16000; /* bytes of a full share: sufficient in most sweeps */
     fbd_sweep_workers *crew = calloc(1, sizeof *crew);
     if (!crew) return NULL;
     crew->sweep = sweep;
@@ -235,7 +236,7 @@ int fbd_sweep_claim(fbd_sweep_workers *crew, size_t jobs, fbd_sweep_share *share
     return place ? 1 : none ? -1 : 0;
 }
 
-/* Has this share been claimed from this crew, and not yet been delivered? */
+/* True if this share was claimed from this pool, and not delivered yet. */
 static bool is_handed_out(fbd_sweep_workers *crew, const fbd_sweep_share *share)
 {
     bool found = false;
@@ -265,7 +266,7 @@ fbd_sweep_end fbd_sweep_finish(fbd_sweep_workers *crew, fbd_sweep_counts *counts
 {
     if (counts) *counts = (fbd_sweep_counts){0};
     if (!crew) return FBD_SWEEP_REFUSED;
-    if (crew->threads == 0) work(crew); /* or none could be started */
+    if (crew->threads == 0) work(crew); /* also if none could be started */
     for (size_t i = 0; i < crew->threads; i++) pthread_join(crew->thread[i], NULL);
     fbd_sweep_end end = crew->end;
     if (counts) *counts = crew->counts;

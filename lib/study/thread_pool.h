@@ -1,27 +1,27 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Crew: threads that make the rows of a sweep, and the queue that puts them in order.
+ * Thread pool: threads that make the rows of a sweep, and the queue that puts them in order.
  *
- * Runs are handed out in shares, in order, to whoever is free: the threads, or other processes. A share that
- * is done waits in a ring until those before it are written. The ring has few places, so a run that takes
- * long holds up the others at its end rather than filling the memory. Shares are short in time (some
- * milliseconds) and few runs at the end, so that a kill loses little and nobody waits for a neighbour's last
- * share.
+ * Runs are assigned in shares, in order, to free workers: threads, or other processes. A finished share waits
+ * in a ring until those before it are written. The ring is short, so a run that takes long delays the others
+ * instead of filling the memory. Shares take some milliseconds and have few runs near the end, so that a kill
+ * loses little and no worker waits long for the last share of another.
  */
 #ifndef FBD_STUDY_THREAD_POOL_H
 #define FBD_STUDY_THREAD_POOL_H
 
+#include "fbd_study.h"
 #include "fbd_workers.h"
 #include "study/sweep.h"
 
 #include <pthread.h>
 #include <stdatomic.h>
 
-/* A place of the ring: a share that was handed out and is not written yet. */
+/* An element of the ring: a share that was assigned and is not written yet. */
 struct place {
     uint64_t first, end;
-    uint64_t made; /* rows that it has */
-    size_t failed; /* runs among them that came to no good end */
+    uint64_t made; /* rows in it */
+    size_t failed; /* failed runs among them */
     struct text rows;
     bool done;
 };
@@ -31,17 +31,17 @@ struct fbd_sweep_workers {
     fbd_sweep_work work;
     size_t jobs, threads; /* wanted; running */
     size_t helpers;       /* other processes that claim shares */
-    bool simd;            /* runs go into lanes (sweep_simd.h) */
+    bool simd;            /* use SIMD batches (sweep_simd.h) */
     pthread_t *thread;
 
-    atomic_bool over; /* no more rows are wanted */
+    atomic_bool over; /* no more rows are required */
 
     pthread_mutex_t lock; /* of everything below */
     pthread_cond_t changed;
-    uint64_t next;      /* the first run that was not handed out */
-    struct place *ring; /* places of the shares `head` to before `tail`, modulo `room` */
+    uint64_t next;      /* the first run that was not assigned */
+    struct place *ring; /* holds the shares `head` to before `tail`, modulo `room` */
     size_t room, head, tail;
-    double seconds; /* of one run, about */
+    double seconds; /* running mean of the time of one run */
     fbd_sweep_counts counts;
     fbd_sweep_end end;
 };

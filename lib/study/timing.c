@@ -26,7 +26,7 @@ static bool run_once(const struct timed *timed, fbd_errors *errors)
     return outcome != FBD_OUT_OF_MEMORY;
 }
 
-/* One reading: at least a hundred microseconds, a thousand times what the clock resolves. */
+/* Take one reading of at least 100 microseconds, a thousand times the resolution of the clock. */
 static bool read_once(struct timed *timed, fbd_errors *errors)
 {
     const double least = 100e-6;
@@ -37,7 +37,7 @@ static bool read_once(struct timed *timed, fbd_errors *errors)
         if (!run_once(timed, errors)) return false;
     double seconds = stopwatch_seconds(&watch) / turns;
     timed->samples[timed->repeats++] = seconds;
-    /* The first estimate came from a run with cold caches that was looked at. */
+    /* The first estimate included cold caches and sampling. */
     timed->estimate = timed->estimate > 0 ? fmin(timed->estimate, seconds) : seconds;
     return true;
 }
@@ -58,7 +58,7 @@ static void summarize(struct timed *timed)
     timed->high = timed->samples[n - 1 - n / 4];
 }
 
-/* An equal share of the time for each, of which the short ones do not need all. */
+/* The number of repeats within an equal share of the time, limited for short runs. */
 static unsigned wanted_repeats(const struct timed *timed, double share)
 {
     double cost = fmax(timed->estimate, 110e-6);
@@ -68,7 +68,7 @@ static unsigned wanted_repeats(const struct timed *timed, double share)
 bool timing_in_turn(struct timed *timed, size_t count, double seconds, const struct progress *progress,
                     fbd_errors *errors)
 {
-    enum { turn = 7 }; /* an odd stride to start the rounds at */
+    enum { turn = 7 }; /* stride of the first run of a round */
     struct stopwatch watch = stopwatch_start();
     bool going = count > 0;
     for (unsigned round = 0; going && round < most_repeats; round++) {

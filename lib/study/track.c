@@ -34,7 +34,7 @@ bool track_ended(const struct track *track)
     return track->outcome == FBD_DONE || track->outcome == FBD_STOPPED;
 }
 
-/* Take what the last step has passed. */
+/* Sample the grid times in the last step. */
 static bool look(struct track *track, fbd_simulation *simulation, const struct grid *grid, fbd_state *state)
 {
     double from, to;
@@ -90,7 +90,7 @@ static bool make(struct track *track, fbd_simulation *simulation, const struct g
         memcpy(track->end, state->y, track->size * sizeof *track->end);
     const char *reason = fbd_simulation_reason(simulation);
     if (!seen && !reason[0]) reason = "the dense output of a step cannot be had";
-    if (!seen) /* a simulation that has ended says how, again */
+    if (!seen) /* a simulation that has ended returns its outcome again */
         track->outcome =
             fbd_simulation_advance(simulation) == FBD_OUT_OF_MEMORY ? FBD_OUT_OF_MEMORY : FBD_FAILED;
     track->reason = arena_text(arena, reason, strlen(reason));

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Track: one run as it was seen at the times of a grid, with its events and its counts.
+ * Track: one run sampled at the times of a grid, with its events and its counts.
  *
- * A quantity is a coordinate, a rate or a state of the file's own: quantity i < n is coordinate i, quantity n + i its
+ * A quantity is a coordinate, a rate or a user state: quantity i < n is coordinate i, quantity n + i its
  * rate, quantity 2 n + i state i.
  */
 #ifndef FBD_STUDY_TRACK_H
@@ -14,7 +14,7 @@
 #include "base/arena.h"
 #include "fbd.h"
 
-/* How a run is made: by a tolerance, or with steps of one size. */
+/* Settings of a run: a tolerance, or steps of fixed size. */
 struct setting {
     const char *method;
     double tolerance; /* 0 with a fixed step */
@@ -24,7 +24,7 @@ struct setting {
 /* The options of a run with this setting. */
 fbd_options setting_options(const struct setting *setting, double until);
 
-/* How many quantities a model has. */
+/* The number of quantities of a model. */
 size_t quantity_count(const fbd_model *model);
 
 struct grid {
@@ -48,18 +48,18 @@ struct track {
     double t_end;
     struct track_event *events;
     size_t event_count;
-    fbd_outcome outcome; /* FBD_GOING: given up for its time */
-    const char *reason;  /* "" while all is well */
+    fbd_outcome outcome; /* FBD_GOING: abandoned for its time */
+    const char *reason;  /* "" without an error */
     fbd_stats stats;
-    double seconds; /* with the looking */
+    double seconds; /* sampling included */
 };
 
-/* Make a run and look at it; one that has not ended after `most_seconds` is given up. Memory is taken from
- * `arena`. False with a note in `errors` when the run cannot even start, or memory is out. */
+/* Make and sample a run; it is abandoned after `most_seconds`. Memory is taken from `arena`. Returns false
+ * with a note in `errors` when the run cannot start, or memory is out. */
 bool track_make(struct track *track, const fbd_model *model, const struct setting *setting,
                 const struct grid *grid, double most_seconds, struct arena *arena, fbd_errors *errors);
 
-/* True when the run got to an end that it was meant to have. */
+/* True when the run reached its end time or was stopped by an event. */
 bool track_ended(const struct track *track);
 
 /* The largest |a - b| / scale over all quantities with a scale above 0, at times first <= k < count of the

@@ -14,6 +14,7 @@
 
 #include "batch/batch.h"
 #include "claim.h"
+#include "fbd_study.h"
 #include "open_sweep.h"
 #include "study/sweep_simd.h"
 #include "timing.h"

@@ -14,6 +14,7 @@
 
 #include "claim.h"
 #include "fbd.h"
+#include "fbd_study.h"
 #include "open_sweep.h"
 #include "timing.h"
 

@@ -6,6 +6,7 @@
 #include <stdlib.h>
 
 #include "fbd.h"
+#include "fbd_study.h"
 
 /* A sweep over one parameter, to be freed. `until`: of all runs, NAN for that of the file. Ends the program where there is none. */
 static inline fbd_sweep *open_sweep(const char *path, const char *vary, double until)

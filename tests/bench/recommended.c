@@ -7,6 +7,7 @@
 #include <time.h>
 
 #include "accuracy.h"
+#include "fbd_study.h"
 
 static const double targets[] = {1e-3, 1e-6, 1e-9};
 

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "rest.h"
+#include "fbd_study.h"
 
 #include <stdio.h>
 #include <string.h>

@@ -10,6 +10,9 @@
 #include "base/text.h"
 #include "claims.h"
 #include "fbd.h"
+#include "fbd_export.h"
+#include "fbd_grade.h"
+#include "fbd_study.h"
 #include "fuzz.h"
 #include "scene/language.h"
 

@@ -9,6 +9,7 @@
 #include "base/text.h"
 #include "claims.h"
 #include "fbd.h"
+#include "fbd_study.h"
 #include "fuzz.h"
 
 enum { most_texts = 8, most_rows = 3, most_steps = 150 };

@@ -4,6 +4,7 @@
  * (test_bad_calls.c).
  */
 #include "bad_calls.h"
+#include "fbd_study.h"
 
 /* ---- options of other versions */
 

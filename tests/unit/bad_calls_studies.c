@@ -4,6 +4,8 @@
  */
 #include "bad_calls.h"
 
+#include "fbd_grade.h"
+#include "fbd_study.h"
 #include "fbd_workers.h"
 
 /* ---- sweeps */

@@ -5,6 +5,7 @@
 #ifndef FBD_TESTS_LOOKED_H
 #define FBD_TESTS_LOOKED_H
 
+#include "fbd_study.h"
 #include "scenes.h"
 
 struct looked {

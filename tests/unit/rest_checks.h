@@ -8,6 +8,7 @@
 #ifndef FBD_TESTS_REST_CHECKS_H
 #define FBD_TESTS_REST_CHECKS_H
 
+#include "fbd_study.h"
 #include "gallery.h"
 
 #include <gsl/gsl_errno.h>

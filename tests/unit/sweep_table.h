@@ -7,6 +7,7 @@
 
 #include "base/text.h"
 #include "fbd.h"
+#include "fbd_study.h"
 
 #include <stdio.h>
 #include <stdlib.h>

@@ -11,6 +11,7 @@
 #include <cmocka.h>
 
 #include "exact_motions.h"
+#include "fbd_export.h"
 #include "gallery.h"
 #include "rows.h"
 #include "scenes.h"

@@ -7,6 +7,9 @@
 #include <gsl/gsl_errno.h>
 
 #include "bad_calls.h"
+#include "fbd_export.h"
+#include "fbd_grade.h"
+#include "fbd_study.h"
 
 const char bad_calls_scene[] = "fbd: 1\n"
                                "parameters: {k: 4 N/m}\n"

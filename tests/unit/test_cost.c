@@ -16,6 +16,7 @@
 
 #include <cmocka.h>
 
+#include "fbd_study.h"
 #include "gallery.h"
 #include "study/reference.h"
 

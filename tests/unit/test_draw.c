@@ -16,6 +16,7 @@
 
 #include "draw/labelling.h"
 #include "draw/pack.h"
+#include "fbd_export.h"
 #include "model/outline.h"
 #include "random_numbers.h"
 #include "scenes.h"

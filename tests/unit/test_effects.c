@@ -14,6 +14,7 @@
 
 #include <cmocka.h>
 
+#include "fbd_study.h"
 #include "gallery.h"
 
 enum { times = 241 }; /* of the grid, as documented */

@@ -13,6 +13,7 @@
 
 #include <cmocka.h>
 
+#include "fbd_study.h"
 #include "random_numbers.h"
 #include "rest_checks.h"
 #include "thorough.h"

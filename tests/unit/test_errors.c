@@ -14,6 +14,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "fbd_export.h"
+#include "fbd_study.h"
 #include "scenes.h"
 
 static const char right[] = "fbd: 1\n"

@@ -11,6 +11,7 @@
 #include <cmocka.h>
 
 #include "fbd.h"
+#include "fbd_export.h"
 #include "scenes.h"
 
 #include <stdlib.h>

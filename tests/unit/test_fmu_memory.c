@@ -10,6 +10,7 @@
 
 #include <cmocka.h>
 
+#include "fbd_export.h"
 #include "fmi/fmi2.h"
 #include "fmi/fmi3.h"
 #include "fmi/package.h"

@@ -15,6 +15,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "fbd_study.h"
 #include "joined_checks.h"
 #include "random_numbers.h"
 

@@ -10,6 +10,7 @@
 
 #include <cmocka.h>
 
+#include "fbd_grade.h"
 #include "scenes.h"
 
 #include <stdio.h>

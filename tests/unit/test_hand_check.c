@@ -9,6 +9,7 @@
 
 #include <cmocka.h>
 
+#include "fbd_grade.h"
 #include "scenes.h"
 
 #include <stdio.h>

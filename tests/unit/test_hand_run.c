@@ -13,6 +13,7 @@
 
 #include <cmocka.h>
 
+#include "fbd_grade.h"
 #include "hand_lines.h"
 #include "scenes.h"
 #include "thorough.h"

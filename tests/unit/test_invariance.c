@@ -10,6 +10,7 @@
 
 #include <cmocka.h>
 
+#include "fbd_export.h"
 #include "gallery.h"
 
 #include <stdlib.h>

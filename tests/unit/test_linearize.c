@@ -15,6 +15,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "fbd_study.h"
 #include "looked.h"
 
 static void assert_text_has(const fbd_linearization *linear, const char *words, bool wanted)

@@ -14,6 +14,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "fbd_study.h"
 #include "looked.h"
 #include "random_numbers.h"
 #include "thorough.h"

@@ -17,6 +17,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "fbd_export.h"
 #include "gallery.h"
 #include "random_numbers.h"
 #include "thorough.h"

@@ -14,6 +14,7 @@
 #include <cmocka.h>
 
 #include "fbd.h"
+#include "fbd_export.h"
 
 static fbd_model *parse(const char *text)
 {

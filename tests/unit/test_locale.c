@@ -20,6 +20,9 @@
 
 #include "base/text.h"
 #include "fbd.h"
+#include "fbd_export.h"
+#include "fbd_grade.h"
+#include "fbd_study.h"
 
 static const struct {
     const char *name, *source, *charmap;

@@ -7,6 +7,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "fbd_grade.h"
 #include "gallery.h"
 #include "model/model.h"
 #include "scenes.h"

@@ -19,6 +19,7 @@
 #include <string.h>
 
 #include "dynamics/modes.h"
+#include "fbd_export.h"
 #include "random_numbers.h"
 
 static size_t compared, states_compared;

@@ -12,6 +12,7 @@
 
 #include <cmocka.h>
 
+#include "fbd_study.h"
 #include "gallery.h"
 #include "random_numbers.h"
 #include "scene/patch.h"

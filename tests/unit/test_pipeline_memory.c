@@ -15,6 +15,9 @@
 #include <gsl/gsl_errno.h>
 
 #include "dynamics/tree.h"
+#include "fbd_export.h"
+#include "fbd_grade.h"
+#include "fbd_study.h"
 #include "memory_calls.h"
 #include "model/model.h"
 #include "rest/balance.h"

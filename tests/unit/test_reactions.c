@@ -12,6 +12,8 @@
 
 #include <cmocka.h>
 
+#include "fbd_export.h"
+#include "fbd_study.h"
 #include "gallery.h"
 #include "holds/impact.h"
 

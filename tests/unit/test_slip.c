@@ -11,6 +11,7 @@
 #include <cmocka.h>
 
 #include "dynamics/modes.h"
+#include "fbd_study.h"
 #include "gallery.h"
 #include "random_numbers.h"
 #include "scenes.h"

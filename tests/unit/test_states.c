@@ -16,6 +16,7 @@
 #include <stdlib.h>
 
 #include "dynamics/rates.h"
+#include "fbd_study.h"
 #include "random_numbers.h"
 #include "run_checks.h"
 

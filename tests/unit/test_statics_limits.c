@@ -10,6 +10,7 @@
 
 #include <cmocka.h>
 
+#include "fbd_study.h"
 #include "rest_checks.h"
 
 static const char rough_ladder[] =

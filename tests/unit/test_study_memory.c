@@ -13,6 +13,7 @@
 #include <cmocka.h>
 #include <gsl/gsl_errno.h>
 
+#include "fbd_study.h"
 #include "memory_calls.h"
 
 static const char text[] = "fbd: 1\n"

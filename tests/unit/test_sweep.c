@@ -13,6 +13,7 @@
 #include <cmocka.h>
 #include <gsl/gsl_errno.h>
 
+#include "fbd_study.h"
 #include "fbd_workers.h"
 #include "sweep_table.h"
 

@@ -14,6 +14,7 @@
 
 #include "fail_alloc.h"
 #include "fbd.h"
+#include "fbd_study.h"
 #include "thorough.h"
 
 static const char text[] = "fbd: 1\n"

@@ -10,6 +10,7 @@
 #include <cmocka.h>
 #include <gsl/gsl_errno.h>
 
+#include "fbd_study.h"
 #include "study/sweep_simd.h"
 #include "sweep_table.h"
 

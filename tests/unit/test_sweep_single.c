@@ -16,6 +16,7 @@
 #include <gsl/gsl_errno.h>
 
 #include "base/file.h"
+#include "fbd_study.h"
 #include "scene/scene.h"
 #include "sweep_table.h"
 #include "thorough.h"

@@ -13,6 +13,7 @@
 #include <cmocka.h>
 #include <gsl/gsl_errno.h>
 
+#include "fbd_study.h"
 #include "sweep_table.h"
 
 static void assert_plan_refused(const fbd_sweep_plan *plan, const char *id)

@@ -1,6 +1,6 @@
 "use strict";
 
-// Forces and velocities as arrows, moments as arcs, and the overlay that tells their scales.
+// Forces and velocities as arrows, moments as arcs, and the overlay with their scales.
 
 function head(x, y, ux, uy, colour) {
   path([[x, y], [x - 10 * ux - 4 * uy, y - 10 * uy + 4 * ux], [x - 10 * ux + 4 * uy, y - 10 * uy - 4 * ux]], true);
@@ -8,7 +8,8 @@ function head(x, y, ux, uy, colour) {
   pen.fill();
 }
 
-// How much of an arrow from a point of the canvas, `length` along [ux, uy], stays on it; an arrow from outside is not cut.
+// The part of an arrow from a point of the canvas, `length` along [ux, uy], that lies on the canvas; an arrow from
+// outside is not cut.
 function roomFor([x, y], ux, uy, length) {
   const edges = [[x, ux, margin, view.width - margin], [y, uy, margin, view.height - margin]];
   let room = length;
@@ -20,7 +21,7 @@ function roomFor([x, y], ux, uy, length) {
   return room;
 }
 
-// Two strokes across the shaft of an arrow that is shorter than its scale says.
+// Draw two strokes across the shaft of an arrow that is shorter than to scale.
 function drawCut(x, y, ux, uy, colour) {
   for (const along of [-2.5, 2.5]) {
     const cx = x + along * ux, cy = y + along * uy;
@@ -30,7 +31,7 @@ function drawCut(x, y, ux, uy, colour) {
   }
 }
 
-// Does the arrow from `from` by `length` along [ux, uy] lie on one that is drawn?
+// True if the arrow from [x, y] by `length` along [ux, uy] overlaps one that is drawn.
 function liesOnAnother([x, y], ux, uy, length) {
   return drawn.arrows.some(([x1, y1, x2, y2, arc]) => {
     const dx = x2 - x1, dy = y2 - y1, size = Math.hypot(dx, dy);
@@ -40,7 +41,7 @@ function liesOnAnother([x, y], ux, uy, length) {
   });
 }
 
-// The least step to the side, of 5 pixels each, where it lies on no other.
+// The start of an arrow, moved sideways by the fewest steps of 5 pixels so that it overlaps no other.
 function stepAside(from, ux, uy, length) {
   for (let k = 0; k < 9; k++) {
     const step = 5 * (k + 1 >> 1) * (k % 2 ? 1 : -1), at = [from[0] - step * uy, from[1] + step * ux];
@@ -49,8 +50,8 @@ function stepAside(from, ux, uy, length) {
   return from;
 }
 
-// An arrow of that many pixels; returns its tip, or null where it is too short to be seen. One that is longer than the
-// canvas has room for, or than all others by far, is cut.
+// Draw an arrow of [dx, dy] pixels; returns its tip, or null if it is too short to be seen. An arrow that exceeds the
+// canvas, or the largest length, is cut.
 function arrowTo(point, dx, dy, colour) {
   const whole = Math.hypot(dx, dy);
   if (!(whole > 2)) return null;
@@ -68,7 +69,7 @@ function arrowTo(point, dx, dy, colour) {
 }
 
 function arrowColour(arrow) {
-  const what = arrow.name.split(".").pop(); // on the other body it is called body.normal
+  const what = arrow.name.split(".").pop(); // the reaction on another body is called body.normal
   if (what.startsWith("friction")) return view.colour.friction;
   if (arrow.reaction || what === "normal") return view.colour.reaction;
   if (arrow.name === "gravity") return view.colour.gravity;
@@ -79,7 +80,7 @@ function labelOf(name, value, units, shows) {
   return [shows.names ? quantity(name) : "", shows.values ? `${show(value, 3)} ${unit(units)}` : ""].filter(Boolean).join(" ");
 }
 
-// A moment as an arc around [x, y]; the next one of the body goes round it.
+// Draw a moment as an arc around [x, y]; further ones of the body have larger radii.
 function drawCouple([x, y], couple, index, colour, key, text) {
   const radius = 24 + 7 * index, sweep = Math.max(-5, Math.min(5, 4.2 * couple / view.moment));
   if (Math.abs(sweep) < 0.15) return false;
@@ -119,7 +120,7 @@ function drawVelocity(body, frame, t, row, shows) {
 
 // ---- axes, scales, angles
 
-// 1, 2 or 5 times a power of ten, at most `most`.
+// The largest of 1, 2 or 5 times a power of ten that is at most `most`.
 function roundBelow(most) {
   const power = 10 ** Math.floor(Math.log10(most)), share = most / power;
   return power * (share >= 5 ? 5 : share >= 2 ? 2 : 1);
@@ -140,7 +141,7 @@ function plainText(text, x, y, colour, boxed = true) {
   return width;
 }
 
-// What so many pixels stand for, below the scene: a length, a force, a velocity; and where x and y go.
+// Draw the scales below the scene: a length, a force, a velocity; and the directions of x and y.
 function drawScales(shows) {
   const y = view.height - 16, soft = view.colour.soft;
   let x = 16;
@@ -176,7 +177,7 @@ function drawScales(shows) {
   if (shows.velocity) add(arrowShare * Math.min(view.width, view.height) / view.speed, run.units.speed, view.colour.velocity, arrow);
 }
 
-// An arc from angle `from` by `sweep`, both as in the world, with its name.
+// Draw an arc from angle `from` by `sweep`, both as in the world, with its label.
 function drawAngle([x, y], from, sweep, radius, key, text) {
   path([[x, y], [x + (radius + 14) * Math.cos(from), y - (radius + 14) * Math.sin(from)]]);
   strokeWith(view.colour.soft, 1, [4, 3]);
@@ -185,15 +186,15 @@ function drawAngle([x, y], from, sweep, radius, key, text) {
   strokeWith(view.colour.soft, 1.2);
   const end = from + sweep, way = sweep > 0 ? 1 : -1, tip = [x + radius * Math.cos(end), y - radius * Math.sin(end)];
   if (Math.abs(sweep) * radius > 12) {
-    const turn = end - way * 5 / radius; // the head lies along the chord of what it covers
+    const turn = end - way * 5 / radius; // direction of the head: the chord of its arc
     head(...tip, -way * Math.sin(turn), -way * Math.cos(turn), view.colour.soft);
   }
   const middle = from + sweep / 2;
   wantLabel(key, text, x + radius * Math.cos(middle), y - radius * Math.sin(middle), Math.cos(middle), -Math.sin(middle), view.colour.soft);
 }
 
-// The angle of an inclined slide on the ground, at its low end on the canvas, once for each direction; that of a
-// pivoted body from where it counts.
+// Draw the angle of an inclined slide on the ground, at its low end on the canvas, once for each direction; and that of
+// a pivoted body from its zero.
 function drawAngles(frames, t, row, chosen) {
   const seen = new Set(), degrees = (angle) => `${show(angle * 180 / Math.PI, 3)}°`;
   run.bodies.forEach((body, i) => {
@@ -212,7 +213,7 @@ function drawAngles(frames, t, row, chosen) {
   });
 }
 
-// Where the line under a slide comes into the canvas at its low end, some way in.
+// The point near the canvas's edge where the line under a slide enters at its low end; null if there is none.
 function lowEnd(body) {
   const { through, along } = body.line, [x, y] = toScreen(through), way = along[1] > 0 ? -1 : 1;
   const dx = way * along[0], dy = -way * along[1], bottom = view.height - strip - 8;

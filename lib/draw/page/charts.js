@@ -5,12 +5,12 @@
 const charts = [];
 const plotWindow = { from: 0, to: 0, hover: null };
 
-// Colours of the curves, from the style: other ones on dark paper.
+// Colours of the curves, from the style sheet, which has others for dark paper.
 function palette(i) {
   return getComputedStyle(document.documentElement).getPropertyValue(`--curve-${i % 8}`).trim();
 }
 
-// Angles of coordinates and their rates as they are shown: in degrees where the page was asked for in these.
+// The displayed unit, degrees for angles of coordinates and their rates if the page uses degrees, and its size.
 function inUnit(text, angles) {
   const turns = inDegrees && angles && /^rad(\/s)?$/.test(text);
   return { unit: turns ? text.replace("rad", "deg") : text, size: turns ? Math.PI / 180 : 1 };
@@ -25,7 +25,7 @@ function byUnit(title, columns, angles = false) {
   return [...groups].map(([key, members]) => ({ title, ...inUnit(key, angles), columns: members }));
 }
 
-// Which plots there are for the chosen bodies.
+// The plots for the chosen bodies.
 function chartSpecs(bodies) {
   const all = (member) => bodies.reduce((list, body) => list.concat(body[member]), []);
   const [kinetic, potential, work, residual] = run.energy;
@@ -40,8 +40,8 @@ function chartSpecs(bodies) {
   return specs;
 }
 
-// The rows of a window; when they are more than can be seen, the least and greatest values of pieces of it.
-// `size`: of the unit that they are shown in.
+// The rows of a window; if they are too many, the least and greatest values in parts of it. `size`: of the displayed
+// unit.
 function chartRows(columns, from, to, size = 1) {
   const most = 6000, pieces = 700, begins = Math.max(rowAt(from) - 1, 0), last = Math.min(rowAt(to) + 1, run.rows - 1);
   const rows = [];
@@ -98,7 +98,7 @@ function redrawChart(chart) {
   chart.graph.updateOptions({ file: chartRows(chart.spec.columns, from, to, chart.spec.size), dateWindow: [from, to], valueRange: null });
 }
 
-// Those out of sight when they come into it.
+// Redraw the visible plots; others are marked, and redrawn when they become visible.
 function redrawCharts() {
   for (const chart of charts) {
     if (!chart.graph) continue;
@@ -106,8 +106,8 @@ function redrawCharts() {
   }
 }
 
-// The same one after the other, each in a task of its own: the scene and the hands on the page need not wait for them.
-// Where new runs come faster than all plots are drawn each has its turn.
+// Redraw the plots one after another, each in a task of its own, so that the scene and the user's input need not wait.
+// If new runs come faster than all plots are drawn, the plots take turns.
 const drawing = new MessageChannel();
 let drawnLast = 0;
 
@@ -128,7 +128,7 @@ drawing.port1.onmessage = () => {
   }
 };
 
-// After another run: is one folded away that has something to show now, or the other way round?
+// After another run: true if a folded plot is no longer empty, or an open one is; otherwise update the notes.
 function chartsAreOthers() {
   const says = charts.map(({ spec }) => emptiness(spec));
   if (charts.some(({ empty }, i) => Boolean(says[i]) !== empty)) return true;
@@ -136,7 +136,8 @@ function chartsAreOthers() {
   return false;
 }
 
-// What a plot of zeros says instead: nothing but rounding in it, or, of the residual, less than a billionth of the energies.
+// The note of an empty plot: its values are at round-off level or, for the residual, less than a billionth of the
+// energies.
 function emptiness(spec) {
   const most = Math.max(...spec.columns.map(sizeOf)), energies = Math.max(...run.energy.slice(0, 3).map(sizeOf));
   if (spec.columns.every((c) => sizeOf(c) <= roundingOf(run.columns[c].u))) return "zero throughout";
@@ -144,7 +145,7 @@ function emptiness(spec) {
   return residual && most < 1e-9 * energies ? `at most ${show(most, 2)} ${unit(spec.unit)}, ${show(most / energies, 1)} of the energies` : "";
 }
 
-// One curve's name and value; a click hides the curve or shows it again.
+// The name and value of a curve; a click hides or shows the curve.
 function legendItem(chart, c, i) {
   const item = document.createElement("button"), text = document.createTextNode("");
   item.type = "button";
@@ -182,7 +183,7 @@ function makeGraph(chart) {
   });
 }
 
-// A plot that is folded away has no graph until it is opened.
+// A folded plot has no graph until it is opened.
 function makeChart(spec) {
   const box = document.createElement("details"), title = document.createElement("summary"), legend = document.createElement("div");
   const plot = document.createElement("div"), cursor = document.createElement("div"), holder = document.createElement("div"), empty = emptiness(spec);
@@ -208,13 +209,13 @@ function makeChart(spec) {
   box.open = !empty;
   if (box.open) makeGraph(chart);
   box.addEventListener("toggle", () => {
-    if (!box.isConnected) return; // it is told of later
+    if (!box.isConnected) return; // the event comes later
     if (box.open && !chart.graph) makeGraph(chart);
     else if (box.open) chart.graph.resize();
     if (box.open && chart.stale) redrawChart(chart);
     refresh();
   });
-  // a plot out of sight needs no cursor and no values; a browser that does not tell draws them all
+  // an invisible plot needs no cursor and no values; browsers without this event update all plots
   box.addEventListener("contentvisibilityautostatechange", (event) => {
     chart.unseen = event.skipped;
     if (chart.stale && !event.skipped) redrawChart(chart);
@@ -234,14 +235,13 @@ function makeCharts(bodies) {
   chartSpecs(bodies).forEach(makeChart);
 }
 
-// In the colours and the size that the style says now, so many pixels of the canvas for one of the page (null: of the
-// screen).
+// Update colours and sizes from the style sheet; `ratio` is canvas pixels per page pixel (null: that of the screen).
 function restyleCharts(ratio) {
   for (const { graph, spec, box } of charts) {
     if (!graph || !box.open) continue;
     graph.updateOptions({ colors: spec.columns.map((c, i) => palette(i)), gridLineColor: view.colour.line, axisLineColor: view.colour.soft,
       pixelRatio: ratio }, true);
-    graph.width_ = 0; // it looks at its size anew only where that has changed
+    graph.width_ = 0; // forces the graph to update its size
     graph.resize();
   }
 }

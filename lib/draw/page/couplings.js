@@ -1,7 +1,7 @@
 "use strict";
 
-// Couplings that hold: pins, massless rods, ropes over pulleys, gears, racks, lines that circles roll on; and bodies
-// that the file gives no shape, drawn by the points where others take hold of them.
+// Couplings: pins, massless rods, ropes over pulleys, gears, racks, lines with rolling circles; and bodies without a
+// shape in the file, drawn by the points where joints and couplings act.
 
 function couplingEnd(end, frameOf) {
   return end.body < 0 ? end.point : place(frameOf(end.body), ...end.point);
@@ -17,9 +17,9 @@ function inFrame(frame, [x, y]) {
   return [frame.c * dx + frame.s * dy, frame.c * dy - frame.s * dx];
 }
 
-// ---- once, from the motion of the whole run
+// ---- preparation, from the motion of the whole run
 
-// Which stretch of the line the circle comes over, in the line's frame; the rack's line touches the circle.
+// Find the range of the line that the circle covers, in the line's frame; the line of a rack touches the circle.
 function prepareLine(coupling) {
   const [circle, line] = coupling.ends, [ex, ey] = coupling.e;
   coupling.n = [-ey * coupling.side, ex * coupling.side];
@@ -35,7 +35,7 @@ function prepareLine(coupling) {
   if (line.body >= 0) run.bodies[line.body].board = true;
 }
 
-// A slot without ends is as long as its point goes, and a little more.
+// Set the ends of a slot without ends: somewhat beyond the path of its point.
 function prepareSlot(coupling) {
   const [x, y] = coupling.ends[1].point, [ex, ey] = coupling.e, board = coupling.ends[1].body >= 0 && run.bodies[coupling.ends[1].body].board;
   prepareLine(coupling);
@@ -45,7 +45,7 @@ function prepareSlot(coupling) {
   coupling.span = null;
 }
 
-// Both wheels have teeth of one pitch, and mesh at the start.
+// Give both wheels teeth of the same pitch that mesh at the start.
 function prepareGear(coupling) {
   const row = rowAt(run.start), frameOf = (b) => frameAt(run.bodies[b], run.start, row);
   const [a, b] = coupling.ends.map((end) => couplingEnd(end, frameOf)), centres = Math.atan2(b[1] - a[1], b[0] - a[0]);
@@ -58,7 +58,7 @@ function prepareGear(coupling) {
   });
 }
 
-// Where the joints, couplings and springs of a body are, each place once.
+// The points of a body's joints, couplings and springs, without duplicates.
 function jointsOf(index) {
   const row = rowAt(run.start), frame = frameAt(run.bodies[index], run.start, row), found = [];
   const add = (point) => {
@@ -91,13 +91,13 @@ function prepareTies() {
   });
 }
 
-// The ends of a rack or of a board that a circle rolls on, in the frame of the line.
+// The ends of a rack or of a board with a rolling circle, in the frame of the line.
 function lineEnds(coupling) {
   const [x, y] = coupling.ends[1].point, [ex, ey] = coupling.e, [nx, ny] = coupling.n;
   return coupling.span.map((s) => [x + s * ex + coupling.lift * nx, y + s * ey + coupling.lift * ny]);
 }
 
-// A body without a shape that another one slides on: which stretch of the line it needs.
+// For bodies without a shape that carry a slide: find the required range of its line.
 function prepareWedges() {
   for (const body of run.bodies) {
     const under = body.line && run.bodies[body.line.on];
@@ -111,7 +111,7 @@ function prepareWedges() {
   }
 }
 
-// Its corners in its frame: the line, under what slides there, and a base along the way of the wedge itself.
+// The corners of a wedge in its frame: the line below the sliding body, and a base parallel to the wedge's own motion.
 function wedgeCorners(body) {
   const { from, through, along, normal, reach } = body.wedge, down = reach || view.block * 0.7 / view.scale;
   const top = from.map((s) => [0, 1].map((k) => through[k] + s * along[k] - down * normal[k]));
@@ -120,12 +120,12 @@ function wedgeCorners(body) {
   return [...top, [top[1][0], base], [top[0][0], base]];
 }
 
-// How far below the frame of the body its base is; 0 for a body that is no wedge.
+// The distance of the base below the frame of the body; 0 for a body that is no wedge.
 function wedgeReach(body) {
   return body.wedge ? Math.max(0, -wedgeCorners(body)[2][1]) : 0;
 }
 
-// Points that the picture has to hold at some instant.
+// Points of couplings that the picture must contain at a time.
 function tiePoints(frameOf) {
   const points = [];
   for (const coupling of run.couplings) {
@@ -144,7 +144,7 @@ function tiePoints(frameOf) {
   return points;
 }
 
-// ---- what does not move
+// ---- static parts
 
 function drawStillTies() {
   for (const { point, e, n, corners } of run.surfaces) {
@@ -176,7 +176,7 @@ function drawDrum(x, y, radius) {
   pen.fill();
 }
 
-// ---- under the bodies
+// ---- drawn under the bodies
 
 function drawBoard(coupling, frame) {
   const [a, b] = lineEnds(coupling).map((point) => toScreen(place(frame, ...point)));
@@ -206,7 +206,7 @@ function drawPlate(points) {
   strokeWith(view.colour.edge, 1.4);
 }
 
-// A body without a shape: the wedge that another one slides on, the wheel that a gear makes of it, else a plate or a bar through its joints.
+// Draw a body without a shape: a wedge under a slide, the wheel of a gear, or a plate or bar through its joints.
 function drawShapeless(body, frame) {
   if (body.wedge) {
     drawPlate(wedgeCorners(body).map((point) => toScreen(place(frame, ...point))));
@@ -216,7 +216,7 @@ function drawShapeless(body, frame) {
     pen.arc(x, y, r, 0, 2 * Math.PI);
     pen.fillStyle = view.colour.body;
     pen.fill();
-    path([[x, y], [x + r * frame.c, y - r * frame.s]]); // shows that it turns
+    path([[x, y], [x + r * frame.c, y - r * frame.s]]); // shows the rotation
     strokeWith(view.colour.soft, 1.2);
   } else if (body.joints.length > 1) {
     path(body.joints.map((point) => toScreen(place(frame, ...point))), true);
@@ -230,10 +230,10 @@ function drawShapeless(body, frame) {
   return body.wedge || body.wheel || body.joints.length > 1;
 }
 
-// ---- over the bodies
+// ---- drawn over the bodies
 
-// The straight piece of a rope between two circles that it goes round counter-clockwise (s R > 0) or clockwise: with
-// d = C_2 - C_1 = L u + (s_2 R_2 - s_1 R_1) n and n = k x u it touches them at C - s R n.
+// The straight part of a rope between two circles that it wraps counter-clockwise (s R > 0) or clockwise: with d = C_2
+// - C_1 = L u + (s_2 R_2 - s_1 R_1) n and n = k x u it touches them at C - s R n.
 function straightPiece(from, to, sR1, sR2) {
   const dx = to[0] - from[0], dy = to[1] - from[1], m = sR2 - sR1, square = dx * dx + dy * dy || 1;
   const length = Math.sqrt(Math.max(square - m * m, 0));
@@ -241,8 +241,8 @@ function straightPiece(from, to, sR1, sR2) {
   return [[from[0] + sR1 * uy, from[1] - sR1 * ux], [to[0] + sR2 * uy, to[1] - sR2 * ux]];
 }
 
-// A rope that hangs loose between two points is as long as ever: near its taut length the sag is that of a flat
-// parabola, sqrt(3 c (L - c) / 8), and with both ends at one place nearly half the rope.
+// Draw a slack rope between two points with constant length: near its taut length the sag is that of a flat parabola,
+// sqrt(3 c (L - c) / 8), and with coincident ends nearly half the rope.
 function hangLoose([from, to], length) {
   const chord = Math.hypot(to[0] - from[0], to[1] - from[1]);
   const sag = Math.sqrt(3 / 16 * Math.max(length * length - chord * chord, 0));
@@ -252,19 +252,19 @@ function hangLoose([from, to], length) {
   pen.quadraticCurveTo(...middle, ...toScreen(to));
 }
 
-// No tension, but for what seven digits of a sum leave of it.
+// True without tension, up to the rounding of a sum of floats.
 function isSlack(coupling, t, row) {
   return coupling.force >= 0 && Math.hypot(valueAt(coupling.force, t, row), valueAt(coupling.force + 1, t, row)) < 1e-5 * view.force;
 }
 
-// What is wound on a disc: all round it.
+// Draw the wound part of a rope as a full circle.
 function drawCoil([x, y], radius) {
   pen.beginPath();
   pen.arc(x, y, radius * view.scale, 0, 2 * Math.PI);
   strokeWith(view.colour.rope, 1.8);
 }
 
-// One piece of a rope from pulley to pulley, and its way round the pulley where the piece before it ends.
+// Draw one part of a rope from pulley to pulley, and its arc on the pulley where the previous part ends.
 function drawRope(coupling, before, frames, t, row) {
   const places = coupling.ends.map((end) => couplingEnd(end, (b) => frames[b])), ways = coupling.ends.map((end) => end.side * end.radius);
   const slack = isSlack(coupling, t, row), dash = slack ? [5, 4] : [], points = [];
@@ -285,7 +285,7 @@ function drawRope(coupling, before, frames, t, row) {
   coupling.reached = points[points.length - 1];
 }
 
-// Both strands, and the belt all round its discs.
+// Draw both strands, and the belt all around its discs.
 function drawBelt(coupling, frames) {
   const [a, b] = coupling.ends.map((end) => couplingEnd(end, (body) => frames[body])), [sA, sB] = coupling.ends.map((end) => end.side * end.radius);
   path(straightPiece(a, b, sA, sB).map(toScreen));
@@ -295,7 +295,7 @@ function drawBelt(coupling, frames) {
   coupling.ends.forEach((end, k) => drawCoil(toScreen(k ? b : a), end.radius));
 }
 
-// Pitch circles are drawn as on an engineer's sheet, dot and dash.
+// Draw pitch circles as dash-dotted lines, and the teeth.
 function drawGear(coupling, frames) {
   for (const end of coupling.ends) {
     const frame = frames[end.body], [x, y] = toScreen(place(frame, ...end.point)), r = Math.abs(end.radius) * view.scale;
@@ -312,7 +312,7 @@ function drawGear(coupling, frames) {
   }
 }
 
-// The groove, or the face of a cam, and its pin or roller.
+// Draw the groove, or the face of a cam, and its pin or roller.
 function drawSlot(coupling, frames) {
   const frame = (end) => end.body < 0 ? null : frames[end.body], [pin, slot] = coupling.ends, on = frame(slot);
   path(coupling.points.map((point) => toScreen(on ? place(on, ...point) : point)));

@@ -1,13 +1,14 @@
 "use strict";
 
-// The run as columns of numbers over rows, and their values between the rows. A live page shows one run after another.
+// The run as columns of numbers over rows, with interpolation between the rows. A live page shows one run after
+// another.
 
 let run, doubles, floats, envelope, times, inDegrees = false;
 
-// `data` (page_data.c) is what the page shows from now on.
+// Show `data` (page_data.c) from now on.
 function takeRun(data) {
   run = data;
-  inDegrees = inDegrees || data.angles === "deg"; // the first run of a live page says it for all
+  inDegrees = inDegrees || data.angles === "deg"; // the first run of a live page decides
   run.units.speed = `${run.units.length}/s`;
   doubles = new Float64Array(decode(run.doubles));
   floats = new Float32Array(decode(run.floats));
@@ -19,17 +20,17 @@ function takeRun(data) {
     if (column.d !== undefined) column.data = doubles.subarray((column.d + 1) * run.rows, (column.d + 2) * run.rows);
     if (column.f !== undefined) column.data = floats.subarray(column.f * run.rows, (column.f + 1) * run.rows);
     if (column.c === null) column.c = NaN;
-    // what is left of two numbers of seven or sixteen digits that cancel is no number: a + b c is known to the rounding of a
+    // cancellation in a + b c leaves round-off errors of a and of column c (7 or 16 digits)
     if (column.of !== undefined) column.noise = Math.abs(column.a) * (run.columns[column.of].f === undefined ? 4e-16 : 6e-8);
   });
-  // a column whose rate of change is another one is interpolated with it
+  // a column whose rate is another column is interpolated with its slopes
   run.bodies.forEach((body) => {
     body.coordinates.forEach((c, k) => { run.columns[c].slope = body.rates[k]; });
     body.rates.forEach((c, k) => { run.columns[c].slope = body.accelerations[k]; });
   });
 }
 
-// a + b times the value of another column, and zero where nothing else is left of it.
+// a + b times the value of another column, or zero if the sum is at round-off level.
 function combined(column, value) {
   const sum = column.a + column.b * value;
   return Math.abs(sum) <= column.noise ? 0 : sum;
@@ -42,7 +43,7 @@ function cell(index, row) {
   return column.of === undefined ? column.c : combined(column, cell(column.of, row));
 }
 
-// The last row at or before t: of the two rows of an event the one after it.
+// The last row at or before t: of the two rows of an event the second one.
 function rowAt(t) {
   let low = 0, high = run.rows - 1;
   while (low < high) {
@@ -58,7 +59,7 @@ function hermite(index, slope, row, t) {
   return a + u * (p + u * (3 * (b - a) - 2 * p - q + u * (2 * (a - b) + p + q)));
 }
 
-// The next row from `row` on, forward or back, that is at least `gap` away; -1 beyond an event or the run's ends.
+// The next row from `row`, forward or backward, that is more than `gap` away; -1 beyond an event or the run's ends.
 function rowBeyond(row, step, gap) {
   for (let i = row + step; i >= 0 && i < run.rows && times[i] !== times[i - step]; i += step) {
     if (Math.abs(times[i] - times[row]) > gap) return i;
@@ -66,7 +67,8 @@ function rowBeyond(row, step, gap) {
   return -1;
 }
 
-// The cubic through four rows, or fewer where an event is near; rows that nearly coincide say nothing of slopes.
+// The cubic through four rows, or fewer near an event; rows that nearly coincide are skipped, since they do not
+// determine slopes.
 function cubic(index, row, t) {
   const gap = 0.2 * (times[row + 1] - times[row]);
   const rows = [row, row + 1, rowBeyond(row, -1, gap), rowBeyond(row + 1, 1, gap)].filter((i) => i >= 0);
@@ -88,7 +90,7 @@ function valueAt(index, t, row) {
   return column.slope === undefined ? cubic(index, row, t) : hermite(index, column.slope, row, t);
 }
 
-// The least and greatest value of a column in [from, to]: of the rows, and of what was thinned out.
+// The least and greatest value of a column in [from, to], of the rows and of the envelope.
 function extremes(index, from, to, firstRow, lastRow) {
   const column = run.columns[index];
   if (column.of !== undefined) {
@@ -106,7 +108,7 @@ function extremes(index, from, to, firstRow, lastRow) {
   if (!run.thinned) return [low, high];
   const slot = column.d === undefined ? run.doubleColumns + column.f : column.d;
   const all = run.doubleColumns + run.floatColumns;
-  // each piece of the envelope counts where it begins
+  // a piece of the envelope counts if its start is in the interval
   for (let k = Math.ceil(from / run.bucket); k < run.buckets && k * run.bucket < to; k++) {
     const at = 2 * (k * all + slot);
     if (envelope[at] < low) low = envelope[at];
@@ -115,7 +117,7 @@ function extremes(index, from, to, firstRow, lastRow) {
   return [low, high];
 }
 
-// The largest size of a column in the run: [least, greatest] is [-size, size] at most.
+// The largest magnitude of a column in the run.
 function sizeOf(index) {
   const column = run.columns[index];
   if (column.size === undefined) {
@@ -125,8 +127,8 @@ function sizeOf(index) {
   return column.size;
 }
 
-// Below which a number with this unit is rounding: sixteen digits of the largest one that the run has with it, and of
-// a radian, since angles are counted from anywhere.
+// The round-off level of numbers with this unit, by the largest one in the run with the same unit, and at least one
+// radian, since angles have an arbitrary zero.
 const roundings = new Map();
 
 function roundingOf(text) {
@@ -140,13 +142,13 @@ function roundingOf(text) {
   return roundings.get(text);
 }
 
-// The value of a column at time t as it is told: zero where it is rounding.
+// The displayed value of a column at time t: zero at round-off level.
 function readAt(index, t, row) {
   const value = valueAt(index, t, row);
   return Math.abs(value) <= roundingOf(run.columns[index].u) ? 0 : value;
 }
 
-// A text node is touched only when its text changes: the browser lays out anew whatever is touched.
+// Change a text node only if its text differs, since every change causes a new layout.
 function write(node, text) {
   if (node.data !== text) node.data = text;
 }

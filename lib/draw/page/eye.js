@@ -1,6 +1,6 @@
 "use strict";
 
-// Who looks: wheel, drag, pinch and buttons zoom and move the scene; the window and the paper change its size.
+// The user's view: wheel, drag, pinch and buttons zoom and move the scene; window and paper change its size.
 
 function eyeOn(change) {
   change();
@@ -30,7 +30,7 @@ function connectEye() {
   element("zoom-out").addEventListener("click", () => eyeOn(() => zoomBy(1 / zoomStep, middle())));
   element("zoom-all").addEventListener("click", () => { element("follow").checked = false; eyeOn(showWhole); });
   canvas.addEventListener("dblclick", () => eyeOn(showWhole));
-  // the wheel alone scrolls the page, unless the scene has the focus
+  // the wheel without a modifier scrolls the page, unless the scene has the focus
   canvas.addEventListener("wheel", (event) => {
     if (!event.ctrlKey && document.activeElement !== canvas) return;
     event.preventDefault();
@@ -42,17 +42,17 @@ function connectEye() {
   });
   canvas.addEventListener("pointermove", movePointer);
   for (const kind of ["pointerup", "pointercancel"]) canvas.addEventListener(kind, (event) => fingers.delete(event.pointerId));
-  // the canvas is as large as its place in the page, however that comes to change
+  // the canvas follows the size of its element
   new ResizeObserver(() => { if (!paper.on) eyeOn(fit); }).observe(canvas);
 }
 
 // ---- paper
 
-// On paper the page is as wide as A4 and Letter both allow, light, and its pictures are drawn finely: the width of the
-// window is no concern of the reader of a sheet.
+// On paper the page has the width that A4 and Letter permit, a light style, and pictures of high resolution,
+// independent of the width of the window.
 const paper = { on: false, width: 672, height: 400, ratio: 3 };
 
-// A formula that is wider than its column is written smaller: paper does not scroll.
+// Scale down formulas wider than their column, since paper does not scroll.
 function fitFormulas(on) {
   for (const box of document.querySelectorAll(".formula")) {
     const whole = box.firstChild;

@@ -1,21 +1,21 @@
 "use strict";
 
-// Where the labels of the scene go: beside what they belong to, none on another, on few lines.
+// Positions of the labels of the scene: next to their objects, without overlaps, on few lines.
 //
-// Each label tries places around its anchor, near ones and those in its direction first, and takes the cheapest that
-// covers no other label and lies on the canvas; the place that it had in the last picture is cheaper, so that labels do
-// not jump while the scene moves. A label that has no place is left out: the tables have its number.
+// Each label tries positions around its anchor, near ones and those in its direction first, and takes the cheapest one
+// that overlaps no other label and lies on the canvas. The position in the previous picture is cheaper, so that labels
+// do not jump while the scene moves. A label without a free position is omitted: the tables have its number.
 
 const labelHeight = 15, labelGap = 5, labelTurns = 12, labelRings = [0, 11, 24, 40, 62];
 const labels = { wanted: [], boxes: [], lines: [], last: new Map(), left: 0 };
-const drawn = { arrows: [], labels: labels.boxes }; // for who asks what is to be seen
+const drawn = { arrows: [], labels: labels.boxes }; // for scripts that inspect the picture
 
 function beginLabels() {
   for (const list of [labels.wanted, labels.boxes, labels.lines, drawn.arrows]) list.length = 0;
   labels.left = 0;
 }
 
-// key: what the label belongs to; [ux, uy]: the direction on the canvas that it is wanted in.
+// key: identifies the labelled object; [ux, uy]: preferred direction on the canvas.
 function wantLabel(key, text, x, y, ux, uy, colour, plain) {
   labels.wanted.push({ key, text, x, y, ux, uy, colour, plain });
 }
@@ -30,19 +30,19 @@ function avoidBox(left, top, right, bottom, text) {
   labels.boxes.push({ left, top, right, bottom, text });
 }
 
-const textWidths = new Map(); // all labels are of one font
+const textWidths = new Map(); // all labels have the same font
 const labelFont = "13px Arial, Helvetica, 'Liberation Sans', sans-serif";
 
 function textWidth(text) {
   if (!textWidths.has(text)) {
-    if (textWidths.size > 5000) textWidths.clear(); // values change without end
+    if (textWidths.size > 5000) textWidths.clear(); // limits the memory, since values keep changing
     pen.font = labelFont;
     textWidths.set(text, pen.measureText(text).width);
   }
   return textWidths.get(text);
 }
 
-// Does the line cross the box? (Liang and Barsky)
+// True if the line crosses the box (Liang-Barsky clipping).
 function crosses([x1, y1, x2, y2], box) {
   let enter = 0, leave = 1;
   const dx = x2 - x1, dy = y2 - y1;
@@ -70,7 +70,7 @@ function isFree(box) {
   return !labels.boxes.some((other) => box.left < other.right + 3 && other.left < box.right + 3 && box.top < other.bottom && other.top < box.bottom);
 }
 
-// The places in the order of their price: 0, 1, -1, 2, ... turns in each ring.
+// The positions in the order of their costs: 0, 1, -1, 2, ... turns in each ring.
 const labelPlaces = [];
 labelRings.forEach((distance, ring) => {
   for (let k = 0; k < labelTurns; k++) {

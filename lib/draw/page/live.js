@@ -1,8 +1,7 @@
 "use strict";
 
-// A page that `fbd-run --watch` writes again and again calls fbd.live(stamp) at its end. It then looks for
-// PAGE.stamp.js, which calls fbd.stamp with the stamp of the last run, and loads itself anew where that is another,
-// at the time and with the view that it had.
+// A page that `fbd-run --watch` rewrites calls fbd.live(stamp) at its end. It then polls PAGE.stamp.js, which calls
+// fbd.stamp with the stamp of the last run, and reloads if that differs, keeping time and view.
 
 const liveChoices = ["show-forces", "show-names", "show-values", "show-axes", "show-velocity", "show-trace", "follow", "loop"];
 const live = { own: "", asking: 0, place: `fbd ${location.pathname}` };
@@ -47,7 +46,7 @@ window.fbd.live = (own) => {
   live.asking = setInterval(askForStamp, 500);
 };
 
-// A stamp that the page has been loaded anew for already is not to be had: better an old page than one that never rests.
+// Do not reload again for a stamp after which the page is still the old one, to avoid an endless loop.
 window.fbd.stamp = (stamp) => {
   if (stamp === live.own || stamp === liveKept().stamp || !keepView(stamp)) return;
   clearInterval(live.asking);

@@ -1,6 +1,6 @@
 "use strict";
 
-// Numbers, units and names as they are printed: six digits, m/s², θ, ω, v̇.
+// Formatting of numbers, units and names: six digits, m/s², θ, ω, v̇.
 
 function show(value, digits = 6) {
   if (!Number.isFinite(value)) return "–";
@@ -27,7 +27,7 @@ function unit(text) {
 const greek = { alpha: "α", beta: "β", gamma: "γ", delta: "δ", epsilon: "ε", zeta: "ζ", eta: "η", theta: "θ", kappa: "κ", lambda: "λ",
   mu: "μ", nu: "ν", xi: "ξ", rho: "ρ", sigma: "σ", tau: "τ", phi: "φ", chi: "χ", psi: "ψ", omega: "ω", Delta: "Δ", Omega: "Ω", Phi: "Φ", pi: "π" };
 
-// The name of a quantity: its last part may be a Greek letter, and a dot stands above the letter.
+// The name of a quantity: its last part may become a Greek letter, with a dot above for derivatives.
 function quantity(name) {
   const parts = name.split("."), last = parts.pop();
   return [...parts, last.replace(/^([A-Za-z]+)(_dot)?(?=_|$)/, (whole, letter, dotted) => (greek[letter] || letter) + (dotted ? "\u0307" : ""))].join(".");
@@ -35,7 +35,7 @@ function quantity(name) {
 
 // ---- mathematics (MathML)
 
-// Its name is an address, which this page has none of: the element that the page begins with knows it.
+// The namespace is a URL, which this page must not contain: take it from an element of the page.
 const mathSpace = document.getElementById("mathematics").namespaceURI;
 
 function math(tag, ...children) {
@@ -44,11 +44,11 @@ function math(tag, ...children) {
   return node;
 }
 
-// A symbol such as mu_k, T_cord, v_dot, I_O, rod.omega: one letter upright or not, what follows the line below it.
+// A symbol such as mu_k, T_cord, v_dot, I_O, rod.omega: one letter is italic, the part after the underscore an index.
 function mathSymbol(name) {
   const [, body, base, dotted, index] = /^(.*\.)?([^_]*)(_d+ot)?_?(.*)$/.exec(name.replace(/(^|\.)v([xy])(_dot)?$/, "$1v$3_$2"));
   const letter = (body || "") + (greek[base] || base), node = math("mi", letter + ({ _dot: "\u0307", _ddot: "\u0308" }[dotted] || ""));
-  if (dotted) node.setAttribute("class", "dotted"); // of two characters, which MathML would set upright
+  if (dotted) node.setAttribute("class", "dotted"); // two characters, which MathML would set upright
   if (!index) return node;
   const below = math(/^[0-9]+$/.test(index) ? "mn" : "mi", greek[index] || index);
   return math("msub", node, below);
@@ -58,7 +58,7 @@ function inMath(name) {
   return math("math", mathSymbol(name));
 }
 
-// A formula as it is written plainly (symbols.h): words, products by a blank, signs, parentheses.
+// A formula in plain notation (symbols.h): words, products by a blank, signs, parentheses.
 function mathOf(text) {
   const nodes = [];
   for (const [token] of text.matchAll(/[A-Za-z][A-Za-z0-9_'.]*|\^[0-9]+|_[A-Za-z0-9]+|[0-9.]+|\[[a-z]+\]|\S/g)) {
@@ -80,7 +80,7 @@ function mathOf(text) {
   return nodes;
 }
 
-// A line of its own, which scrolls where it is too long.
+// A formula on a line of its own, which scrolls if it is too long.
 function mathLine(row) {
   const box = document.createElement("div"), whole = math("math", row);
   box.className = "formula";

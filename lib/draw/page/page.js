@@ -1,12 +1,12 @@
 "use strict";
 
-// The page: time, controls, tables. `fbd` is for whoever drives the page by a script.
+// The page: time, controls, tables. `fbd` is the interface for scripts.
 
 const player = { t: 0, playing: false, speed: 1, last: 0, next: 0, written: 0, frames: 0, drawing: 0 };
 let eventTimes = [];
 const speeds = [1e-6, 1e-5, 1e-4, 0.001, 0.002, 0.005, 0.01, 0.02, 0.05, 0.1, 0.25, 0.5, 1, 2, 5, 10, 20, 50, 100, 1000, 1e4, 1e5, 1e6];
 const allBodies = -1, fewBodies = 4;
-const changing = []; // the tables' texts that change with time, and their values
+const changing = []; // time-dependent texts of the tables, and their values
 
 function now() {
   return player.t;
@@ -39,7 +39,7 @@ function addRow(table, cells, css) {
   return row;
 }
 
-// A row whose number changes with time: value(t, row).
+// A row with a time-dependent number: value(t, row).
 function addChanging(table, label, value, units, css) {
   const number = addRow(table, [[label], ["", true], [units]], css).cells[1];
   changing.push([number.appendChild(document.createTextNode("")), value]);
@@ -49,38 +49,38 @@ function valueIn(index) {
   return (t, row) => readAt(index, t, row);
 }
 
-// The terms are known to seven digits.
+// The sum of terms, zero at the round-off level of floats.
 function sumOf(terms, t, row) {
   const values = terms.map(([, index]) => readAt(index, t, row));
   const sum = values.reduce((a, b) => a + b, 0), largest = Math.max(0, ...values.map(Math.abs));
   return Math.abs(sum) < 5e-7 * largest ? 0 : sum;
 }
 
-// The inertia of an equation, which goes with a mass that varies.
+// The inertia of an equation, proportional to a mass that may vary.
 function inertiaIn(equation) {
   if (equation.mass === undefined) return () => equation.value;
   const mass = valueIn(equation.mass);
   return (t, row) => equation.value * mass(t, row) / equation.massAtStart;
 }
 
-// The terms of an equation that are anything at some time.
+// The terms of an equation that are nonzero at some time.
 function livingTerms(equation) {
   return equation.terms.filter(([, index]) => sizeOf(index) > roundingOf(equation.unit));
 }
 
-// Those that it is written with: in symbols those that are not zero at all times.
+// The displayed terms: in symbols those with a symbol.
 function writtenTerms(equation) {
   return equation.left ? equation.terms.filter(([, , symbol]) => symbol) : livingTerms(equation);
 }
 
-// The sign of a term: the first one's has no room around it.
+// The sign of a term; without space around the first one.
 function termSign(first, text) {
   const sign = math("mo", text);
   if (first) for (const side of ["lspace", "rspace"]) sign.setAttribute(side, "0");
   return sign;
 }
 
-// The equation as one writes it by hand; null where it has no symbols.
+// The equation in symbols; null if it has none.
 function inSymbols(equation) {
   const terms = writtenTerms(equation);
   if (!equation.left) return null;
@@ -94,7 +94,7 @@ function inSymbols(equation) {
   return mathLine(row);
 }
 
-// The same with the numbers of the cursor's time.
+// The equation with the numbers at the cursor's time.
 function inNumbers(equation) {
   const row = math("mrow");
   const number = (value, format) => {
@@ -131,7 +131,7 @@ function equationTable(equation) {
   return box;
 }
 
-// The acceleration of G by those of the coordinates.
+// The acceleration of G in terms of those of the coordinates.
 function kinematicLines(body) {
   if (body.kinematics.length === 0) return [];
   const box = document.createElement("div");
@@ -192,16 +192,16 @@ function listEvents() {
 
 // ---- time
 
-// What the boxes say is to be drawn.
+// The state of the checkboxes.
 function shownNow() {
   const is = (id) => element(id).checked;
   return { forces: is("show-forces"), names: is("show-names"), values: is("show-values"), axes: is("show-axes"), velocity: is("show-velocity"),
     trace: is("show-trace"), follow: is("follow") };
 }
 
-// Redraw at the present time; the texts not at every frame of a motion.
+// Redraw at the present time; during an animation the texts only at intervals.
 function refresh(everything = true) {
-  const before = performance.now(), pause = chosenBodies().length > fewBodies ? 250 : 66; // ms between two texts
+  const before = performance.now(), pause = chosenBodies().length > fewBodies ? 250 : 66; // ms between two updates of texts
   drawScene(player.t, shownNow(), chosenBody());
   placeCursors();
   element("scrub").value = player.t;
@@ -254,7 +254,7 @@ function changeSpeed(by) {
   if (i >= 0 && i < speeds.length) setSpeed(speeds[i]);
 }
 
-// The speed nearest to real time at which the run is long enough to be seen and short enough to be waited for.
+// The speed nearest to real time at which the run takes between 2 and 25 s.
 function usualSpeed() {
   const length = run.end - run.start, good = speeds.filter((speed) => length / speed >= 2 && length / speed <= 25);
   return good.reduce((best, speed) => (Math.abs(Math.log(speed)) < Math.abs(Math.log(best)) ? speed : best), good[0] || 1);
@@ -285,13 +285,13 @@ function seekHash() {
 
 // ---- the start
 
-// What the tables have but numbers that change with time.
+// The contents of the tables without the time-dependent numbers.
 function tablesSay(bodies) {
   const equations = bodies.map((body) => body.equations.map((equation) => [equation, livingTerms(equation)]));
   return JSON.stringify([equations, bodies.map((body) => body.arrows)]);
 }
 
-// What is said of the run as a whole.
+// Show title, summary, events and cost of the run.
 function describeRun() {
   element("title").textContent = run.title || "fbd";
   element("summary").textContent = `t = ${show(run.start)} s to ${show(run.end)} s, ${run.bodies.length} ${run.bodies.length === 1 ? "body" : "bodies"}` +
@@ -308,7 +308,7 @@ function fillChoices() {
   element("show-trace").checked = run.bodies.length < fewBodies;
 }
 
-// Of a run with other bodies, forces or columns everything is made anew.
+// Show a run with other bodies, forces or columns: rebuild everything.
 function showRun(data) {
   takeRun(data);
   eventTimes = run.events.times;
@@ -322,14 +322,14 @@ function showRun(data) {
   makeDetails(chosenBodies());
 }
 
-// What the page is made of: bodies, forces and columns by name.
+// The structure of a run: bodies, forces and columns by name.
 function makeup({ columns, bodies }) {
   const parts = bodies.map(({ name, arrows, equations }) => [name, arrows, equations.map((e) => [e.name, e.terms])]);
   return JSON.stringify([columns.map(({ n, u }) => [n, u]), parts]);
 }
 
-// Another run of the page's model: the eye, the time and what is switched on stay as they are where the run is made of
-// the same. First the scene and the numbers beside it, then the rest.
+// Show another run of the page's model. View, time and checkboxes are kept if the structure is the same. The scene and
+// the numbers beside it are updated first.
 function showAgain(data) {
   const { t } = player, said = tablesSay(chosenBodies()), whole = plotWindow.from === run.start && plotWindow.to === run.end;
   if (makeup(data) !== makeup(run)) {
@@ -351,7 +351,7 @@ function showAgain(data) {
   player.describing = setTimeout(describeRun, 0);
 }
 
-// Keys belong to the page but where the focus has a use of its own for them.
+// True if the focused element itself uses the key.
 function takesKey(target, key) {
   if (target.isContentEditable || ["SELECT", "TEXTAREA"].includes(target.tagName)) return true;
   if (["BUTTON", "SUMMARY"].includes(target.tagName)) return key === " ";

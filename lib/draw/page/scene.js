@@ -1,6 +1,6 @@
 "use strict";
 
-// The scene on the canvas: ground, bodies, what joins them, traces.
+// The scene on the canvas: ground, bodies, couplings, traces.
 
 function path(points, closed) {
   pen.beginPath();
@@ -22,7 +22,7 @@ function strokeWith(colour, width, dash) {
   pen.stroke();
 }
 
-// ---- what does not move
+// ---- static parts
 
 const hatchStep = 9;
 
@@ -40,13 +40,13 @@ function hatch(from, to, nx, ny) {
   strokeWith(view.colour.line, 1);
 }
 
-// The ends, far outside of the canvas, of a line that lies so many pixels under the point `through`.
+// The ends, far outside of the canvas, of a line that lies `down` pixels under the point `through`.
 function acrossCanvas(through, along, normal, down) {
   const [x, y] = toScreen(through), far = view.width + view.height, ex = along[0], ey = -along[1];
   const bx = x - normal[0] * down, by = y + normal[1] * down;
-  // from the foot of the canvas's middle, so that the ends are far outside wherever the line starts
+  // relative to the projection of the canvas's middle, so that the ends are always far outside
   const k = (view.width / 2 - bx) * ex + (view.height / 2 - by) * ey;
-  const first = hatchStep * Math.floor((k - far) / hatchStep); // marks stay where they are when the eye moves
+  const first = hatchStep * Math.floor((k - far) / hatchStep); // hatching does not move with the view
   return [[bx + first * ex, by + first * ey], [bx + (k + far) * ex, by + (k + far) * ey]];
 }
 
@@ -54,7 +54,7 @@ function drawSurface(through, along, normal, down) {
   hatch(...acrossCanvas(through, along, normal, down), -normal[0], normal[1]);
 }
 
-// The surface under the body, or the line that it moves on.
+// Draw the surface under the body, or the line on which it moves.
 function drawLine(body) {
   const { through, along, normal, surface, reach } = body.line;
   if (surface) {
@@ -65,7 +65,7 @@ function drawLine(body) {
   }
 }
 
-// The curve that the body runs on, in the frame of what it lies on; on the ground (null) in the world.
+// Draw the curve of a track in the frame of its carrier; on the ground (null) in the world.
 function drawTrack(body, frame) {
   path(body.track.points.map((point) => toScreen(frame ? place(frame, ...point) : point)));
   strokeWith(view.colour.line, 1.5);
@@ -76,7 +76,7 @@ function drawAxis(body) {
   drawBearing(...toScreen(body.axis), hangs ? -1 : 1);
 }
 
-// On ground below (d = 1) or above (-1).
+// Draw a bearing on ground below (d = 1) or above (-1).
 function drawBearing(x, y, d) {
   path([[x, y], [x - 9, y + 15 * d], [x + 9, y + 15 * d]], true);
   pen.fillStyle = view.colour.paper;
@@ -128,7 +128,7 @@ function drawStill() {
   for (const body of run.bodies) {
     if (body.axis && Math.hypot(...body.G) > 0) drawAxis(body);
     if (!body.line || body.line.on >= 0) continue;
-    const same = JSON.stringify(body.line); // bodies on one surface share its picture
+    const same = JSON.stringify(body.line); // bodies on one surface share its drawing
     if (!lines.has(same)) drawLine(body);
     lines.add(same);
   }
@@ -149,7 +149,7 @@ function drawShape(body, frame, shape) {
     if (shape.inner > 0) pen.arc(x, y, shape.inner * view.scale, 0, 2 * Math.PI, true);
     pen.fill();
     strokeWith(view.colour.edge, 1.4);
-    path([[x, y], at([shape.center[0] + shape.radius, shape.center[1]])]); // shows that it turns
+    path([[x, y], at([shape.center[0] + shape.radius, shape.center[1]])]); // shows the rotation
     if (!(shape.inner > 0) && body.motion !== "particle") strokeWith(view.colour.soft, 1.4);
   } else if (shape.kind === "polygon") {
     path(shape.corners.map(at), true);
@@ -189,7 +189,7 @@ function drawBody(body, frame) {
   for (const hole of [false, true]) for (const shape of body.shapes) if (Boolean(shape.hole) === hole) drawShape(body, frame, shape);
 }
 
-// Labels are read better beside a bar than on it.
+// Keep labels off the bars.
 function avoidBars(frames) {
   run.bodies.forEach((body, i) => {
     for (const { kind, corners } of body.shapes)
@@ -197,7 +197,7 @@ function avoidBars(frames) {
   });
 }
 
-// The way of the last rows: of a usual run the whole way, of a long one what the eye can still tell apart.
+// Draw the path of the last rows: usually of the whole run, for a long one of a readable part.
 function drawTrace(body, t) {
   const most = 2500, pieces = 300, point = tracePoint(body), points = [];
   const start = times[Math.max(rowAt(t) - most, 0)];
@@ -210,8 +210,8 @@ function drawTrace(body, t) {
   strokeWith(view.colour.trace, 1.2, [4, 3]);
 }
 
-// Draw everything at time t. shows: {forces, names, values, axes, velocity, trace, follow}; forces and names of `chosen`
-// or, when null, all. The eye follows the chosen body, or the first one.
+// Draw everything at time t. shows: {forces, names, values, axes, velocity, trace, follow}; forces and names of
+// `chosen` or, when null, all. The view follows the chosen body, or the first one.
 function drawScene(t, shows, chosen) {
   const row = rowAt(t), frames = run.bodies.map((body) => frameAt(body, t, row));
   view.following = shows.follow;

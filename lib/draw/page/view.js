@@ -1,19 +1,19 @@
 "use strict";
 
-// The eye on the scene: what it has to hold, the scale, zoom and pan, the colours.
+// The view of the scene: its contents, the scale, zoom and pan, the colours.
 //
-// The scene is fitted together with its arrows. Their lengths are pixels, not metres, so that the scale is the largest
-// one at which every point and every tip, at all times that are looked at, lies on the canvas.
+// The scene is fitted together with its arrows. Their lengths are in pixels, so the scale is the largest one at which
+// every point and every tip, at all sampled times, lies on the canvas.
 
 const canvas = document.getElementById("scene");
 let pen = canvas.getContext("2d");
-const still = document.createElement("canvas"); // what does not move, drawn once
+const still = document.createElement("canvas"); // static parts, drawn once
 const view = { scale: 1, x: 0, y: 0, width: 0, height: 0, block: 0, force: 1, moment: 1, speed: 1, zoom: 1, pan: [0, 0], following: false, colour: {} };
 
-// Pixels that are kept free: around, and below for the scales.
+// Pixels kept free: around, and below for the scales.
 const margin = 14, strip = 40;
 
-// Times spread over the run, for what is measured once: bounds, scales, traces.
+// Times over the run at which bounds, scales and traces are sampled.
 const survey = [];
 
 function frameAt(body, t, row) {
@@ -21,7 +21,7 @@ function frameAt(body, t, row) {
   return { x: valueAt(body.frame[0], t, row), y: valueAt(body.frame[1], t, row), c: Math.cos(angle), s: Math.sin(angle) };
 }
 
-// A point of the body's frame in the world; shapes are told from the frame of the file, whose pin sits on the axis.
+// A point of the body's frame in the world; shapes are given in the frame of the file, in which `pin` is the axis.
 function place(frame, x, y) {
   return [frame.x + frame.c * x - frame.s * y, frame.y + frame.s * x + frame.c * y];
 }
@@ -36,7 +36,7 @@ function shapePoints(shape) {
   return [[x - r, y], [x + r, y], [x, y - r], [x, y + r]];
 }
 
-// What the eye follows: the end of a rod or the part of a pivoted body that is farthest from its axis, else G.
+// The traced point: the end of a rod or the part of a pivoted body that is farthest from its axis, else G.
 function tracePoint(body) {
   let best = body.G, most = -1;
   if (body.motion !== "pivot") return best;
@@ -49,7 +49,8 @@ function tracePoint(body) {
   return most > 0 ? best : body.G;
 }
 
-// What most of the sizes stay below: few that are larger by far are drawn shorter than their scale says.
+// The size for the scale of arrows: the maximum, or the 75 % quantile if the maximum is at least three times that;
+// larger arrows are drawn shorter than to scale.
 function usualMost(values) {
   const sorted = values.filter((value) => Number.isFinite(value) && value > 0).sort((a, b) => a - b);
   if (!sorted.length) return 0;
@@ -57,8 +58,8 @@ function usualMost(values) {
   return most < 3 * usual ? most : usual;
 }
 
-// A spring or damper along a slide has its other end at a wall that the model does not place: above, on a level
-// slide behind the least coordinate.
+// Place the walls of springs and dampers along a slide, which have no position in the model: above, on a level slide
+// before the least coordinate.
 function placeWalls() {
   run.links.forEach((link, i) => {
     if (link.anchor) return;
@@ -66,14 +67,14 @@ function placeWalls() {
     const xs = survey.map((t) => valueAt(run.bodies[link.body].coordinates[0], t, rowAt(t)));
     const least = Math.min(...xs), most = Math.max(...xs), range = most - least || 1;
     const x = along[1] > 0.1 ? most + 0.5 * range : least - 0.5 * range;
-    const beside = run.links.findIndex((other) => other.body === link.body) === i ? 0 : 0.06 * range; // two lie side by side
+    const beside = run.links.findIndex((other) => other.body === link.body) === i ? 0 : 0.06 * range; // two are drawn side by side
     link.anchor = [through[0] + x * along[0] + beside * normal[0], through[1] + x * along[1] + beside * normal[1]];
     link.offset = [beside * normal[0], beside * normal[1]];
     link.wall = normal;
   });
 }
 
-// The points that the picture has to hold, in the world, and its arrows: {x, y, fx, fy} or {x, y, couple}.
+// The bounds of the picture, in the world, and its arrows: {x, y, fx, fy}, or the centres of moments.
 const held = { left: 0, right: 0, bottom: 0, top: 0, arrows: [], wheels: [] };
 
 function measureBody(body, t, row, take, sizes) {
@@ -92,7 +93,7 @@ function measureBody(body, t, row, take, sizes) {
   sizes.speeds.push(Math.hypot(...velocity));
 }
 
-// The rectangle that the bodies stay in, and the sizes of forces, moments and speeds.
+// Determine the bounds of the bodies, and the sizes of forces, moments and speeds.
 function measure() {
   for (let i = 0; i <= 400; i++) survey[i] = run.start + (run.end - run.start) * i / 400;
   Object.assign(held, { left: Infinity, right: -Infinity, bottom: Infinity, top: -Infinity, arrows: [], wheels: [] });
@@ -114,7 +115,8 @@ function measure() {
   Object.assign(view, { force: usualMost(sizes.forces) || 1, moment: usualMost(sizes.moments) || 1, speed: usualMost(sizes.speeds) || 1 });
 }
 
-// The length of an arrow in pixels; beyond `longest` it is cut.
+// Lengths of arrows relative to the canvas: of the usual largest force; of the longest arrow, beyond which arrows are
+// cut.
 const arrowShare = 0.14, cutShare = 0.19;
 
 function pixelsPerForce() {
@@ -125,7 +127,7 @@ function longestArrow() {
   return cutShare * Math.min(view.width, view.height);
 }
 
-// Of lines s X + x those that are uppermost for some s: the upper hull of the points (X, x), from left to right.
+// The lines s X + x that are uppermost for some s: the upper hull of the points (X, x), from left to right.
 function uppermost(points) {
   const hull = [];
   for (const p of [...points].sort((a, b) => a[0] - b[0] || a[1] - b[1])) {
@@ -139,7 +141,8 @@ function uppermost(points) {
   return hull;
 }
 
-// The largest scale s at which s X + x, for X of the world and x in pixels, spans no more than `room`; and its ends.
+// The largest scale s at which s X + x, with X in the world and x in pixels, spans at most `room`; and the span by
+// scale.
 function fitAxis(points, room) {
   const upper = uppermost(points), lower = uppermost(points.map(([X, x]) => [-X, -x]));
   const height = (hull, s) => hull.reduce((most, [X, x]) => Math.max(most, s * X + x), -Infinity);
@@ -156,7 +159,7 @@ function fitAxis(points, room) {
   return { most: low, span };
 }
 
-// The corners of what is held and the tips of the arrows: [world, pixels] along x and along y (which counts down).
+// The corners of the bounds and the tips of the arrows: [world, pixels] along x and along y (downward).
 function heldPoints() {
   const xs = [[held.left, -12], [held.right, 12]], ys = [[-held.top, -12], [-held.bottom, 12]];
   const length = pixelsPerForce(), most = longestArrow();
@@ -172,7 +175,7 @@ function heldPoints() {
   return [xs, ys];
 }
 
-// Scale and place so that all of it is seen.
+// Set scale and position so that everything is visible.
 function fitWhole() {
   const [xs, ys] = heldPoints(), room = [view.width - 2 * margin - 30, view.height - 2 * margin - strip - 20];
   const across = fitAxis(xs, room[0]), up = fitAxis(ys, room[1]);
@@ -183,7 +186,7 @@ function fitWhole() {
   Object.assign(view, { scale, wholeScale: scale, x: view.width / 2 - (left + right) / 2, y: (view.height - strip) / 2 - (top + bottom) / 2 });
 }
 
-// The least distance of two parallel lines with bodies that have no size: their blocks pass each other.
+// The least distance of two parallel slides with bodies without a size, whose blocks must not overlap.
 function slideGap() {
   const lines = run.bodies.filter((body) => body.line && body.line.on < 0 && !isSized(body)).map((body) => body.line);
   let gap = Infinity;
@@ -199,7 +202,7 @@ function velocityAt(body, t, row) {
   return [valueAt(body.velocity[0], t, row), valueAt(body.velocity[1], t, row)];
 }
 
-// Half the size of a body around its centre of mass, 0 for one without a size.
+// Half the size of a body around its centre of mass, 0 if it has no size.
 function bodyExtent(body) {
   let most = 0;
   for (const shape of body.shapes)
@@ -208,7 +211,7 @@ function bodyExtent(body) {
   return most;
 }
 
-// Are the bodies so small on the way that they go that nobody would see them turn?
+// True if the bodies are so small compared with their paths that rotations would be invisible.
 function bodiesAreSpecks() {
   const extents = run.bodies.map(bodyExtent);
   return Math.min(...extents) > 0 && Math.max(...extents) * view.wholeScale < 5;
@@ -216,7 +219,7 @@ function bodiesAreSpecks() {
 
 // ---- zoom and pan
 
-// The eye goes with a body, near enough to see it.
+// Center a body, magnified so that it is visible.
 function follow(body, frame) {
   const [x, y] = place(frame, ...body.G);
   const near = 0.09 * Math.min(view.width, view.height) / (bodyExtent(body) || Infinity);
@@ -226,7 +229,7 @@ function follow(body, frame) {
   drawStill();
 }
 
-// Zoom by a factor, the point [x, y] of the canvas kept where it is.
+// Zoom by a factor; the point [x, y] of the canvas stays in place.
 function zoomBy(factor, [x, y]) {
   const zoom = Math.min(Math.max(view.zoom * factor, 0.05), 200), by = zoom / view.zoom;
   const from = [x - view.width / 2, y - (view.height - strip) / 2];
@@ -245,7 +248,7 @@ function showWhole() {
   aim();
 }
 
-// The fitted picture, zoomed about the middle and moved.
+// Set the view: the fitted picture, zoomed about the middle and moved.
 function aim() {
   fitWhole();
   const middle = [view.width / 2, (view.height - strip) / 2];
@@ -258,7 +261,7 @@ function aim() {
 
 const colours = ["paper", "ink", "soft", "line", "body", "edge", "gravity", "reaction", "friction", "applied", "velocity", "trace", "rope"];
 
-// The canvas is drawn in so many pixels of the screen, or, for print, in finer ones of a size of its own.
+// Set the resolution of the canvas: that of the screen, or for print a given size and a finer ratio.
 function fit(size = [canvas.clientWidth, canvas.clientHeight], ratio = window.devicePixelRatio || 1) {
   view.ratio = ratio;
   [view.width, view.height] = size;

@@ -1,15 +1,15 @@
 "use strict";
 
-// The answer: the sheet with what is drawn and derived in its lists, as the file that `fbd-run --grade` reads.
+// The answer: the sheet with the drawing and derivations in its lists, as the file that `fbd-run --grade` reads.
 
-// A scalar within braces: in quotes where YAML could read something else.
+// A scalar within braces, quoted if YAML could misread it.
 function scalar(text) {
   return /^-?[A-Za-z0-9(.]([A-Za-z0-9_ .*/^()+-]*[A-Za-z0-9_.)])?$/.test(text) ? text : JSON.stringify(text);
 }
 
 const word = (text) => text.replace(/[^A-Za-z0-9_]/g, "_").replace(/^(?=[0-9])/, "_");
 
-// A name as the file has it: Greek letters by their names.
+// A name as in the file: Greek letters by their names.
 function fileName(entry) {
   const letters = Object.fromEntries(Object.entries(greek).map(([name, letter]) => [letter, name]));
   return word([...nameOf(entry)].map((letter) => letters[letter] || letter).join(""));
@@ -37,14 +37,14 @@ const placeTexts = (entry) => (entry.typed ? entry.typed.map((text) => fileNumbe
 
 const linesOf = (body) => drawing.lines[body].split("\n").map((line) => line.trim()).filter(Boolean);
 
-// A list as YAML; `note(line, i)` hears on which line entry i stands.
+// A list as YAML; calls note(line, i) with the line of entry i.
 function listText(key, entries, from, note) {
   if (!entries.length) return `    ${key}: []\n`;
   entries.forEach((entry, i) => note(from + 1 + i, i));
   return `    ${key}:\n${entries.map((entry) => `      - ${entry}\n`).join("")}`;
 }
 
-// {text, places}: what stands on each line, {entry} or {body, line}.
+// {text, places}: the text, and for each line its {entry} or {body, line}.
 function answerOf() {
   const parts = sheet.sheet.split(/^(\f\v|\f|\v)(.*)\n/m), places = new Map();
   let text = parts[0];
@@ -71,13 +71,13 @@ function answerOf() {
 const asksHand = (body) => sheet.sheet.includes(`\n\v${body.name}\n`);
 const asksInertia = (body) => sheet.sheet.includes(`\f\v${body.name}\n`);
 
-// What the sheet says of a body in one line each: its shape, mass, motion.
+// The data of a body in the sheet, one line each: its shape, mass, motion.
 function dataOf(body) {
   const [before] = sheet.sheet.split(new RegExp(`^[\\f\\v]${body.name}\n`, "m"));
   return [...before.slice(before.lastIndexOf(`\n  ${body.name}:\n`)).matchAll(/^ {4}(\w+: .+)$/gm)].map(([, line]) => line).join(", ");
 }
 
-// The parameters that the sheet gives, [name, text].
+// The parameters given in the sheet, [name, text].
 function givenValues() {
   const rows = /^parameters:\n((?: {2}.*\n)*)/m.exec(sheet.sheet);
   return rows ? [...rows[1].matchAll(/^ {2}(\w+): (.*)$/gm)].map(([, name, text]) => [name, /^\{value: ([^,}]*)/.exec(text)?.[1] || text]) : [];
@@ -85,7 +85,7 @@ function givenValues() {
 
 const isGiven = (name) => givenValues().some(([other]) => other === name);
 
-// A given angle or length as a number, for directions and places that name it; NaN for others.
+// A given angle or length as a number, for directions and positions that use it; NaN for others.
 function givenValue(name) {
   const row = givenValues().find(([other]) => other === name);
   return row ? amountOf(row[1], () => NaN) : NaN;

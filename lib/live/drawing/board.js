@@ -1,10 +1,10 @@
 "use strict";
 
-// A body cut free on its board: places in millimetres on paper, y down; the points and directions that a stroke snaps to.
+// A body cut free on its board: positions in millimetres on paper, y down; snap points and directions of strokes.
 
 const sheet = JSON.parse(element("data").textContent);
 
-// Points of one name are numbered.
+// Number points with equal names.
 for (const { points } of sheet.bodies) {
   const of = (name) => points.filter((point) => point.name === name);
   for (const { name } of [...points]) if (of(name).length > 1) of(name).forEach((point, i) => { point.name += ` ${i + 1}`; });
@@ -21,7 +21,7 @@ function make(tag, properties, ...children) {
   return node;
 }
 
-// The name of SVG's space is an address, which this page has none of: the pictures that it begins with know it.
+// The SVG namespace is a URL, which this page must not contain: take it from the pictures.
 const pictures = [...element("pictures").children], svgSpace = pictures[0].namespaceURI;
 
 function svg(tag, attributes, ...children) {
@@ -44,9 +44,9 @@ const within = (degrees) => { const turn = ((degrees % 360) + 360) % 360; return
 const apart = (a, b) => Math.abs(within(a - b));
 const rounded = (number, digits) => Number(number.toPrecision(digits));
 
-const boardMargin = 9; // mm around the room that the worksheet leaves for arrows
+const boardMargin = 9; // mm around the room for arrows
 
-// Where a pointer is on the paper of a board, and how many millimetres a pixel is there.
+// The position of a pointer on the paper of a board, and the size of a pixel in millimetres.
 function paperOf(board, event) {
   const matrix = board.getScreenCTM().inverse(), { clientX: x, clientY: y } = event;
   return { at: [matrix.a * x + matrix.c * y + matrix.e, matrix.b * x + matrix.d * y + matrix.f], pixel: matrix.a };
@@ -62,12 +62,12 @@ function pointNear(body, at, reach) {
   return best;
 }
 
-// A place beside the points in the frame of the body, as two numbers of the file, and the place of such numbers.
+// A position in the frame of the body as two numbers of the file; and the position of such numbers.
 function placeNumbers(body, at) {
   const { paper, degrees, millimetres } = body.frame, [dx, dy] = minusOf(at, paper), turn = radians(degrees);
   const x = dx / millimetres, y = -dy / millimetres;
   const along = x * Math.cos(turn) + y * Math.sin(turn), across = y * Math.cos(turn) - x * Math.sin(turn);
-  const short = (number) => (Math.abs(number) * millimetres < 1 ? 0 : rounded(number, 3)); // on an axis is meant
+  const short = (number) => (Math.abs(number) * millimetres < 1 ? 0 : rounded(number, 3)); // snap to the axes
   return [String(short(along)), String(short(across))];
 }
 
@@ -78,7 +78,7 @@ function placeAt(body, [x, y]) {
 
 // ---- directions
 
-// What can be chosen for a body: its own directions first; of those that are one on the paper the first.
+// The directions offered for a body, its own ones first; of directions equal on paper only the first.
 function directionsOf(body) {
   if (body.all) return body.all;
   const all = [];
@@ -92,7 +92,7 @@ function directionsOf(body) {
   return all;
 }
 
-// The direction of a stroke: one that can be chosen within some degrees of it, else whole degrees.
+// The direction of a stroke: an offered one within some degrees, else whole degrees.
 function directionNear(body, degrees) {
   const [best] = directionsOf(body).slice().sort((a, b) => apart(a.degrees, degrees) - apart(b.degrees, degrees));
   if (apart(best.degrees, degrees) <= 4) return best;
@@ -100,7 +100,7 @@ function directionNear(body, degrees) {
   return { degrees: whole, angle: `${whole} deg`, body: false };
 }
 
-// The next one round, counter-clockwise with step 1.
+// The next direction, counter-clockwise with step 1.
 function directionNext(body, degrees, step) {
   const ahead = (other) => { const turn = (((other.degrees - degrees) * step) % 360 + 360) % 360; return turn < 0.01 ? 360 : turn; };
   return directionsOf(body).slice().sort((a, b) => ahead(a) - ahead(b))[0];

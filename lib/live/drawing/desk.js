@@ -1,8 +1,8 @@
 "use strict";
 
-// The desk of a body: its board with the tools, what is chosen as a form, the list of what is drawn, the equations.
+// The desk of a body: its board with tools, the form of the selected entry, the list of entries, the equations.
 
-const desks = []; // of each body its elements
+const desks = []; // elements by body
 
 // ---- the board
 
@@ -21,7 +21,7 @@ function makeBoard(body, b) {
   return board;
 }
 
-// Notes of the picture make way for arrows; returns their places.
+// Move notes of the picture away from arrows; returns their positions.
 function placeNotes(board, spots) {
   return [...board.querySelectorAll(".notes text")].map((note) => {
     const { x, y, width, height } = note.getBBox(), middle = [x + width / 2, y + height / 2];
@@ -54,7 +54,7 @@ function tell(b, text) {
   desks[b].says.textContent = text;
 }
 
-// ---- the form of what is chosen
+// ---- the form of the selected entry
 
 const chosenOn = (b) => drawing.entries.find((entry) => entry.id === drawing.selected && entry.body === b);
 
@@ -62,7 +62,7 @@ function labelled(text, input, css) {
   return make("label", { className: css || "" }, make("span", {}, text), input);
 }
 
-// A change of the chosen entry by a field of the form; changes of one field in a row are undone at once.
+// Connect a field of the form to the selected entry; successive changes of one field are one undo step.
 function connectField(b, field, kind, take) {
   field.addEventListener(kind, () => {
     const entry = chosenOn(b);
@@ -171,7 +171,7 @@ function showForm(b) {
 
 // ---- the list
 
-// What was found at an entry or a line, or null.
+// The finding at an entry or a line, or null.
 function markOf(key) {
   const mark = drawing.marks.get(key);
   return mark ? make("span", { className: mark.right ? "right" : "wrong" }, `${mark.right ? "✓" : "✗"} ${mark.message}`) : null;
@@ -267,7 +267,7 @@ function makeDesk(body, b) {
   element("bodies").append(section);
 }
 
-// All of a desk but the field that is being written in.
+// Update a desk, except for the field with the focus.
 function showDesk(b) {
   showBoard(b);
   showForm(b);

@@ -1,9 +1,9 @@
 "use strict";
 
-// What is drawn: forces and moments as entries, as arrows on the boards, and in words.
+// The drawing: forces and moments as entries, as arrows on the boards, and in words.
 //
 // entry: {id, body, kind: "force" or "moment", name, value, point: index or [x, y] on paper,
-//   typed: [x, y] as texts where the place was typed, direction: {degrees, angle, body} or null where it is unknown,
+//   typed: [x, y] as texts if the position was typed, direction: {degrees, angle, body} or null if unknown,
 //   tip: its tip is at the point, length: mm, sense: 1 or -1}
 
 const drawing = { entries: [], lines: sheet.bodies.map(() => ""), inertia: sheet.bodies.map(() => ""), next: 1, selected: 0, marks: new Map() };
@@ -21,13 +21,13 @@ function newEntry(body, kind, properties) {
   return entry;
 }
 
-// Where an arrow begins and ends on paper.
+// The ends of an arrow on paper.
 function endsOf(entry) {
   const at = placeOf(entry), reach = times(entry.length, unitOf(entry.direction ? entry.direction.degrees : 45));
   return entry.tip ? [minusOf(at, reach), at] : [at, plus(at, reach)];
 }
 
-// What is wrong with an entry by itself, before anything is graded; or "".
+// An error of an entry that is visible without grading, or "".
 function faultOf(entry) {
   const name = fileName(entry);
   const twin = drawing.entries.some((other) => other !== entry && other.body === entry.body && fileName(other) === name);
@@ -55,7 +55,7 @@ function inWords(entry) {
 
 // ---- as arrows
 
-// A_x, mu_k, N' as a label: what follows the line stands lower.
+// A_x, mu_k, N' as a label with an index after the underscore.
 function labelOf(text, at) {
   const [, base, index] = /^([^_]*)_?(.*)$/.exec(text), label = svg("text", { x: at[0], y: at[1], class: "name", "text-anchor": "middle" });
   label.append(greek[base] || base);
@@ -84,7 +84,7 @@ function momentShape(entry) {
   return [arc("reach"), arc("shaft"), headAt(plus([x, y], times(r, unitOf(to + entry.sense * 15))), to + entry.sense * 97)];
 }
 
-// Places of an arrow that no label should cover.
+// Points along an arrow that labels should avoid.
 function spotsOf(entry) {
   const part = [0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1];
   if (entry.kind === "moment") return part.map((k) => plus(placeOf(entry), times(arcRadius, unitOf(360 * k))));
@@ -92,7 +92,7 @@ function spotsOf(entry) {
   return part.map((k) => plus(tail, times(k, minusOf(tip, tail))));
 }
 
-// Where a label may be: around a moment; beside the free end of a force.
+// Candidate positions of a label: around a moment; beside the free end of a force.
 function labelSpots(entry) {
   if (entry.kind === "moment")
     return [90, 135, 45, 180, 0, -135].map((degrees) => plus(plus(placeOf(entry), times(arcRadius + 3.5, unitOf(degrees))), [0, 1.2]));
@@ -104,13 +104,13 @@ function labelSpots(entry) {
     .map(([a, b]) => plus(plus(free, times(a, out)), plus(times(b, side), [0, 1.2])));
 }
 
-// Of these the one with least beside it.
+// The candidate with the fewest points nearby.
 function labelPlace(entry, taken) {
   const crowd = (spot) => taken.reduce((sum, other) => sum + Math.max(0, 7 - away(spot, other)), 0);
   return labelSpots(entry).reduce((a, b) => (crowd(b) < crowd(a) - 0.01 ? b : a));
 }
 
-// `taken` are places of labels and points, `all` the arrows of its board.
+// `taken` are positions of labels and points, `all` the arrows of the board.
 function arrowShape(entry, taken, all) {
   const chosen = entry.id === drawing.selected, mark = drawing.marks.get(entry.id);
   const place = labelPlace(entry, [...taken, ...all.flatMap((other) => (other === entry ? [] : spotsOf(other)))]);
@@ -124,7 +124,7 @@ function arrowShape(entry, taken, all) {
   ...(entry.kind === "force" ? forceShape(entry) : momentShape(entry)), label);
 }
 
-// The axes in which a place beside the points is told.
+// The axes to which a free position refers.
 function axesOf({ paper, degrees }) {
   return ["x", "y"].flatMap((name, i) => {
     const turn = degrees + 90 * i, tip = plus(paper, times(9, unitOf(turn))), [x, y] = plus(tip, plus(times(2.4, unitOf(turn)), [0, 1.2]));
@@ -132,7 +132,7 @@ function axesOf({ paper, degrees }) {
   });
 }
 
-// The free end of the chosen arrow, to be dragged; the axes where its place is not one of the points.
+// The handle at the free end of the selected arrow, and axes if its position is not a given point.
 function handlesOf(entry) {
   if (entry.kind === "moment") return [];
   const [tail, tip] = endsOf(entry), [x, y] = entry.tip ? tail : tip;

@@ -1,13 +1,12 @@
 "use strict";
 
-// The sheet as a whole: what can be undone, the draft that the browser keeps, the file to hand in. `fbd` is for whoever
-// drives the page by a script.
+// The sheet as a whole: undo, the draft kept by the browser, the file to hand in. `fbd` is the interface for scripts.
 
 const kept = { past: [], future: [], field: "" };
 
 const snapshot = () => JSON.stringify([drawing.entries, drawing.lines, drawing.next, drawing.inertia]);
 
-// Before a change; a field's changes in a row are one.
+// Call before a change; successive changes of one field are one undo step.
 function keepHistory(field = "") {
   if (field && field === kept.field) return;
   kept.field = field;
@@ -44,7 +43,7 @@ function clearSheet() {
 
 // ---- the draft
 
-// Another key, or another version of the page with other points, begins anew.
+// Drafts are kept per key and per version of the page, whose points may differ.
 const draftKey = () => {
   let hash = 0;
   for (const letter of element("data").textContent) hash = (Math.imul(hash, 31) + letter.codePointAt(0)) | 0;
@@ -55,7 +54,7 @@ function keepDraft() {
   try { localStorage.setItem(draftKey(), snapshot()); } catch { drawing.lost = kept.past.length > 0; } // some keep nothing of files
 }
 
-// What was drawn when the page was last open, or an empty sheet.
+// Restore the last draft, or begin with an empty sheet.
 function takeDraft() {
   let draft = null;
   try { draft = localStorage.getItem(draftKey()); } catch { /* as before */ }
@@ -74,7 +73,7 @@ function saveAnswer() {
   element("says").textContent = `saved as ${link.download}`;
 }
 
-// What was checked belongs to what was drawn then.
+// After a change the previous check is no longer valid.
 function changed() {
   drawing.marks.clear();
   element("verdict").hidden = true;

@@ -1,27 +1,27 @@
 "use strict";
 
-// Strokes on a board by mouse and finger, and the keys of its arrows.
+// Strokes on a board by mouse and finger, and keys for its arrows.
 
 const stroke = { board: null };
 
-// How near a pointer has to come to a point, in pixels.
+// The snap distance of a pointer to a point, in pixels.
 const reachOf = (event) => (event.pointerType === "touch" ? 26 : 15);
 
-// The point at a place, or the place itself on a body with a size; where there is neither, the nearest point.
+// The snapped point, or the position itself if it is on a body with a size; otherwise the nearest point.
 function snapped(body, { at, pixel }, event) {
   const near = pointNear(body, at, reachOf(event) * pixel);
   if (near >= 0) return near;
   return body.frame && insideOf(body, at) ? at : pointNear(body, at, Infinity);
 }
 
-// Is a place within the points of a body?
+// True if a position is within the bounds of a body's points.
 function insideOf(body, [x, y]) {
   const xs = body.points.map(({ paper }) => paper[0]), ys = body.points.map(({ paper }) => paper[1]);
   return x >= Math.min(...xs) && x <= Math.max(...xs) && y >= Math.min(...ys) && y <= Math.max(...ys);
 }
 
-// What a stroke is to do: from the free end of the chosen arrow it turns it; from a point of the body it draws anew, since
-// several arrows may begin there; from elsewhere on an arrow it moves that.
+// Choose the action of a stroke: at the free end of the selected arrow it turns the arrow; at a point of the body it
+// draws a new one, since several arrows may start there; elsewhere on an arrow it moves the arrow.
 function beginStroke(event) {
   const board = event.currentTarget, b = Number(board.dataset.body), from = paperOf(board, event);
   const arrow = event.target.closest("[data-id]"), free = event.target.closest(".handle");
@@ -34,7 +34,7 @@ function beginStroke(event) {
   if (stroke.id) stroke.place = placeOf(entryOf(stroke.id));
 }
 
-// The arrow with its free end where the pointer is, or moved as far as the pointer.
+// Move the free end of the arrow to the pointer, or move the arrow with the pointer.
 function moveEnd(entry, here, event) {
   const body = bodyOf(entry);
   if (stroke.end === "point") {
@@ -47,7 +47,7 @@ function moveEnd(entry, here, event) {
   entry.length = Math.min(Math.max(away(here.at, at), 8), 60);
 }
 
-// A new force: from a point, or to one where it begins at none.
+// Draw a new force, from the start of the stroke; its tip is at the end if only that is a point.
 function drawForce(entry, here, event) {
   const body = bodyOf(entry), reach = reachOf(event) * here.pixel, { from } = stroke;
   const start = pointNear(body, from.at, reach), end = pointNear(body, here.at, reach);
@@ -58,7 +58,7 @@ function drawForce(entry, here, event) {
   entry.length = Math.min(Math.max(away(other, at), 8), 60);
 }
 
-// A new moment: its sense is that of the way around its point.
+// Draw a new moment; its sense follows from the side of the pointer.
 function drawMoment(entry, here, event) {
   entry.point = snapped(bodyOf(entry), stroke.from, event);
   const [x, y] = minusOf(here.at, placeOf(entry));
@@ -130,7 +130,7 @@ const arrowKeys = {
   "-": (entry) => { entry.length = Math.max(entry.length - 3, 8); },
 };
 
-// A force or moment that is to be moved by keys: at the first point, upward or counter-clockwise.
+// Add a force or moment to be adjusted by keys: at the first point, upward or counter-clockwise.
 function addByKey(b, kind) {
   keepHistory();
   const entry = newEntry(b, kind, {});

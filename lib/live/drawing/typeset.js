@@ -1,12 +1,12 @@
 "use strict";
 
-// Equations as they are typed, in mathematics: 3/2*m*a_x = F - f, N = m*g*cos(phi), \frac{1}{2} m v^2.
-// What cannot be read so is shown as it stands: it may be half a line.
+// Typed equations as mathematics: 3/2*m*a_x = F - f, N = m*g*cos(phi), \frac{1}{2} m v^2. A text that cannot be parsed,
+// as an incomplete line, is shown unchanged.
 
 const relations = ["<=", ">=", "==", "=", "<", ">"];
 const functions = ["sin", "cos", "tan", "asin", "acos", "atan", "sqrt", "exp", "log", "abs", "sign", "min", "max"];
 
-// Of a text its words, numbers and signs; \left and \right say nothing.
+// Split a text into words, numbers and signs; \left and \right are ignored.
 function tokensOf(text) {
   const word = "\\\\?[A-Za-z\\u0370-\\u03ff][\\w.\\u0370-\\u03ff]*'*", number = "[0-9]+\\.?[0-9]*(?:[eE][-+]?[0-9]+)?|\\.[0-9]+";
   const tokens = new RegExp(`${word}|${number}|<=|>=|==|\\\\[,; ]|\\S`, "g");
@@ -32,7 +32,7 @@ class Reader {
     return inside;
   }
 
-  // What stands between brackets, as it is written.
+  // The unparsed text up to a closing bracket.
   until(close) {
     let text = "";
     while (!this.is(close) && this.next !== undefined) text += this.take();
@@ -145,7 +145,7 @@ class Reader {
   }
 }
 
-// Its tree, or null where it cannot be read.
+// The tree of a text, or null if it cannot be parsed.
 function treeOf(text) {
   try { return new Reader(tokensOf(text)).line(); } catch { return null; }
 }
@@ -169,7 +169,7 @@ function callOf({ name, power, of }) {
   return [power ? math("msup", head, math("mrow", ...mathOfTree(power))) : head, sign("\u2061"), ...fenced(...inside)];
 }
 
-// Between two factors: a dot before a number, a little room before a name of several letters.
+// The sign between two factors: a dot before a number, a small space before a name of several letters.
 function timesSign(right) {
   const first = right.is === "power" ? right.of[0] : right;
   if (first.is === "number" || first.is === "measure") return sign("·");
@@ -177,7 +177,7 @@ function timesSign(right) {
   return first.is === "name" && /^[A-Za-z]{2}/.test(first.text) && !greek[first.text.split("_")[0]] ? math("mtext", "\u2009") : sign("\u2062");
 }
 
-// Nodes of a row.
+// The MathML nodes of a tree.
 function mathOfTree(tree) {
   const row = (part) => math("mrow", ...mathOfTree(part));
   switch (tree.is) {
@@ -197,7 +197,7 @@ function mathOfTree(tree) {
   }
 }
 
-// A line in mathematics, or as it was typed.
+// A line as mathematics, or as it was typed.
 function typeset(text) {
   const tree = treeOf(text);
   if (tree) return mathLine(math("mrow", ...mathOfTree(tree)));
@@ -208,7 +208,7 @@ function typeset(text) {
 
 const unitSizes = { deg: Math.PI / 180, rad: 1, m: 1, mm: 0.001, cm: 0.01, km: 1000, in: 0.0254, ft: 0.3048 };
 
-// The value of a tree for named numbers; NaN where one of them is none.
+// The value of a tree for named numbers; NaN if one of them is not a number.
 function numberOf(tree, names) {
   const values = () => tree.of.map((part) => numberOf(part, names));
   switch (tree.is) {
@@ -227,8 +227,8 @@ function numberOf(tree, names) {
   }
 }
 
-// A number as it is typed ("20 N", "-90°", "20 kg*g", "L/2 + 3 cm") as the file has it: units within a formula in brackets.
-// `isName`: is it a quantity that the sheet gives?
+// A typed number ("20 N", "-90°", "20 kg*g", "L/2 + 3 cm") as in the file, with units within a formula in brackets.
+// `isName`: true for a quantity given in the sheet.
 function fileNumber(text, isName) {
   const one = "(?:kN|N|kg|deg|rad|mm|cm|km|m|in|ft|lbf|lb|s)(?:\\^[0-9])?", units = `${one}(?:[*/]${one})*(?!\\w)`;
   const typed = text.trim().replace(/·/g, "*").replace(/([0-9.])\s*°/g, "$1 deg");
@@ -241,7 +241,7 @@ function fileNumber(text, isName) {
   });
 }
 
-// The value of such a number in radians or metres; NaN where it is none of these.
+// The value of such a number in radians or metres; NaN for other quantities.
 function amountOf(text, names) {
   const tree = treeOf(fileNumber(text, (name) => !Number.isNaN(names(name))).replace(/^([-+0-9.e]+) (\w+)$/, "$1[$2]"));
   return tree ? numberOf(tree, names) : NaN;

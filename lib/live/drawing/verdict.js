@@ -1,10 +1,10 @@
 "use strict";
 
-// The verdict of `fbd-run --grade` on what is drawn, where the page has the library and the key: an exam has neither.
+// The verdict of `fbd-run --grade` on the drawing, if the page has the library and the key, which an exam has not.
 
 const verdict = { asker: null };
 
-// Each finding is marked at what it is about: the worse one of two.
+// Mark each finding at its entry or line; of two the worse one.
 function markFindings(tests, places) {
   drawing.marks.clear();
   for (const { kind, points, max_points: most, line, message } of tests) {

@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * What the worker of a live page calls, compiled to WebAssembly by emscripten: texts in, JSON out. It is the library
- * behind a few functions, as fbd-run is: nothing is computed here.
+ * The functions that the worker of a live page calls, compiled to WebAssembly by emscripten: texts in, JSON
+ * out. They only call the library, as fbd-run does.
  *
- * `off` has the effects that are switched off, one a line. Answers are to be freed with free(); NULL when memory is out.
+ * `off` lists the effects that are switched off, one per line. Answers are to be freed with free(); NULL when
+ * memory is out.
  */
 #include <emscripten.h>
 #include <gsl/gsl_errno.h>
@@ -12,6 +13,9 @@
 #include <string.h>
 
 #include "fbd.h"
+#include "fbd_export.h"
+#include "fbd_grade.h"
+#include "fbd_study.h"
 #include "module.h"
 
 enum { most_off = 256, most_settings = 256 };
@@ -27,7 +31,7 @@ static char *joined(const char *const *parts)
     return text;
 }
 
-/* Names of a text, one a line; the text is cut up. */
+/* Names of a text, one per line; the text is cut up. */
 static size_t split(char *text, const char *names[most_off])
 {
     size_t count = 0;
@@ -38,7 +42,7 @@ static size_t split(char *text, const char *names[most_off])
 
 /* ---- models */
 
-/* The text without what is off; NULL with notes when that is no model. */
+/* The text without the effects in `off`; NULL with notes if that is no model. */
 static char *without(const char *text, const char *name, const char *off, fbd_errors *errors)
 {
     char *list = strdup(off), *shown = NULL;
@@ -62,7 +66,7 @@ static fbd_model *read_model(const char *text, const char *name, const char *off
     return model;
 }
 
-/* {"errors": ..., KEY: VALUE}; frees what it is given. */
+/* {"errors": ..., KEY: VALUE}; frees `errors` and `value`. */
 static char *answer(fbd_errors *errors, const char *key, char *value)
 {
     char *notes = fbd_errors_json(errors);
@@ -96,7 +100,7 @@ char *live_controls(const char *text, const char *name)
 
 EM_JS(void, tell_progress, (double done, double all), { Module.progress(done, all); })
 
-/* Not more often than a page shows it. */
+/* Report at most as often as a page shows the progress. */
 static int progress(void *context, const fbd_progress *now)
 {
     double *last = context, clock = emscripten_get_now();
@@ -163,7 +167,7 @@ char *live_csv(const char *text, const char *name, const char *off)
     return csv.text;
 }
 
-/* ---- what accuracy costs */
+/* ---- cost of accuracy */
 
 char *live_cost(const char *text, const char *name, const char *off, double budget)
 {
@@ -216,7 +220,7 @@ char *live_check_hand(const char *text, const char *name)
     return answer(errors, "hand", hand);
 }
 
-/* Take lines NAME=VALUE apart, in place. */
+/* Split lines NAME=VALUE in place. */
 static size_t read_settings(char *lines, fbd_setting settings[most_settings])
 {
     size_t count = 0;
@@ -249,6 +253,6 @@ char *live_grade(const char *key_text, const char *settings, const char *text, c
 
 int main(void)
 {
-    gsl_set_error_handler_off(); /* every status is looked at instead */
+    gsl_set_error_handler_off(); /* every status is checked instead */
     return 0;
 }

@@ -1,11 +1,11 @@
 "use strict";
 
-// The live page: the text of the model is what runs, what is saved and what a link carries; sliders change it where it
-// says their number. Effects that are off are left out of the text that runs.
+// The live page: the text of the model is run, saved and carried by links; sliders change their numbers in it. Effects
+// that are off are removed from the text that runs.
 
 const bench = { base: parts.text, moved: new Map(), off: new Set(), controls: null, asked: "", shown: 0, runner: null, coster: null };
 
-// The text with what has been moved since `controls` were asked for.
+// The text with all changes made by sliders since `controls` were received.
 function benchText() {
   const changes = [...bench.moved].map(([key, value]) => [controlOf(key).written, value]).sort((a, b) => b[0].from - a[0].from);
   let text = bench.base;
@@ -20,7 +20,7 @@ function offNames() {
   return [...bench.off].join("\n");
 }
 
-// ---- what can be moved
+// ---- controls
 
 function controlList(controls) {
   const list = [];
@@ -34,7 +34,7 @@ function controlOf(key) {
   return controlList(bench.controls).find(([other]) => other === key)[1];
 }
 
-// While a slider is under way the run is shown in fewer rows; the worker is asked before the page changes its texts.
+// Apply a change. While a slider moves, the run has fewer rows; the worker is asked before the page changes its texts.
 function moved(key, value, underWay = false) {
   if (!bench.controls || !controlOf(key).written) return;
   bench.moved.set(key, value);
@@ -43,7 +43,7 @@ function moved(key, value, underWay = false) {
   setEditor(text);
 }
 
-// What is given as a number first; other initial values are folded away.
+// Make the sliders; initial values not given as a number are folded away.
 function makeKnobs() {
   const given = [], zero = [];
   knobs.clear();
@@ -96,7 +96,7 @@ function showMethod() {
   if (document.activeElement !== box) box.value = controls.tolerance.value ?? "1e-10";
 }
 
-// The controls of the text that was asked about.
+// Use the controls received for a text.
 function takeControls(text, controls) {
   bench.base = text;
   bench.controls = controls;
@@ -124,7 +124,7 @@ function answeredControls(text, answer) {
 
 function answeredRun(question, answer) {
   const { errors, data } = JSON.parse(answer);
-  if (question.off) showNotes(errors); // of the text without what is off, line by line the same
+  if (question.off) showNotes(errors); // positions are valid: removing effects keeps the line numbers
   const wrong = errors.find((note) => note.severity === "error");
   if (data) showAgain(data);
   if (wrong || !data) say(wrong ? wrong.message : "there is no run", "error");
@@ -135,10 +135,10 @@ function answeredRun(question, answer) {
   keepLinkSoon();
 }
 
-// Of a run that is shown while a slider moves: enough for the eye, a quarter of the usual ones.
+// Rows of a run while a slider moves: a quarter of the usual number.
 const rowsUnderWay = 500;
 
-// One question after the other: what can be moved, then how it moves.
+// Request the controls and then the run of a text.
 function askForRun(text = editor.value, rows = 0) {
   const off = offNames();
   bench.since = performance.now();
@@ -151,7 +151,7 @@ function askForRun(text = editor.value, rows = 0) {
   }, [rows]);
 }
 
-// ---- what accuracy costs
+// ---- cost of accuracy
 
 function showCosts() {
   if (!element("live-costs").open) return;
@@ -196,7 +196,7 @@ function setModel(text, off) {
   askForRun();
 }
 
-// The text that the page came with, and what the command line had set.
+// The initial text of the page, with the settings of the command line.
 function ownText() {
   if (!bench.first) return parts.text;
   Object.assign(bench, { base: parts.text, controls: bench.first });

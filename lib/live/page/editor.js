@@ -1,6 +1,6 @@
 "use strict";
 
-// The model's text: an editor with line numbers and marks where something is wrong.
+// The model's text: an editor with line numbers and marks at errors.
 
 const editor = element("live-text");
 
@@ -14,7 +14,7 @@ function showLineNumbers() {
   }));
 }
 
-// Where line and column (from 1, in characters) are in the text.
+// The index in the text of line and column (from 1, in characters).
 function placeInText(text, line, column) {
   let at = 0;
   for (let i = 1; i < line; i++) {
@@ -48,7 +48,7 @@ function noteItem(note) {
   return item;
 }
 
-// The text once more under the editor's, unseen but for the marks.
+// Show marks by a copy of the text under the editor, invisible except for the marks.
 function showMarks(notes) {
   const text = editor.value, places = notes.filter((note) => note.line > 0).map((note) => [placeInText(text, note.line, note.column), note.severity]);
   const back = element("live-marks"), pieces = [];

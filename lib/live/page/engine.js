@@ -1,7 +1,7 @@
 "use strict";
 
-// The library in workers: compiled once, asked one question at a time. Of questions that wait the newest counts; what
-// takes longer than people wait is ended when another one comes.
+// The library in workers: compiled once, one question at a time. Of several waiting questions only the newest is kept;
+// a question that takes too long is ended when another one comes.
 
 const parts = JSON.parse(element("live-parts").textContent);
 const patience = 2000; // ms
@@ -14,7 +14,7 @@ async function compileEngine() {
   engine.module = await WebAssembly.compileStreaming(new Response(bytes.pipeThrough(new DecompressionStream("gzip")), { headers }));
 }
 
-// A worker for one kind of question; told(share) hears how far it is.
+// Make a worker for one kind of question; told(progress) is called with its progress.
 function makeAsker(told) {
   const asker = { worker: null, ready: false, busy: null, since: 0, waiting: null };
   const next = () => {
@@ -41,7 +41,7 @@ function makeAsker(told) {
     asker.worker.postMessage({ module: engine.module, files: parts.files });
   };
   asker.failed = () => {};
-  // Ends what is going on; what waits is still asked.
+  // End the present question; a waiting one is asked afterwards.
   asker.stop = () => {
     asker.worker?.terminate();
     Object.assign(asker, { ready: false, busy: null });

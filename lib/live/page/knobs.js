@@ -2,16 +2,16 @@
 
 // Sliders: each moves one number of the text.
 
-// A number with two digits that is no smaller.
+// A round number, at least `value`: at most two digits.
 function niceAbove(value) {
   const power = 10 ** Math.floor(Math.log10(value)), digit = value / power;
   return power * ([1, 1.5, 2, 2.5, 3, 4, 5, 6, 8, 10].find((step) => digit <= step * (1 + 1e-9)) || 10);
 }
 
-const positive = ["kg", "slug", "m", "ft", "kg*m^2", "slug*ft^2", "s"]; // masses, sizes and durations: 0 is none
-const spans = { deg: 180, rad: Math.PI, "rad/s": 10, m: 1, "m/s": 5, ft: 3, "ft/s": 15 }; // of what starts at 0
+const positive = ["kg", "slug", "m", "ft", "kg*m^2", "slug*ft^2", "s"]; // masses, sizes and durations, which must not be 0
+const spans = { deg: 180, rad: Math.PI, "rad/s": 10, m: 1, "m/s": 5, ft: 3, "ft/s": 15 }; // half ranges of values that start at 0
 
-// How the number of a control is written: {number, unit, factor}; of an expression its value.
+// The number of a control as written: {number, unit, factor}; for an expression its value.
 function quantityOf(control, text) {
   const spot = control.written, units = control.unit === "rad" ? "deg" : control.unit;
   if (spot && spot.number !== undefined) {
@@ -22,18 +22,18 @@ function quantityOf(control, text) {
   return { number: Number(((control.value ?? 0) / factor).toPrecision(12)), unit: units, factor };
 }
 
-// From where to where: as the file says, or twice as far as now.
+// The range of a slider: that of the file, or up to twice the present value.
 function rangeOf(control, { number, unit: units, factor }, key) {
   if (control.low !== null && control.low !== undefined) return [control.low / factor, control.high / factor];
   if (key === "until") return [0, niceAbove(3 * number)];
-  if (!control.unit && number >= 0 && number <= 1) return [0, 1]; // of friction, of an impact: a share
+  if (!control.unit && number >= 0 && number <= 1) return [0, 1]; // coefficient of friction or restitution, fraction
   if (number === 0) return [-(spans[units] || 1), spans[units] || 1];
   const far = niceAbove(2 * Math.abs(number)), near = positive.includes(control.unit) && key.startsWith("parameters") ? far / 20 : 0;
   if (key.startsWith("initial") && units !== "m" && units !== "ft") return [-far, far];
   return number > 0 ? [near, far] : [-far, far];
 }
 
-// A step that is a round number, some two hundred of them.
+// A round step, about 1/200 of the range.
 function stepOf([low, high]) {
   const step = 10 ** Math.floor(Math.log10((high - low) / 100));
   return (high - low) / step > 400 ? 2 * step : step;
@@ -46,7 +46,7 @@ function writtenAs(knob, number) {
   return `${Number(Number(number).toFixed(Math.min(digits, 20)))}${knob.quantity.unit ? ` ${knob.quantity.unit}` : ""}`;
 }
 
-// A slider and a box for the same number; tell(key, text) puts it into the model.
+// Make a slider and a box for the same number; tell(key, text) puts it into the model.
 function makeKnob(key, control, text, tell) {
   const row = document.createElement("label"), name = document.createElement("span");
   const slider = document.createElement("input"), box = document.createElement("input"), knob = { row, slider, box };

@@ -1,8 +1,8 @@
 "use strict";
 
-// What is shown as a file, as a link and as a command line.
+// The shown model as a file, as a link and as a command line.
 
-// The text that runs: without what is off.
+// The text that runs, without the effects that are off.
 function savedText(answered) {
   if (bench.off.size === 0) answered(editor.value);
   else bench.runner.ask("text", [editor.value, parts.name, offNames()], (text) => answered(text ?? editor.value));
@@ -18,7 +18,7 @@ function saveText() {
   });
 }
 
-// ---- links: the text and what is off, deflated, in the fragment
+// ---- links: the text and the effects that are off, deflated, in the fragment
 
 async function piped(bytes, stream) {
   return new Uint8Array(await new Response(new Blob([bytes]).stream().pipeThrough(stream)).arrayBuffer());
@@ -43,14 +43,14 @@ async function readLink() {
   } catch { return null; }
 }
 
-// Browsers count how often an address is changed: it is when nothing has moved for a while.
+// Update the address when nothing has changed for a while, since browsers limit the rate of updates.
 function keepLinkSoon() {
   clearTimeout(bench.linking);
   bench.linking = setTimeout(keepLink, 300);
   showCommand();
 }
 
-// The address says what is shown; that of the page as it came is left as it is.
+// Store the model in the address, unless it is the page's own.
 async function keepLink() {
   const own = editor.value === bench.own && bench.off.size === 0;
   const address = own ? location.pathname + location.search : `#m=${await packed({ text: editor.value, off: [...bench.off] })}`;
@@ -67,7 +67,7 @@ function quoted(text) {
   return /^[\w./:=+-]+$/.test(text) ? text : `'${text.replace(/'/g, "'\\''")}'`;
 }
 
-// Parameters and the run can be set by options; whatever else differs takes the saved file.
+// Parameters and settings of the run become options; other changes require the saved file.
 function commandLine() {
   const first = bench.first, words = ["fbd-run"];
   let text = parts.text;

@@ -1,6 +1,7 @@
 "use strict";
 
-// In the worker: the library behind its loader (fbd-live.js), one question after another. Texts in, JSON out.
+// Code of the worker: calls the library through its loader (fbd-live.js), one question after another. Texts in, JSON
+// out.
 
 let library = null;
 
@@ -33,7 +34,7 @@ async function begin({ module, files }) {
   postMessage({ ready: true });
 }
 
-// What can be moved in a text, and its run in so many rows.
+// The controls of a text, and its run with `rows` rows.
 function both([text, name, off], rows) {
   const controls = call("controls", [text, name], []);
   return [controls, controls.endsWith("\"controls\":null}") ? null : call("run", [text, name, off], rows)];

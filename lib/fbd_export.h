@@ -1,0 +1,161 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * fbd_export: what is written of a model or run: texts, JSON, LaTeX, plots, drawings, pages, C programs, models for other
+ * simulators. The rules of fbd.h apply.
+ */
+#ifndef FBD_EXPORT_H
+#define FBD_EXPORT_H
+
+#include "fbd.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* ---------------------------------------------------------------- equations */
+
+/* The assembled equations, term by term, as text. To be freed with fbd_free, as all texts below; NULL when
+ * memory is out. */
+FBD_API char *fbd_equations_text(fbd_state *state);
+FBD_API char *fbd_equations_text_components(fbd_state *state); /* of fbd_assemble_components */
+
+/* The equations of every body cut free in symbols of the scene, reactions included, one per line, with the
+ * acceleration of G where it follows from the coordinates. */
+FBD_API char *fbd_equations_symbols(fbd_state *state);
+
+/* The equations as LaTeX (amsmath), each in symbols of the scene and with the numbers of the state; for
+ * joined bodies also those cut free. */
+FBD_API char *fbd_equations_latex(fbd_state *state);
+FBD_API char *fbd_equations_latex_components(fbd_state *state);
+
+/* The equations and the free-body diagrams, as one JSON object. */
+FBD_API char *fbd_equations_json(fbd_state *state);
+FBD_API char *fbd_equations_json_components(fbd_state *state);
+
+/* A description of the plan: effects that are simulated, with their number and why they are conservative or
+ * not; effects that are not, and the entries that would add them; the right-hand side, events, structure, the
+ * method and its reason. */
+FBD_API char *fbd_explain(const fbd_model *model, const fbd_options *options);
+
+/* ---------------------------------------------------------------- results */
+
+/* The result as text, to be freed with fbd_free; NULL when memory is out. For a scene of more than twelve
+ * bodies the report is short: totals, events by their kinds, some of the states, the largest forces;
+ * fbd_result_report_full is complete. */
+FBD_API char *fbd_result_report(fbd_result *result);
+FBD_API char *fbd_result_report_full(fbd_result *result);
+FBD_API char *fbd_result_json(fbd_result *result);
+
+/* Plots of a run as a script for gnuplot that carries its data. `columns`: names of the CSV's columns with
+ * ledger, without units, separated by commas ("block.v,block.friction"), one plot for each unit; NULL for
+ * coordinates and energies. `file` (may be NULL) chooses gnuplot's terminal by its ending, .svg, .png or
+ * .pdf; the script writes to gnuplot's standard output. NULL with a note in `errors`: `unknown-column`,
+ * `not-recorded`, or memory is out. */
+FBD_API char *fbd_result_gnuplot(fbd_result *result, const char *file, const char *columns,
+                                 fbd_errors *errors);
+
+/* Check that the model has all these columns. Returns false with notes in `errors`. */
+FBD_API bool fbd_model_has_columns(const fbd_model *model, const char *columns, fbd_errors *errors);
+
+/* The model language as JSON Schema (draft 07), for editors and other programs: keys, kinds, words and types
+ * with their descriptions. To be freed with fbd_free; NULL when memory is out. */
+FBD_API char *fbd_schema(void);
+
+/* True if the library was built with the page (which needs a library for its plots). */
+FBD_API bool fbd_has_html(void);
+
+/* One self-contained HTML page (UTF-8) that plays the run, with plots, equations and ledger at every time; at
+ * most some 5 MB for any length of run. NULL with a note in `errors`: `no-page` if the library was built
+ * without it, `not-recorded` for a run without `keep`, or memory is out. */
+FBD_API char *fbd_result_html(fbd_result *result, fbd_errors *errors);
+
+/* The scene as one C program for GSL, without memory allocation, with the numbers of the file in a structure:
+ * see docs/emit-c.md. `options` (may be NULL) gives the end time and accuracy of its `main`; only `until` and
+ * `tolerance` are used. To be freed with fbd_free. NULL with notes in `errors`: `cannot-emit` for a scene
+ * with unsupported elements, `no-end-time`, `bad-option`, or memory is out. */
+FBD_API char *fbd_emit_c(const fbd_model *model, const fbd_options *options, fbd_errors *errors);
+
+/* ---------------------------------------------------------------- drawings */
+
+typedef struct fbd_drawing {
+    size_t size;      /* sizeof(fbd_drawing), or 0 */
+    const char *body; /* only this body; NULL for all */
+    bool components;  /* with the components of each force: along x and y, on a slide along and across it */
+    bool supports;    /* with the ground, surfaces and bearings that the bodies are cut free from */
+    bool symbols;     /* arrows labelled by symbols, m g, N, T_1, instead of names and values */
+    bool worksheet;   /* the bodies cut free and no arrows, with lines to write on */
+    bool solution;    /* of that worksheet: arrows by symbols, and the value of each symbol on its line */
+    /* the force, in the scene's unit, that corresponds to 10 mm; 0: a round one that suits all bodies */
+    double scale;
+} fbd_drawing;
+
+/* The free-body diagrams of a state as an SVG 1.1 document in millimetres, to be freed with fbd_free. `drawing`
+ * may be NULL. Ids are `BODY` for a diagram, `BODY-FORCE` for an arrow (`BODY-FORCE-x`, `-y`, `-n` for
+ * components). NULL with a note in `errors` (`unknown-body`, or memory is out). */
+FBD_API char *fbd_diagram_svg(fbd_state *state, const fbd_drawing *drawing, fbd_errors *errors);
+
+/* ---------------------------------------------------------------- pages that run */
+
+/* The values of the file that a slider can change and the effects that can be switched off, with their
+ * positions in the text, as one JSON object (its format: lib/live/controls.c). To be freed with fbd_free;
+ * NULL with a note in `errors` when memory is out. */
+FBD_API char *fbd_model_controls(const fbd_model *model, fbd_errors *errors);
+
+/* The text of the file without some of the effects that it lists: "block.friction", or the name of a coupling
+ * or contact. An entry on lines of its own becomes a comment; so do derivations by hand of the bodies
+ * concerned. To be freed with fbd_free; NULL with a note in `errors`: `unknown-effect`, or memory is out. */
+FBD_API char *fbd_model_without(const fbd_model *model, const char *const *effects, size_t count,
+                                fbd_errors *errors);
+
+/* The notes of a list, as one JSON list of {severity, id, message, hint, line, column}. To be freed with
+ * fbd_free; NULL when memory is out. */
+FBD_API char *fbd_errors_json(fbd_errors *errors);
+
+/* The data of a page of --html about a run, as one JSON object (its format: lib/draw/page_data.c), for a run
+ * recorded with `keep`. To be freed with fbd_free; NULL with a note in `errors`: `not-recorded`, or memory is
+ * out. */
+FBD_API char *fbd_result_page_data(fbd_result *result, fbd_errors *errors);
+
+/* True if the library was built with the parts of live pages: itself as WebAssembly (`make live`). */
+FBD_API bool fbd_has_live(void);
+
+/* The initial settings of the page, beside the file: how the model was read and run; all may be omitted. */
+typedef struct fbd_live_options {
+    size_t size; /* sizeof(fbd_live_options), or 0 */
+    const fbd_setting *settings;
+    size_t setting_count;
+    const fbd_options *run; /* until, method and tolerance; NULL for the file's */
+} fbd_live_options;
+
+/* As fbd_result_html, with the library and the text of the model included: the page has sliders, an editor
+ * and checkboxes, and repeats the run after every change. At most 2 MB. NULL with a note in `errors`:
+ * `no-live` where the library was built without it, `cannot-read` for the data file of a table, and those of
+ * fbd_result_html. */
+FBD_API char *fbd_result_live_html(fbd_result *result, const fbd_live_options *options, fbd_errors *errors);
+
+/* ---------------------------------------------------------------- models for other simulators */
+
+/* A model as a Functional Mock-up Unit (fmi-standard.org): docs/fmi.md. */
+typedef struct fbd_fmu_options {
+    size_t size;                 /* sizeof(fbd_fmu_options), or 0 */
+    int version;                 /* of FMI: 3, or 2 for tools that do not support 3; 0 is 3 */
+    const char *library;         /* the binary to include, of this version of fbd, contained in fbd-run ... */
+    size_t library_length;       /* ... and its length in bytes */
+    const char *name;            /* of the FMU; NULL for that of the model file */
+    const fbd_setting *settings; /* those that the model was read with: they become its start values */
+    size_t setting_count;
+    const fbd_options *run; /* NULL for the file's; without error bars and accuracy */
+} fbd_fmu_options;
+
+/* The FMU for co-simulation with that binary, as bytes of a zip archive, to be freed with fbd_free; *length
+ * is their number. NULL with notes in `errors`: those of wrong options (see fbd_simulation_new), of an
+ * inadmissible start (see fbd_state_close), `cannot-read` for the data file of a table, `bad-call`, or memory
+ * is out. */
+FBD_API char *fbd_fmu(const fbd_model *model, const fbd_fmu_options *options, size_t *length,
+                      fbd_errors *errors);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif
