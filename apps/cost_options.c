@@ -8,31 +8,30 @@
 
 static const char help[] =
     "Usage: fbd-cost [options] MODEL.yaml\n"
-    "Run every method at a ladder of tolerances on a scene and show what accuracy costs: true error against\n"
-    "time, the cheapest way to each accuracy, and how well the true motion is known.\n"
+    "Run every method at a ladder of tolerances on a scene and show the cost of accuracy: true error "
+    "against\ntime, the cheapest method for each accuracy, and the uncertainty of the true motion.\n"
     "\n"
-    "What is measured\n"
+    "Measurement\n"
     "  --set NAME=VALUE     give a parameter of the file another value (may be repeated)\n"
     "  --until TIME         end of the run, in seconds\n"
     "  --methods A,B,...    these methods (default: all)\n"
     "  --fixed-steps        ladders of fixed steps in place of tolerances\n"
     "  --of A,B,...         errors of these coordinates and rates (default: all)\n"
-    "  --budget SECONDS     about how long all may take (default 6); longer where others use the processor\n"
-    "  --effects            instead: leave out each effect of the scene in turn, and show how much the "
-    "answer\n"
-    "                       changes and how much time it saves\n"
+    "  --budget SECONDS     approximate total time (default 6); longer where others use the processor\n"
+    "  --effects            instead: leave out each effect of the scene in turn, and show the change of "
+    "the\n                       answer and of the time\n"
     "\n"
-    "What is written (FILE may be - for standard output, which leaves the table out)\n"
+    "Output (FILE may be - for standard output, which leaves the table out)\n"
     "  --csv FILE           a row for each method and setting, or each effect\n"
     "  --json FILE          the same with reference and answers, as one object\n"
     "  --svg FILE           the work-precision diagram\n"
     "  --quiet              no table\n"
-    "  --completion SHELL   what makes bash, zsh or fish complete these options\n"
+    "  --completion SHELL   completion of these options for bash, zsh or fish\n"
     "  -h, --help, --version\n"
     "\n"
-    "Exit codes: 0 done, 1 the run fails or its true motion cannot be known to the end, 2 usage, 3 the "
+    "Exit codes: 0 done, 1 the run fails or its true motion cannot be computed to the end, 2 usage, 3 the "
     "model\n"
-    "file is wrong, 4 the exact solution that the file gives is not that of the scene.\n";
+    "file is wrong, 4 the exact solution of the file is not that of the scene.\n";
 
 enum {
     option_set = option_first,

@@ -59,7 +59,7 @@ static enum exit_code accurate(const fbd_result *result, const fbd_simulation *s
         complain("fbd-run: %sthe accuracy %g was not reached: %.2g is the best of %lu runs, at tolerance %g",
                  cut, stats.accuracy, stats.error_estimate, stats.runs, stats.tolerance);
     else
-        complain("fbd-run: %sthe accuracy %g was not reached: no more accurate run comes to the end, so the "
+        complain("fbd-run: %sthe accuracy %g was not reached: no more accurate run is completed, so the "
                  "error is not known",
                  cut, stats.accuracy);
     return exit_inaccurate;

@@ -59,7 +59,8 @@ static void summarise(const struct sweep_options *options, size_t runs, size_t r
         complain("fbd-sweep: ended by a signal after %zu of %zu runs%s", rows, runs,
                  options->csv ? "; go on with --resume" : "");
     if (failed && !options->quiet)
-        complain("fbd-sweep: %zu of %zu runs did not end well; `status` and `reason` say why", failed, rows);
+        complain("fbd-sweep: %zu of %zu runs did not succeed; `status` and `reason` have the cause", failed,
+                 rows);
 }
 
 /* Compute the missing rows. */

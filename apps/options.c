@@ -332,7 +332,9 @@ static bool can_be_watched(const struct options *options)
         const char *path = places[i].path;
         if (!path) continue;
         if (place_descriptor(path) >= 0 || (stat(path, &status) == 0 && !S_ISREG(status.st_mode)))
-            return usage("--watch writes its outputs anew each time, which only files can be, not ", path);
+            return usage(
+                "--watch writes its outputs again after each change, which is possible for files only, not ",
+                path);
     }
     return true;
 }
@@ -388,9 +390,9 @@ static bool options_agree(const struct options *options)
     if (!options->csv && !options->html && options->every > 0)
         return usage("--every goes with --csv or --html", "");
     if (options->full && (stands_still || options->quiet || options_use_stdout(options)))
-        return usage(
-            "--full is of the report, which --quiet, data to standard output and what is no run leave out",
-            "");
+        return usage("--full applies to the report, which --quiet, data on standard output and options "
+                     "without a run leave out",
+                     "");
     if (options->degrees && stands_still && !draws && !rests)
         return usage("--degrees goes with a run, --equations, --linearize or --static", "");
     if (stands_still && options->run.error_bars) return usage("--error-bars belongs to a run", "");
@@ -427,6 +429,6 @@ bool options_read(int argc, char **argv, struct options *options, enum exit_code
         return command_line_model(&line, argc, argv, &options->model) && options_agree(options);
     options->answers = argv + optind;
     options->answer_count = (size_t)(argc - optind);
-    return options->answer_count == 0 ? usage("no answer given to hold against the key", "")
+    return options->answer_count == 0 ? usage("no answer to compare with the key", "")
                                       : options_agree(options);
 }

@@ -165,7 +165,7 @@ bool places_spare(const struct command_line *line, const fbd_errors *errors,
     for (size_t k = 0; (file = fbd_errors_file(errors, k)) != NULL; k++)
         for (size_t i = 0; i < count; i++)
             if (outputs[i].path && same_place(file, STDIN_FILENO, outputs[i].path))
-                return refuse(line, &outputs[i], "be written over what the model reads");
+                return refuse(line, &outputs[i], "overwrite a file that the model reads");
     return true;
 }
 

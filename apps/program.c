@@ -55,7 +55,7 @@ bool program_run(const char *const *arguments, const char *text, int output)
 {
     FILE *input = text_file(text);
     if (!input) {
-        complain("fbd-run: cannot write what %s is to read: %s", arguments[0], strerror(errno));
+        complain("fbd-run: cannot write the input of %s: %s", arguments[0], strerror(errno));
         return false;
     }
     pid_t child;

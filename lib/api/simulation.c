@@ -24,7 +24,7 @@ static bool choose_accuracy(const fbd_model *model, const fbd_options *options, 
     size_t before = fbd_errors_failed_count(errors);
     *accuracy = options->accuracy != 0 ? options->accuracy : by_hand ? 0 : model->scene->simulate.accuracy;
     if (options->accuracy != 0 && by_hand)
-        bad_accuracy(errors, "ask for an accuracy, or say how the steps are to be made",
+        bad_accuracy(errors, "give either an accuracy, or a tolerance or step",
                      "an accuracy excludes a tolerance and a step: it chooses them");
     if (!(*accuracy >= 0 && *accuracy <= 0.1))
         bad_accuracy(errors, "1e-8 is careful, 1e-3 is quick",

@@ -374,7 +374,7 @@ void fbd_errors_print(fbd_errors *errors, FILE *stream)
         fprintf(stream, "%s%s: %s [%s]\n", e->file || e->line ? " " : "",
                 e->severity == FBD_ERROR ? "error" : "warning", e->message, e->id);
         if (e->context_line)
-            fprintf(stream, "    while reading what starts at line %d, column %d\n", e->context_line,
+            fprintf(stream, "    in the block that starts at line %d, column %d\n", e->context_line,
                     e->context_column);
         if (e->hint) fprintf(stream, "    hint: %s\n", e->hint);
     }

@@ -17,7 +17,7 @@ static const char no_plain_file[] = "it is no plain file";
 /* `why` is NULL when memory is out. */
 static void cannot_read(fbd_errors *errors, const char *path, const char *why)
 {
-    const char *hint = why == no_plain_file ? "what comes from a pipe is read as standard input: `-`" : NULL;
+    const char *hint = why == no_plain_file ? "a pipe is read as standard input: `-`" : NULL;
     if (!why) {
         diag_out_of_memory(errors);
         return;

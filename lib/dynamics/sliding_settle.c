@@ -248,8 +248,9 @@ static bool settle_switches(struct question *q, const struct decided *decided, b
     if (choice < 0 && fine) return settle(state, given);
     if (choice >= 0)
         return choose(q, decided, choice) && settle(state, fine && keeps_sides(q) ? given : decided);
-    s->why = choice == -1 ? "neither a branch nor a share of both agrees with what it leads to"
-                          : "several ways to go on agree with what they lead to";
+    s->why = choice == -1
+                 ? "neither a branch nor a combination of both agrees with the motion that follows from it"
+                 : "several branches or combinations agree with the motions that follow from them";
     return false;
 }
 

@@ -52,7 +52,7 @@ static bool is_known(const struct words *words, const char *word)
 
 static void refuse(fbd_errors *errors, struct pos at, const char *what, const char *name)
 {
-    diag_add(errors, FBD_ERROR, "cannot-emit", at, "docs/emit-c.md lists what is written as C",
+    diag_add(errors, FBD_ERROR, "cannot-emit", at, "docs/emit-c.md lists the exceptions",
              "`--emit-c` does not know %s `%s`", what, name);
 }
 
@@ -134,7 +134,7 @@ static void check_file(const struct fbd_model *model, fbd_errors *errors)
 
 static void lacks(fbd_errors *errors, struct pos at, const char *missing, const char *name)
 {
-    diag_add(errors, FBD_ERROR, "cannot-emit", at, "docs/emit-c.md lists what is written as C",
+    diag_add(errors, FBD_ERROR, "cannot-emit", at, "docs/emit-c.md lists the exceptions",
              "`--emit-c` cannot write `%s`: %s", name, missing);
 }
 

@@ -36,7 +36,7 @@ bool check_number(struct parser *p, const struct operand *a)
 {
     if (!a->kind.truth || a->kind.failed) return !a->kind.failed;
     note(p, "expression-syntax", a->at, "write `if(condition, 1, 0)` for a number that depends on it",
-         "a condition stands where a number is needed");
+         "a condition where a number is needed");
     return false;
 }
 
@@ -51,7 +51,7 @@ bool check_condition(struct parser *p, const struct operand *a)
 {
     if (a->kind.truth || a->kind.failed) return !a->kind.failed;
     note(p, "expression-syntax", a->at, "compare it with something, as in `x > 0`",
-         "a number stands where a condition is needed");
+         "a number where a condition is needed");
     return false;
 }
 

@@ -180,7 +180,7 @@ static const char *hint_of_want(struct parser *p, const struct operand *got, con
     const struct dim power = dim_over(got->kind.dim, want->dim);
     if (!q && dim_equal(want->dim, DIM_LENGTH) && power.length > 0 && power.mass == 0 && power.time == 0) {
         unit_name(power, p->scope->units, text, sizeof text); /* y = x^2 */
-        return diag_hint(p->errors, "divide it by what makes it a length, as `1[%s]`", text);
+        return diag_hint(p->errors, "divide it by `1[%s]` to make it a length", text);
     }
     unit_examples(want->dim, text, sizeof text);
     if (!text[0]) return NULL;

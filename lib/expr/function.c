@@ -395,7 +395,7 @@ static struct operand read_in_sense(struct parser *p, struct token name)
     struct operand inside = parse_expression(p);
     p->scope->sense(p->scope->context, NULL);
     if (!p->stopped && another_argument(p))
-        parse_stop(p, "argument-count", name.at, NULL, "one expression stands in these brackets");
+        parse_stop(p, "argument-count", name.at, NULL, "there must be one expression in these brackets");
     return p->stopped ? parse_failed(p, name.at) : inside;
 }
 

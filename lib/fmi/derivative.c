@@ -141,7 +141,7 @@ static const char *why_not(const struct plant *plant, const struct derivative_ca
         !call->seed || !call->answer)
         return "there are no variables, or no values";
     if (!fmi_has_derivatives(plant->first))
-        return "a model with points, a prescribed motion or `hysteresis` gives no derivatives";
+        return "a model with points, a prescribed motion or `hysteresis` has no derivatives";
     for (size_t i = 0; i < call->unknown_count; i++) {
         const struct fmi_variable *unknown = variable_of(plant, call->unknowns[i]);
         if (!unknown || !fmi_is_output(unknown)) return "an unknown is no output";

@@ -28,8 +28,8 @@ static void begin(const struct package *package, struct text *xml)
 static void experiment(const struct package *package, struct text *xml)
 {
     text_add(xml, "  <LogCategories>\n"
-                  "    <Category name=\"logStatusError\" description=\"what went wrong\"/>\n"
-                  "    <Category name=\"logStatusWarning\" description=\"what deserves a look\"/>\n"
+                  "    <Category name=\"logStatusError\" description=\"errors\"/>\n"
+                  "    <Category name=\"logStatusWarning\" description=\"warnings\"/>\n"
                   "    <Category name=\"logEvents\" description=\"events of the motion\"/>\n"
                   "  </LogCategories>\n  <DefaultExperiment startTime=\"0\"");
     xml_number(xml, "stopTime", package->until);

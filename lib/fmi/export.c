@@ -185,7 +185,7 @@ static bool refuse(fbd_errors *errors, const char *hint, const char *message)
 static bool options_fit(const fbd_fmu_options *options, fbd_errors *errors)
 {
     if (options->version != 2 && options->version != 3)
-        return refuse(errors, "3, or 2 for tools that do not know that",
+        return refuse(errors, "3, or 2 for tools without support of 3.0",
                       "there is no such version of FMI here");
     if (options->version == 2 && strcmp(FBD_FMI_PLATFORM, "x86_64-linux") != 0)
         return refuse(errors, "FMI 3.0 does", "FMI 2.0 has no name for this platform");

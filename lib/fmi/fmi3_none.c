@@ -11,7 +11,7 @@
 static fmi3Status none(struct instance *instance, const char *function)
 {
     if (!instance) return fmi3Error;
-    return (fmi3Status)instance_fail(instance, function, "this FMU has nothing that it is for");
+    return (fmi3Status)instance_fail(instance, function, "this FMU has no such function");
 }
 
 fmi3Status fmi3EnterConfigurationMode(fmi3Instance instance)

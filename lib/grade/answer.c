@@ -350,7 +350,7 @@ bool answer_read(struct fbd_grade *grade, const struct submission *submission, s
     open_answer(grade, submission, answer, errors, failures);
     if (answer->root && !says_something(answer->root)) {
         grade->submitted = false;
-        note_absent(grade, "nothing is drawn on the sheet, and nothing derived");
+        note_absent(grade, "the sheet has neither forces nor derivations");
     }
     if (errors->out_of_memory) grade->arena.failed = true;
     fbd_errors_free(errors);

@@ -174,11 +174,10 @@ static bool has_canvas(struct desk *desk)
 {
     if (desk->grade->key->model->scene->grading.canvas.unit > 0) return true;
     if (fbd_errors_failed_count(desk->failures) == 0)
-        diag_add(
-            desk->failures, FBD_ERROR, "no-canvas", (struct pos){0, 0},
-            "write in the key `grading: {canvas: {origin: [200, 300], unit: 1 cm}}`: where the origin of the "
-            "scene lies, and which length a pixel stands for",
-            "an answer is a drawing, and the key does not say where drawings lie");
+        diag_add(desk->failures, FBD_ERROR, "no-canvas", (struct pos){0, 0},
+                 "write in the key `grading: {canvas: {origin: [200, 300], unit: 1 cm}}`: the origin of the "
+                 "scene in the drawing, and the length of a pixel",
+                 "an answer is a drawing, and the key has no `canvas` for it");
     return false;
 }
 

@@ -89,7 +89,7 @@ static bool has_points(struct fbd_key *key, fbd_errors *errors)
     if (key->most > 0) return true;
     diag_add(errors, FBD_ERROR, "nothing-to-grade", (struct pos){0, 0},
              "list the forces and moments that a right answer has, or derivations under `hand`",
-             "the key has nothing that brings points");
+             "the key has no entry with points");
     return false;
 }
 
@@ -138,10 +138,10 @@ static bool tell_reactions(const struct fbd_key *key, fbd_errors *errors)
     if (key->model->scene->grading.reactions_given) return true;
     for (size_t b = 0; b < key->model->body_count; b++) add_names(key, b, &text);
     if (text.length > 0)
-        diag_add(
-            errors, FBD_WARNING, "key-differs", (struct pos){0, 0},
-            "say `grading: {reactions: all}` if this is meant, else `none` or the names of those to be drawn",
-            "an answer has to draw reactions too: %.600s", text.data);
+        diag_add(errors, FBD_WARNING, "key-differs", (struct pos){0, 0},
+                 "write `grading: {reactions: all}` if this is intended, else `none` or the names of those "
+                 "to be drawn",
+                 "an answer has to draw reactions too: %.600s", text.data);
     bool failed = text.failed;
     if (failed) diag_out_of_memory(errors);
     text_free(&text);
@@ -168,7 +168,7 @@ static bool check_itself(struct fbd_key *key, fbd_errors *errors)
     if (!grade) diag_out_of_memory(errors);
     if (fault)
         diag_add(errors, FBD_WARNING, "key-differs", (struct pos){fault->line, fault->column},
-                 "`fbd-run --grade KEY KEY --details` says all, `--check-hand` more of derivations",
+                 "`fbd-run --grade KEY KEY --details` lists all, `--check-hand` has more about derivations",
                  "graded against itself the key has not all points: %.80s%s%.200s: %.200s", fault->body,
                  *fault->name ? ": " : "", fault->name, fault->message);
     bool graded = grade != NULL;

@@ -160,9 +160,9 @@ static void note_student_line(struct lines *lines, int body, int index, const st
     fbd_finding *finding = finding_add(grade, good && !empty ? FBD_FINDING_RIGHT : FBD_FINDING_DERIVATION,
                                        source->name, line_as_written(lines, source->name, hand), hand->at);
     line_say(lines, finding, hand,
-             empty                         ? "it is true whatever the forces are: it says nothing of them"
+             empty                         ? "it is true for any forces and does not check them"
              : good                        ? "it is right for these numbers"
-             : !line->checked || seen == 0 ? "no state was found where it claims to hold"
+             : !line->checked || seen == 0 ? "no admissible state was found for its condition"
                                            : "it does not agree with the mechanics of the sheet");
     if (good || seen == 0) return;
     struct text text = {0};

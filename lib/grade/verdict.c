@@ -91,7 +91,7 @@ static const char *inertia_fault(const struct fbd_grade *grade, const struct mod
     if (pivot && near(I_G, key->I_O, tolerance))
         return "the moment of inertia about G is that about O: m L^2 is counted twice";
     *kind = FBD_FINDING_INERTIA;
-    return "the moment of inertia is another one";
+    return "the moment of inertia differs";
 }
 
 static void compare_inertia(struct fbd_grade *grade, const struct model_body *key,

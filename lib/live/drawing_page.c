@@ -56,8 +56,8 @@ static bool compile_sheet(struct drawing_page *page, fbd_errors *errors)
         diag_add(
             errors, FBD_ERROR, "no-sheet", (struct pos){0, 0},
             "the sheet is the key without forces, moments and derivations (`--handout` alone prints it): "
-            "what it names of them has to be named otherwise",
-            "the sheet is no model by itself: %.300s", error->message);
+            "its other parts must not name them",
+            "the sheet without the key is no valid model: %.300s", error->message);
     else if (!page->sheet)
         diag_out_of_memory(errors);
     fbd_errors_free(others);
@@ -198,7 +198,7 @@ static char *make_page(const fbd_key *key, const char *student, bool exam, fbd_e
     else if (!exam && !fbd_has_live())
         diag_add(errors, FBD_ERROR, "no-live", (struct pos){0, 0},
                  "an exam (`--exam`) saves answers for `--grade` instead; or `make live`, and build again",
-                 "this fbd was built without live pages: none of its pages can check what is drawn");
+                 "this fbd was built without live pages: its pages cannot check drawings");
     else if (compile_sheet(&page, errors) && make_data(&page, exam, errors) &&
              (exam || make_engine(&page, errors)))
         made = fill(&page, !exam, errors);

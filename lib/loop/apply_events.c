@@ -93,11 +93,10 @@ static bool refuse_jerk(struct run *run, int pair)
     const struct tree *tree = run->model->tree;
     const struct coupling *coupling = &tree->couplings[run->model->plan.modes[pair].coupling];
     if (coupling->kind != constraint_capstan) return false;
-    run_fail(
-        run, FBD_BROKEN,
-        "at t = %.9g the rope `%s` snaps taut round its drum: how much of the jerk friction takes is not "
-        "followed. End the run before, by an event",
-        run_time(run), coupling->name);
+    run_fail(run, FBD_BROKEN,
+             "at t = %.9g the rope `%s` becomes taut round its drum: the friction in this impact cannot be "
+             "computed. End the run earlier by an event",
+             run_time(run), coupling->name);
     return true;
 }
 
@@ -114,9 +113,8 @@ static bool refuse_end_of_slot(struct run *run, int pair)
     }
     if (!beyond) return false;
     run_fail(run, FBD_BROKEN,
-             "at t = %.9g the point of the slot `%s` strikes the end of it, or comes back behind it. Make it "
-             "longer, or end "
-             "the run before, by an event",
+             "at t = %.9g the point of the slot `%s` hits the end of the slot, or returns behind it. Make it "
+             "longer, or end the run earlier by an event",
              run_time(run), coupling->name);
     return true;
 }

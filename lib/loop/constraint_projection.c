@@ -165,9 +165,8 @@ static bool overlong_rope(struct run *run, double most)
         const char *name = run->model->tree->couplings[coupling].name;
         if (isnan(excess))
             run_fail(run, FBD_FAILED,
-                     "at t = %.9g the rope `%s`, which is slack, has no way: what it goes to is within a "
-                     "circle that "
-                     "it runs over. End the run before, by an event",
+                     "at t = %.9g the slack rope `%s` has no path: one of its ends is within a circle that "
+                     "it runs over. End the run earlier by an event",
                      run_time(run), name);
         else
             run_fail(
@@ -230,7 +229,7 @@ static bool fail_by_masses(struct run *run, const struct misfit *misfit)
     if (ratio <= masses_far_apart) return false;
     run_fail(
         run, FBD_FAILED,
-        "at t = %.9g the coupling `%s` cannot be closed any more (it is off by %.3g): the heaviest of the "
+        "at t = %.9g the coupling `%s` cannot be closed (its error is %.3g): the heaviest of the "
         "jointed bodies has %.2g times the mass of the lightest, and up to about 1e12 can be solved. Give "
         "the lightest one more mass",
         run_time(run), coupling_row_name(run->model->tree, misfit->row >= 0 ? misfit->row : 0),
@@ -241,15 +240,14 @@ static bool fail_by_masses(struct run *run, const struct misfit *misfit)
 static void fail_singular(struct run *run, const struct misfit *misfit)
 {
     if (ends_reach(run))
-        run_fail(
-            run, FBD_BROKEN,
-            "at t = %.9g the mechanism is at the end of its reach: what is prescribed goes on to where the "
-            "coupling `%s` cannot be closed",
-            run_time(run), coupling_row_name(run->model->tree, misfit->row >= 0 ? misfit->row : 0));
+        run_fail(run, FBD_BROKEN,
+                 "at t = %.9g the mechanism is at the end of its reach: the prescribed motion leads to "
+                 "positions where the coupling `%s` cannot be closed",
+                 run_time(run), coupling_row_name(run->model->tree, misfit->row >= 0 ? misfit->row : 0));
     else if (!fail_by_masses(run, misfit))
         run_fail(run, FBD_FAILED,
-                 "at t = %.9g the couplings pass a singular position, where the mechanism could go on in "
-                 "two ways, and the step cannot tell which: try another tolerance or --method dop853",
+                 "at t = %.9g the couplings pass a singular position, where two motions are possible, and "
+                 "the step does not determine which: try another tolerance or --method dop853",
                  run_time(run));
 }
 
@@ -287,12 +285,11 @@ void project_step(struct run *run)
     }
     if (nothing || left.position <= 1e3 * fmax(run->options.tolerance, 1e-12) * reach) return;
     if (!fail_by_masses(run, &misfit))
-        run_fail(
-            run, FBD_FAILED,
-            "at t = %.9g the coupling `%s` cannot be closed any more (it is off by %.3g): the mechanism is "
-            "at the end of its reach, or the tolerance is too large",
-            run_time(run), coupling_row_name(run->model->tree, misfit.row >= 0 ? misfit.row : 0),
-            misfit.position);
+        run_fail(run, FBD_FAILED,
+                 "at t = %.9g the coupling `%s` cannot be closed (its error is %.3g): the mechanism is at "
+                 "the end of its reach, or the tolerance is too large",
+                 run_time(run), coupling_row_name(run->model->tree, misfit.row >= 0 ? misfit.row : 0),
+                 misfit.position);
 }
 
 /* A slip velocity at round-off level has an arbitrary sign. It is removed if its acceleration is so small

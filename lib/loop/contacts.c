@@ -358,12 +358,11 @@ static bool refuse_low_step(struct run *run, int count)
         if (!striker->contact || !(striker->v_n < 0)) continue;
         double height = meeting_low_step(run->model, run->state->tree, index, -striker->v_n);
         if (height == 0) continue;
-        run_fail(
-            run, FBD_FAILED,
-            "at t = %.9g the contact `%s` strikes a step of %.3g, which is lower than the numbers of a file "
-            "are exact: it would stop what slides over it. Give both surfaces the same height",
-            run_time(run), run->model->scene->constraints[tree_of(run)->meetings[index].constraint].name,
-            height);
+        run_fail(run, FBD_FAILED,
+                 "at t = %.9g the contact `%s` strikes a step of %.3g, which is below the accuracy of the "
+                 "numbers in a file but would stop a sliding body. Give both surfaces the same height",
+                 run_time(run), run->model->scene->constraints[tree_of(run)->meetings[index].constraint].name,
+                 height);
         return true;
     }
     return false;

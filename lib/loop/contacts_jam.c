@@ -218,10 +218,9 @@ void run_check_jam(struct run *run, bool evaluated)
     if (worst < 0) return;
     const struct coupling *coupling = &model->tree->couplings[worst];
     run_fail(run, FBD_FAILED,
-             "at t = %.9g a step has gone over an instant at which the normal force of `%s` on `%s` is "
-             "infinite: as it slips "
-             "its friction has come to press it on (Painleve's paradox). Less friction, or end the run "
-             "before by an event",
+             "at t = %.9g the normal force of `%s` on `%s` has become infinite within a step: the friction "
+             "of the slipping point increases its own normal force (Painleve's paradox). Reduce the "
+             "friction, or end the run earlier by an event",
              run_time(run), model->loads[coupling->load].source->name,
              model->bodies[coupling->end[0].body].name);
 }

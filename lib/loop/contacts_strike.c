@@ -263,9 +263,8 @@ static void refuse_rubbing(struct run *run)
         bool closed = coupling->surface < 0 || run->state->slip[coupling->surface] == stick;
         if (coupling->kind != constraint_capstan || !closed) continue;
         run_fail(run, FBD_BROKEN,
-                 "at t = %.9g an impact occurs while the rope `%s` is taut round its drum: how much of the "
-                 "impulse "
-                 "friction takes is not followed. End the run before, by an event",
+                 "at t = %.9g an impact occurs while the rope `%s` is taut round its drum: the friction in "
+                 "this impact cannot be computed. End the run earlier by an event",
                  run_time(run), coupling->name);
     }
 }
@@ -370,11 +369,10 @@ void contacts_apply_impulses(struct run *run, int count)
 
 static void fail_impact(struct run *run, enum impacts_end end, enum impact_law law)
 {
-    static const char lost[] =
-        "press against each other so nearly along one line that rounding takes what their "
-        "impulses do: turn one of the surfaces, or move one of the points";
+    static const char lost[] = "are so nearly along one line that the effect of their impulses is below the "
+                               "round-off level: turn one of the surfaces, or move one of the points";
     static const char *const what[] = {
-        [impacts_endless] = "go on among each other without end: try `simulate: {impacts: simultaneous}`",
+        [impacts_endless] = "follow each other without end: try `simulate: {impacts: simultaneous}`",
         [impacts_unsolvable] = "have no solution by their law: with `law: stronge` they may have one",
         [impacts_lost] = lost,
     };
@@ -383,15 +381,14 @@ static void fail_impact(struct run *run, enum impacts_end end, enum impact_law l
     else if (end == impacts_unsolvable && !impact_by_velocity(law))
         run_fail(run, FBD_FAILED,
                  "at t = %.9g the impulses of an impact have no solution: friction on a guide or in a slot "
-                 "feeds what presses there, as in Painleve's paradox. Less friction, or end the run before, "
-                 "by an event",
+                 "increases its own normal impulse, as in Painleve's paradox. Reduce the friction, or end "
+                 "the run earlier by an event",
                  run_time(run));
     else if (end == impacts_jammed)
-        run_fail(
-            run, FBD_FAILED,
-            "at t = %.9g an impact jams: friction locks the bodies, and the body that is struck, moved by a "
-            "drive say, cannot yield. Less friction, or end the run before, by an event",
-            run_time(run));
+        run_fail(run, FBD_FAILED,
+                 "at t = %.9g an impact jams: friction locks the bodies, and the other body cannot yield (it "
+                 "is driven, for example). Reduce the friction, or end the run earlier by an event",
+                 run_time(run));
     else
         run_fail(run, FBD_FAILED, "at t = %.9g impacts at several points %s", run_time(run), what[end]);
 }

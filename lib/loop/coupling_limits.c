@@ -101,11 +101,10 @@ static void fail_at_end(const struct end *end, double t, bool gets_taut)
     struct run *run = end->run;
     const struct coupling *coupling = coupling_of(end);
     if (coupling->kind == constraint_slot || coupling->kind == constraint_groove)
-        run_fail(
-            run, FBD_BROKEN,
-            "at t = %.9g the point in the slot `%s` comes to the end of it. Make it longer, or end the run "
-            "before, by an event",
-            t, coupling->name);
+        run_fail(run, FBD_BROKEN,
+                 "at t = %.9g the point in the slot `%s` reaches the end of the slot. Make it longer, or end "
+                 "the run earlier by an event",
+                 t, coupling->name);
     else
         run_fail(
             run, FBD_BROKEN,
@@ -189,8 +188,7 @@ static void watch_piece(const struct end *piece, struct time_dd *t)
     *t = time_dd_at(when);
     run_fail(
         run, FBD_BROKEN,
-        "at t = %.9g the rope `%s` is at an end of its way: there is nothing left between `%s` and `%s`. End "
-        "the run before, by an event",
+        "at t = %.9g the rope `%s` has no length left between `%s` and `%s`. End the run earlier by an event",
         t->t, coupling->name, name_of(run, coupling, piece->end), name_of(run, coupling, piece->end + 1));
 }
 
@@ -296,11 +294,10 @@ static void watch_passing(const struct end *end, struct time_dd *t)
         *t = time_dd_at(passing_time(end, side, from, passed));
         way_at(end, t->t);
         if (side < 0 && row->g.x < 0)
-            run_fail(
-                run, FBD_BROKEN,
-                "at t = %.9g the point of the slot `%s` comes back behind it. Make it longer, or end the run "
-                "before, by an event",
-                t->t, coupling_of(end)->name);
+            run_fail(run, FBD_BROKEN,
+                     "at t = %.9g the point of the slot `%s` returns behind it. Make it longer, or end the "
+                     "run earlier by an event",
+                     t->t, coupling_of(end)->name);
     }
     switcher_partial(run->stepper, *t, run->work.y, run->work.f);
 }

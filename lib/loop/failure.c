@@ -72,7 +72,7 @@ static bool explain_blocked_rope(struct run *run)
     bool blocked = next && fit_blocked(next, NULL, &why) && !why.failed;
     if (blocked)
         run_fail(run, FBD_FAILED,
-                 "at t = %.9g a rope reaches its pulley: %s, or end the run before by an event",
+                 "at t = %.9g a rope reaches its pulley: %s, or end the run earlier by an event",
                  run_time(run), why.data);
     text_free(&why);
     state_free(next);
@@ -115,11 +115,10 @@ void run_fail_pole(struct run *run, const struct pole *pole)
     }
     const struct load *load = model->loads[pole->load].source;
     if (load->kind == load_carried) {
-        run_fail(
-            run, FBD_BROKEN,
-            "at t = %.9g the mass of `%s` comes to nothing, and what acts on it would accelerate it without "
-            "bound. End the run before by an event, or let some of it stay: `max(..., 2[kg])`",
-            run_time(run), model->bodies[pole->body].name);
+        run_fail(run, FBD_BROKEN,
+                 "at t = %.9g the mass of `%s` reaches zero, and its acceleration has no bound. End the run "
+                 "earlier by an event, or keep some mass: `max(..., 2[kg])`",
+                 run_time(run), model->bodies[pole->body].name);
         return;
     }
     if (load->toward && pole->formula.expr == load->angle.expr) {
@@ -130,11 +129,11 @@ void run_fail_pole(struct run *run, const struct pole *pole)
             run_time(run), load->name, model->bodies[pole->body].name, load->toward);
         return;
     }
-    run_fail(run, FBD_FAILED,
-             "at t = %.9g `%s` of `%s` divides by zero, to the rounding of the time: the force is infinite "
-             "there, and how the motion goes on depends on more digits than numbers have. End the run before "
-             "by an event, or bound the force",
-             run_time(run), load->name, model->bodies[pole->body].name);
+    run_fail(
+        run, FBD_FAILED,
+        "at t = %.9g `%s` of `%s` divides by zero, to the rounding of the time: the force is infinite there, "
+        "and rounding decides how the motion continues. End the run earlier by an event, or bound the force",
+        run_time(run), load->name, model->bodies[pole->body].name);
 }
 
 void run_fail_step(struct run *run, enum stepper_status status)
@@ -167,10 +166,9 @@ void run_fail_progress(struct run *run, double gain)
 {
     run_fail(
         run, FBD_FAILED,
-        "at t = %.9g the run makes no progress: its last steps, as many as take some seconds, have gained "
-        "%.3g s. `%s` moves the fastest there. Something in the scene is much faster than the rest, or "
-        "forces "
-        "change back and forth: end the run before, by an event, or try a larger tolerance or `--method "
+        "at t = %.9g the run makes no progress: its steps of the last seconds of computing time advanced by "
+        "%.3g s. `%s` moves the fastest there. A motion in the scene is much faster than the rest, or forces "
+        "alternate: end the run earlier by an event, or try a larger tolerance or `--method "
         "rodas5p`",
         run_time(run), gain, body_of(run, fastest(run)));
 }

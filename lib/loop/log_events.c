@@ -49,8 +49,7 @@ static void note_one_sided(struct run *run, const struct change *change)
     if (!snapped && run->end.outcome == FBD_BROKEN)
         return; /* an impact at which the run ends is not listed */
     if (snapped && !isfinite(run->snap.work)) {
-        run_fail(run, FBD_FAILED,
-                 "at t = %.9g the impact at which `%s` becomes taut takes more work than numbers can tell",
+        run_fail(run, FBD_FAILED, "at t = %.9g the work of the impact in which `%s` becomes taut overflows",
                  run_time(run), run->model->tree->couplings[mode->coupling].name);
         return;
     }

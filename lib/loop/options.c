@@ -61,8 +61,8 @@ bool options_choose(const struct fbd_model *model, const fbd_options *given, str
         bad_option(errors, "bad-option", "1e-10 is the default",
                    "the tolerance must be above 0 and at most 0.1");
     else if (chosen->tolerance < DBL_EPSILON)
-        bad_option(errors, "bad-option", "1e-13 is about what a run can keep; 1e-10 is the default",
-                   "the tolerance is below what numbers resolve (2.2e-16)");
+        bad_option(errors, "bad-option", "the smallest useful tolerance is about 1e-13; 1e-10 is the default",
+                   "the tolerance is below the resolution of numbers (2.2e-16)");
     diag_in_file(errors, given->step != 0 ? NULL : model->scene->file);
     if (!(chosen->step >= 0) || isinf(chosen->step))
         bad_option(errors, "bad-option", NULL, "the step size must be positive");

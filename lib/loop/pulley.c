@@ -64,11 +64,10 @@ void run_watch_pulleys(struct run *run, struct time_dd *t)
         if (!rope_goes_on(tree, i) || !is_taut(run->during, coupling) || !is_taut(run->during, coupling + 1))
             continue;
         if (!is_off(wrap_at(run, i, run->work.y)) || !cut_step(run, i, t)) continue;
-        run_fail(
-            run, FBD_BROKEN,
-            "at t = %.9g the rope `%s` comes off its pulley `%s`: its two sides are one straight line there. "
-            "End the run before, by an event, or let the rope run past the pulley",
-            t->t, coupling->name, pulley_of(run, i));
+        run_fail(run, FBD_BROKEN,
+                 "at t = %.9g the rope `%s` comes off its pulley `%s`: its two sides are one straight line "
+                 "there. End the run earlier by an event, or lead the rope past the pulley",
+                 t->t, coupling->name, pulley_of(run, i));
     }
 }
 
@@ -81,8 +80,8 @@ void run_check_pulleys(struct run *run)
             continue;
         if (!is_off(wrap_at(run, i, run->state->y))) continue;
         run_fail(run, FBD_BROKEN,
-                 "at t = %.9g the rope `%s` is taut beside its pulley `%s`, which it came off while it was "
-                 "slack. End the run before, by an event, or let the rope run past the pulley",
+                 "at t = %.9g the rope `%s` is taut beside its pulley `%s`, which it left while it was "
+                 "slack. End the run earlier by an event, or lead the rope past the pulley",
                  run_time(run), coupling->name, pulley_of(run, i));
     }
 }

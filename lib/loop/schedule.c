@@ -52,11 +52,10 @@ static void start(struct ensemble *ensemble, bool lazy)
 /* The work of forces over a step is integrated from states within it, which are not available. */
 static void fail_within(struct ensemble *ensemble, const struct run *run)
 {
-    format_into(
-        ensemble->own_reason, sizeof ensemble->own_reason,
-        "between t = %.9g and t = %.9g the motion cannot be told: the step is a rounding of the time, or "
-        "a force has no value there",
-        run->step.from, run->state->t);
+    format_into(ensemble->own_reason, sizeof ensemble->own_reason,
+                "between t = %.9g and t = %.9g the motion cannot be computed: the step is a rounding of the "
+                "time, or a force has no value there",
+                run->step.from, run->state->t);
     ensemble_fail(ensemble, FBD_FAILED, ensemble->own_reason);
 }
 

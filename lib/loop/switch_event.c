@@ -24,11 +24,10 @@ static void end_track(struct run *run, int b, int end)
     struct pose pose = body_pose(body, &at);
     struct vec P = point_motion(body, &pose, body->pin).p;
     log_event(run, FBD_EVENT_TRACK_END, b, -1, -1);
-    run_fail(
-        run, FBD_BROKEN,
-        "at t = %.9g `%s` comes to the %s of its track, at (%.6g, %.6g): say where it goes on (`from`, `to`, "
-        "`closed: true`), or end the run before",
-        run_time(run), body->name, end ? "end" : "beginning", P.x, P.y);
+    run_fail(run, FBD_BROKEN,
+             "at t = %.9g `%s` reaches the %s of its track, at (%.6g, %.6g): extend the track (`from`, `to`, "
+             "`closed: true`), or end the run earlier",
+             run_time(run), body->name, end ? "end" : "beginning", P.x, P.y);
 }
 
 /* A table that ends with `beyond: error` ends the run, and the state stays on its last piece. */
@@ -40,9 +39,8 @@ static bool end_table(struct run *run, const struct kink *kink, const struct tab
         return true;
     }
     run_fail(run, FBD_BROKEN,
-             "at t = %.9g the table `%s` %s (`beyond: error`): it has no value %s. Give it more points, say "
-             "what is "
-             "beyond (`hold`, `zero`, `repeat`), or end the run before",
+             "at t = %.9g the table `%s` %s (`beyond: error`): it has no value %s. Give it more points, "
+             "another `beyond` (`hold`, `zero`, `repeat`), or end the run earlier",
              run_time(run), table->name, end ? "ends" : "begins", end ? "from there on" : "before that");
     return true;
 }
@@ -78,16 +76,15 @@ static void check_drive(struct run *run, const struct kink *kink, bool rope)
     double far = rope ? 0 : most[body->first], fast = rope ? 0 : most[body->first_rate];
     bool place = jumps(x[0], x[1], fmax(far, fabs(x[0]) + fabs(x[1])));
     if (!place && !jumps(v[0], v[1], fmax(fast, fabs(v[0]) + fabs(v[1])))) return;
-    run_fail(run, FBD_BROKEN,
-             "at t = %.9g the %s that is prescribed to `%s` jumps from %.6g to %.6g: that takes a force "
-             "without bound. "
-             "Round the corner off (a table: `interpolation: cubic`), or end the run before",
-             run_time(run),
-             rope    ? place ? "length" : "rate of the length"
-             : place ? "place"
-                     : "velocity",
-             rope ? model->loads[kink->load].source->name : body->name, place ? x[0] : v[0],
-             place ? x[1] : v[1]);
+    run_fail(
+        run, FBD_BROKEN,
+        "at t = %.9g the %s that is prescribed to `%s` jumps from %.6g to %.6g: this requires an unbounded "
+        "force. Round the corner off (a table: `interpolation: cubic`), or end the run earlier",
+        run_time(run),
+        rope    ? place ? "length" : "rate of the length"
+        : place ? "place"
+                : "velocity",
+        rope ? model->loads[kink->load].source->name : body->name, place ? x[0] : v[0], place ? x[1] : v[1]);
     memcpy(run->state->branch + kink->formula.branch, before, kink->count * sizeof *before);
     modes_hold(run->state); /* restore the state before the jump */
     state_evaluate(run->state);
@@ -107,7 +104,8 @@ static void check_mass(struct run *run, const struct kink *kink)
     if (after > before || after <= 0) {
         run_fail(run, FBD_BROKEN, "at t = %.9g the mass of `%s` jumps from %.6g to %.6g: %s", run_time(run),
                  body->name, before, after,
-                 after > 0 ? "what comes at once comes by an impact, which is not followed. Let it grow"
+                 after > 0 ? "mass that is added at once would cause an impact, which is not computed. Let "
+                             "it grow continuously"
                            : "nothing is left of it");
         return;
     }
@@ -139,9 +137,8 @@ void run_check_counts(struct run *run)
             int branch = run->state->branch[(size_t)kink->formula.branch + part];
             if (branch < table_most_pieces && branch > -table_most_pieces) continue;
             run_fail(run, FBD_BROKEN,
-                     "at t = %.9g %s%s%s is past its 2^31st step, where steps are no longer told apart: "
-                     "subtract whole "
-                     "periods from its argument",
+                     "at t = %.9g %s%s%s is past its 2^31st step, where steps cannot be distinguished: "
+                     "subtract whole periods from its argument",
                      run_time(run), run_kink_name(run, kink) ? "`" : "",
                      run_kink_name(run, kink) ? run_kink_name(run, kink) : "an expression",
                      run_kink_name(run, kink) ? "`" : "");
@@ -199,9 +196,8 @@ void run_turn_normal(struct run *run, int pair)
     run_fail(run, FBD_FAILED,
              "at t = %.9g no force agrees with the motion of `%s`: on either side of its guide friction by "
              "`%s` gives "
-             "the normal force the other sign, as in Painleve's paradox. Rigid bodies do not tell what "
-             "follows: less "
-             "friction, or end the run before by an event",
+             "the normal force the other sign, as in Painleve's paradox. Rigid bodies do not determine the "
+             "motion: reduce the friction, or end the run earlier by an event",
              run_time(run), run->model->bodies[mode->body].name, run->model->loads[mode->load].source->name);
 }
 
@@ -217,11 +213,10 @@ void run_check_sides(struct run *run)
         if (N >= -slacks * press_slack(model, run->state->tree, mode->body)) continue;
         const struct instant at = state_instant(run->state);
         if (rest_is_open(model, &at)) continue; /* indeterminate forces keep their side */
-        run_fail(
-            run, FBD_FAILED,
-            "before t = %.9g `%s` jams: friction by `%s` feeds its own normal force, which grows without "
-            "bound. Less friction, or end the run before by an event",
-            run_time(run), model->bodies[mode->body].name, model->loads[mode->load].source->name);
+        run_fail(run, FBD_FAILED,
+                 "before t = %.9g `%s` jams: friction by `%s` increases its own normal force, which grows "
+                 "without bound. Reduce the friction, or end the run earlier by an event",
+                 run_time(run), model->bodies[mode->body].name, model->loads[mode->load].source->name);
         return;
     }
 }

@@ -106,7 +106,7 @@ static struct verdict judge(const struct model_body *body, const struct model_lo
     case load_rope:
         if (load->source->reels)
             return (struct verdict){potential_none,
-                                    "not conservative: whatever its length, a function of t, takes"};
+                                    "not conservative: the work of its length, a function of t"};
         return (struct verdict){potential_none, "does no work, except when it snaps taut"};
     case load_normal: return (struct verdict){potential_workless, "does no work: it acts across the motion"};
     case load_spring:

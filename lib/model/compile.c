@@ -72,7 +72,8 @@ static void check_inertia(const struct model_body *body, fbd_errors *errors)
         diag_add(errors, FBD_ERROR, "bad-inertia", at, "check for quantities near the limits of a double",
                  "the mass or moment of inertia of `%s` is not finite", body->name);
     else if (inertia->mass <= 0)
-        diag_add(errors, FBD_ERROR, "bad-inertia", at, "holes must weigh less than what they are cut from",
+        diag_add(errors, FBD_ERROR, "bad-inertia", at,
+                 "holes must have less mass than the parts that they are cut from",
                  "the total mass of `%s` is %g: it must be positive", body->name, inertia->mass);
     else if (inertia->I_G < 0)
         diag_add(errors, FBD_ERROR, "bad-inertia", at,

@@ -69,13 +69,13 @@ void contacts_check(struct builder *builder)
         const struct constraint *source = &model->scene->constraints[meeting->constraint];
         if (!meeting_is_of_points(meeting)) continue;
         bool ground = source->body[1] == ground_body;
-        diag_add(builder->errors, FBD_ERROR, "no-shape", source->at,
-                 "give one of them a `shape`; points meet where both move on one line, by slides along it, "
-                 "and do not "
-                 "start in one place",
-                 "`%s` and %s%s%s meet in nothing but a point each: nothing says on which side one is of the "
-                 "other",
-                 model->bodies[source->body[0]].name, ground ? "a point of the ground" : "`",
-                 ground ? "" : model->bodies[source->body[1]].name, ground ? "" : "`");
+        diag_add(
+            builder->errors, FBD_ERROR, "no-shape", source->at,
+            "give one of them a `shape`; points meet where both move on one line, by slides along it, "
+            "and do not "
+            "start in one place",
+            "`%s` and %s%s%s have only a point each: the side on which one is of the other is not defined",
+            model->bodies[source->body[0]].name, ground ? "a point of the ground" : "`",
+            ground ? "" : model->bodies[source->body[1]].name, ground ? "" : "`");
     }
 }

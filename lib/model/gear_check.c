@@ -90,7 +90,7 @@ static void check_gear(struct builder *builder, const struct coupling *coupling)
     if (apart < 0 || fabs(apart - needed) <= digits * size) return;
     diag_add(builder->errors, FBD_ERROR, "gear-distance", model->scene->constraints[coupling->constraint].at,
              r2 < 0 ? "move an axis, or change `radii`"
-                    : "move an axis, or change `radii`; of a wheel inside a ring say `inside: true`",
+                    : "move an axis, or change `radii`; for a wheel inside a ring give `inside: true`",
              "the axes of `%s` and `%s` are %.6g apart, where the radii %.6g and %.6g %s %.6g",
              model->bodies[coupling->end[0].body].name, model->bodies[coupling->end[1].body].name, apart, r1,
              fabs(r2), r2 < 0 ? "differ by" : "add up to", needed);
@@ -117,13 +117,13 @@ static void check_belt(struct builder *builder, const struct coupling *coupling)
     if (apart >= 0 && coupling->source->tension == 0)
         diag_add(builder->errors, FBD_ERROR, "missing-key", at,
                  "give it a `tension`, that of both strands at rest",
-                 "the axes of `%s` and `%s` keep their distance, so that no motion tells the tension of the "
-                 "belt `%s`",
+                 "the axes of `%s` and `%s` keep their distance, so that the motion does not determine the "
+                 "tension of the belt `%s`",
                  model->bodies[coupling->end[0].body].name, model->bodies[coupling->end[1].body].name,
                  coupling->name);
     if (apart < 0 && coupling->source->tension > 0)
         diag_add(builder->errors, FBD_ERROR, "conflicting-keys", at,
-                 "leave `tension` out: it follows from what pulls the axes apart",
+                 "leave `tension` out: it follows from the forces that separate the axes",
                  "the axes of `%s` and `%s` move against each other, and the belt `%s` keeps its length",
                  model->bodies[coupling->end[0].body].name, model->bodies[coupling->end[1].body].name,
                  coupling->name);

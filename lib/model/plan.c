@@ -261,7 +261,7 @@ static void add_friction(struct builder *builder, struct model_body *body, int i
                  twice ? "add the coefficients (or the limits) up in one entry"
                        : "a bearing belongs to a `pivot`",
                  twice ? "`%s` has dry friction twice: which of the two sticks first is not determined"
-                       : "`%s` moves in the plane: it has no bearing that could rub",
+                       : "`%s` moves in the plane and has no bearing",
                  body->name);
         return;
     }

@@ -57,7 +57,7 @@ static void check_directions(struct builder *builder, const struct model_body *b
         if (!along && !load->body_frame) continue;
         diag_add(builder->errors, FBD_ERROR, "not-here", load->at,
                  "give it an angle in the world, or let the body turn",
-                 "`%s` goes with the frame of `%s`, which does not turn along its track (`turn: false`)",
+                 "`%s` refers to the frame of `%s`, which does not turn along its track (`turn: false`)",
                  load->name, body->name);
     }
 }
@@ -81,7 +81,7 @@ bool tracks_set(struct builder *builder)
             "let the curvature grow from one to the other (a table: `interpolation: cubic`), take a point "
             "for the "
             "body, or write `turn: false`",
-            "`%s` turns along its track, whose curvature jumps at %.6g: that takes a moment without bound",
+            "`%s` turns along its track, whose curvature jumps at %.6g: this requires an unbounded moment",
             body->name, link->track->curve->kink);
     }
     return true;

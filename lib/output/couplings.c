@@ -140,14 +140,13 @@ void couplings_explain(struct text *text, struct fbd_state *state)
     text_printf(text, "  as it starts: %d coordinates less %zu independent rows leave %td to move\n",
                 model->plan.n, rows - redundant, model->plan.n - (ptrdiff_t)(rows - redundant));
     if (redundant == 0) {
-        text_add(text, "  no row is redundant: each says something that those before it do not\n");
+        text_add(text, "  no row is redundant: each is independent of those before it\n");
         return;
     }
-    text_add(text, "  redundant, saying nothing that the rows before them do not say: ");
+    text_add(text, "  redundant, dependent on the rows before them: ");
     write_redundant(text, state);
-    text_add(
-        text,
-        "\n    (the motion is not touched by that; of the forces that share the task the least are taken)\n");
+    text_add(text, "\n    (this does not affect the motion; of the possible forces those of the least sum of "
+                   "squares are taken)\n");
 }
 
 /* ---- of a run */

@@ -189,7 +189,7 @@ static void write_method(struct text *text, const struct fbd_model *model, const
     const char *name = options->method ? options->method : model->scene->simulate.method;
     const struct method *method = name ? method_find(name) : NULL;
     if (method) {
-        text_printf(text, "\nMethod: %s (%s)\n  as asked for by %s\n", method->name, method->description,
+        text_printf(text, "\nMethod: %s (%s)\n  selected by %s\n", method->name, method->description,
                     options->method ? "--method" : "the file");
         return;
     }
@@ -199,12 +199,11 @@ static void write_method(struct text *text, const struct fbd_model *model, const
     }
     const struct method *stiff = method_find("rodas5p"), *other = structure_method(model, structure_general);
     bool structure = !options->no_structure && options->step == 0 && model->scene->simulate.step == 0;
-    text_printf(text, "\nMethod: auto, because no other is asked for\n  %s%s (%s)\n",
-                structure ? "what the structure above allows; where it is nothing in particular, " : "",
+    text_printf(text, "\nMethod: auto, the default\n  %s%s (%s)\n",
+                structure ? "the method for the structure above; without a special structure " : "",
                 other->name, other->description);
     if (plan_size(&model->plan) <= method_most_stiff_states)
-        text_printf(text,
-                    "  %s (%s)\n    where a trial step shows that it could go on by much longer steps\n",
+        text_printf(text, "  %s (%s)\n    where a trial step shows that its steps could be much longer\n",
                     stiff->name, stiff->description);
     else
         text_printf(text, "  always: beyond %d states the algebra of %s costs more than it could save\n",

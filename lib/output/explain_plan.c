@@ -23,7 +23,8 @@ static void write_tree(struct text *text, const struct tree *tree)
     write_list(text, tree->moment_count, "moment of a formula on a link");
     write_list(text, tree->spring_count, "spring or damper between two points of links or the ground");
     write_list(text, tree->drag_count, "drag at a point of a link");
-    write_list(text, (size_t)tree->pair_count, "friction that goes with the normal force between two links");
+    write_list(text, (size_t)tree->pair_count,
+               "friction in proportion to the normal force between two links");
     write_list(text, (size_t)tree->row_count,
                "row of couplings: a multiplier each, projected after every step");
 }
@@ -127,7 +128,7 @@ static void write_events(struct text *text, const struct plan *plan)
     write_list(text, switches, "switch in an expression (abs, step, if, ...)");
     write_list(text, plan->watch_count, "event of the file");
     if (plan->contact_count > contacts)
-        text_printf(text, "  not watched: %zu normal force%s constant, and looked at once\n",
+        text_printf(text, "  not watched: %zu normal force%s constant, and checked once\n",
                     plan->contact_count - contacts, plan->contact_count - contacts == 1 ? " is" : "s are");
 }
 

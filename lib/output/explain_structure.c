@@ -18,11 +18,11 @@ static const char *words_for(enum structure structure)
     case structure_linear:
         return "linear equations with constant coefficients between events: propagated exactly";
     case structure_constant: return "constant accelerations between events: exact parabolas, one step each";
-    case structure_fixed: return "no way to move: one step, whatever it carries";
+    case structure_fixed: return "no degree of freedom: one step, for any loads";
     case structure_general:
     case structure_kinds: break;
     }
-    return "nothing in particular: the general method";
+    return "no special structure: the general method";
 }
 
 /* structure_kinds when memory is out. */
@@ -67,7 +67,7 @@ static bool write_groups(struct text *text, const struct fbd_model *model, const
         counts[structure]++;
         if (g >= most_listed) continue;
         write_names(text, model, &division->selections[g]);
-        text_printf(text, ": %s\n", automatic ? words_for(structure) : "the method asked for");
+        text_printf(text, ": %s\n", automatic ? words_for(structure) : "the selected method");
     }
     if (division->count <= most_listed) return true;
     text_printf(text, "  and %zu more; of all groups:\n", division->count - most_listed);
@@ -81,16 +81,17 @@ bool explain_structure(struct text *text, const struct fbd_model *model, const f
     const char *method = options->method ? options->method : model->scene->simulate.method;
     double step = options->step != 0 ? options->step : model->scene->simulate.step;
     if (options->no_structure) {
-        text_add(text, "  no more than that, as asked for: all bodies together by one method\n");
+        text_add(text, "  not used (--no-structure): all bodies together by one method\n");
         return true;
     }
     struct islands division;
     bool done = islands_make(&division, model);
     if (done) {
         if (division.count > 1)
-            text_printf(text,
-                        "  %zu independent groups of bodies, each integrated by itself at its own pace\n",
-                        division.count);
+            text_printf(
+                text,
+                "  %zu independent groups of bodies, each integrated independently with its own steps\n",
+                division.count);
         bool automatic = (!method || strcmp(method, "auto") == 0) && step == 0;
         done = write_groups(text, model, &division, automatic);
     }

@@ -345,7 +345,7 @@ static bool write_verdict(const struct hand_check *check, struct text *text)
     size_t states = none.states + plus.states + minus.states, agree = none.agree + plus.agree + minus.agree;
     double worst = fmax(none.worst, fmax(plus.worst, minus.worst));
     if (states == 0) {
-        text_add(text, "  not checked: no admissible state was found where it claims to hold\n");
+        text_add(text, "  not checked: no admissible state was found for its condition\n");
         return false;
     }
     if (write_open(check, text)) return false;

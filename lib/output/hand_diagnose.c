@@ -128,7 +128,7 @@ static bool blame_term(const struct hand_check *check, int slip, struct text *te
         const struct load *load = check->model->loads[body->first_load + i].source;
         double factor;
         if (body->kind == motion_pivot && arm_power(check, slip, i, -1)) {
-            text_printf(text, "  the moment arm is missing: the term `%s` stands as a force, without L\n",
+            text_printf(text, "  the moment arm is missing: the term `%s` is a force, without L\n",
                         load->name);
             return true;
         }

@@ -198,7 +198,7 @@ static const char *term_name(const struct match *match, size_t i)
 
 static void say_pair(const struct match *match, size_t i, size_t j, struct text *text)
 {
-    text_printf(text, "  the term `%s` is not what the equation has for it, `%s%s`\n", term_name(match, i),
+    text_printf(text, "  the term `%s` differs from that of the equation, `%s%s`\n", term_name(match, i),
                 sign_of(match, j), match->hand->summands[j].text);
 }
 
@@ -214,7 +214,7 @@ static const char *oddity(const struct match *match, size_t j, bool terms_left)
     for (size_t i = 0; i < match->terms; i++) {
         if (vanishes(match, term, i)) continue;
         if (equal(match, summand, j, term, i, nothing)) return "is counted twice";
-        if (equal(match, summand, j, opposite, i, nothing)) return "takes back a term that is there";
+        if (equal(match, summand, j, opposite, i, nothing)) return "cancels a term of the equation";
     }
     return terms_left ? "is no term of the assembly" : "is no force that the body lists";
 }

@@ -179,7 +179,7 @@ static void say_failure(struct judge *judge, struct text *text)
 static void say_constant(const struct judge *judge, struct text *text)
 {
     const struct hand *hand = judge->hand;
-    const char *before = "  the run tells nothing of the factor and the sign of `";
+    const char *before = "  the run does not verify the factor and the sign of `";
     size_t count = 0;
     for (size_t j = 0; hand->summand_count > 1 && j < hand->summand_count; j++) {
         if (judge->varies[j] || strcmp(hand->summands[j].text, "0") == 0) continue;
@@ -225,9 +225,9 @@ static bool say_verdict(struct judge *judge, struct text *text)
     }
     if (judge->count == 0 || !judge->moves) {
         text_printf(text, "  not checked: %s\n",
-                    judge->hand->kind == hand_of_impacts ? "no impact of the run changes what it names"
-                    : judge->count == 0                  ? "it claims to hold at no time of the run"
-                                                         : "nothing that it names moves in the run");
+                    judge->hand->kind == hand_of_impacts ? "no impact of the run changes a quantity in it"
+                    : judge->count == 0                  ? "its condition holds at no time of the run"
+                                                         : "no quantity in it changes in the run");
         return false;
     }
     if (!judge->known) {

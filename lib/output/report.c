@@ -335,10 +335,9 @@ void report_energy(const struct page *page)
     write_potentials(page);
     double explained = fbd_result_residual_explained(page->result);
     if (fabs(energy.residual) > explained)
-        text_printf(
-            page->text,
-            "  the tolerance explains %.2e %s of it: steps have gone over what is shorter than they are\n",
-            explained, energy_unit(page->result->ledger.model));
+        text_printf(page->text,
+                    "  the tolerance explains %.2e %s of it: the steps have missed a short event or pulse\n",
+                    explained, energy_unit(page->result->ledger.model));
 }
 
 /* "3 independent groups; constant accelerations in 1, ..."; nothing for one group without structure. */
@@ -383,7 +382,7 @@ static void write_accuracy(const struct page *page, const fbd_stats *stats)
     fbd_outcome outcome = fbd_result_outcome(page->result);
     bool cut = outcome == FBD_FAILED || outcome == FBD_INTERRUPTED,
          reached = fbd_result_accurate(page->result);
-    text_printf(text, "  accuracy %g asked for: %s, with %lu run%s in %.3f ms in all\n", stats->accuracy,
+    text_printf(text, "  requested accuracy %g: %s, with %lu run%s in %.3f ms in total\n", stats->accuracy,
                 reached                         ? "reached"
                 : cut                           ? "NOT known, the run did not come to its end"
                 : page->result->simulation->cut ? "NOT reached when it was interrupted, this is the best"

@@ -141,7 +141,9 @@ static void write_verdict(struct text *text, const struct fbd_statics *statics)
         if (!limit->holds && !of_nothing) write_broken(text, statics, limit);
     }
     if (statics->indeterminacy > 0)
-        text_add(text, "  (by the reactions of the least sum of squares; no others hold either)\n");
+        text_add(
+            text,
+            "  (with the reactions of the least sum of squares; no others are within the limits either)\n");
 }
 
 /* ---- tables */

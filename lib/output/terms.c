@@ -58,7 +58,7 @@ static void friction_remark(struct fbd_state *state, int b, char *remark)
     struct friction_values now = friction_at(state->model, body->friction, &at, state->scratch);
     bool kinetic = now.limit_kinetic > now.limit_static; /* warned of by the reader */
     if (state->slip[body->friction] == stick)
-        format_into(remark, term_remark_size, "sticks: whatever holds, up to %s = %.9g",
+        format_into(remark, term_remark_size, "sticks: the force of equilibrium, up to %s = %.9g",
                     friction_limit(&state->model->plan.modes[body->friction], kinetic), now.limit);
     else
         slip_remark(state, body->friction, remark);

@@ -117,7 +117,7 @@ static void stick_detail(const struct run_event *event, const char *name, const 
 {
     if (fabs(event->force) > event->limit * (1 + 1e-6)) /* decided before another hold */
         format_into(detail, size,
-                    "%s is at rest; it would take %+.6g %s to hold it, where it can bear %.6g %s", name,
+                    "%s is at rest; %+.6g %s would be needed to hold it, with a limit of %.6g %s", name,
                     event->force, unit, fmax(event->limit, 0), unit);
     else
         format_into(detail, size, "%s holds with %+.6g %s, %.3g %% of its static limit %.6g %s", name,
@@ -147,7 +147,7 @@ static void several_detail(const struct run_event *event, const char *name, cons
     else if (event->force > 1) /* friction that feeds its own normal force */
         format_into(detail, size,
                     "%s: several motions agree with the forces, as in Painleve's paradox, and one of them is "
-                    "taken; each %s of its normal force brings %.4g %s of it with it",
+                    "taken; each %s of its normal force causes %.4g %s more of it",
                     name, unit, event->force, unit);
     else
         snprintf(detail, size,
@@ -190,7 +190,7 @@ void event_detail(const struct fbd_model *model, const struct run_event *event, 
             snprintf(detail, size, "%.*s leaves its line", (int)strcspn(name, "."), name);
         return;
     case FBD_EVENT_LANDING:
-        format_into(detail, size, "%.*s is on its line again; the impact takes %.6g %s",
+        format_into(detail, size, "%.*s returns to its line; the impact takes %.6g %s",
                     (int)strcspn(name, "."), name, event->force, energy_unit(model));
         return;
     case FBD_EVENT_SWITCH:

@@ -32,8 +32,8 @@ static bool note_energies(struct ledger *ledger, const struct fbd_state *state, 
     return false;
 }
 
-static const char unresolved[] = "forces swing thousands of times within a step of the motion, which knows "
-                                 "nothing of them; give a small --step";
+static const char unresolved[] = "forces oscillate thousands of times within a step, and the motion does not "
+                                 "depend on them; give a small --step";
 
 bool result_finite(struct ensemble *ensemble, struct ledger *ledger, const double *work)
 {

@@ -152,8 +152,8 @@ static void say(const struct fbd_state *state, const struct worst *worst, struct
     text_printf(
         lack,
         "at t = %.9g the forces on `%s` do not account for its motion: %s is %.9g %s, their sum %.9g %s. "
-        "They differ by %.3g %s, where rounding explains %.1g %s: no forces were found that agree with "
-        "how its couplings and its friction hold or give way",
+        "They differ by %.3g %s, where rounding explains %.1g %s: no forces were found that agree with the "
+        "modes of its couplings and its friction",
         state->t, model->bodies[worst->body].name, worst->what, worst->is, unit, worst->sum, unit,
         fabs(worst->is - worst->sum), unit, worst->explained, unit);
 }

@@ -338,17 +338,17 @@ bool fit_unsolved(struct fbd_state *state, bool *masses, struct pos *at, struct 
     if (*masses)
         text_printf(
             lack,
-            "the force of `%s` cannot be told: accelerations miss it by %.2g of their size, as the masses of "
+            "the force of `%s` cannot be computed: accelerations violate it by %.2g of their size, as the "
+            "masses of "
             "jointed bodies are too far apart: the heaviest has %.2g times the mass of the lightest, and up "
-            "to about 1e12 can be solved. Give the lightest body more mass, or let a coupling do without it",
+            "to about 1e12 can be solved. Give the lightest body more mass, or couple the bodies without it",
             name, miss, ratio);
     else
-        text_printf(
-            lack,
-            "no finite force of `%s` holds the mechanism: accelerations miss it by %.2g of their size. Its "
-            "couplings are in a singular position, in which they cannot carry what acts on them: give it "
-            "another support, or start elsewhere",
-            name, miss);
+        text_printf(lack,
+                    "no finite force of `%s` holds the mechanism: accelerations violate it by %.2g of their "
+                    "size. Its couplings are in a singular position, in which they cannot carry the loads: "
+                    "add a support, or start at another position",
+                    name, miss);
     return true;
 }
 
@@ -358,9 +358,9 @@ bool fit_locked(const struct fbd_state *state, struct fbd_state *other, struct p
     if (row < 0) return false;
     if (at) *at = place_of(state->model, row);
     text_printf(lack,
-                "it is at rest in a singular position: what `%s` joins is in line, so that the coupling does "
-                "not resist at once, and cannot be moved on either. No finite forces hold it there, or it "
-                "could go on in two ways. Start a little beside, or give it a speed",
+                "it is at rest in a singular position: the bodies joined by `%s` are in line, so that the "
+                "coupling resists the motion only to second order. No finite forces hold it there, or two "
+                "motions are possible. Start at a neighbouring position, or with a speed",
                 coupling_row_name(state->model->tree, row));
     return true;
 }

@@ -110,7 +110,8 @@ static bool refuse_limits(struct fbd_state *state, fbd_errors *errors)
                         ? model->scene->constraints[model->tree->couplings[hold->coupling].constraint].at
                         : model->bodies[hold->body].source->at;
     diag_add(
-        errors, FBD_ERROR, "at-limit", at, "start nearer to the equilibrium, or load it so that it holds",
+        errors, FBD_ERROR, "at-limit", at,
+        "start nearer to the equilibrium, or change the loads so that contacts stay closed",
         "at the equilibrium `%s` is at the limit between holding and giving way: to one side the motion is "
         "another than to the other",
         hold->coupling >= 0 ? model->tree->couplings[hold->coupling].name : model->bodies[hold->body].name);
@@ -268,7 +269,7 @@ static bool choose_coordinates(struct looking *looking, fbd_errors *errors)
         const bool coupled = is_coupled(linear->model);
         struct pos at = coupled ? linear->model->scene->constraints[tree->couplings[0].constraint].at
                                 : linear->model->bodies[0].source->motion.at;
-        diag_add(errors, FBD_ERROR, "sticks", at, "leave out what holds it, to see it move",
+        diag_add(errors, FBD_ERROR, "sticks", at, "leave out the friction or contact that holds it",
                  "nothing can move: %s`%s` among them, leave no freedom",
                  coupled ? "the couplings, " : "prescribed motions, that of ",
                  coupled ? tree->couplings[0].name : linear->model->bodies[0].name);

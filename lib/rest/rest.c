@@ -44,7 +44,7 @@ bool equilibrium_refuse_states(struct fbd_state *state, fbd_errors *errors)
         if (!goes_on(state, i)) continue;
         diag_add(errors, FBD_ERROR, "not-at-rest", model->scene->own[i].rate.at,
                  "leave the state out, or simulate it",
-                 "the state `%s` is never at rest: nothing brings its rate to zero",
+                 "the state `%s` is never at rest: its rate is not zero at any position",
                  model->scene->own[i].name);
         return true;
     }
@@ -76,7 +76,7 @@ bool equilibrium_refuse_reels(const struct fbd_model *model, fbd_errors *errors)
         if (!coupling->reels) continue;
         diag_add(errors, FBD_ERROR, "not-independent",
                  model->scene->constraints[coupling->constraint].reel.at, "give it a constant `length`",
-                 "the length of the rope `%s` goes with the time: it is never at rest", coupling->name);
+                 "the length of the rope `%s` depends on time: it is never at rest", coupling->name);
         return true;
     }
     return false;
@@ -189,7 +189,7 @@ static bool warn_of_instability(const fbd_state *state, fbd_errors *errors)
     }
     if (growth > rounding * fastest)
         diag_add(errors, FBD_WARNING, "unstable-equilibrium", (struct pos){0, 0},
-                 "start beside it, with --at, to see where the scene comes to rest",
+                 "start at a neighbouring position, with --at, to find where the scene comes to rest",
                  "the equilibrium is unstable: a small deviation grows by a factor of e in %.3g s",
                  1 / growth);
     fbd_linearization_free(linear);

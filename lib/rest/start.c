@@ -72,12 +72,12 @@ static bool is_friction(const struct load *load)
 const char *unsettled_advice(const struct fbd_model *model, int load)
 {
     if (load >= 0 && model->loads[load].source->kind == load_contact)
-        return "Bodies meet and part there, or stick and slip, faster than can be followed: less friction or "
-               "restitution may "
-               "end that, or end the run before by an event";
+        return "The contact opens and closes, or sticks and slips, faster than can be followed: reduce "
+               "friction or restitution, or end the run earlier by an event";
     bool declared = load >= 0 ? is_friction(model->loads[load].source) : model->plan.kink_count == 0;
-    return declared ? "There what holds has to give at once, and what gives to hold. In a law of friction "
-                      "write the speed over the own surface as `slip`; or end the run before by an event"
+    return declared ? "Friction alternates between sticking and slipping at this instant; no consistent mode "
+                      "exists. In a law of friction write the speed over its surface as `slip`; or end the "
+                      "run earlier by an event"
                     : "A force that jumps against the motion, as c*sign(v), is dry friction: declare it as "
                       "`friction`";
 }
@@ -93,15 +93,12 @@ static void contradiction_words(const struct fbd_model *model, int pair, const c
                                          : "a hold";
     bool unlimited = hold->kind == mode_surface && coupling && coupling->pair < 0;
     text_printf(
-        text,
-        "%s neither way agrees with the forces for `%s` of `%s`: while it holds it would have to give, "
-        "and when it gives, to hold. ",
+        text, "%s neither mode agrees with the forces for `%s` of `%s`: each of the two requires the other. ",
         when, name, model->bodies[hold->body].name);
-    text_add(text, unlimited
-                       ? "It rolls without a limit, so that its friction alone could hold it down: give "
-                         "it `static` and `kinetic`"
-                       : "What else holds there decides with it: less friction, or end the run before by "
-                         "an event");
+    text_add(text, unlimited ? "Its rolling friction has no limit and could hold it down without a normal "
+                               "force: give it `static` and `kinetic`"
+                             : "Other constraints there are decided with it: reduce the friction, or end the "
+                               "run earlier by an event");
 }
 
 void unsettled_words(const struct fbd_state *state, const char *when, struct text *text)
@@ -109,27 +106,24 @@ void unsettled_words(const struct fbd_state *state, const char *when, struct tex
     const struct fbd_model *model = state->model;
     const struct holds_trouble *holds = &state->holds;
     if (holds->found == holds_none) {
-        text_printf(
-            text, "%s no forces within the limits of what holds agree with the motion: there is no solution",
-            when);
+        text_printf(text,
+                    "%s no forces within the limits of friction and contacts agree with the motion: there is "
+                    "no solution",
+                    when);
         if (holds->pair < 0) return;
         const struct mode *mode = &model->plan.modes[holds->pair];
-        text_printf(
-            text,
-            ", as in Painleve's paradox. On `%s` each newton more of the normal force brings `%s` with it "
-            "that takes ",
-            model->bodies[mode->body].name, model->loads[mode->load].source->name);
+        text_printf(text,
+                    ", as in Painleve's paradox. On `%s` each additional newton of the normal force "
+                    "increases `%s`, which reduces the normal force by ",
+                    model->bodies[mode->body].name, model->loads[mode->load].source->name);
         text_number(text, holds->answer, 4);
-        text_add(
-            text,
-            " N of it away again, or adds as much. Rigid bodies do not tell what follows: less friction, "
-            "or end the run before by an event");
+        text_add(text, " N, or increases it by as much. Rigid bodies do not determine the motion: reduce the "
+                       "friction, or end the run earlier by an event");
     } else if (holds->found == holds_lost) {
-        text_printf(
-            text,
-            "%s no forces were found with which all that holds agrees, and there are too many ways to "
-            "hold or give way to try them all",
-            when);
+        text_printf(text,
+                    "%s no forces were found that agree with all constraints, and there are too many "
+                    "combinations of modes to try all",
+                    when);
     } else if (holds->contradicts >= 0) {
         contradiction_words(model, holds->contradicts, when, text);
     } else {
@@ -176,19 +170,18 @@ void start_contact_words(const struct fbd_model *model, const struct contact *co
     text_add(text, "at t = ");
     text_number(text, t, 9);
     if (belt->kind == load_belt) {
-        text_printf(text, " a strand of the belt `%s` goes slack: its tension is ", belt->name);
+        text_printf(text, " a strand of the belt `%s` becomes slack: its tension is ", belt->name);
         text_number(text, N, 6);
         text_add(text,
-                 ". Give it more `tension`, or what pulls its axes apart more force, or end the run before");
+                 ". Increase its `tension`, or the force that separates its axes, or end the run earlier");
         return;
     }
     if (belt->kind == load_contact) {
         text_printf(text, " `%s` comes off its slot `%s`, which would have to pull (N = ",
                     model->bodies[contact->body].name, belt->name);
         text_number(text, N, 6);
-        text_add(text,
-                 "). Leave `side` out if it is held on both sides, press it on by a spring, or end the run "
-                 "before, by an event");
+        text_add(text, "). Leave `side` out if it is guided on both sides, add a spring that presses it on, "
+                       "or end the run earlier by an event");
         return;
     }
     text_printf(text, " `%s` leaves its surface: the normal force would have to pull (N = ",
@@ -197,8 +190,8 @@ void start_contact_words(const struct fbd_model *model, const struct contact *co
     /* The surface of a `roll`, which is identified by its name and is no entry of the body, has no other
      * side. */
     bool listed = !strchr(model->loads[contact->load].source->name, '.');
-    text_add(text, listed ? "). Declare the normal force `two_sided` if it is a guide, or end the run before"
-                          : "). What rolls is not held to its line: end the run before, by an event");
+    text_add(text, listed ? "). Declare the normal force `two_sided` if it is a guide, or end the run earlier"
+                          : "). A rolling body is not held to its line: end the run earlier by an event");
 }
 
 /* No normal force of a surface is negative. */

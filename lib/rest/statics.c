@@ -181,8 +181,8 @@ static void warn(const struct fbd_statics *statics, fbd_errors *errors)
 {
     if (statics->indeterminacy == 0 || !fbd_statics_holds(statics)) return;
     diag_add(errors, FBD_WARNING, "indeterminate", (struct pos){0, 0},
-             "of all reactions that balance those of the least sum of squares are shown; how the parts give "
-             "way decides: springs in place of rigid supports tell",
+             "of all reactions that balance those of the least sum of squares are shown; the elasticity of "
+             "the parts decides: use springs in place of rigid supports",
              "statically indeterminate to degree %zu: equilibrium alone does not determine `%s`%s",
              statics->indeterminacy, statics->undetermined_count > 0 ? statics->undetermined[0] : "",
              statics->undetermined_count > 1 ? " and others" : "");

@@ -415,7 +415,7 @@ static bool read_text(struct data_reader *reader, const char *path, const char *
     titles->reader = *reader;
     titles->row = opening.line;
     if (!any)
-        diag_add(reader->errors, FBD_ERROR, "table-format", at, NULL, "the file holds no rows of numbers");
+        diag_add(reader->errors, FBD_ERROR, "table-format", at, NULL, "the file has no rows of numbers");
     bool fine = any && find_columns(reader, titles, path, wanted, wanted_at, model_file, which);
     for (size_t k = 0; fine && k < 2; k++) {
         columns->heading_at[k] = at;

@@ -73,11 +73,10 @@ static const char *misplaced(fbd_errors *errors, const struct group *group, cons
         return diag_hint(errors, "it belongs to the motion, as in `motion: {%s: {%s: ...}}`", motion, key);
     if ((fields_has(group, "along") || fields_has(group, "at")) && fields_has(group, "on") &&
         (strcmp(key, "v") == 0 || strcmp(key, "omega") == 0))
-        return diag_hint(
-            errors,
-            "the rate at the start belongs to `initial: {%s: ...}`; what is prescribed is the place, as "
-            "an expression of t",
-            key);
+        return diag_hint(errors,
+                         "the rate at the start belongs to `initial: {%s: ...}`; prescribed is the "
+                         "coordinate, as an expression of t",
+                         key);
     if (group == &scene_group && fields_has(&body_group, key))
         return "it belongs to a body: indent it below the name of the body, under `bodies`";
     if (group == &scene_group && fields_has(&simulate_group, key)) return "it belongs under `simulate`";
@@ -174,7 +173,7 @@ static const char *translated(fbd_errors *errors, const struct group *group, con
 static const char *not_given(const struct group *group)
 {
     if (strcmp(group->name, "`gravity`") == 0)
-        return "its strength stands at the top of the file, as `gravity: 9.81`; in the list it is `gravity` "
+        return "its value belongs to the top of the file, as `gravity: 9.81`; in the list it is `gravity` "
                "alone";
     return NULL;
 }
@@ -213,7 +212,7 @@ static void note_unknown_key(struct reader *reader, const struct group *group, c
         hint = diag_hint(reader->errors, "put a blank after the colon: `%.*s: %s`", (int)(colon - pair->key),
                          pair->key, colon + 1);
     if (strstr(pair->key, "\xC2\xA0"))
-        hint = "it holds a no-break space (U+00A0), as pasted text does: type a blank in its place";
+        hint = "it contains a no-break space (U+00A0), as pasted text does: type a blank in its place";
     if (!hint) hint = behind_a_comma(map, pair);
     if (!hint) hint = not_given(group);
     if (!hint) hint = misplaced(reader->errors, group, pair->key);
@@ -395,7 +394,7 @@ static void note_several_keys(struct reader *reader, const struct kinds *kinds, 
     }
     const char *hint = diag_hint(reader->errors, "indent it deeper than `%s`, or write `%s: {%s: ...}`",
                                  kind->key, kind->key, other->key);
-    diag_add(reader->errors, FBD_ERROR, "unknown-key", other->at, hint, "`%s` stands beside `%s`, not in it",
+    diag_add(reader->errors, FBD_ERROR, "unknown-key", other->at, hint, "`%s` belongs beside `%s`, not in it",
              other->key, kind->key);
 }
 

@@ -11,7 +11,8 @@ static const struct field scene_fields[] = {
                  "version of the model language: 1"),
     FIELD_IGNORED("$schema", "where an editor finds the schema; ignored"),
     FIELD_TEXT(offsetof(struct scene_keys, title), "title", "one line that names the model in reports"),
-    FIELD_TEXT(offsetof(struct scene_keys, description), "description", "what the model is about; ignored"),
+    FIELD_TEXT(offsetof(struct scene_keys, description), "description",
+               "a description of the model; ignored"),
     FIELD_CHOICE(offsetof(struct scene_keys, units), "units", unit_systems,
                  "units of bare numbers and of all output"),
     FIELD_NODE(offsetof(struct scene_keys, gravity), "gravity", field_any, 0, NULL,
@@ -21,26 +22,25 @@ static const struct field scene_fields[] = {
     FIELD_ENTRIES(offsetof(struct scene_keys, parameters), "parameters", field_map, 0, each_group,
                   &parameter_group, "named constants: name: quantity or expression of other parameters"),
     FIELD_ENTRIES(offsetof(struct scene_keys, inputs), "inputs", field_map, 0, each_group, &input_group,
-                  "what comes from outside while the motion goes on, with its value at the start"),
+                  "quantities that are set from outside during the motion, with their values at the start"),
     FIELD_ENTRIES(offsetof(struct scene_keys, tables), "tables", field_map, 0, each_group, &table_group,
                   "functions given by points or files of data, called as `name(t)` in expressions"),
-    FIELD_ENTRIES(
-        offsetof(struct scene_keys, own), "states", field_map, 0, each_group, &own_state_group,
-        "quantities with equations of first order of their own, which expressions call `states.name`"),
+    FIELD_ENTRIES(offsetof(struct scene_keys, own), "states", field_map, 0, each_group, &own_state_group,
+                  "quantities with differential equations of first order; in expressions `states.name`"),
     FIELD_NODE(offsetof(struct scene_keys, ground), "ground", field_map, 0, &ground_group,
                "named points and lines that do not move"),
     FIELD_ENTRIES(offsetof(struct scene_keys, bodies), "bodies", field_map, required, each_group, &body_group,
-                  "each body by its name: what it is, how it moves, what acts on it"),
+                  "each body by its name: its shape and mass, its motion, the forces and moments on it"),
     FIELD_NODE(offsetof(struct scene_keys, simulate), "simulate", field_map, 0, &simulate_group,
-               "how long to run, how accurately, and when to stop"),
+               "duration and accuracy of the run, and its events"),
     FIELD_NODE(offsetof(struct scene_keys, output), "output", field_map, 0, &output_group,
                "what a run writes"),
     FIELD_KINDS(offsetof(struct scene_keys, couplings), "couplings", field_list, 0, each_kind,
-                &coupling_kinds, "what joins two bodies, beside what they move on"),
+                &coupling_kinds, "connections of two bodies, besides joints"),
     FIELD_ENTRIES(offsetof(struct scene_keys, contacts), "contacts", field_list, 0, each_group,
-                  &contact_group, "bodies that meet each other or the ground, and part"),
+                  &contact_group, "contacts of bodies with each other or with the ground"),
     FIELD_NODE(offsetof(struct scene_keys, grading), "grading", field_map, 0, &grading_group,
-               "how answers are graded that are held against this file"),
+               "grading of answers by this file as the key"),
     FIELD_NODE(
         offsetof(struct scene_keys, symbols), "symbols", field_map, 0, NULL,
         "letters of forces in derivations: a name in a diagram, or a list of them, which is their sum"),
@@ -50,16 +50,16 @@ const struct group scene_group = {"the file", NULL, FIELDS(scene_fields), NULL, 
 
 static const struct field own_state_fields[] = {
     FIELD_NODE(offsetof(struct own_state_keys, rate), "rate", field_scalar, required, NULL,
-               "how fast it changes: an expression of the time, coordinates, rates and states"),
+               "its rate of change: an expression of time, coordinates, rates and states"),
     FIELD_NODE(offsetof(struct own_state_keys, initial), "initial", field_scalar, 0, NULL,
                "its value at the start; default 0"),
     FIELD_NODE(offsetof(struct own_state_keys, unit), "unit", field_scalar, 0, NULL,
-               "its unit, where `initial` does not say it; `1` for a pure number"),
+               "its unit, where `initial` does not give it; `1` for a pure number"),
 };
 
 const struct group own_state_group = {
     "a state", "rate", FIELDS(own_state_fields),
-    NULL,      0,      "a quantity with its equation: its rate, and where it starts"};
+    NULL,      0,      "a quantity with its rate and its value at the start"};
 
 static const struct field output_fields[] = {
     FIELD_NUMBER(offsetof(struct output_keys, every), "every", a_time, positive,
@@ -72,9 +72,8 @@ static const struct field output_fields[] = {
 #define CONSTANT_FIELDS(value_doc)                                                                           \
     FIELD_NODE(offsetof(struct constant_keys, value), "value", field_scalar, required, NULL, value_doc),     \
         FIELD_NODE(offsetof(struct constant_keys, range), "range", field_list, 0, NULL,                      \
-                   "[low, high]: from where to where a slider moves it"),                                    \
-        FIELD_TEXT(offsetof(struct constant_keys, description), "description",                               \
-                   "one line that says what it is")
+                   "[low, high]: the range of its slider"),                                                  \
+        FIELD_TEXT(offsetof(struct constant_keys, description), "description", "one line of description")
 
 static const struct field parameter_fields[] = {
     CONSTANT_FIELDS("quantity or expression of other parameters"),
@@ -84,11 +83,11 @@ const struct group parameter_group = {"a parameter", "value", FIELDS(parameter_f
                                       NULL,          0,       "a named constant"};
 
 static const struct field input_fields[] = {
-    CONSTANT_FIELDS("its value at the start, with its unit: it keeps that until it is given another"),
+    CONSTANT_FIELDS("its value at the start, with its unit; it is constant until it is set"),
 };
 
 const struct group input_group = {"an input", "value", FIELDS(input_fields),
-                                  NULL,       0,       "a quantity that comes from outside"};
+                                  NULL,       0,       "a quantity that is set from outside"};
 
 const struct group output_group = {"`output`", NULL, FIELDS(output_fields), NULL, 0, "what a run writes"};
 
@@ -115,7 +114,7 @@ const struct group line_group = {"a line", NULL, FIELDS(line_fields), NULL, 0, "
 
 /* The methods are in lib/integrate/method.c. */
 const struct choice method_choices[] = {
-    {"auto", 0, "what the scene allows and asks for"},
+    {"auto", 0, "chosen by the structure and the stiffness of the scene"},
     {"rk8pd", 1, "explicit Runge-Kutta of order 8"},
     {"dop853", 2, "explicit Runge-Kutta of order 8"},
     {"rodas5p", 3, "Rosenbrock of order 5, for stiff systems"},
@@ -132,8 +131,8 @@ const struct choice method_choices[] = {
 };
 
 static const struct choice impact_choices[] = {
-    {"simultaneous", impacts_simultaneous, "all are compressed, and then restored, together"},
-    {"propagate", impacts_propagate, "one after the other, until all part"},
+    {"simultaneous", impacts_simultaneous, "compression of all together, then restitution of all together"},
+    {"propagate", impacts_propagate, "one after the other, until all separate"},
 };
 
 static const struct field simulate_fields[] = {
@@ -166,7 +165,7 @@ static const struct choice directions[] = {
 };
 
 static const struct choice outcomes[] = {
-    {"go_on", event_goes_on, "note the instant and go on"},
+    {"go_on", event_goes_on, "log the event and continue"},
     {"stop", event_stops, "end the run there"},
 };
 
@@ -174,8 +173,9 @@ static const struct field event_fields[] = {
     FIELD_NAME(offsetof(struct event_keys, name), "name", "name of the event in the report"),
     FIELD_NODE(offsetof(struct event_keys, when), "when", field_scalar, required, NULL,
                "an expression that passes zero, or two sides with `=`, `<` or `>`"),
-    FIELD_CHOICE(offsetof(struct event_keys, direction), "direction", directions, "which crossings count"),
-    FIELD_CHOICE(offsetof(struct event_keys, then), "then", outcomes, "what follows; default go_on"),
+    FIELD_CHOICE(offsetof(struct event_keys, direction), "direction", directions,
+                 "direction of the crossing"),
+    FIELD_CHOICE(offsetof(struct event_keys, then), "then", outcomes, "action at the event; default go_on"),
     FIELD_FLAG(offsetof(struct event_keys, stop), "stop", "true: the same as `then: stop`"),
 };
 
@@ -186,7 +186,7 @@ static const struct field hand_fields[] = {
     FIELD_NODE(offsetof(struct hand_keys, conserved), "conserved", field_scalar, 0, NULL,
                "in place of an equation: an expression that keeps its value during a run"),
     FIELD_NODE(offsetof(struct hand_keys, when), "when", field_scalar, 0, NULL,
-               "a condition: where the equation claims to hold"),
+               "a condition: the states at which the equation is to hold"),
     FIELD_NODE(offsetof(struct hand_keys, about), "about", field_scalar, 0, NULL,
                "the point about which it has moments: of the body, `G`, of the ground, or a joint"),
     FIELD_NODE(
@@ -196,4 +196,4 @@ static const struct field hand_fields[] = {
 
 const struct group hand_group = {
     "a derivation", "equation", FIELDS(hand_fields),
-    NULL,           0,          "an equation by hand, which the assembly is held against"};
+    NULL,           0,          "an equation derived by hand, to be compared with the assembled ones"};

@@ -53,7 +53,7 @@ static const struct field part_fields[] = {
     FIELD_NUMBER(offsetof(struct part_keys, angle), "angle", an_angle, 0,
                  "of its x axis in the body frame; default 0"),
     FIELD_NODE(offsetof(struct part_keys, inertia), "inertia", field_any, 0, &inertia_group,
-               "its moment of inertia, about its centre of mass or as `about` says"),
+               "its moment of inertia, about its centre of mass or the point `about`"),
 };
 
 const struct group part_group = {"a part", NULL, FIELDS(part_fields), NULL, 0, "one piece of a body"};
@@ -69,7 +69,7 @@ const struct group inertia_group = {"`inertia`", "value", FIELDS(inertia_fields)
                                     NULL,        0,       "a moment of inertia that is known"};
 
 static const struct field body_fields[] = {
-    FIELD_TEXT(offsetof(struct body_keys, description), "description", "what it is; ignored"),
+    FIELD_TEXT(offsetof(struct body_keys, description), "description", "a description; ignored"),
     FIELD_ENTRIES(offsetof(struct body_keys, parts), "parts", field_map, 0, each_group, &part_group,
                   "name: a piece of the body"),
     FIELD_ENTRIES(offsetof(struct body_keys, points), "points", field_map, 0, each_pair, NULL,
@@ -90,12 +90,13 @@ static const struct field body_fields[] = {
                "the solution, where it is known: coordinates as expressions of t"),
 };
 
-const struct group body_group = {"a body",
-                                 NULL,
-                                 FIELDS(body_fields),
-                                 &part_group,
-                                 offsetof(struct body_keys, part),
-                                 "a rigid body: what it is, how it moves, what acts on it"};
+const struct group body_group = {
+    "a body",
+    NULL,
+    FIELDS(body_fields),
+    &part_group,
+    offsetof(struct body_keys, part),
+    "a rigid body: its shape and mass, its motion, the forces and moments on it"};
 
 /* ---- motion */
 
@@ -112,7 +113,7 @@ const struct group body_group = {"a body",
 static const struct field slide_fields[] = {
     FIELD_NUMBER(MOTION(along), "along", an_angle, stored, "direction of +x; default 0: to the right"),
     FIELD_NODE(MOTION(through), "through", field_any, 0, NULL,
-               "where x = 0: [x, y] or a point of what it moves on; default [0, 0]"),
+               "where x = 0: [x, y] or a point of its parent; default [0, 0]"),
     FIELD_NODE(MOTION(line), "line", field_scalar, 0, NULL,
                "a line of the ground, instead of `along` and `through`"),
     FIELD_NODE(MOTION(prescribed), "x", field_scalar, 0, NULL, "prescribed: an expression of t"),
@@ -125,7 +126,7 @@ static const struct group slide_group = {"a slide", NULL, FIELDS(slide_fields),
 
 static const struct field pivot_fields[] = {
     FIELD_NODE(MOTION(at), "at", field_any, 0, NULL,
-               "the axis O: [x, y] or a point of what it moves on; default [0, 0]"),
+               "the axis O: [x, y] or a point of its parent; default [0, 0]"),
     FIELD_NODE(MOTION(point), "point", field_any, 0, NULL,
                "the point of the body on the axis: a name or [x, y]; default the origin of the body frame"),
     FIELD_NODE(MOTION(prescribed), "theta", field_scalar, 0, NULL, "prescribed: an expression of t"),
@@ -140,7 +141,7 @@ static const struct field free_fields[] = {ON_ROW};
 
 static const struct group particle_group = {
     "a particle", NULL, FIELDS(free_fields),
-    NULL,         0,    "coordinates x, y of a body that does not turn against what it moves on"};
+    NULL,         0,    "coordinates x, y of a body that does not turn relative to its parent"};
 
 static const struct group planar_group = {"a planar motion",
                                           NULL,
@@ -167,11 +168,11 @@ static const struct field track_fields[] = {
     FIELD_NODE(MOTION(y), "y", field_scalar, required, NULL, "y of the curve as an expression of p, or of x"),
     FIELD_NODE(MOTION(from), "from", field_scalar, required, NULL, "p, or x, where it begins"),
     FIELD_NODE(MOTION(to), "to", field_scalar, required, NULL, "p, or x, where it ends"),
-    FIELD_FLAG(MOTION(closed), "closed", "true: its ends meet, and it goes on, round after round"),
+    FIELD_FLAG(MOTION(closed), "closed", "true: its ends meet, and it is closed"),
     FIELD_FLAG(MOTION(turn), "turn",
                "false: the body keeps its direction; default: its x axis is the tangent"),
     FIELD_NODE(MOTION(at), "at", field_any, 0, NULL,
-               "the origin of x and y: [x, y] or a point of what it moves on; default [0, 0]"),
+               "the origin of x and y: [x, y] or a point of its parent; default [0, 0]"),
     FIELD_NODE(MOTION(point), "point", field_any, 0, NULL,
                "the point of the body on the curve: a name or [x, y]; default the origin of the body frame"),
     FIELD_NODE(MOTION(prescribed), "s", field_scalar, 0, NULL, "prescribed: an expression of t"),
@@ -206,7 +207,7 @@ const struct kinds motion_kinds = {"motion", FIELDS(motions)};
 
 #define ASSEMBLE                                                                                             \
     FIELD_FLAG(offsetof(struct initial_keys, assemble), "assemble",                                          \
-               "true: what is given is where to look; couplings decide")
+               "true: given values are guesses; couplings determine them")
 
 static const struct field slide_initial[] = {POSITION(0, "x"), SPEED(0, "v"), ASSEMBLE};
 static const struct field pivot_initial[] = {ANGLE(0), ANGLE_RATE(0), ASSEMBLE};

@@ -73,7 +73,7 @@ static const struct field wound_fields[] = {
      "where the rope leaves the disc at the start"},
     FIELD_NUMBER(WOUND(radius), "radius", a_length, positive, "of the disc; default that of its shape"),
     FIELD_NUMBER(WOUND(length), "length", a_length, positive,
-                 "what is wound on it at the start, where the run ends when it is used up; default enough"),
+                 "the length wound on it at the start; the run ends when it is unwound; default: enough"),
 };
 const struct group wound_group = {"`wound`", NULL, FIELDS(wound_fields),
                                   NULL,      0,    "a rope that is wound on a disc"};
@@ -83,24 +83,23 @@ const struct group wound_group = {"`wound`", NULL, FIELDS(wound_fields),
 static const struct field around_fields[] = {
     FIELD_NODE(AROUND(on), "on", field_scalar, required, NULL, "the second of three places of `through`"),
     FIELD_NUMBER(AROUND(radius), "radius", a_length, positive, "of the drum; default that of its shape"),
-    FIELD_NUMBER(AROUND(turns), "turns", a_number, not_negative,
-                 "whole turns beside what is seen; default 0"),
+    FIELD_NUMBER(AROUND(turns), "turns", a_number, not_negative, "additional whole turns; default 0"),
     FIELD_VALUE(AROUND(mu_s), "static", a_number, not_negative,
                 "coefficient of static friction; default that of kinetic friction"),
     FIELD_VALUE(AROUND(mu_k), "kinetic", a_number, not_negative,
                 "coefficient of kinetic friction; default that of static friction"),
 };
 const struct group around_group = {"`around`", NULL, FIELDS(around_fields),
-                                   NULL,       0,    "a rope that rubs on a drum which it goes round"};
+                                   NULL,       0,    "a rope with friction round a drum"};
 
 static const struct field rope_fields[] = {
     FIELD_ENTRIES(COUPLING(through), "through", field_list, required, each_word, NULL,
-                  "its way: ends and points as in `between`; a disc that turns is a pulley"),
+                  "its path: ends and points as in `between`; a disc that turns is a pulley"),
     FIELD_VALUE(COUPLING(reel), "length", a_length, positive,
                 "its length, also as an expression of t; default taut at the start"),
     FIELD_ENTRIES(COUPLING(wound), "wound", field_any, 0, each_group, &wound_group,
                   "the disc at an end of it that it is wound on"),
-    FIELD_NODE(COUPLING(around), "around", field_map, 0, &around_group, "the drum that it rubs on"),
+    FIELD_NODE(COUPLING(around), "around", field_map, 0, &around_group, "the drum on which it has friction"),
 };
 static const struct group rope_group = COUPLING_GROUP("a rope", rope_fields, "inextensible and massless");
 
@@ -159,7 +158,7 @@ static const struct field slot_fields[] = {
     FIELD_NODE(COUPLING(to), "to", field_scalar, 0, NULL, "where it ends"),
     FIELD_FLAG(COUPLING(closed), "closed", "true: the ends of the curve meet, as those of a cam"),
     FIELD_CHOICE(COUPLING(side), "side", slot_sides,
-                 "the side on which the point lies and from which it may come off; default: held on both"),
+                 "the side on which the point lies and from which it may lift off; default: guided on both"),
     FIELD_NUMBER(COUPLING(radius), "radius", a_length, positive,
                  "of a roller about the point, which rolls on that side without friction"),
     FIELD_VALUE(COUPLING(mu_s), "static", a_number, not_negative | slips_not | stored,
@@ -171,7 +170,7 @@ static const struct group slot_group =
     COUPLING_GROUP("a slot", slot_fields, "a point of a body stays on a line or curve of another one");
 
 static const struct choice laws[] = {
-    {"stronge", 0, "the work that restitution gives back is e^2 of what compression took"},
+    {"stronge", 0, "the work of restitution is e^2 times that of compression"},
     {"poisson", 1, "the impulse of restitution is e times that of compression"},
     {"newton", 2, "the normal velocity after is -e times that before"},
     {"moreau", 3, "the same, with the friction of the velocity after"},
@@ -187,7 +186,7 @@ static const struct choice contact_sides[] = {
 static const struct field contact_fields[] = {
     FIELD_NAME(COUPLING(name), "name", "its name in all output; default `contact`"),
     FIELD_ENTRIES(COUPLING(between), "between", field_list, required, each_word, NULL,
-                  "a body or body.point, and what it meets: the same of another body, or a line, polygon or "
+                  "a body or body.point, and its partner: the same of another body, or a line, polygon or "
                   "point of the ground"),
     FIELD_VALUE(COUPLING(restitution), "restitution", a_number, not_negative | stored,
                 "e of an impact, 0 to 1; may depend on the approach speed, `approach`; default 0"),
@@ -195,7 +194,7 @@ static const struct field contact_fields[] = {
                 "coefficient of static friction; default that of kinetic friction"),
     FIELD_VALUE(COUPLING(mu_k), "kinetic", a_number, not_negative | stored,
                 "coefficient of kinetic friction; default that of static friction"),
-    FIELD_CHOICE(COUPLING(law), "law", laws, "what `restitution` is a share of"),
+    FIELD_CHOICE(COUPLING(law), "law", laws, "the law of impact, which defines e"),
     FIELD_CHOICE(COUPLING(side), "side", contact_sides,
                  "with a line of the ground: the side of it on which the body stays; default `start`"),
 };
@@ -257,7 +256,7 @@ const struct constraint_law constraint_laws[constraint_kinds] = {
         .load = load_if_it_presses, .load_kind = load_contact},
     [constraint_groove] = {
         .read = slot_read, .drawing = "slot", .letters = {"N", "f"},
-        .words = "slot that rubs: a point stays on a line or curve of another body, sticks or slips",
+        .words = "slot with friction: a point stays on a line or curve of another body, sticks or slips",
         .not_as_c = "a slot is a constraint beside the joints",
         .rows = 2, .row_names = {{"", ".normal"}, {"", ".friction"}}, .end_names = {".normal", ".friction"},
         .surface = true, .line = true,
@@ -271,14 +270,14 @@ const struct constraint_law constraint_laws[constraint_kinds] = {
         .load = always_load, .load_kind = load_belt},
     [constraint_capstan] = {
         .read = rope_read, .drawing = "rope", .letters = {"T", "T"},
-        .words = "rope that rubs: its way keeps its length, and it sticks to its drum or slips",
-        .not_as_c = "a rope that rubs on a drum is a constraint beside the joints, and sticks",
+        .words = "rope with friction: its path has constant length, and it sticks to its drum or slips",
+        .not_as_c = "a rope with friction on a drum is a constraint beside the joints, and sticks",
         .rows = 2, .row_names = {{NULL, NULL}, {"", ".friction"}},
         .surface = true, .strands = true, .way = true,
         .load = always_load, .load_kind = load_normal},
     [constraint_rope] = {
         .read = rope_read, .drawing = "rope", .letters = {"T"},
-        .words = "rope: its way keeps its length while it is taut",
+        .words = "rope: its path has constant length while it is taut",
         .not_as_c = "a rope is a constraint beside the joints, and goes slack",
         .rows = 1, .way = true, .length = true,
         .load = always_load, .load_kind = load_rope},

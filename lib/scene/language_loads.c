@@ -97,8 +97,8 @@ static const struct field applied_fields[] = {
     FIELD_VALUE(LOAD(fx), "fx", a_force, stored, "component along x"),
     FIELD_VALUE(LOAD(fy), "fy", a_force, stored, "component along y"),
     FIELD_NODE(offsetof(struct load_keys, toward), "toward", field_any, 0, NULL,
-               "its direction: to a point of the ground ([x, y] or ground.P) or of another body (body.P), "
-               "which then feels the opposite"),
+               "its direction: to a point of the ground ([x, y] or ground.P) or of another body (body.P), on "
+               "which the reaction acts"),
     FIELD_CHOICE(offsetof(struct load_keys, frame), "frame", frames,
                  "what angle and components refer to; default world"),
     FIELD_NODE(offsetof(struct load_keys, at), "at", field_any, 0, &place_group,
@@ -121,7 +121,7 @@ static const struct field distributed_fields[] = {
     FIELD_CHOICE(offsetof(struct load_keys, frame), "frame", frames,
                  "what the angle refers to; default world"),
     FIELD_VALUE(offsetof(struct load_keys, factor), "factor", a_number, 0,
-                "what the whole of it is multiplied by, as `sin(w*t)`; default 1"),
+                "a factor of the whole load, such as `sin(w*t)`; default 1"),
 };
 static const struct group distributed_group =
     LOAD_GROUP("a distributed load", NULL, distributed_fields, "a force per length along a line of the body");
@@ -173,7 +173,7 @@ static const struct field thrust_fields[] = {
 };
 static const struct group thrust_group = LOAD_GROUP(
     "`thrust`", NULL, thrust_fields,
-    "the force of mass that leaves or comes with a velocity of its own, of a body whose mass varies");
+    "the thrust of mass that leaves or comes with a relative velocity, for a body of varying mass");
 
 static const struct field power_fields[] = {
     FIELD_VALUE(LOAD(value), "value", a_power, required | stored,
@@ -190,9 +190,10 @@ static bool power_finish(struct entry *entry)
     const bool turns = entry->keys.load.kind == moment_applied;
     if (!P.expr || !entry->motion) return P.expr != NULL;
     if (entry->motion->parent != ground_body) {
-        entry_note(entry, "not-here", entry->chosen.at,
-                   "write it out: `applied: {value: P/v}`, of the velocity meant",
-                   "`power` acts on what moves on the ground: of two moving bodies there are two velocities");
+        entry_note(
+            entry, "not-here", entry->chosen.at,
+            "write it out: `applied: {value: P/v}`, of the velocity meant",
+            "`power` acts on bodies that move on the ground: of two moving bodies there are two velocities");
         return false;
     }
     return derive_value(entry, "value", &P, a_power, turns ? "/omega" : "/v", turns ? a_moment : a_force,
@@ -241,7 +242,7 @@ static bool drag_across(const struct load *load, struct vec gravity, double alon
 #define LAW(...) (&(const struct law){__VA_ARGS__})
 
 static const char dissipates[] = "not conservative: it depends on velocity",
-                  opposes[] = "not conservative: it opposes the motion, whichever way that goes";
+                  opposes[] = "not conservative: it opposes the motion in either direction";
 
 static const struct kind forces[] = {
     {"gravity", load_gravity, &gravity_group, on_all, NULL,
@@ -252,7 +253,7 @@ static const struct kind forces[] = {
      LAW(.effect = "normal force", .written_as_c = true, .drawing = "reaction", .letter = "N",
          .place = acts_in_joint, .rate = rate_never, .follows = true, .finish = normal_finish)},
     {"friction", load_friction, &friction_group, on_slide | on_track,
-     "dry friction of a surface belongs to a slide; a rubbing pivot has `friction` under `moments`",
+     "dry friction of a surface belongs to a slide; a pivot has `friction` under `moments`",
      LAW(.effect = "dry friction", .written_as_c = true, .drawing = "friction", .letter = "f",
          .place = acts_in_joint, .work = opposes, .follows = true, .finish = friction_finish)},
     {"applied", load_applied, &applied_group, on_all, NULL,
@@ -316,7 +317,7 @@ static const struct group moment_damper_group =
 
 static const struct field moment_friction_fields[] = {
     FIELD_VALUE(LOAD(mu_s), "static", a_moment, not_negative | slips_not | stored,
-                "largest moment that holds the bearing at rest"),
+                "largest friction moment of the bearing at rest"),
     FIELD_VALUE(LOAD(mu_k), "kinetic", a_moment, not_negative | slips | stored, "moment while it turns"),
     FIELD_VALUE(offsetof(struct load_keys, coefficient), "coefficient", a_moment,
                 not_negative | slips | stored, "both"),
@@ -366,7 +367,7 @@ static const struct {
       .drawing = "applied",
       .letter = "F",
       .follows = true,
-      .work = "not conservative: whatever the prescribed motion takes"}},
+      .work = "not conservative: the force of the prescribed motion"}},
     {load_carried,
      {.effect = "mass that varies",
       .drawing = "applied",

@@ -11,10 +11,10 @@ static const struct choice interpolations[] = {
 };
 
 static const struct choice beyonds[] = {
-    {"hold", table_hold, "the first and the last value go on; the default"},
+    {"hold", table_hold, "the first and the last value continue; the default"},
     {"zero", table_zero, "nothing"},
-    {"repeat", table_repeat, "all over again: the last point is the first of the next period"},
-    {"error", table_error, "the run ends there, and says so"},
+    {"repeat", table_repeat, "periodic: the last point is the first of the next period"},
+    {"error", table_error, "the run ends there with a message"},
 };
 
 static const struct field table_fields[] = {

@@ -104,10 +104,10 @@ bool lint_friction_note(struct reader *reader)
         for (size_t i = 0; i < body->load_count; i++) weighs |= body->loads[i].kind == load_gravity;
         if (!pressed)
             diag_add(reader->errors, FBD_WARNING, "nothing-presses", normal->at,
-                     weighs
-                         ? with_carrier(reader, b, "gravity acts along this line; list what acts across it")
-                         : "list what does, as `gravity`; what is not listed does not exist",
-                     "nothing presses `%s` on its surface: `%s` is zero, and so is friction", body->name,
+                     weighs ? with_carrier(reader, b, "gravity acts along this line; list a force across it")
+                            : "list a force that does, such as `gravity`; forces that are not listed are not "
+                              "simulated",
+                     "no force presses `%s` on its surface: `%s` is zero, and so is friction", body->name,
                      normal->name);
     }
     return true;

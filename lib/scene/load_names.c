@@ -50,7 +50,7 @@ static bool check_given(struct reader *reader, int index, const struct given_nam
         if (is_of_joint(reader, index, names[i].name)) {
             diag_add(reader->errors, FBD_ERROR, "duplicate-name", names[i].at, "choose another name",
                      strcmp(names[i].name, "mass") == 0
-                         ? "the energy that goes with the mass of this body is called `%s` already"
+                         ? "the energy of the mass of this body has the name `%s` already"
                          : "the force of the joint of this body is called `%s` already",
                      names[i].name);
             fine = false;

@@ -43,7 +43,7 @@ bool name_check(fbd_errors *errors, const char *name, struct pos at, const char 
         size_t size = glyph_size(c, strlen(c));
         const char *plain = size > 1 ? glyph_plain(c, size) : NULL;
         if (size == 2 && strncmp(c, "\xC2\xA0", 2) == 0)
-            hint = "it holds a no-break space (U+00A0), as pasted text does: type a blank in its place";
+            hint = "it contains a no-break space (U+00A0), as pasted text does: type a blank in its place";
         if (plain) hint = diag_hint(errors, "write `%s` for `%.*s`", plain, (int)size, c);
         if (plain) break;
     }

@@ -193,13 +193,13 @@ static const struct node *read_alias(struct builder *builder, const yaml_event_t
     if (!anchor) {
         const char *hint =
             diag_hint(builder->errors, "define it before: `&%.40s value`; a product needs a left side", name);
-        diag_add(builder->errors, FBD_ERROR, "unknown-anchor", at, hint, "no anchor `&%.40s` stands above",
+        diag_add(builder->errors, FBD_ERROR, "unknown-anchor", at, hint, "there is no anchor `&%.40s` above",
                  name);
         return NULL;
     }
     if (!anchor->node) {
         diag_add(builder->errors, FBD_ERROR, "alias-cycle", at, "write the value out",
-                 "`*%.40s` stands inside the value that it stands for", name);
+                 "`*%.40s` is inside the value to which it refers", name);
         return NULL;
     }
     builder->aliased += anchor->node->size;
@@ -272,8 +272,8 @@ static bool sort_pairs(struct builder *builder, struct node *map)
             continue;
         }
         diag_add(builder->errors, FBD_ERROR, "duplicate-key", pair->at,
-                 "delete one of them, or give it another name", "`%s` stands here already, in line %d",
-                 pair->key, first->at.line);
+                 "delete one of them, or give it another name", "`%s` is here already, in line %d", pair->key,
+                 first->at.line);
         pair->value = NULL;
         repeated++;
     }
@@ -291,7 +291,7 @@ static bool sort_pairs(struct builder *builder, struct node *map)
 static bool check_key(struct builder *builder, const struct node *key)
 {
     if (key->kind != node_scalar) {
-        diag_add(builder->errors, FBD_ERROR, "bad-key", key->at, "quote an expression that holds brackets",
+        diag_add(builder->errors, FBD_ERROR, "bad-key", key->at, "quote an expression with brackets",
                  "a key must be a word, not %s",
                  key->kind == node_null   ? "nothing"
                  : key->kind == node_list ? "a list"
@@ -446,7 +446,7 @@ static bool read_end(struct builder *builder)
         if (type == YAML_STREAM_END_EVENT) return true;
         if (type != YAML_DOCUMENT_START_EVENT) continue;
         diag_add(builder->errors, FBD_ERROR, "second-document", at, "delete `---`, or split the file",
-                 "a second model starts here: a file holds one");
+                 "a second model starts here: a file has one");
         return false;
     }
 }

@@ -34,7 +34,7 @@ static bool check_body_name(struct reader *reader, const struct body *body)
     if (!time && strcmp(body->name, "ground") != 0) return true;
     diag_add(reader->errors, FBD_ERROR, "reserved-name", body->at, "choose another name",
              time ? "`t` cannot be a body: it is the time"
-                  : "`ground` cannot be a body: it is what does not move");
+                  : "`ground` cannot be a body: the ground does not move");
     return false;
 }
 
@@ -57,7 +57,7 @@ static bool note_key_of_body(struct reader *reader, int index)
                            ? diag_hint(reader->errors, "indent it one level further, below `%s`", owner->key)
                            : "indent it one level further, below the name of a body";
     diag_add(reader->errors, FBD_ERROR, "unknown-key", pairs[index].at, hint,
-             "`%s` is a key of a body, and stands here as if it were a body", pairs[index].key);
+             "`%s` is a key of a body, but is here in the place of a body", pairs[index].key);
     return false;
 }
 
@@ -166,7 +166,7 @@ bool body_read(struct reader *reader, int index)
     }
     bool fine = check_body_name(reader, body);
     if (!draft->node) {
-        const char *hint = "write what it is below its name, indented: mass, motion, forces, ...";
+        const char *hint = "write its keys below its name, indented: mass, motion, forces, ...";
         return value_refuse(reader, node, body->name, "a mapping", hint);
     }
     if (!fields_read(reader, &body_group, node, body->at, &reader->constants, keys)) fine = false;

@@ -56,8 +56,8 @@ static bool has_shape(struct reader *reader, const struct constraint *constraint
     for (size_t i = 0; i < body->part_count; i++)
         if (body->parts[i].shape != shape_given && body->parts[i].mass > 0) return true;
     diag_add(reader->errors, FBD_ERROR, "no-shape", constraint->point[k].at,
-             "give it a `shape`, or name the point that meets: `body.point`",
-             "`%s` has no shape that could meet anything", body->name);
+             "give it a `shape`, or name the contact point: `body.point`", "`%s` has no shape for a contact",
+             body->name);
     return false;
 }
 
@@ -65,7 +65,7 @@ static bool read_sides(struct reader *reader, const struct node *list, struct co
 {
     const struct node *first = list->items[0], *second = list->items[1];
     if (is_ground(first) && is_ground(second)) {
-        diag_add(reader->errors, FBD_ERROR, "same-body", list->at, "name a body and what it meets",
+        diag_add(reader->errors, FBD_ERROR, "same-body", list->at, "name a body and its partner",
                  "both ends are on the ground: nothing would act");
         return false;
     }
@@ -103,7 +103,7 @@ static bool read_line_side(struct reader *reader, const struct node *list, int s
         return true;
     }
     diag_add(reader->errors, FBD_ERROR, "not-here", list->at,
-             constraint->contact.line ? "say `left` or `right` of its direction" : "leave `side` out",
+             constraint->contact.line ? "give `left` or `right` of its direction" : "leave `side` out",
              constraint->contact.line ? "no side of a vertical line is up"
                                       : "`side` is that of a line of the ground, and this is none");
     return false;

@@ -72,7 +72,7 @@ static const struct expr *read_density(struct entry *entry, const struct node *n
     if (!w) return NULL;
     if (expr_uses_time(w)) {
         entry_note(entry, "not-constant", node->at,
-                   "what it varies with goes to `factor`: `factor: cos(w*t)`",
+                   "write the dependence on time as `factor`: `factor: cos(w*t)`",
                    "`value` of a distributed load may depend on the place `s` along it alone");
         return NULL;
     }

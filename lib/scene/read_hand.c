@@ -28,7 +28,7 @@ static bool read_equation(struct reader *reader, const struct node *node, const 
     diag_add(reader->errors, FBD_ERROR, "no-equation", node->at,
              conserved ? "write `equation: left = right` for an equation"
                        : "write both sides, as `m*v_dot = f1 - m*g*sin(phi)`",
-             conserved ? "what is `conserved` is one expression, without a relation"
+             conserved ? "`conserved` is one expression, without a relation"
                        : "a derivation by hand must be an equation");
     return false;
 }
@@ -230,7 +230,7 @@ static bool read_hand(struct reader *reader, int index, const struct node *node,
     if (keys.impact) hand->impact = arena_text(reader->arena, keys.impact->text, keys.impact->length);
     if (fine && (keys.conserved != NULL) == (keys.equation != NULL)) {
         diag_add(reader->errors, FBD_ERROR, line ? "conflicting-keys" : "missing-key", node->at,
-                 "a derivation is an `equation`, or what is `conserved`", "%s",
+                 "a derivation is an `equation` or a `conserved` expression", "%s",
                  line ? "`equation` and `conserved` exclude each other" : "`equation` is missing");
         return false;
     }

@@ -91,7 +91,7 @@ bool masses_start(struct reader *reader)
         if (mass > 0 && isfinite(mass)) continue;
         scene->bodies[b].parts[0].mass = 1; /* avoids further notes */
         diag_add(reader->errors, FBD_ERROR, "out-of-range", body->mass.at,
-                 "let it start with what is there already, be it little",
+                 "let it start with a small mass above zero",
                  "the `mass` of `%s` is %g at the start: it must be above zero", body->name, mass);
         fine = false;
     }

@@ -46,7 +46,7 @@ static bool check_about_pivot(struct reader *reader, const struct body *body)
     for (size_t i = 0; i < body->part_count && body->motion.kind != motion_pivot; i++) {
         if (!body->parts[i].about_pivot) continue;
         diag_add(reader->errors, FBD_ERROR, "not-here", body->parts[i].about.at,
-                 "O is the axis of a `pivot`: say G, a point of the body or [x, y]",
+                 "O is the axis of a `pivot`: give G, a point of the body or [x, y]",
                  "`%s` has no pivot that `about: O` could mean", body->name);
         fine = false;
     }
@@ -132,7 +132,7 @@ bool body_prescribed_read(struct reader *reader, int index)
         if (body->loads[i].kind != load_friction && body->loads[i].kind != moment_friction) continue;
         diag_add(reader->errors, FBD_ERROR, "not-here", body->loads[i].at,
                  "leave it out: the drive would only take that much more",
-                 "the motion of `%s` is prescribed: friction in its joint decides nothing", body->name);
+                 "the motion of `%s` is prescribed: friction in its joint has no effect on it", body->name);
         fine = false;
     }
     return fine;

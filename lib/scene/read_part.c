@@ -121,7 +121,7 @@ static bool check_taken(struct reader *reader, const struct node *map, enum shap
         const struct pair *pair = node_find(map, dimensions[i].key);
         if (!pair || (taken & dimensions[i].bit)) continue;
         const char *hint =
-            shapeless ? "say which: `shape: rod`, `shape: sphere`, ..." : list_taken(reader, taken);
+            shapeless ? "give the shape: `shape: rod`, `shape: sphere`, ..." : list_taken(reader, taken);
         if (shapeless)
             diag_add(reader->errors, FBD_ERROR, "not-here", pair->at, hint, "`%s` needs a `shape`",
                      pair->key);
@@ -156,7 +156,7 @@ static bool check_needed(struct reader *reader, const struct node *map, struct p
 static bool check_rod(struct reader *reader, const struct node *map)
 {
     static const char *const excluded[] = {"length", "center", "angle"};
-    const char *hint = "the ends say it all: leave the other out";
+    const char *hint = "the ends determine it: leave the other out";
     bool fine = true;
     for (size_t i = 0; i < 3; i++) {
         const char *end = node_find(map, "from") ? "from" : "to";
@@ -322,7 +322,7 @@ static bool read_single(struct reader *reader, int index)
 static bool check_no_single(struct reader *reader, const struct node *map)
 {
     static const char *const keys[] = {"mass", "shape", "inertia"};
-    const char *hint = "a body of parts has what its parts have: give it to one of them";
+    const char *hint = "the parts of a body have these keys: give it to one of them";
     bool fine = true;
     for (size_t i = 0; i < sizeof keys / sizeof *keys; i++)
         if (!fields_exclude(reader, map, "parts", keys[i], hint)) fine = false;

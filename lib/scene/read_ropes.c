@@ -82,7 +82,7 @@ static bool read_wound(struct reader *reader, const struct node *node, const str
     diag_add(reader->errors, FBD_ERROR, "not-here", keys.on->at,
              diag_hint(reader->errors, "its ends: `%s`, `%s`", through->items[0]->text,
                        through->items[through->count - 1]->text),
-             "`%s` is no end of the rope, or is named twice: what is wound on a disc begins or ends there",
+             "`%s` is no end of the rope, or is named twice: a rope is wound on a disc at one of its ends",
              keys.on->text);
     return false;
 }
@@ -137,10 +137,10 @@ static bool read_around(struct reader *reader, const struct coupling_keys *keys,
     if (!fields_read(reader, &around_group, node, node->at, &reader->constants, &around)) return false;
     if (through->count != 3 || strcmp(through->items[1]->text, around.on->text) != 0)
         return refuse_around(reader, around.on, "write `through: [a, drum, b]` and `around: {on: drum, ...}`",
-                             "a rope that rubs has three places, and goes round the second");
+                             "a rope with `around` has three places, and runs round the second");
     if (keys->wound || constraint->reel.expr)
         return refuse_around(reader, node, "let another rope do that",
-                             "a rope that rubs is neither wound nor hauled");
+                             "a rope with `around` is neither wound nor hauled in");
     if (!around.mu_s.expr && !around.mu_k.expr)
         return refuse_around(reader, node, "add for example `kinetic: 0.3`",
                              "`around` needs a coefficient of friction");

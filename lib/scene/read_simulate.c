@@ -163,14 +163,14 @@ static bool check_share(struct reader *reader, const struct node *map, const cha
                  key, most);
     else
         diag_add(reader->errors, FBD_ERROR, "out-of-range", pair->value->at,
-                 "1e-13 is about what a run can keep; 1e-10 is the default tolerance",
-                 "`%s` is below what numbers resolve (2.2e-16)", key);
+                 "the smallest useful tolerance is about 1e-13; 1e-10 is the default tolerance",
+                 "`%s` is below the resolution of numbers (2.2e-16)", key);
     return false;
 }
 
 static bool check_accuracy(struct reader *reader, const struct node *map, const struct simulate_keys *keys)
 {
-    static const char hint[] = "`accuracy` chooses the steps by itself";
+    static const char hint[] = "`accuracy` determines the steps";
     bool fine = check_share(reader, map, "tolerance", keys->tolerance, "1e-9 is careful, 1e-4 is quick");
     if (!check_share(reader, map, "accuracy", keys->accuracy, "1e-8 is careful, 1e-3 is quick")) fine = false;
     if (!fields_exclude(reader, map, "accuracy", "tolerance", hint)) fine = false;

@@ -82,7 +82,7 @@ static bool read_label_unit(struct reader *reader, const struct heading *heading
     }
     if (points->has_unit[axis] && (!dim_equal(points->unit[axis].dim, unit.dim) ||
                                    fabs(points->unit[axis].factor - unit.factor) > 1e-14 * unit.factor)) {
-        diag_add(reader->errors, FBD_ERROR, "wrong-dimension", at, "leave it out: the file says it",
+        diag_add(reader->errors, FBD_ERROR, "wrong-dimension", at, "leave it out: the file gives it",
                  "`%s` has the unit `%.*s` here, and another one in its file", axis_names[axis],
                  (int)heading->unit_length, heading->unit);
         return false;
@@ -219,7 +219,7 @@ static bool check_order(struct reader *reader, const char *file, struct points *
             bool same = x[i] == x[kept - 1];
             if (file) diag_in_file(reader->errors, file);
             diag_add(reader->errors, FBD_ERROR, "table-order", row_place(points, i),
-                     same ? "a jump takes `interpolation: step`" : "sort the rows by x",
+                     same ? "a jump needs `interpolation: step`" : "sort the rows by x",
                      same ? "`x` is %.9g here and in the row before, with another `y`"
                           : "`x` must grow from row to row: %.9g is less than before",
                      x[i] / (points->has_unit[0] ? points->unit[0].factor : 1));

@@ -13,7 +13,7 @@ static bool check_form(struct entry *entry)
     if (!entry_has(entry, "exhaust") && !entry_has(entry, "velocity")) {
         entry_note(entry, "missing-key", entry->chosen.at,
                    "write for example `thrust: {exhaust: 2 km/s, angle: 90 deg}`",
-                   "`thrust` needs `exhaust` or `velocity`: how fast is what leaves or comes?");
+                   "`thrust` needs `exhaust` or `velocity`: the speed of the mass that leaves or comes");
         return false;
     }
     bool fine = entry_exclude(entry, "exhaust", "velocity", hint);
@@ -49,9 +49,9 @@ bool thrust_finish(struct entry *entry)
     if (!entry->reader->drafts[entry->body].mass_varies) {
         if (entry->reader->drafts[entry->body].mass_known)
             entry_note(entry, "not-here", entry->chosen.at,
-                       "say how its mass varies: `mass: 100[kg] - 5[kg/s]*t`, or by a state; a given force "
-                       "is `applied`",
-                       "`thrust` is of a body whose mass varies: no mass leaves this one or comes to it");
+                       "give the mass as an expression: `mass: 100[kg] - 5[kg/s]*t`, or by a state; a given "
+                       "force is `applied`",
+                       "`thrust` needs a body of varying mass: the mass of this one is constant");
         return false;
     }
     if (!velocity) {

@@ -101,7 +101,7 @@ static const struct expr *read_formula(struct reader *reader, const struct node 
                  diag_hint(reader->errors,
                            "write it as an expression of `%s`; %s that moves lies on a body that does",
                            track->parameter, what),
-                 "the `%s` of %s depends on nothing but its parameter `%s`", key, what, track->parameter);
+                 "the `%s` of %s may depend on its parameter `%s` only", key, what, track->parameter);
         return NULL;
     }
     return value.expr;
@@ -125,7 +125,7 @@ static void note_fault(struct reader *reader, const struct curve_keys *keys, con
                               "end it before, or write it otherwise"},
         [curve_stands_still] = {"stands still: it has no direction there, as at a cusp",
                                 "end it before, or choose a parameter that does not rest there"},
-        [curve_corner] = {"has a corner: no force takes a body round it",
+        [curve_corner] = {"has a corner, which requires an unbounded force",
                           "round it off; of a table take `interpolation: cubic`"},
         [curve_jump] = {"is torn", "let its parts meet"},
         [curve_rough] = {"has a derivative that is infinite",

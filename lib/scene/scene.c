@@ -43,8 +43,7 @@ static void check_version(struct reader *reader, const struct scene_keys *keys)
     const struct pair *pair = node_find(reader->root, "fbd");
     if (!pair)
         diag_add(reader->errors, FBD_WARNING, "missing-version", reader->root->at,
-                 "start the file with `fbd: 1`",
-                 "the file does not say which version of the language it uses");
+                 "start the file with `fbd: 1`", "the file does not give the version of its language");
     else if (keys->version != 0 && keys->version != version)
         diag_add(reader->errors, FBD_ERROR, "unsupported-version", pair->value->at, "write `fbd: 1`",
                  "this program reads version 1 of the model language, not %s",

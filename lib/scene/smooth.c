@@ -25,10 +25,9 @@ void smoothness_note(struct reader *reader, struct pos at, const char *what, con
         if (smooth == 2) continue;
         diag_add(reader->errors, FBD_WARNING, "rough-motion", at,
                  "`interpolation: cubic` has a continuous acceleration",
-                 smooth == 1
-                     ? "the acceleration of `%s` jumps at points of the table `%s`, and so does the force "
-                       "that it takes"
-                     : "the velocity of `%s` jumps at points of the table `%s`: no force does that",
+                 smooth == 1 ? "the acceleration of `%s` jumps at points of the table `%s`, and so does the "
+                               "force of its drive"
+                             : "the velocity of `%s` jumps at points of the table `%s`: no force does that",
                  what, table->name);
         return;
     }

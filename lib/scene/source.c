@@ -32,7 +32,7 @@ static void note_control(fbd_errors *errors, struct pos at, unsigned code)
                  "is this a model file? it looks like binary data", "a zero byte in the text");
     else
         diag_add(errors, FBD_ERROR, "control-character", at, "delete it; it may be invisible in an editor",
-                 "the control character U+%04X cannot stand in a model file", code);
+                 "the control character U+%04X is not allowed in a model file", code);
 }
 
 bool source_open(const char *text, size_t length, fbd_errors *errors, struct source *source)

@@ -17,13 +17,13 @@ static const struct explanation {
     const char *problem, *context, *message, *hint;
 } explanations[] = {
     {"mapping values are not allowed", NULL, "a colon where no key can stand",
-     "does this line start in the column of its neighbours? text that holds `: ` needs quotes"},
+     "does this line start in the column of its neighbours? text with `: ` needs quotes"},
     {"could not find expected ':'", NULL, "this line is no `key: value`",
      "put a colon and a blank after a key, `- ` before a list entry"},
     {"did not find expected key", NULL, "this line fits nothing above it",
      "keys of one block start in the same column, and list entries do not mix with keys"},
-    {"did not find expected '-' indicator", NULL, "a list goes on here without `-`",
-     "start each entry with `- `; what belongs to an entry is indented deeper than its `-`"},
+    {"did not find expected '-' indicator", NULL, "a list continues here without `-`",
+     "start each entry with `- `; the keys of an entry are indented deeper than its `-`"},
     {"did not find expected ',' or '}'", NULL, "a mapping in braces is not closed, or lacks a comma",
      "write {key: value, key: value}"},
     {"did not find expected ',' or ']'", NULL, "a list in brackets is not closed, or lacks a comma",
@@ -45,7 +45,7 @@ static const struct explanation {
     {"did not find expected node content", NULL, "a value is missing here",
      "is there a stray bracket, brace or comma?"},
     {"did not find expected <document start>", NULL, "the model ends before this line",
-     "is it indented as its neighbours, and does no stray bracket stand before it?"},
+     "is it indented as its neighbours, and is there no stray bracket before it?"},
     {"found undefined tag handle", NULL, "a tag (`!...`) that means nothing here",
      "delete it; quote text that starts with `!`"},
 };
@@ -172,7 +172,7 @@ static bool explain_long_key(struct pos at, fbd_errors *errors)
     const int longest = 1024;
     if (at.column <= longest) return false;
     diag_add(errors, FBD_ERROR, "bad-key", at, "is a line end or a quote missing?",
-             "what stands before this colon is too long for a key");
+             "the text before this colon is too long for a key");
     return true;
 }
 

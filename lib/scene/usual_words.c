@@ -34,7 +34,7 @@ static const struct usual usual_forces[] = {
     {"reaction", "reactions of joints and couplings are found, not given"},
     {"N", "it is `normal`, of a slide; of shapes that touch it comes with `contacts`"},
     {"normal_force", "it is `normal`, of a slide; of shapes that touch it comes with `contacts`"},
-    {"contact", "what can touch is listed under `contacts`, beside `bodies`"},
+    {"contact", "contacts are listed under `contacts`, beside `bodies`"},
     {"air", "it is `drag`"},
     {"air_resistance", "it is `drag`"},
     {"resistance", "it is `drag`"},
@@ -48,8 +48,8 @@ static const struct usual usual_moments[] = {
     {"torque", a_couple},
     {"couple", a_couple},
     {"motor", a_couple},
-    {"force", "forces belong under `forces`; those off the axis give their moment by themselves"},
-    {"gravity", "it belongs under `forces`, and gives its moment by itself"},
+    {"force", "forces belong under `forces`; their moments about the axis are computed"},
+    {"gravity", "it belongs under `forces`; its moment about the axis is computed"},
     {"torsion", "it is a `spring`"},
 };
 static const struct usual usual_couplings[] = {

@@ -269,7 +269,7 @@ static bool read_axis(struct axes *axes, const struct vary *vary, bool zip)
         m->axis = axis;
         if (axis == axes->axis_count) axes->counts[axes->axis_count++] = m->count;
         if (axes->counts[axis] != m->count)
-            return refuse(vary, "what goes side by side must have equally many values",
+            return refuse(vary, "parameters side by side must have equally many values",
                           "its number of values differs");
     }
     return true;

@@ -221,7 +221,7 @@ static void note_unknown(struct list *list, const char *name)
                        "for example `%s`, `max(%s)`, `time(%s)`, `count(%s)`, `energy.kinetic`, `final`, "
                        "`times`, `energy`",
                        coordinate, coordinate, event, event),
-             "nothing of a run is called `%.80s`", name);
+             "a run has no quantity `%.80s`", name);
 }
 
 static bool add_list(struct list *list, const char *text)

@@ -102,7 +102,7 @@ bool study_until(const fbd_model *model, const fbd_cost_options *options, double
     *until = isnan(options->until) ? expr_value(model->scene->simulate.until.expr) : options->until;
     if (*until > 0) return true;
     diag_add(errors, FBD_ERROR, "bad-option", (struct pos){0, 0}, "give --until a time above 0",
-             "in a run of no length there is nothing to study");
+             "the run has zero duration and cannot be studied");
     return false;
 }
 

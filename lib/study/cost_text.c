@@ -171,7 +171,7 @@ static void answer(struct text *text, const struct fbd_cost *cost, double target
     text_add(text, "  ");
     power(text, target);
     if (target < cost->reference.floor) {
-        text_printf(text, "  cannot be told: the reference itself is in doubt by %.1e\n",
+        text_printf(text, "  cannot be measured: the uncertainty of the reference is %.1e\n",
                     cost->reference.floor);
         return;
     }

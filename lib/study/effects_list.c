@@ -46,7 +46,7 @@ static void add_load(struct fbd_effects *effects, int b, int i)
     if (load->reaction) return; /* removed with its counterpart */
     if (load->kind == load_normal && friction)
         edit.refusal =
-            arena_printf(&effects->arena, "`%s` needs it: nothing else presses the surfaces together",
+            arena_printf(&effects->arena, "`%s` needs it: no other force presses the surfaces together",
                          friction->name);
     add(effects, edit, load->name, "left out");
 }

@@ -77,7 +77,7 @@ char *fbd_effects_text(const fbd_effects *effects)
     if (!effects) return NULL;
     struct text text = {0};
     text_heading(&text, fbd_model_title(effects->model));
-    text_printf(&text, "What each effect changes and costs, over %.6g s; the scene as it is takes ",
+    text_printf(&text, "Change and cost by each effect, over %.6g s; the unchanged scene takes ",
                 effects->until);
     text_seconds(&text, effects->seconds);
     text_add(

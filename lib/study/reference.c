@@ -262,12 +262,11 @@ static bool no_reference(const struct search *search)
     const char *why = "";
     for (int c = 0; c < candidate_count && !why[0]; c++)
         if (search->attempts[c][0].track.reason) why = search->attempts[c][0].track.reason;
-    diag_add(
-        search->errors, FBD_ERROR, "no-reference", (struct pos){0, 0},
-        "shorten the run (--until) or give it more time (--budget)",
-        "there is nothing to measure errors against: no two methods get to the end of the run at a tight "
-        "tolerance%s%s",
-        why[0] ? ": " : "", why);
+    diag_add(search->errors, FBD_ERROR, "no-reference", (struct pos){0, 0},
+             "shorten the run (--until) or give it more time (--budget)",
+             "there is no reference for the errors: no two methods reach the end of the run at a tight "
+             "tolerance%s%s",
+             why[0] ? ": " : "", why);
     return false;
 }
 

@@ -40,7 +40,7 @@ static const char *cut_says(struct arena *arena, const struct certified_referenc
         isnan(reference->tenfold)
             ? ""
             : arena_printf(arena,
-                           " Differences grow tenfold in %.3g s: the motion magnifies whatever disturbs it.",
+                           " Differences grow tenfold in %.3g s: the motion is sensitive to disturbances.",
                            reference->tenfold);
     const char *why = better ? "tighter tolerances still bring them nearer"
                       : isnan(reference->tenfold)
@@ -61,10 +61,9 @@ const char *reference_says(struct arena *arena, const struct certified_reference
     if (reference->cut)
         rest = cut_says(arena, reference);
     else if (!isnan(reference->tenfold))
-        rest =
-            arena_printf(arena,
-                         ". Differences grow tenfold in %.3g s: the motion magnifies whatever disturbs it.",
-                         reference->tenfold);
+        rest = arena_printf(arena,
+                            ". Differences grow tenfold in %.3g s: the motion is sensitive to disturbances.",
+                            reference->tenfold);
     else
         rest = ".";
     if (!exact || !pair || !rest) return NULL;

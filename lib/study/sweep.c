@@ -231,7 +231,7 @@ static void warn_of_accuracy(const struct fbd_sweep *sweep, fbd_errors *errors)
     const fbd_options *options = &sweep->options;
     if (!(sweep->base->scene->simulate.accuracy > 0) || options->tolerance != 0 || options->step != 0) return;
     diag_add(errors, FBD_WARNING, "accuracy-not-used", (struct pos){0, 0},
-             "say which tolerance by --tolerance; fbd-run --accuracy tells the one that is needed",
+             "give a tolerance by --tolerance; fbd-run --accuracy prints the one that is needed",
              "the `accuracy` of the file is not used by a sweep");
 }
 

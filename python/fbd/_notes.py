@@ -33,7 +33,7 @@ class Note(NamedTuple):
         mark = f" [{self.id}]" if self.id else ""
         text = f"{place}{' ' if place else ''}{self.severity}: {self.message}{mark}"
         if self.context_line:
-            text += f"\n    while reading what starts at line {self.context_line}, column {self.context_column}"
+            text += f"\n    in the block that starts at line {self.context_line}, column {self.context_column}"
         return text + (f"\n    hint: {self.hint}" if self.hint else "")
 
 

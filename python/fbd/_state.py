@@ -279,7 +279,7 @@ class State(Mapping[str, float]):
             return _diagrams(lib.fbd_diagram, self._handle, self._model)
 
     def redundant(self) -> Tuple[str, ...]:
-        """Rows of couplings that say nothing here which those before them do not say: "knuckle in y"."""
+        """Rows of couplings that depend on the rows before them: "knuckle in y"."""
         with self._lock:
             count = lib.fbd_redundant(self._handle, ffi.NULL, 0)
             names = ffi.new("const char *[]", max(1, count))

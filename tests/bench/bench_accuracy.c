@@ -305,23 +305,23 @@ static void write_document(FILE *out, const struct contest *contests, const stru
     fprintf(
         out,
         "# Accuracy against time, measured\n\n"
-        "Written by `make bench` (tests/bench/bench_accuracy.c), which is the command that reproduces every "
+        "Written by `make bench` (tests/bench/bench_accuracy.c), the command that reproduces every "
         "figure\n"
-        "here; times are those of one machine, so compare the ratios. Every program climbs a ladder of "
+        "here; times are those of one machine, so compare the ratios. Every program runs at a ladder of "
         "tolerances, "
-        "1e-3 to\n1e-14, and its true error is known, from a closed form (trees and slider-crank: from a run "
-        "at "
-        "1e-15 by hand); a time at the error 1e-6 or 1e-9 is "
-        "interpolated between the rungs\nbeside. Times are medians of repeats taken in turn, of the whole "
+        "1e-3 to\n1e-14, and its true error is known, from a closed form (trees and slider-crank: from a "
+        "handwritten program at 1e-15); a time at the error 1e-6 or 1e-9 is "
+        "interpolated between neighbouring\ntolerances. Times are medians of repeats taken in turn, of the "
+        "whole "
         "run "
-        "from nothing (for fbd: after the model was read).\n"
+        "with its set-up (for fbd: after the model was read).\n"
         "Errors are those of coordinate and rate at the end (stiff oscillators: at four times), divided by "
         "their "
         "size.\n`fbd-cost` shows the same for every method of fbd, on any scene.\n");
     write_bounds(out, contests, recommended);
     fprintf(out,
-            "\n## Beside C by hand\n\nC by hand has the right-hand side and the exact Jacobian in C, nothing "
-            "else, and on the belt its own event location\n(tests/bench/accuracy_*.c). A ratio below 1 means "
+            "\n## Beside C by hand\n\nC by hand has only the right-hand side and the exact Jacobian in C, "
+            "and for the belt its own event location\n(tests/bench/accuracy_*.c). A ratio below 1 means "
             "that fbd is faster.\n");
     for (size_t i = 0; i < problem_count; i++)
         if (contests[i].count > 0) write_contest(out, &contests[i]);

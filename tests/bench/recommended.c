@@ -96,7 +96,7 @@ static void repeat(struct recommended *recommended, const fbd_cost *first, const
 void recommended_measure(struct recommended *recommended, const char *source)
 {
     *recommended = (struct recommended){0};
-    fprintf(stderr, "what fbd-cost recommends\n");
+    fprintf(stderr, "recommendations of fbd-cost\n");
     fbd_model *model = read_model(source, "models/rotation/compound_pendulum.yaml", NULL, 0);
     double start = wall();
     fbd_cost *first = study(model, NAN, 0);
@@ -122,12 +122,11 @@ void recommended_measure(struct recommended *recommended, const char *source)
 
 void recommended_write(FILE *out, const struct recommended *recommended)
 {
-    fprintf(
-        out,
-        "\n## What fbd-cost recommends\n\nEach scene is studied twice; what the first study recommends is "
-        "looked up in the second, and its time there held\nagainst the best time there.\n\n"
-        "| scene | error over the run | recommended | best of the second study | time | time / best |\n"
-        "| --- | --- | --- | --- | --- | --- |\n");
+    fprintf(out,
+            "\n## Recommendations of fbd-cost\n\nEach scene is studied twice; the time of the first study's "
+            "recommendation in the second study is compared\nwith the best time there.\n\n"
+            "| scene | error over the run | recommended | best of the second study | time | time / best |\n"
+            "| --- | --- | --- | --- | --- | --- |\n");
     for (size_t i = 0; i < recommended->count; i++) {
         const struct advice *advice = &recommended->advice[i];
         fprintf(out, "| %s | %.0e | `%s` | `%s` | %.3f ms | %.2f |\n", advice->scene, advice->target,

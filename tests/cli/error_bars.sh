@@ -63,7 +63,7 @@ stats = json.load(open("out"))["stats"]
 assert stats["accuracy"] == 1e-10 and 0 < stats["error_estimate"] <= 1e-10 and stats["runs"] >= 1
 END
 run --accuracy 1e-10 "$pendulum"
-check 'the report says what it cost' says 'accuracy 1e-10 asked for: reached, with [0-9]+ run' out
+check 'the report says what it cost' says 'requested accuracy 1e-10: reached, with [0-9]+ run' out
 check 'the method is kept' exits 0 run --accuracy 1e-7 --method rkf45 "$pendulum"
 check 'as it was given' says 'rkf45 at tolerance' out
 check 'an accuracy below rounding is 5' exits 5 run --accuracy 1e-16 --csv best.csv "$pendulum"
@@ -72,13 +72,13 @@ check 'the report says it' says 'NOT reached' out
 check 'and the best run is written, whole' \
     sh -c '[ "$(grep -c "^t \[s\]" best.csv)" -eq 1 ] && [ "$(tail -1 best.csv | cut -d, -f1)" = 10 ]'
 check 'accuracy and tolerance are 2' exits 2 run --accuracy 1e-8 --tolerance 1e-8 "$pendulum"
-check 'with a hint' says 'ask for an accuracy, or say how the steps are to be made' err
+check 'with a hint' says 'give either an accuracy, or a tolerance or step' err
 check 'accuracy and step are 2' exits 2 run --accuracy 1e-8 --step 0.1 "$pendulum"
 check 'a large accuracy is 2' exits 2 run --accuracy 1 "$pendulum"
 check 'the state at a time is had accurately, too' exits 0 run --accuracy 1e-9 --equations --at 5 "$pendulum"
 sed 's/until: 10 s/accuracy: 1e-9\n  until: 10 s/' "$pendulum" >file.yaml
 check 'a file may ask for an accuracy' exits 0 run file.yaml
-check 'which is delivered' says 'accuracy 1e-09 asked for: reached' out
+check 'which is delivered' says 'requested accuracy 1e-09: reached' out
 check 'an option stands before the file' exits 0 run --tolerance 1e-4 file.yaml
 check 'and then there is no accuracy to be reached' says 'tolerance 0.0001' out
 finish

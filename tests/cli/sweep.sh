@@ -23,7 +23,7 @@ check 'a pipe sees no progress' is_empty err
 check 'a run that cannot be is a row and 1' exits 1 run --vary mu_k=-0.2,0.3 "$incline"
 check 'with its reason' says '^1,-0.2,,,,,wrong,.*`kinetic` must be zero or above' out
 check 'and the others are made' says '^2,0.3,3,0.908.*,done,$' out
-check 'and counted' says '1 of 2 runs did not end well' err
+check 'and counted' says '1 of 2 runs did not succeed' err
 check '--quiet says nothing of it' exits 1 run --quiet --vary mu_k=-0.2,0.3 "$incline"
 check 'at all' is_empty err
 
@@ -239,7 +239,7 @@ else
     for number in 1 2 4; do
         check "$number ranks write the table of one process" same_by_ranks "$number"
     done
-    check 'runs that fail are 1 there, too' says 'runs did not end well' err
+    check 'runs that fail are 1 there, too' says 'runs did not succeed' err
     check 'threads of ranks as well' exits 0 ranks 2 --jobs 2 --vary "mu_k=0.1:0.6:$runs" --csv ranks.csv "$incline"
     "$program" --vary "mu_k=0.1:0.6:$runs" "$incline" >wanted
     check 'write that table' same wanted ranks.csv

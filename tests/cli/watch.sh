@@ -238,9 +238,9 @@ check 'standard input is not watched' exits 2 run --watch -
 check 'which is said' says '--watch wants a model that is a file' err
 check 'nor is a pipe' exits 2 run --watch /dev/stdin
 check 'data to standard output are not written anew' exits 2 run --watch --csv - m.yaml
-check 'which is said too' says 'which only files can be' err
+check 'which is said too' says 'which is possible for files only' err
 spares() { # spares COMMAND...: refused since it would be written over data
-    exits 2 "$@" 2>err && says 'be written over what the model reads: push.csv' err
+    exits 2 "$@" 2>err && says 'overwrite a file that the model reads: push.csv' err
 }
 check 'outputs are never written over data that are read' spares "$program" --csv push.csv m.yaml
 check 'nor by fbd-cost' spares "$FBD_BUILD_ROOT/apps/fbd-cost" --budget 0.1 --json push.csv m.yaml

@@ -21,7 +21,7 @@ LAW = re.compile(r"m(_[0-9]+)? (g\b|g_[xy]|\(|g ).*|[kc] .*|\(c \+ k .*")
 WORDS = re.compile(r"acts across(?: the guide)?|through the axis|m g along (?:x|the axis|the track)|toward .*|drag at its point.*|"
                    r"k \(l - l0\) toward its end|-c l' along its line")
 NORMAL = re.compile(r"acts across: N = (\S+)(?: \(contact is lost.*\))?")
-STICKS = re.compile(r"sticks: whatever holds, up to (.*) = (\S+)")
+STICKS = re.compile(r"sticks: the force of equilibrium, up to (.*) = (\S+)")
 SLIPS = re.compile(r"slips: (\S.*?)(?: at slip = \S+)?")
 
 

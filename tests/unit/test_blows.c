@@ -204,7 +204,7 @@ static enum end end_of(const struct trial *trial)
     const char *reason = fbd_simulation_reason(trial->simulation);
     if (trial->outcome == FBD_DONE) return done;
     if (strstr(reason, "have no solution by their law")) return unsolvable;
-    if (strstr(reason, "rounding takes what")) return lost;
+    if (strstr(reason, "below the round-off level")) return lost;
     if (strstr(reason, "without end: try `simulate: {impacts: simultaneous}`")) return endless;
     printf("# %s\n", reason);
     return failed;

@@ -104,11 +104,11 @@ static void the_method_is_given_with_the_reason_for_it(void **unused)
 {
     (void)unused;
     char *text = explain(two_bodies, NULL);
-    expect(text, "Method: auto, because no other is asked for");
+    expect(text, "Method: auto, the default");
     free(text);
     text = explain(two_bodies, "rkf45");
     expect(text, "Method: rkf45 (");
-    expect(text, "as asked for by --method");
+    expect(text, "selected by --method");
     free(text);
 }
 

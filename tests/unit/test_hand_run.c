@@ -383,7 +383,7 @@ static void write_balance(char *line, size_t size, double kinetic, const char *c
 
 static bool is_told(const char *verdict, const char *summand)
 {
-    const char *note = strstr(verdict, "tells nothing");
+    const char *note = strstr(verdict, "does not verify");
     return !note || !strstr(note, summand);
 }
 

@@ -148,7 +148,7 @@ static void the_end_of_a_slot_ends_the_run(void **unused)
     check_that(&checks, "broken", trial.outcome == FBD_BROKEN);
     check_close(&checks, "when", end, sqrt(2 / (g / 2)), 1e-10);
     check_that(&checks, "says so",
-               strstr(fbd_simulation_reason(trial.simulation), "comes to the end") != NULL);
+               strstr(fbd_simulation_reason(trial.simulation), "reaches the end") != NULL);
     trial_close(&trial);
     checks_end(&checks);
 }

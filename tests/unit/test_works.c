@@ -161,7 +161,7 @@ static void what_cannot_be_resolved_is_said(void **unused)
     assert_int_equal(trial.outcome, FBD_FAILED);
     assert_true(isnan(fbd_result_work(trial.result, "b", "f0")));
     assert_non_null(
-        strstr(fbd_simulation_reason(trial.simulation), "swing thousands of times within a step"));
+        strstr(fbd_simulation_reason(trial.simulation), "oscillate thousands of times within a step"));
     trial_close(&trial);
 
     struct checks checks = {0};

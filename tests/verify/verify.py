@@ -110,16 +110,16 @@ def waiting(cases):
         line.split(" | ") for line in text.splitlines() if line and line[0] != "#"]
 
 
-INTRODUCTION = """# Verified against numbers that nobody here made
+INTRODUCTION = """# Verification against published results
 
-Written by `make verify` (tests/verify), which is the command that reproduces every figure here; times are those of one machine ({machine}).
+Written by `make verify` (tests/verify), the command that reproduces every figure here; times are those of one machine ({machine}).
 {summary}.
 
-Each model carries its question, its source, how the published number was found and how uncertain it is in its first lines
-(tests/verify/case.py says how they are read); what is compared comes from the program's outputs alone. A number in a book is uncertain by its
-rounding. Where a reference has more digits than a run at the default tolerance of 1e-10 is meant to have, 1e-8 of the size of the motion is asked
-(1e-7 where errors grow on the way, or what the benchmark itself allows). *error* is the largest one of a case with the default method, in units of
-that uncertainty: up to 1 it is met. *best* are the three other methods with the smallest errors at the same tolerance. Misses stay in the table."""
+The first lines of each model give its question, its source, the method of the published number and its uncertainty
+(tests/verify/case.py describes the format); the compared values are outputs of the program. The uncertainty of a number in a book is its
+rounding. Where a reference has more digits than a run at the default tolerance of 1e-10 provides, the requirement is 1e-8 of the size of the motion
+(1e-7 where errors grow during the motion, or the tolerance of the benchmark). *error* is the largest one of a case with the default method, in units of
+that uncertainty: up to 1 the case is met. *best* are the three other methods with the smallest errors at the same tolerance. Missed cases stay in the table."""
 
 
 def document(rows, unread, crossed):
@@ -129,9 +129,9 @@ def document(rows, unread, crossed):
     lines = INTRODUCTION.format(machine=platform.machine(), summary=summary(rows)).splitlines()
     for name, part in (("Books", books), ("Benchmarks", others)):
         lines += ["", f"## {name}", "", summary(part) + ".", "", *table(head, [row.cells() for row in part])]
-    lines += ["", "## Who published them, and how they were found", ""]
-    lines += table(["case", "what", "source", "method"], [[row.case.path.stem, row.case.title(), row.case.source(), row.case.say["method"]] for row in rows])
-    lines += ["", "## Prints that are wrong", ""]
+    lines += ["", "## Sources and methods", ""]
+    lines += table(["case", "problem", "source", "method"], [[row.case.path.stem, row.case.title(), row.case.source(), row.case.say["method"]] for row in rows])
+    lines += ["", "## Wrong printed answers", ""]
     for row in rows:
         for answer in row.wrong_prints:
             unit = f" {answer['unit']}" if answer["unit"] else ""
@@ -139,8 +139,8 @@ def document(rows, unread, crossed):
     missed = [row for row in rows if not row.default.ratio <= 1]
     lines += ["", "## Missed", ""]
     lines += [f"- {row.case.path.stem}: {row.default.why or f'{row.default.ratio:.2g} times the uncertainty'}" for row in missed] or ["None."]
-    lines += ["", "## Waiting", "", "Cases whose models need what the language does not have yet.", ""]
-    lines += table(["case", "what", "source", "needs"], waiting(unread))
+    lines += ["", "## Waiting", "", "Cases whose models need features that the language does not have yet.", ""]
+    lines += table(["case", "problem", "source", "needs"], waiting(unread))
     lines += ["", "## Other programs", "", *crossed, ""]
     return "\n".join(lines)
 
