@@ -41,14 +41,14 @@ struct formula builder_rate(struct builder *builder, const struct value *value, 
 
 /* ---- bodies */
 
-/* The side that its surface pushes to: up in the world, as the body starts. */
+/* The side to which the surface force is directed: up in the world, in the start position. */
 static void set_side(struct model_body *body, const struct scene *scene)
 {
     const struct vec turn = vec_unit(start_angle(scene, body->source->motion.parent));
     enum normal_side side = side_up;
     for (size_t i = 0; i < body->source->load_count; i++)
         if (body->source->loads[i].kind == load_normal) side = body->source->loads[i].side;
-    const double upright = 1e-12; /* on a vertical line no side is up: left of +x it is */
+    const double upright = 1e-12; /* on a vertical line: the left of +x */
     double up = vec_turn(turn, body->n).y;
     if (side == side_right || (side == side_up && up < -upright)) body->n = vec_scale(-1, body->n);
 }
@@ -164,8 +164,8 @@ static void set_loads(struct builder *builder)
     }
 }
 
-/* A coupling is a load of the body at its first end that is not the ground; the other end feels the opposite.
- */
+/* A coupling is a load of the body at its first end that is not the ground; the opposite force acts at the
+ * other end. */
 static void set_couplings(struct builder *builder)
 {
     struct fbd_model *model = builder->model;
@@ -183,7 +183,7 @@ static void set_couplings(struct builder *builder)
     }
 }
 
-/* The force along the line of a rolling body, and a rope, by name: for events and their work. */
+/* Name the friction force of rolling bodies and the force of ropes, for events and their work. */
 static bool set_named_couplings(struct builder *builder)
 {
     struct fbd_model *model = builder->model;
@@ -205,7 +205,7 @@ static bool set_named_couplings(struct builder *builder)
     return true;
 }
 
-/* What a prescribed motion takes, by name. */
+/* Name the force of each prescribed motion. */
 static bool set_drives(struct builder *builder)
 {
     struct fbd_model *model = builder->model;
@@ -226,7 +226,7 @@ static bool set_drives(struct builder *builder)
     return true;
 }
 
-/* What comes and goes with a mass that varies, by name. */
+/* Name the energy carried by each varying mass. */
 static bool set_carried(struct builder *builder)
 {
     struct fbd_model *model = builder->model;
@@ -305,7 +305,7 @@ static void set_rates(struct builder *builder)
         model->plan.rates[i] = builder_rate(builder, &model->scene->own[i].rate, i);
 }
 
-/* User events come last, so that loads keep the first branches. */
+/* User events come last, so that loads have the first branches. */
 static void set_watches(struct builder *builder)
 {
     struct fbd_model *model = builder->model;

@@ -157,7 +157,7 @@ static bool set_part(struct fbd_model *model, struct contact_shape *shape, const
     return set_corners(model, shape, place, &outline.center, 1);
 }
 
-/* A part that can meet something. */
+/* True for a part that can have contact. */
 static bool is_solid(const struct part *part)
 {
     return part->mass > 0 && part->shape != shape_given;
@@ -229,7 +229,7 @@ int meetings_most(const struct fbd_model *model, int index)
     return shapes_of(model, source, 0) * shapes_of(model, source, 1);
 }
 
-/* The size of the scene as it starts: two points that meet have none of their own. */
+/* The size of the scene at the start, since two points have no size. */
 static double farthest_start(const struct scene *scene)
 {
     double most = 0;
@@ -238,7 +238,7 @@ static double farthest_start(const struct scene *scene)
     return most;
 }
 
-/* What distances are measured against; of a stop its limit, and of one at zero a unit. */
+/* The reference length of distances; for a stop its limit, or 1 for a limit of zero. */
 static double reach_of(const struct fbd_model *model, const struct meeting *meeting)
 {
     bool turns = meeting->stop != 0 && model->tree->links[meeting->shape[0].link].kind == motion_pivot;
@@ -260,7 +260,7 @@ bool meeting_is_of_points(const struct meeting *meeting)
     return a->kind == contact_corners && b->kind == contact_corners && a->count + b->count == 2;
 }
 
-/* Does the body, or the other one of the pair, have only points? */
+/* True if the body, or the other one of the pair, has only points. */
 static bool is_of_points(const struct fbd_model *model, const struct constraint *source, int k)
 {
     if (source->contact.stop != 0) return false;

@@ -25,7 +25,7 @@ static inline const char *unit_word(const char *unit)
     return unit[0] == '1' && !unit[1] ? "" : unit;
 }
 
-/* One for each state of the file's own. */
+/* One for each user state. */
 const struct own_label *own_labels_make(struct arena *arena, const struct scene *scene);
 
 /* One label for each coordinate of the scene, in `arena`; NULL when memory is out. */
