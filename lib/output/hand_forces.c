@@ -155,7 +155,7 @@ static void add_letter(const struct naming *naming, size_t i, const char *letter
     add(naming, i, hand_force_y, true, sign, arena_printf(naming->arena, "%s_y", letter));
 }
 
-/* Has the body another force of this letter? */
+/* True if no other force of the body has this letter. */
 static bool is_alone(const struct naming *naming, size_t i)
 {
     for (size_t k = 0; k < naming->count; k++)

@@ -33,7 +33,7 @@ static bool is_length(double a, double b)
     return fabs(a - b) <= length_tolerance * fabs(b);
 }
 
-/* True if the name denotes a force, or the arm in a law. */
+/* True if the name is already that of a force, or used in a law. */
 static bool is_taken(const struct formulas *formulas, const char *name)
 {
     const struct fbd_model *model = formulas->state->model;

@@ -29,8 +29,7 @@ const char *angle_name(const struct formulas *formulas, int b);
  * force; false for none. */
 bool ground_line_of_force(const struct fbd_model *model, int b, const char *name, struct vec *e);
 
-/* The letters of a force: its size, with the factor `sign`; and as a vector, whose opposite `minus` acts on
- * the body. */
+/* The letters of a force on a body: `sign` times `size`, or as a vector with the sign `minus`. */
 struct letter {
     const char *size, *vector, *minus;
     double sign;

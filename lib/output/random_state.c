@@ -81,8 +81,7 @@ static bool follow_prescribed(struct fbd_state *state, struct random_path *path)
     return follow_to(state, t);
 }
 
-/* Contacts closed at the start stay closed, open ones open; other bodies stay on their surface, where round
- * bodies slip as often as they roll. */
+/* Rolling bodies touch their surface, and slip as often as they roll. All other modes stay as at the start. */
 static void draw_modes(gsl_rng *rng, struct fbd_state *state)
 {
     const struct plan *plan = &state->model->plan;
