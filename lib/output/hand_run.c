@@ -11,7 +11,7 @@
 
 enum { most_steps = 400, most_shots = most_steps + most_run_impacts };
 
-/* ---- the bodies and forces of which data are recorded */
+/* ---- the bodies and forces that are recorded */
 
 void hand_run_mark(const struct fbd_model *model, const struct expr *expr, bool *bodies)
 {
@@ -68,7 +68,7 @@ static const struct arrow *arrow_of(struct hand_run *run, const struct hand_forc
     return &run->named.arrows[force->arrow];
 }
 
-/* Does all of a load act on one body that moves? */
+/* True if a load acts on one moving body only. */
 static bool is_of_one_body(const struct fbd_model *model, int load)
 {
     if (load < 0) return false;
@@ -84,7 +84,7 @@ static bool is_of_one_body(const struct fbd_model *model, int load)
     return false;
 }
 
-/* May it have an impulse in an impact? */
+/* True if it may have an impulse in an impact. */
 static bool is_impulsive(const struct fbd_model *model, int load)
 {
     if (load < 0 || (size_t)load >= model->coupled_count) return true;
@@ -94,7 +94,7 @@ static bool is_impulsive(const struct fbd_model *model, int load)
 
 enum { covered = -2 };
 
-/* How many arrows of a body are of a load: a contact that touches at two points is one. */
+/* The number of arrows of a body that belong to a load: a contact with two points is one load. */
 static size_t count_arrows(struct hand_run *run, int body, int load)
 {
     struct instant at = state_instant(run->state);
@@ -105,8 +105,8 @@ static size_t count_arrows(struct hand_run *run, int body, int load)
     return count;
 }
 
-/* The load that has the work of force i of a sum: `covered` where it is that of another one, -1 for none, or where it is
- * that of others as well. */
+/* The load with the work of force i of a sum: `covered` if an earlier force has it, -1 if there is none, or
+ * if it includes other forces. */
 static int load_of(struct hand_run *run, const struct hand_sum *sum, size_t i)
 {
     struct coupling_place place;
@@ -161,7 +161,7 @@ static void add_rates(struct hand_run *run, double weight)
     }
 }
 
-/* Gauss's rule with five points over a part of the last step, as the ledger has it. */
+/* Integrate by Gauss's rule with five points over a part of the last step, as in the ledger. */
 static bool integrate(struct hand_run *run, double from, double to)
 {
     static const double point[] = {-0.90617984593866396, -0.53846931010568311, 0, 0.53846931010568311,
@@ -176,7 +176,7 @@ static bool integrate(struct hand_run *run, double from, double to)
     return true;
 }
 
-/* The work and impulse of a single coupling or joint in an impact are not known. */
+/* Mark as unknown the work and impulse of single couplings or joints in an impact. */
 static void lose_integrals(struct hand_run *run, const double *before, const double *after)
 {
     const struct fbd_model *model = run->model;
@@ -194,7 +194,7 @@ static void lose_integrals(struct hand_run *run, const double *before, const dou
 
 /* ---- shots */
 
-/* The works of a sum by the ledger; `struck` are those of impacts that are not to be counted, or NULL. */
+/* The works of a sum from the ledger; `without`: works of impacts to be excluded, or NULL. */
 static double ledger_sum(struct hand_run *run, size_t k, const double *without)
 {
     const struct hand_sum *sum = &run->named.of[k];
@@ -208,7 +208,7 @@ static double ledger_sum(struct hand_run *run, size_t k, const double *without)
     return work;
 }
 
-/* Everything that lines name, at run->state. */
+/* Write the values of all names in lines, at run->state. */
 static void write_names(struct hand_run *run, const double *without, double *y)
 {
     const struct fbd_model *model = run->model;
@@ -223,7 +223,7 @@ static void write_names(struct hand_run *run, const double *without, double *y)
     }
 }
 
-/* run->state becomes that at the end of the last step before its impacts. */
+/* Set run->state to the end of the last step before its impacts. */
 static bool look_before(struct hand_run *run)
 {
     const struct ensemble *ensemble = run->ensemble;
@@ -238,7 +238,7 @@ static bool look_before(struct hand_run *run)
     return true;
 }
 
-/* Leave every second of the shots of steps. */
+/* Drop every second shot of steps. */
 static void thin_out(struct hand_run *run)
 {
     size_t kept = 1, step = 0;
@@ -268,7 +268,7 @@ static const double *struck_before(struct hand_run *run)
     return struck;
 }
 
-/* At the end of the last step, or within it. */
+/* Record a shot at the end of the last step, or within it. */
 static bool take_shot(struct hand_run *run, double t, bool impact, size_t event)
 {
     if (run->count + 1 >= most_shots) thin_out(run);
@@ -290,7 +290,7 @@ static bool take_shot(struct hand_run *run, double t, bool impact, size_t event)
     return true;
 }
 
-/* Do velocities jump at the end of the last step? */
+/* True if velocities jump at the end of the last step. */
 static bool jumps(struct hand_run *run)
 {
     const size_t n = run->model->scene->coordinate_count;
@@ -399,7 +399,7 @@ bool hand_run_make(struct hand_run *run, const struct fbd_model *model, fbd_erro
     given.method = "auto";
     given.tolerance = tolerance > 0 ? fmin(tolerance, coarsest) : coarsest;
     if (!options_choose(model, &given, &options, errors)) return false;
-    options.step = 0; /* steps of a size that is given have no tolerance */
+    options.step = 0; /* steps of given size have no tolerance */
     run->ensemble = ensemble_new(model, &options);
     bool done = run->ensemble && make_room(run);
     if (done) {
