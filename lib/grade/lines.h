@@ -53,7 +53,7 @@ struct line {
     size_t seen[slips], agreed[slips];
     unsigned counts; /* bit k: slip k - 1 is one of the motion of the sheet, or all are */
     bool checked;
-    bool dynamic;                /* it is false under other forces: not an equation of motion geometry only */
+    bool dynamic;                /* it is false under other forces, so it is not kinematic */
     unsigned long long unknowns; /* of hand_form_at: bit k */
     double form[hand_unknowns];  /* at the start, where it names forces */
     unsigned long long met;      /* the unknowns of the line of the key that it has matched, */

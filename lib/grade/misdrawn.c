@@ -42,8 +42,8 @@ static enum relation relation_of(const struct sides *sides, const struct action 
     return same && there ? is_turned : is_other;
 }
 
-/* True if an item, except perhaps for its magnitude, is a component of this wrench perpendicular to the
- * remainder *rest. */
+/* True if an item, with a suitable magnitude if that is unknown, is a component of this wrench perpendicular
+ * to the remainder *rest. */
 static bool is_component(const struct sides *sides, const struct action *key, const struct item *item,
                          size_t s, struct action *rest)
 {

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * The assembled equations as a person reads them.
+ * The assembled equations as text.
  */
 #include <stdlib.h>
 
@@ -84,7 +84,7 @@ static void write_body(struct text *text, const struct fbd_state *state, int b)
     text_printf(text, " %s\n", model->scene->units == unit_si ? "m" : "ft");
 }
 
-/* Of the file's own: their rates. */
+/* Write the rates of the user states. */
 static void write_states(struct text *text, const struct fbd_state *state)
 {
     const struct fbd_model *model = state->model;
@@ -105,7 +105,7 @@ static void write_line(struct text *text, const char *line)
     if (line) text_printf(text, "    %s\n", line);
 }
 
-/* The equations of body b, and the acceleration of its G. */
+/* Write the equations of body b, and the acceleration of its G. */
 static void write_lines(struct text *text, struct formulas *formulas, const fbd_equations *all, int b,
                         bool components)
 {
@@ -119,7 +119,7 @@ static void write_lines(struct text *text, struct formulas *formulas, const fbd_
     for (int i = 0; i < count; i++) write_line(text, lines[i]);
 }
 
-/* Of bodies that are joined, or of all, Newton's and Euler's equations with all reactions, a line each. */
+/* Write Newton's and Euler's equations with all reactions, for joined bodies or for all, a line each. */
 static void write_cut_free(struct text *text, struct fbd_state *state, bool components)
 {
     const struct fbd_model *model = state->model;

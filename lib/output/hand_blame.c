@@ -119,7 +119,7 @@ static bool is_letter(const struct hand_forces *forces, const char *name)
     return *name == '='; /* declared */
 }
 
-/* True if both names are letters, or both are names of the file. */
+/* True if both forces are denoted by letters, or both by names. */
 static bool is_alike(const struct inquiry *inquiry, const struct suspect *s)
 {
     if (!is_other_force(inquiry, s)) return false;

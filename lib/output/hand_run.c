@@ -105,8 +105,8 @@ static size_t count_arrows(struct hand_run *run, int body, int load)
     return count;
 }
 
-/* The load with the work of force i of a sum: `covered` if an earlier force has it, -1 if there is none, or
- * if it includes other forces. */
+/* The load with the work of force i of a sum: `covered` if that work is counted with another force of the
+ * sum, -1 if there is none, or if it includes forces that are not in the sum. */
 static int load_of(struct hand_run *run, const struct hand_sum *sum, size_t i)
 {
     struct coupling_place place;

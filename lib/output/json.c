@@ -213,7 +213,7 @@ static void write_friction(struct text *text, struct fbd_state *state, int body,
     state_balance_of(state, body, state->scratch);
     struct friction_values values = friction_at(model, pair, &at, state->scratch);
     text_printf(text, ", \"mode\": \"%s\", ", state->slip[pair] == stick ? "stick" : "slip");
-    double share = fabs(values.force) / values.limit; /* NAN if the limit is almost zero */
+    double share = fabs(values.force) / values.limit; /* not finite if the limit is almost zero */
     member(text, "limit", values.limit, false);
     member(text, "utilisation", isfinite(share) ? share : NAN, false);
     member(text, "margin", isfinite(share) ? share : NAN, true); /* deprecated alias */

@@ -35,8 +35,8 @@ static void move(struct fbd_state *state, gsl_rng *rng, double reach)
     for (size_t i = 0; i < scene->own_count; i++) state->y[2 * n + i] += between(rng, -1, 1);
 }
 
-/* Add modes in which sticking friction slips and slack ropes are taut, as their forces may be zero in the
- * given ones. */
+/* Set sticking friction to slipping and slack ropes to taut, as their forces may be zero in the present
+ * modes. */
 static void take_other_modes(struct fbd_state *state)
 {
     const struct plan *plan = &state->model->plan;

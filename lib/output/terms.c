@@ -66,7 +66,7 @@ static void friction_remark(struct fbd_state *state, int b, char *remark)
 
 /* ---- the remark */
 
-/* For a law that has none of these symbols, or is zero. */
+/* Words for gravity where its law has no symbols, or is zero. */
 static const char *gravity_words(const struct model_body *body, int part)
 {
     switch (body->kind) {
