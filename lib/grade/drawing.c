@@ -26,7 +26,7 @@ struct arrow_drawn {
     double snap;
 };
 
-/* The body whose drawing is read, and its lists. */
+/* The body of the current drawing, and its lists. */
 struct desk {
     struct fbd_grade *grade;
     fbd_errors *failures;

@@ -32,7 +32,7 @@ struct fbd_key {
     size_t set_count;
     double most;  /* points */
     size_t lines; /* derivations */
-    bool **asked; /* of each body, for each arrow after the listed ones: must it be drawn? */
+    bool **asked; /* of each body, for each arrow after the listed ones: it must be drawn */
     size_t *asked_count;
 };
 

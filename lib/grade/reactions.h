@@ -31,7 +31,8 @@ struct support {
     struct item *key[most_support], *parts[most_components];
 };
 
-/* A kind of match: reactions one by one or several together; drawn by so many forces, with a direction or without. */
+/* A kind of match: reactions one by one or several together; drawn by this number of forces, with a direction
+ * or without. */
 struct search {
     bool together;
     size_t parts;
@@ -51,7 +52,7 @@ void supports_find(const struct sides *sides, const struct search *search, struc
 /* True if they have a reaction or a force in common. */
 bool supports_meet(const struct support *a, const struct support *b);
 
-/* The finding about one wrongly drawn reaction, and the reaction that it stands for. */
+/* The finding about one wrongly drawn reaction, and that reaction. */
 struct misdrawn {
     struct item *key, *item, *other; /* `other`: a component that is right, or NULL */
     enum relation relation;

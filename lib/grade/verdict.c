@@ -285,7 +285,7 @@ static int unlikeness(const struct item *key, const struct item *item, const str
     bool same_kind = key->source->kind == item->source->kind;
     bool same_noun = strcmp(verdict_noun(key->source), verdict_noun(item->source)) == 0;
     if (!same_noun) return no_pair + 1;
-    /* Wrong magnitude and opposite sense: two errors are not one pair. */
+    /* With another magnitude and the opposite sense, a pair needs the same name or kind. */
     if (difference->relation == is_scaled && !(difference->ratio > 0) && !same_name && !same_kind)
         return no_pair;
     /* Any two moments are parallel: only a constant ratio makes them similar. */

@@ -240,7 +240,8 @@ static bool set_carried(struct builder *builder)
         body->carried = (int)--next;
         set_load(builder, &model->loads[next], source, (int)b);
         body->mass = builder_formula(builder, &body->source->mass, (int)b, (int)next);
-        const struct formula inverse = {.expr = body->source->inverse_mass.expr, .branch = -1}; /* as it is */
+        const struct formula inverse = {.expr = body->source->inverse_mass.expr,
+                                        .branch = -1}; /* unchanged */
         model->plan.poles[model->plan.pole_count++] =
             (struct pole){inverse, (int)b, (int)next, -1, expr_poles(inverse.expr)};
     }

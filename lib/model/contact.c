@@ -13,8 +13,8 @@ int shape_sides(const struct contact_shape *shape)
 
 /* ---- features
  *
- * corners on a line: the corner. A disc at corners: the side, then, behind the sides, the corner. Corners at
- * corners: first those of shape 0 on sides of shape 1, then the other way round. Thin: five sides (enum thin_side) to
+ * corners on a line: the corner. A disc at corners: the side; after the sides, the corner. Corners at
+ * corners: first those of shape 0 on sides of shape 1, then vice versa. Thin: five sides (enum thin_side) to
  * each of two corners of each shape. */
 
 enum { thin_sides = thin_round + 1 };

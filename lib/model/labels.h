@@ -19,7 +19,7 @@ struct own_label {
     const char *unit, *rate_unit; /* "1" for a pure number */
 };
 
-/* A unit in a text: nothing for a pure number. */
+/* A unit in a text: empty for a pure number. */
 static inline const char *unit_word(const char *unit)
 {
     return unit[0] == '1' && !unit[1] ? "" : unit;

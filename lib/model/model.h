@@ -99,8 +99,7 @@ struct fbd_model {
     const struct own_label *own_labels; /* of the user states */
     size_t absolute_count;
     struct model_absolute *absolutes;
-    bool
-        names_places; /* an expression other than a hand derivation uses world positions, which have to be computed as bodies move */
+    bool names_places;         /* world positions are used, not only in hand derivations */
     struct vec *output_points; /* scene->output_points, in the frames of their bodies */
     struct plan plan;
     struct tree *tree; /* the jointed bodies; NULL when there are none */

@@ -12,7 +12,7 @@ enum outline_kind {
     outline_bar,     /* slender: from corner[0] to corner[1] */
     outline_circle,  /* center, radius; inner > 0 for a ring or tube */
     outline_polygon, /* four corners */
-    outline_unknown, /* the file gives its moment of inertia and no shape */
+    outline_unknown, /* the file gives only its moment of inertia */
 };
 
 struct outline_part {

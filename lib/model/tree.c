@@ -7,7 +7,7 @@
 
 /* ---- which bodies are jointed, and in which order */
 
-/* Children of each body, as lists threaded through arrays; entry `body_count` stands for the ground. */
+/* Children of each body, as lists threaded through arrays; entry `body_count` is the ground. */
 struct family {
     int *first, *next;
     bool *jointed;

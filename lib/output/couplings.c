@@ -39,7 +39,7 @@ size_t fbd_redundant(fbd_state *state, const char **names, size_t room)
 
 /* ---- the drift of a run */
 
-/* What hardly moves is measured as if it went a thousandth of its size in the run. */
+/* For a nearly motionless coupling the reference speed is at least a thousandth of its size per run. */
 static void add_drift(fbd_drift *all, const struct drift *drift, const struct run_options *options)
 {
     if (!drift->worst) return;

@@ -38,7 +38,8 @@ static void write_row(struct text *text, const char *name, double value, const c
     text_add(text, "\n");
 }
 
-/* What the body lists stands there whatever it is; what follows from other bodies where it says something. */
+/* Write the terms of the body's own loads always, those due to other bodies only if they have a value or
+ * remark. */
 static void write_terms(struct text *text, struct fbd_state *state, const struct equation *equation)
 {
     const fbd_equation *e = &equation->public;

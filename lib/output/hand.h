@@ -67,9 +67,8 @@ struct hand_sample {
 struct hand_check {
     const struct fbd_model *model;
     int body, index;
-    int part; /* coordinate whose acceleration it is about, -1 for none */
-    unsigned
-        says; /* bit k: it depends on hand slot k; hand_others: on the acceleration of another body; hand_named_forces: on a named force of a diagram */
+    int part;                    /* coordinate of its acceleration, -1 for none */
+    unsigned says;               /* bit k: hand slot k is in it; hand_others, hand_named_forces */
     unsigned long long unknowns; /* bit k: on unknown k, see hand_form_at */
     int open_body;               /* body of an indeterminate force in it, */
     char open_force[128];        /* empty where it is the normal force of a surface */

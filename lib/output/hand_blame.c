@@ -20,7 +20,7 @@ struct inquiry {
     struct arena arena;
     struct suspect *list;
     size_t count, alive, states;
-    bool *named; /* of each arrow: is it in the line? */
+    bool *named; /* of each arrow: it is in the line */
 };
 
 static bool is(double a, double b)

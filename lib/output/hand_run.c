@@ -299,7 +299,7 @@ static bool jumps(struct hand_run *run)
     return memcmp(run->state->y + n, after, n * sizeof *after) != 0;
 }
 
-/* The number of parts of the last step, at whose ends the lines are judged: as many as the integrals need. */
+/* The number of parts of the last step, at whose ends the lines are judged: as required by the integrals. */
 static int parts_of_step(const struct hand_run *run)
 {
     enum { parts_of_run = 50 };

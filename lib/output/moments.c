@@ -117,8 +117,8 @@ static bool can_turn(const struct fbd_model *model, const struct model_body *bod
     return true;
 }
 
-/* u cos(theta) - v sin(theta), or u sin(theta) + v cos(theta): a component of the arm in the world, times a force along an axis of
- * it, whose symbol is `force` times its component. */
+/* u cos(theta) - v sin(theta), or u sin(theta) + v cos(theta): a component of the arm in the world, times a
+ * force along an axis of the world whose symbol has the sign of `force`. */
 static const char *by_one_component(struct formulas *formulas, int b, const struct arm *arm,
                                     const char *symbol, double force, bool upright)
 {

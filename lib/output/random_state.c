@@ -93,8 +93,8 @@ static void draw_modes(gsl_rng *rng, struct fbd_state *state)
 }
 
 /* Move along the free directions of the couplings, in steps so small that the assembled state stays on the
- * same branch of all loops, and so fast that free bodies hardly move. `way`: displacement of each coordinate
- * without couplings. */
+ * same branch of all loops, and so fast that prescribed motions contribute little. `way`: displacement of
+ * each coordinate without couplings. */
 static bool wander(struct fbd_state *state, const double *way)
 {
     enum { steps = 4 };

@@ -43,7 +43,7 @@ static void write_value(const struct page *page, const struct fbd_model *model, 
 
 /* ---- events; switches of expressions are counted, not listed, when there are many */
 
-/* Mark the bodies whose motion a condition names. */
+/* Mark the bodies whose motion is in a condition. */
 static void mark_named(const struct fbd_model *model, const struct formula *formula, bool *named)
 {
     const int *slots, size = (int)plan_size(&model->plan), n = model->plan.n;
@@ -340,7 +340,7 @@ void report_energy(const struct page *page)
             explained, energy_unit(page->result->ledger.model));
 }
 
-/* "3 independent groups; constant accelerations in 1, ..."; nothing for one group without structure. */
+/* "3 independent groups; constant accelerations in 1, ..."; empty for one group without structure. */
 static void write_structure(struct text *text, const fbd_stats *stats)
 {
     const struct {
