@@ -191,8 +191,8 @@ static void refuse_files(struct fbd_grade *grade, const struct node *root, const
     }
 }
 
-/* Remove runs, which are not graded, derivations, which are read on the key's mechanics, and files, which an
- * answer must not read. */
+/* Remove the sections that are not graded, and replace the tables by those of the sheet: an answer must not
+ * read files. */
 static const struct node *strip(struct fbd_grade *grade, const struct node *root)
 {
     static const char *const unused[] = {"grading", "simulate", "output", "tables"};

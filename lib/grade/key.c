@@ -157,8 +157,8 @@ static const fbd_finding *first_fault(const fbd_grade *grade)
     return NULL;
 }
 
-/* Grade the key with itself, and warn of entries without full marks; false with a note if it gets none, or
- * when memory is out. */
+/* Grade the key with itself, and warn of entries without full marks; false with a note if the key has no
+ * points, or when memory is out. */
 static bool check_itself(struct fbd_key *key, fbd_errors *errors)
 {
     if (!has_points(key, errors)) return false;

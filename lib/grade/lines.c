@@ -28,8 +28,8 @@ static void count_samples(const struct hand_check *check, double tolerance, stru
     }
 }
 
-/* Count the senses of slip of the set bits k: those of the motion of the sheet, or all, if a line is not true
- * there. */
+/* Set the relevant senses of slip: the sampled ones of the motion of the sheet, or all sampled ones if there
+ * is none. */
 static void count_slips(struct line *line, unsigned of_motion)
 {
     unsigned seen = 0;
@@ -52,7 +52,8 @@ static bool sample_line(struct lines *lines, const struct node *root, double spr
     return true;
 }
 
-/* True if it fails under other forces for which the motion is admissible. */
+/* Set line->dynamic if the line fails under other forces, or if these leave no admissible state. Returns
+ * false when memory is out. */
 static bool look_at_pushed(struct lines *lines, double tolerance, struct line *line)
 {
     bool seen_any = false;

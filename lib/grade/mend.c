@@ -160,7 +160,8 @@ static struct pos fault_without(struct fbd_grade *grade, const struct page *page
     return fault;
 }
 
-/* True if this line belongs to a malformed entry: indented by a tab, or a line without a key. */
+/* True if this line may belong to a malformed entry: an item, perhaps indented by a tab, or a line without a
+ * key. */
 static bool is_stray(const char *line)
 {
     line += strspn(line, " \t");

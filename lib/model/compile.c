@@ -41,7 +41,7 @@ struct formula builder_rate(struct builder *builder, const struct value *value, 
 
 /* ---- bodies */
 
-/* The side to which the surface force is directed: up in the world, in the start position. */
+/* Direct the normal to the side of the surface force: the given one, else up in the world at the start. */
 static void set_side(struct model_body *body, const struct scene *scene)
 {
     const struct vec turn = vec_unit(start_angle(scene, body->source->motion.parent));

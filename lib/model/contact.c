@@ -229,7 +229,7 @@ int meetings_most(const struct fbd_model *model, int index)
     return shapes_of(model, source, 0) * shapes_of(model, source, 1);
 }
 
-/* The size of the scene at the start, since two points have no size. */
+/* The largest initial coordinate of a length, since two points have no size. */
 static double farthest_start(const struct scene *scene)
 {
     double most = 0;
@@ -238,7 +238,8 @@ static double farthest_start(const struct scene *scene)
     return most;
 }
 
-/* The reference length of distances; for a stop its limit, or 1 for a limit of zero. */
+/* The reference length of distances: size of the shapes, limit of a stop and farthest start; 1 for an angle
+ * or if it is zero. */
 static double reach_of(const struct fbd_model *model, const struct meeting *meeting)
 {
     bool turns = meeting->stop != 0 && model->tree->links[meeting->shape[0].link].kind == motion_pivot;

@@ -67,8 +67,8 @@ struct coupling_end coupling_end_of(const struct fbd_model *model, int index, in
 /* True if a joint or the length of a rope is a given function of time. */
 bool model_is_driven(const struct fbd_model *model);
 
-/* As model_is_driven, and also true for a surface of varying speed under a coupling that may stick: that
- * body's velocity is then prescribed, as by a drive. */
+/* As model_is_driven, and also true if a surface has a varying speed and there are couplings: a body that
+ * sticks to it has a prescribed velocity, as with a drive. */
 bool model_has_speeds_given(const struct fbd_model *model);
 
 /* True if the first row is a normal force, of a surface or of a one-sided slot. */

@@ -20,7 +20,7 @@ static bool finite_at(const struct formula *law, double *y, size_t component, do
     return finite;
 }
 
-/* True if the law is finite at these slips, but at none of their negatives. */
+/* True if at one of these slips the law is finite, but not at its negative. */
 static bool ends_at_rest(const struct formula *law, double *y, size_t component)
 {
     const int lowest = -9, highest = 3; /* decades of m/s (rad/s) */

@@ -87,7 +87,7 @@ bool tracks_set(struct builder *builder)
     return true;
 }
 
-/* The side of its track to which the surface force is directed: up at the start. */
+/* Set the direction, normal, origin and point of a body on its track at the start. */
 void track_set_body(const struct scene *scene, struct model_body *body)
 {
     const struct motion *motion = &body->source->motion;

@@ -261,7 +261,7 @@ bool hand_named_find(const struct fbd_model *model, struct arena *arena, struct 
     return !arena->failed;
 }
 
-/* The values of accelerations and inertias; 0 for all others. */
+/* The value of an acceleration or moment of inertia. */
 static double place_value(const struct fbd_state *state, const struct model_absolute *absolute)
 {
     const struct model_body *body = &state->model->bodies[absolute->body];
