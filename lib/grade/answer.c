@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Reading an answer: what cannot be read is noted and left out, and the rest is read again.
+ * Reading an answer: unreadable parts are noted and left out, and the rest is read again.
  */
 #include <stdlib.h>
 #include <string.h>
@@ -32,8 +32,8 @@ static bool is_before(struct pos a, struct pos b)
     return a.line < b.line || (a.line == b.line && a.column < b.column);
 }
 
-/* The last place of the file at which something starts that is not behind `at`, and the entry of a list of forces,
- * moments or couplings that it is part of; NULL when it is part of none. */
+/* The last position of the file at or before `at` at which a node starts, and the entry of a list of forces,
+ * moments or couplings that contains it; NULL for none. */
 struct search {
     struct pos at, found;
     const struct node *entry;
@@ -131,7 +131,7 @@ static const char *body_around(const struct node *root, const struct search *sea
     return "";
 }
 
-/* What an entry is called: `name` of what stands behind its kind, or else the kind. */
+/* The name of an entry: `name` in the value of its kind, or else the kind. */
 static const char *name_of(const struct node *entry)
 {
     if (!entry || entry->kind == node_list) return "";
@@ -148,7 +148,7 @@ static void note_unreadable(struct fbd_grade *grade, const char *body, const str
     finding_of_error(grade, unit ? FBD_FINDING_UNIT : FBD_FINDING_UNREADABLE, body, name_of(entry), error);
 }
 
-/* Read the tree until nothing is wrong with it, each time without the entry of the first error. */
+/* Read the tree until it has no error, each time without the entry of the first error. */
 static void compile_rest(struct fbd_grade *grade, struct answer *answer)
 {
     while (answer->root && !answer->model && !grade->arena.failed) {
@@ -171,14 +171,14 @@ static void compile_rest(struct fbd_grade *grade, struct answer *answer)
     }
 }
 
-/* The path of a table that names a file; NULL for one that gives its points. */
+/* The path of a table with a file; NULL for one with points. */
 static const struct node *file_of(const struct node *table)
 {
     const struct node *file = table && table->kind == node_map ? lines_value(table, "file") : table;
     return file && file->kind == node_scalar ? file : NULL;
 }
 
-/* A table whose file is not that of the sheet. */
+/* Reject tables whose file is not that of the sheet. */
 static void refuse_files(struct fbd_grade *grade, const struct node *root, const struct node *own)
 {
     const struct node *tables = lines_value(root, "tables");
@@ -192,7 +192,8 @@ static void refuse_files(struct fbd_grade *grade, const struct node *root, const
     }
 }
 
-/* Runs are not graded; derivations are read on the key's mechanics; and an answer reads no files. */
+/* Remove the sections that are not graded, and replace the tables by those of the sheet: an answer must not
+ * read files. */
 static const struct node *strip(struct fbd_grade *grade, const struct node *root)
 {
     static const char *const unused[] = {"grading", "simulate", "output", "tables"};
@@ -203,7 +204,7 @@ static const struct node *strip(struct fbd_grade *grade, const struct node *root
     return root && tables ? node_with(&grade->arena, root, "tables", tables->value) : root;
 }
 
-/* Nobody draws that many on one body: to pair them all would take long. */
+/* No real diagram has that many on one body; pairing them all would take too long. */
 enum { most_entries = 60 };
 
 static const struct node *shorten_lists(struct fbd_grade *grade, const struct node *root)
@@ -227,7 +228,7 @@ static const struct node *shorten_lists(struct fbd_grade *grade, const struct no
     return made ? node_with(&grade->arena, root, "bodies", made) : root;
 }
 
-/* Each derivation is evaluated under many values of the parameters: so many are looked at in all. */
+/* Limit the total number of derivations, as each is evaluated under many values of the parameters. */
 static const struct node *shorten_hands(struct fbd_grade *grade, const struct node *root)
 {
     size_t left = most_entries + 2 * grade->key->lines;
@@ -250,7 +251,7 @@ static const struct node *shorten_hands(struct fbd_grade *grade, const struct no
     return made ? node_with(&grade->arena, root, "bodies", made) : root;
 }
 
-/* Does any body have a list that is not empty? */
+/* True if a body has a list that is not empty. */
 static bool says_something(const struct node *root)
 {
     static const char *const keys[] = {"forces", "moments", "hand"};

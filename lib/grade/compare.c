@@ -14,10 +14,10 @@
 #include "grade/verdict.h"
 #include "output/random_state.h"
 
-/* A body of the key and the one of that name in the answer. */
+/* A body of the key and the body of that name in the answer. */
 struct twin {
     int other;     /* -1: there is none, or it moves in another way */
-    double sign;   /* -1: its coordinate counts the other way */
+    double sign;   /* -1: its coordinate has the opposite sense */
     double offset; /* of its coordinate, of a slide or pivot, in the answer's units */
     int slip;      /* of the key's friction at the start */
     struct sides sides;
@@ -32,7 +32,7 @@ struct comparison {
     gsl_rng *rng;
     struct random_path path; /* from the start */
     double length, force;    /* units of the answer in those of the key */
-    bool possible, starts;   /* the state of the key: it can be; it is the start, perhaps at another time */
+    bool possible, starts; /* state of the key: it is admissible; it is the start, perhaps at another time */
 };
 
 /* ---- states */
@@ -44,7 +44,7 @@ static int coordinate_of(const fbd_model *model, const char *name)
     return -1;
 }
 
-/* States of the file's own go by their names; `scale` of a unit follows from its dimension. */
+/* Copy the user states by name; `scale` of a unit follows from its dimension. */
 static void follow_states(const struct comparison *comparison)
 {
     const fbd_model *key = comparison->key, *answer = comparison->answer;
@@ -59,7 +59,7 @@ static void follow_states(const struct comparison *comparison)
     }
 }
 
-/* The answer in the state of the key. */
+/* Put the answer into the state of the key. */
 static void follow(const struct comparison *comparison)
 {
     const fbd_model *key = comparison->key, *answer = comparison->answer;
@@ -79,7 +79,7 @@ static void follow(const struct comparison *comparison)
     if (!random_admissible(state)) state_evaluate(state);
 }
 
-/* The start again, at another time: what sticks there sticks, while forces are others. */
+/* The start at another time: sticking contacts still stick, while forces differ. */
 static bool start_at_another_time(struct comparison *comparison)
 {
     const fbd_model *key = comparison->key;
@@ -91,8 +91,9 @@ static bool start_at_another_time(struct comparison *comparison)
     return random_admissible(state);
 }
 
-/* State `s`: the start, then the start at other times and random ones in turn; where none of them is possible, since
- * bodies would be in each other, one that is not: forces that do not follow from others are known there too. */
+/* State `s`: the start, then alternately the start at other times and random states. If none of them is
+ * admissible, because bodies would overlap, take an inadmissible one: independent forces are known there too.
+ */
 static void next_state(struct comparison *comparison, size_t s)
 {
     enum { tries = 12 };
@@ -113,7 +114,7 @@ static void next_state(struct comparison *comparison, size_t s)
     comparison->possible = found || s == 0;
 }
 
-/* ---- which body is which */
+/* ---- correspondence of bodies */
 
 static int body_called(const fbd_model *model, const char *name)
 {
@@ -130,7 +131,7 @@ static bool has_coordinates(const struct comparison *comparison, const struct mo
     return true;
 }
 
-/* How large the key's scene is: what places are rounded against. */
+/* The size of the key's scene, the reference for rounding of positions. */
 static double size_of_scene(const struct comparison *comparison)
 {
     struct instant at = state_instant(comparison->key_state);
@@ -143,8 +144,8 @@ static double size_of_scene(const struct comparison *comparison)
     return size;
 }
 
-/* Is the frame of the body where that of the key's is? That of a slide may point the other way, that of a pivot be
- * turned in the body by a constant angle. */
+/* True if the frame of the body coincides with that of the key's. That of a slide may point the opposite way,
+ * that of a pivot be turned in the body by a constant angle. */
 static bool is_there(const struct comparison *comparison, size_t b)
 {
     const struct twin *twin = &comparison->twins[b];
@@ -153,7 +154,7 @@ static bool is_there(const struct comparison *comparison, size_t b)
     const struct model_body *other = &comparison->answer->bodies[twin->other];
     struct pose pose = body_pose(body, &at), there = body_pose(other, &other_at);
     struct vec apart = vec_sub(pose.origin, vec_scale(comparison->length, there.origin));
-    const double digits = 1e-9; /* that files have */
+    const double digits = 1e-9; /* of files */
     struct vec turn = {cos(twin->offset), sin(twin->offset)};
     struct vec rotation = body->kind == motion_pivot ? vec_turn(turn, pose.rotation) : pose.rotation;
     bool turned = body->kind != motion_slide && body->kind != motion_particle &&
@@ -161,7 +162,7 @@ static bool is_there(const struct comparison *comparison, size_t b)
     return vec_norm(apart) <= digits * size_of_scene(comparison) && !turned;
 }
 
-/* Is its centre of mass where that of the key's is? */
+/* True if its centre of mass coincides with that of the key's. */
 static bool balances_there(const struct comparison *comparison, size_t b)
 {
     struct instant at = state_instant(comparison->key_state), other_at = state_instant(comparison->state);
@@ -170,7 +171,7 @@ static bool balances_there(const struct comparison *comparison, size_t b)
     struct pose pose = body_pose(body, &at), there = body_pose(other, &other_at);
     struct vec G = point_motion(body, &pose, body->inertia.G).p;
     struct vec other_G = vec_scale(comparison->length, point_motion(other, &there, other->inertia.G).p);
-    const double digits = 1e-6; /* of lengths that were worked out by hand */
+    const double digits = 1e-6; /* of lengths computed by hand */
     return vec_norm(vec_sub(G, other_G)) <= digits * size_of_scene(comparison);
 }
 
@@ -189,7 +190,7 @@ static void find_twin(struct comparison *comparison, size_t b)
     twin->other = -1;
 }
 
-/* x' = s x + c of a slide: s by its direction, c by where the answer's body is without it. */
+/* x' = s x + c of a slide: s from its direction, c from the position of the answer's body at c = 0. */
 static bool find_slide(struct comparison *comparison, size_t b)
 {
     struct twin *twin = &comparison->twins[b];
@@ -208,8 +209,8 @@ static bool find_slide(struct comparison *comparison, size_t b)
     return is_there(comparison, b);
 }
 
-/* theta' = theta + c of a pivot, where the frame lies otherwise in the body: by the starts, which are the same. Where
- * the centre of mass is not there then either, the body is another one. */
+/* theta' = theta + c of a pivot whose frame is turned in the body: c from the starts, which are the same. If
+ * the centres of mass still differ, it is another body. */
 static bool find_pivot(struct comparison *comparison, size_t b)
 {
     struct twin *twin = &comparison->twins[b];
@@ -244,7 +245,7 @@ static void keep_own(const struct comparison *comparison, size_t b)
     grade->own = own;
 }
 
-/* At a state that is not at the origin: the place tells how a coordinate counts. */
+/* At a state away from the origin, where positions determine the sense of each coordinate. */
 static void find_coordinates(struct comparison *comparison)
 {
     for (size_t b = 0; b < comparison->key->body_count; b++) {
@@ -298,7 +299,7 @@ static void note_unknown(const struct comparison *comparison, struct item *item)
     item->free = item->unknown && drawn->free;
 }
 
-/* What the body lists itself, among its arrows, and where `reactions` is given, what else acts on it. */
+/* The loads that the body lists, from its arrows, and if `reactions` is given, all other forces on it. */
 static void take_items(const struct comparison *comparison, fbd_state *state, int b, struct item *items,
                        struct item *reactions, size_t s, struct vec G)
 {
@@ -379,13 +380,14 @@ static void measure_item(struct sides *sides, const struct item *item)
     }
 }
 
-/* How large what is compared is, over all states: by the key, since an answer may have forces of any size. */
+/* Reference magnitudes of the comparison over all states, from the key, since an answer may have forces of
+ * any size. */
 static void measure(struct sides *sides)
 {
     for (size_t i = 0; i < sides->key_count; i++) measure_item(sides, &sides->key[i]);
     for (size_t i = 0; i < sides->reaction_count; i++) measure_item(sides, &sides->reactions[i]);
     sides->moment = fmax(sides->moment, sides->force * sides->arm);
-    if (sides->force == 0) sides->force = sides->moment; /* of moments alone: that of forces a unit apart */
+    if (sides->force == 0) sides->force = sides->moment; /* of moments only: of forces with unit arm */
 }
 
 /* ---- all of it */
@@ -456,7 +458,7 @@ bool compare_with_itself(struct fbd_key *key)
     return done;
 }
 
-/* Gravity belongs to the sheet. */
+/* Gravity must be that of the sheet. */
 static bool same_gravity(const struct comparison *comparison)
 {
     struct vec key = comparison->key->scene->gravity, own = comparison->answer->scene->gravity;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Compare: what a body lists, at the same states of the key and of an answer.
+ * Compare the forces of a body at the same states of the key and of an answer.
  */
 #ifndef FBD_GRADE_COMPARE_H
 #define FBD_GRADE_COMPARE_H
@@ -20,20 +20,20 @@ struct action {
 struct item {
     const struct load *source; /* NULL for a reaction */
     const char *name;
-    bool follows; /* from the other forces */
-    bool used;    /* paired */
-    bool unknown; /* of an answer: without a magnitude; `at` has that of 1 N or 1 N m, */
-    bool free;    /* and without a direction */
+    bool follows; /* depends on the other forces */
+    bool used;    /* already paired */
+    bool unknown; /* of an answer: no magnitude; `at` has one of 1 N or 1 N m, */
+    bool free;    /* and no direction */
 
     /* of a reaction */
     bool asked;     /* it has to be drawn */
-    bool one_sided; /* it only pulls, or only presses */
+    bool one_sided; /* tension or compression only */
     bool couples;   /* it may be a force with a moment: of a weld or a guide */
     int contact;    /* the contact that it is part of, or -1 */
 
-    bool any;          /* it may point anywhere, as that of a pin; */
-    bool single;       /* one force alone is right for it, without a component that is zero */
-    struct vec across; /* else its line, at the start; of a normal force: where its surface pushes to */
+    bool any;          /* any direction, as of a pin; */
+    bool single;       /* a single force is right for it, without its zero component */
+    struct vec across; /* else its line, at the start; of a normal force: its direction */
     struct action at[most_grade_samples];
     struct vec about[most_grade_samples]; /* the centre of mass of the key's body */
 };
@@ -41,28 +41,29 @@ struct item {
 /* Both sides of a body. */
 struct sides {
     size_t samples;
-    bool like_start[most_grade_samples];  /* the body slips as it does at the start */
-    bool possible[most_grade_samples];    /* the key can move on from there: its reactions mean something */
+    bool like_start[most_grade_samples]; /* the body slips as it does at the start */
+    bool possible
+        [most_grade_samples]; /* the key has an admissible motion there, so its reactions are defined */
     bool starts[most_grade_samples];      /* it is the start, perhaps at another time */
     bool turns;                           /* moments about G matter */
-    double turned;                        /* the answer's frame lies so in the body, against the key's */
-    double tolerance, force, arm, moment; /* sizes of what is compared */
-    double reach; /* distance of reactions from G: a direction is off by a share of it */
+    double turned;                        /* angle of the answer's frame in the body, relative to the key's */
+    double tolerance, force, arm, moment; /* reference magnitudes */
+    double reach; /* distance of reactions from G: the tolerance of directions is relative to it */
     size_t key_count, count, reaction_count;
     struct item *key, *items, *reactions;
 };
 
-/* Put the arrows of a drawing onto the forces of the key that they were drawn for, within the tolerances of a drawing
- * (sketch.c). False when memory is out. */
+/* Place the arrows of a drawing on the forces of the key that they were drawn for, within the tolerances of a
+ * drawing (sketch.c). False when memory is out. */
 bool sketches_place(const struct fbd_grade *grade, struct sides *sides);
 
-/* Is an item left to be paired by its value? */
+/* True if an item is still to be paired by its value. */
 static inline bool is_left(const struct item *item)
 {
     return !item->used && item->source && !item->unknown;
 }
 
-/* How a force of the answer differs from one of the key. */
+/* Difference of a force of the answer from one of the key. */
 enum relation { is_same, is_opposite, is_elsewhere, is_turned, is_scaled, is_rougher, is_other };
 
 struct difference {
@@ -74,18 +75,19 @@ struct difference {
 
 struct difference difference_of(const struct sides *sides, const struct item *key, const struct item *item);
 
-/* Is the sum of some items another one, at every state? */
+/* True if the sum of some items equals another one at every state. */
 bool adds_up(const struct sides *sides, const struct item *const *parts, size_t count,
              const struct item *sum);
 
-/* Does the answer have a normal force or friction for that of the key? Then it is held against it, and no formula is. */
+/* True if the answer has a normal force or friction for that of the key, which is then compared with it
+ * instead of with a formula. */
 bool is_drawn_as_such(const struct sides *sides, const struct item *key);
 
-/* Is it zero at every state? */
+/* True if it is zero at every state. */
 bool is_nothing(const struct sides *sides, const struct item *item);
 
-/* Some of those of the key that are not used yet, and some of the answer, that do the same together; false when there
- * are none. The sizes: more is not looked for, since every choice of them is. */
+/* Find unused items of the key and of the answer that are equivalent together; false when there are none. The
+ * sizes of groups are bounded, since all combinations are tried. */
 enum { most_in_group = 8 };
 
 struct group {

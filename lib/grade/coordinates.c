@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Derivations in coordinates of the answer's own, and with names of forces that it has drawn.
+ * Derivations in the answer's own coordinates, and with names of its drawn forces.
  *
- * An answer may count x the other way or from elsewhere: x' = s x + c with s = 1 or -1. Its derivations then hold on
- * the mechanics of the sheet with s x + c written for x', s v for its rate, and s v_dot for its acceleration.
- * The name of a force stands for its value; of an unknown that is right, for that of the reaction at the start.
+ * An answer may measure x with another sense or origin: x' = s x + c with s = 1 or -1. Its derivations are
+ * then valid on the mechanics of the sheet with s x + c written for x', s v for its rate, and s v_dot for its
+ * acceleration. The name of a force is replaced by its value; that of a correct unknown by the reaction at
+ * the start.
  */
 #include <string.h>
 
@@ -16,7 +17,7 @@
 struct rewriting {
     const struct fbd_grade *grade;
     const struct node *answer;
-    const char *body; /* whose derivation it is */
+    const char *body; /* body of the derivation */
     bool varied;      /* reactions are parameters */
 };
 
@@ -35,7 +36,7 @@ static bool is_part(char c)
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || is_digit(c) || c == '_';
 }
 
-/* What stands for a name of this coordinate; false when it is none of its names. */
+/* Write the replacement for a name of this coordinate; false if it is none of its names. */
 static bool add_in_its_place(struct text *text, const struct own_coordinate *own, const char *word,
                              size_t length)
 {
@@ -64,7 +65,7 @@ static bool has_normal(const struct fbd_grade *grade, const char *body)
     return false;
 }
 
-/* Has an equation, or the file, something else of this name? */
+/* True if the name has another meaning in an equation or in the file. */
 static bool is_known(const struct rewriting *rewriting, const char *name)
 {
     const struct fbd_grade *grade = rewriting->grade;
@@ -91,7 +92,7 @@ static const struct drawn *find_drawn(const struct rewriting *rewriting, const c
     return found;
 }
 
-/* A word with its dots: `x` of the body at hand, or `body.x`. */
+/* Rewrite a word with its dots: `x` of the current body, or `body.x`. */
 static void add_word(const struct rewriting *rewriting, struct text *text, const char *word, size_t length)
 {
     const char *dot = memchr(word, '.', length);
@@ -114,7 +115,7 @@ static void add_word(const struct rewriting *rewriting, struct text *text, const
     text_add_bytes(text, word, length);
 }
 
-/* Units in brackets and names of functions stay. */
+/* Rewrite a text; units in brackets and names of functions are unchanged. */
 static void rewrite(const struct rewriting *rewriting, const char *from, struct text *text)
 {
     while (*from) {
@@ -164,7 +165,7 @@ const struct node *line_over_parameters(struct fbd_grade *grade, const struct no
     return node_rewritten(&grade->arena, line, rewritten, &rewriting);
 }
 
-/* ---- back */
+/* ---- reverse direction */
 
 static const char *find_text(const struct node *node, struct pos at)
 {

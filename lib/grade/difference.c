@@ -5,7 +5,7 @@
 
 static const double noise = 1e-9;
 
-/* ---- equal to the tolerance, at every state that counts */
+/* ---- equality within the tolerance, at every relevant state */
 
 static bool near_force(const struct sides *sides, struct vec key, struct vec other)
 {
@@ -24,8 +24,8 @@ static bool near_wrench(const struct sides *sides, const struct action *key, con
            near_moment(sides, key->moment, other->moment, vec_norm(key->force));
 }
 
-/* What follows from the others is known only where the motion is possible; friction is compared with a formula where it
- * slips, or sticks, as at the start: it is drawn for that moment. */
+/* Dependent forces are known only where the motion is admissible; friction is compared with a formula where
+ * it slips, or sticks, as at the start, for which it is drawn. */
 static bool counts(const struct sides *sides, const struct item *key, const struct item *item, size_t s)
 {
     if (!key->follows) return true;
@@ -59,7 +59,7 @@ static struct action sum_at(const struct item *const *items, size_t count, size_
     return sum;
 }
 
-/* Do two sums agree, at every state that counts? What follows from other forces is known where the motion is possible,
+/* True if two sums agree at every relevant state. Dependent forces are known where the motion is admissible
  * and the body slips as at the start. */
 static bool sums_agree(const struct sides *sides, const struct item *const *key, size_t key_count,
                        const struct item *const *parts, size_t count)
@@ -146,7 +146,7 @@ bool group_find(struct sides *sides, struct group *group)
     return false;
 }
 
-/* ---- what follows from the others */
+/* ---- dependent forces */
 
 static bool same_coefficients(const struct sides *sides, const struct item *key, const struct item *item)
 {
@@ -190,7 +190,7 @@ static struct difference of_reactions(const struct sides *sides, const struct it
 
 /* ---- forces that differ */
 
-/* The magnitude of a force, or of a moment by itself. */
+/* The magnitude of a force, or of a couple. */
 static double magnitude(const struct sides *sides, const struct action *wrench)
 {
     double force = vec_norm(wrench->force);
@@ -212,7 +212,8 @@ static bool forces_agree(const struct sides *sides, const struct item *key, cons
     return true;
 }
 
-/* Along the same line everywhere? Then the ratio of the magnitudes is in *ratio, NAN when it varies. */
+/* True if both are along the same line at every state; *ratio is the ratio of the magnitudes, NAN when it
+ * varies. */
 static bool parallel(const struct sides *sides, const struct item *key, const struct item *item,
                      double *ratio)
 {
@@ -234,7 +235,7 @@ static bool parallel(const struct sides *sides, const struct item *key, const st
     return true;
 }
 
-/* Of the same magnitude everywhere? Then the angle between them is in *angle, NAN when it varies. */
+/* True if both have the same magnitude at every state; *angle is the angle between them, NAN when it varies. */
 static bool turned(const struct sides *sides, const struct item *key, const struct item *item, double *angle,
                    bool *exchanged)
 {

@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Answers that are drawings, and answers that say only what was added to the sheet.
+ * Answers that are drawings, and answers that contain only additions to the sheet.
  *
- * A drawing is a list of objects as Meclib (of STACK) or `pl-drawing` (of PrairieLearn) write them, in the place of the
- * answer or under `drawing` of a body. Each arrow becomes an entry `applied`, and a sketch that says where it lies in the
- * world; sketch.c compares that with the key. Supports, dimensions, labels and the like are passed over.
+ * A drawing is a list of objects as written by Meclib (of STACK) or `pl-drawing` (of PrairieLearn), in place
+ * of the answer or under `drawing` of a body. Each arrow becomes an entry `applied`, and a sketch with its
+ * position in the world; sketch.c compares that with the key. Supports, dimensions, labels and the like are
+ * ignored.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -26,7 +27,7 @@ struct arrow_drawn {
     double snap;
 };
 
-/* The body whose drawing is read, and its lists. */
+/* The body of the current drawing, and its lists. */
 struct desk {
     struct fbd_grade *grade;
     fbd_errors *failures;
@@ -90,7 +91,7 @@ static bool is_of_word(char c, bool first)
     return letter || (!first && c >= '0' && c <= '9');
 }
 
-/* Without the signs of LaTeX. */
+/* The label without LaTeX markup. */
 static const char *plain(struct arena *arena, const char *label)
 {
     char *made = arena_text(arena, label, strlen(label)), *to = made;
@@ -101,7 +102,7 @@ static const char *plain(struct arena *arena, const char *label)
     return made;
 }
 
-/* Has the sheet a parameter of that name that may be the value of a force, or of a moment? */
+/* True if the sheet has a parameter of that name that may be the value of a force, or of a moment. */
 static bool is_value(const struct desk *desk, const char *name, size_t length, bool couple)
 {
     const struct scene *scene = desk->grade->sheet->scene;
@@ -113,7 +114,7 @@ static bool is_value(const struct desk *desk, const char *name, size_t length, b
     return false;
 }
 
-/* A word that is no name of another force of the body. */
+/* A word that is not the name of another force of the body. */
 static const char *free_name(struct desk *desk, const char *label)
 {
     struct arena *arena = &desk->grade->arena;
@@ -134,7 +135,7 @@ static const char *free_name(struct desk *desk, const char *label)
     return NULL;
 }
 
-/* The value that a label says, as text of a file; NULL where it is a name. `2 F` is twice the parameter F. */
+/* The value in a label, as text of a file; NULL for a name. `2 F` is twice the parameter F. */
 static const char *value_of(const struct desk *desk, const char *label, bool couple)
 {
     struct arena *arena = &desk->grade->arena;
@@ -274,7 +275,7 @@ static bool read_vector(const struct node *object, const char *number, struct ar
     return true;
 }
 
-/* A moment; where it is drawn does not matter. */
+/* A moment; its position does not matter. */
 static bool read_arc(const struct node *object, struct arrow_drawn *arrow)
 {
     arrow->couple = true;
@@ -314,7 +315,7 @@ static const struct node *list_or_none(const struct node *body, const char *key)
     return list && list->kind == node_list ? list : NULL;
 }
 
-/* A body with entries in the place of `drawing`. */
+/* A body with entries in place of `drawing`. */
 static const struct node *take_drawing(struct fbd_grade *grade, const char *name, const struct node *body,
                                        fbd_errors *failures)
 {
@@ -350,7 +351,7 @@ static const struct node *take_drawings(struct fbd_grade *grade, const struct no
     return made ? node_with(&grade->arena, root, "bodies", made) : NULL;
 }
 
-/* The same without places: what is wrong in an answer does not stand in the key. */
+/* The same without file positions, as errors in an answer are not in the key. */
 static const struct node *without_places(struct arena *arena, const struct node *node)
 {
     struct node *made = ARENA_NEW(arena, struct node);
@@ -371,7 +372,7 @@ static const struct node *without_places(struct arena *arena, const struct node 
     return map;
 }
 
-/* A mapping with the pairs of another one put over its own. */
+/* Merge two mappings; pairs of `over` replace those of `under`. */
 static const struct node *put_over(struct arena *arena, const struct node *under, const struct node *over)
 {
     for (size_t i = 0; under && over && over->kind == node_map && i < over->count; i++)
@@ -379,7 +380,7 @@ static const struct node *put_over(struct arena *arena, const struct node *under
     return under;
 }
 
-/* A body of the sheet, with what the answer says of it. */
+/* A body of the sheet merged with that of the answer. */
 static const struct node *body_over(struct arena *arena, const struct node *body, const struct node *own)
 {
     static const char *const asked[] = {"forces", "moments", "hand", "exact"};
@@ -388,7 +389,7 @@ static const struct node *body_over(struct arena *arena, const struct node *body
     return put_over(arena, body, own);
 }
 
-/* The sheet with an answer that says only what was added. */
+/* The sheet merged with an answer that contains only additions. */
 static const struct node *over_sheet(struct fbd_grade *grade, const struct node *root)
 {
     struct arena *arena = &grade->arena;
@@ -412,7 +413,7 @@ static const struct node *over_sheet(struct fbd_grade *grade, const struct node 
     return made && sheet ? node_with(arena, sheet, "bodies", made) : NULL;
 }
 
-/* A drawing by itself is that of the only body. */
+/* A drawing without a body belongs to the only body. */
 static const struct node *of_only_body(struct fbd_grade *grade, const struct node *drawing)
 {
     struct arena *arena = &grade->arena;

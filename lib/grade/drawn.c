@@ -2,9 +2,9 @@
  *
  * The drawn entries of an answer: those with a value, and unknowns.
  *
- * An unknown has no `value`, `value: unknown`, or a name for its value that nothing else has, as `value: N`. A force
- * without a magnitude and without `angle`, on a body that does not slide, has no direction either; so has one with
- * `angle: unknown`, and one with two unknown components.
+ * An unknown has no `value`, `value: unknown`, or an otherwise unused name for its value, as `value: N`. A
+ * force without a magnitude and without `angle`, on a body that does not slide, has no direction either; the
+ * same holds for `angle: unknown`, and for two unknown components.
  */
 #include <math.h>
 #include <string.h>
@@ -42,7 +42,7 @@ static bool is_word(const char *text)
     return *text == '\0';
 }
 
-/* Names that have a value of their own in a file. */
+/* True for names that have a value in a file. */
 static bool has_value(const struct fbd_grade *grade, const struct node *root, const char *name)
 {
     static const char *const known[] = {"t",  "g",  "pi",    "e",     "x",     "y",     "v",
@@ -57,7 +57,7 @@ static bool has_value(const struct fbd_grade *grade, const struct node *root, co
     return false;
 }
 
-/* Is it unknown? *symbol: its name, or NULL; *sign: its sense. */
+/* True if the value is unknown. *symbol: its name, or NULL; *minus: its sense is negative. */
 static bool is_unknown(const struct fbd_grade *grade, const struct node *root, const struct node *value,
                        const char **symbol, bool *minus)
 {
@@ -104,7 +104,7 @@ static const struct node *with_text(struct arena *arena, const struct node *map,
     return made ? node_with(arena, map, key, made) : NULL;
 }
 
-/* Components of which one or both are unknown: 1 N for an unknown one. */
+/* Components with one or both unknown: 1 N for an unknown one. */
 static const struct node *take_components(const struct draft_place *place, const struct node *keys,
                                           struct drawn *drawn)
 {
@@ -145,7 +145,7 @@ static const struct node *take_value(const struct draft_place *place, const stru
     return with_text(arena, keys, "value", minus ? back : one);
 }
 
-/* Is this the name of a coupling or contact of the file, or that of the force of a joint? */
+/* True for the name of a coupling or contact of the file, or of the force of a joint. */
 static bool is_of_model(const struct node *root, const char *name)
 {
     static const char *const lists[] = {"couplings", "contacts"}, *joints[] = {"pin", "guide", "weld"};
@@ -166,8 +166,8 @@ static bool is_of_model(const struct node *root, const char *name)
     return false;
 }
 
-/* The tension of a rope may be called as the rope, and a reaction as the joint: in the model, where these have their own
- * forces, otherwise. */
+/* The tension of a rope may be called as the rope, and a reaction as the joint: rename them in the model,
+ * where these have their own forces. */
 static const struct node *with_own_name(const struct draft_place *place, const struct node *keys,
                                         const struct drawn *drawn)
 {

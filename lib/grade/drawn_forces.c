@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Reactions that an answer has drawn, as its derivations name them: T for the tension of a rope stands for that reaction
- * at all states, not for its value at the start.
+ * Names of drawn reactions in derivations: T for the tension of a rope denotes that reaction at all states,
+ * not its value at the start.
  */
 #include <string.h>
 
@@ -22,7 +22,7 @@ static const struct hand_force *find(const struct hand_forces *forces, int body,
     return NULL;
 }
 
-/* A component along an axis; NULL where it has another direction. */
+/* A component along an axis; NULL for another direction. */
 static const char *component(struct arena *arena, const struct drawn *drawn)
 {
     const double little = 1e-9;
@@ -32,7 +32,7 @@ static const char *component(struct arena *arena, const struct drawn *drawn)
     return arena_printf(arena, "%s%s.%c", (x ? u.x : u.y) < 0 ? "-" : "", drawn->reaction, x ? 'x' : 'y');
 }
 
-/* The size of the force, or of the couple, by its name alone. */
+/* The size of the force, or of the couple, by its name only. */
 static const char *size_name(struct fbd_grade *grade, const struct hand_forces *forces, int b,
                              const fbd_state *state, struct arrow *arrows, const struct drawn *drawn)
 {
@@ -70,7 +70,7 @@ void drawn_find_forces(struct fbd_grade *grade)
     state_free(state);
 }
 
-/* No name of a parameter or of something else that the files have. */
+/* True if the name is not that of a parameter or another object of the files. */
 static bool may_be_symbol(const struct fbd_grade *grade, const struct node *answer, const char *name)
 {
     static const char *const maps[] = {"parameters", "inputs", "states", "tables"};

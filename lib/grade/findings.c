@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * What an answer gets points for, and what is wrong with it.
+ * Findings: the points that an answer gets, and its errors.
  */
 #include <string.h>
 

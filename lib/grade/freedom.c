@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Has a scene one degree of freedom?
+ * Determine whether a scene has one degree of freedom.
  *
- * Forces change accelerations by what the couplings leave free. Where pushes that have nothing in common change all
- * accelerations of the scene in the same proportion, at every state, there is one freedom alone, and whichever of them
- * an equation of motion is about, it is the same equation.
+ * Forces change accelerations only along the degrees of freedom. If linearly independent pushes change all
+ * accelerations of the scene in the same proportion, at every state, there is a single one, and an equation
+ * of motion for any of the accelerations is the same equation.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -13,7 +13,7 @@
 #include "grade/lines.h"
 #include "output/random_state.h"
 
-/* By how much a push changes the accelerations; false where the state cannot be under it. */
+/* Change of the accelerations under a push; false if the state is inadmissible under it. */
 static bool change_by(const fbd_model *pushed, const fbd_state *state, double *change)
 {
     int n = state->model->plan.n;
@@ -27,7 +27,7 @@ static bool change_by(const fbd_model *pushed, const fbd_state *state, double *c
     return found;
 }
 
-/* Along the same line, to what rounding leaves of differences of accelerations? */
+/* True if both are parallel up to the round-off of differences of accelerations. */
 static bool are_parallel(const double *a, const double *b, int n, double size)
 {
     const double rounding = 1e-9;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Public interface: an answer held against a key.
+ * Public interface: compare an answer with a key.
  */
 #include <stdlib.h>
 #include <string.h>
@@ -11,7 +11,7 @@
 #include "fbd_grade.h"
 #include "grade/grade.h"
 
-/* The name of a file without folders and ending. */
+/* The name of a file without folders and extension. */
 static const char *stem(struct arena *arena, const char *path)
 {
     const char *slash = strrchr(path, '/'), *name = slash ? slash + 1 : path;
@@ -26,7 +26,7 @@ static double sum(const struct fbd_grade *grade)
     return points;
 }
 
-/* A key may be wrong for the values that a student has drawn: then nothing can be said of the answer. */
+/* A key may be invalid for the values drawn for a student: then the answer cannot be graded. */
 static bool make_sheet(struct fbd_grade *grade)
 {
     fbd_errors *errors = fbd_errors_new();

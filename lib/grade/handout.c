@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * What a student gets of a key: the scene with the student's own values, without forces, derivations and
+ * A student's sheet made from a key: the scene with the student's own values, without forces, derivations and
  * comments; and the same filled in.
  */
 #include <string.h>
@@ -10,7 +10,7 @@
 #include "fbd_grade.h"
 #include "grade/handout.h"
 
-/* Of the file, and of a body: what the student is to find out, and what the teacher says for himself. */
+/* Keys left out of the file, and of a body: the answers, and the teacher's notes. */
 static const char *const kept_back[] = {"grading", "description", "$schema", "output", NULL};
 static const char *const asked[] = {"forces", "moments", "hand", "exact", "description", NULL};
 
@@ -21,7 +21,7 @@ static bool is_one_of(const char *key, const char *const *names)
     return false;
 }
 
-/* What plain text could be taken for something else, or ends early. */
+/* True for text that would be misread or cut off as a plain scalar. */
 static bool needs_quotes(const char *text)
 {
     return strpbrk(text, ":#{}[],&*!|>'\"%@`\n\t") || text[0] == '-' || text[0] == '?' || text[0] == '\0' ||
@@ -53,7 +53,7 @@ static void write_pairs(struct text *text, const struct node *map)
     }
 }
 
-/* On one line. */
+/* Write a value on one line. */
 static void write_value(struct text *text, const struct node *node)
 {
     switch (node->kind) {
@@ -96,7 +96,7 @@ static void write_parameters(const struct handout *handout, const struct node *m
     }
 }
 
-/* Entries of their own lines, so that one that cannot be read costs no other. */
+/* Write each entry on its own line, so that an unreadable one does not affect the others. */
 static void write_list(struct text *text, const struct node *list)
 {
     size_t count = !list ? 0 : list->kind == node_list ? list->count : list->kind != node_null;
@@ -183,7 +183,7 @@ void handout_reactions(struct text *text, const struct grading *grading)
         text_printf(text, "%s%s", i ? ", " : "", grading->reaction_names[i]);
 }
 
-/* What has to be drawn, and how. */
+/* Write which forces have to be drawn, and how. */
 static void write_head(const struct handout *handout)
 {
     struct text *text = handout->text;

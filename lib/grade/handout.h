@@ -14,28 +14,28 @@ struct handout {
     struct arena *arena;
     const struct fbd_key *key;
     const char *student;
-    fbd_model *model; /* of a solution: the key with the values of the student; else NULL */
-    bool open;        /* lines in the place of what is asked of a body, see below */
-    bool scene;       /* with its inertia, even where that is asked: the scene by itself */
+    fbd_model *model; /* for a solution: the key with the values of the student; else NULL */
+    bool open;        /* blank lines for the answers of each body, see below */
+    bool scene;       /* with its inertia, even if that is asked: the scene alone */
 };
 
-/* In an open sheet: what begins the line in the place of the lists, without and with derivations; both of them begin that
- * of the inertia. The name of the body follows. */
+/* In an open sheet: first characters of the line in place of the lists, without and with derivations; the
+ * line for the inertia begins with both. The name of the body follows. */
 enum { sheet_lists = '\f', sheet_hand = '\v' };
 
 /* Write the sheet. False when memory is out. */
 bool handout_write(struct handout *handout);
 
-/* Which reactions have to be drawn: a sentence. */
+/* Write a sentence on the reactions that have to be drawn. */
 void handout_reactions(struct text *text, const struct grading *grading);
 
 /* NULL with notes in `errors`. */
 fbd_model *solution_model(const struct handout *handout, fbd_errors *errors);
 
-/* The forces or moments of a body that the key does not list, and that have to be drawn. */
+/* Write the forces or moments of a body that the key does not list and that have to be drawn. */
 void solution_reactions(const struct handout *handout, const char *body_name, bool moments);
 
-/* The equations of the start, as comments. */
+/* Write the equations of the start as comments. */
 void solution_equations(const struct handout *handout);
 
 #endif

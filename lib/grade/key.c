@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * The key that answers are held against, and what each student gets of it.
+ * The key with which answers are compared, and the parts of it that each student gets.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -25,7 +25,7 @@ static const char *draw_for_student(struct arena *arena, const struct grading *g
                                      .member = hash_text(drawn->name, strlen(drawn->name)),
                                      .index = hash_text(student, strlen(student))};
     double value = draw(draw_uniform, drawn->low, drawn->high, place);
-    /* So many digits of the larger end: 20 to 40 deg in whole degrees. */
+    /* So many digits of the larger limit: 20 to 40 deg in whole degrees. */
     double largest = fmax(fabs(drawn->low), fabs(drawn->high));
     double unit = pow(10, floor(log10(largest)) + 1 - grading->digits);
     double rounded = fmin(fmax(round(value / unit) * unit, drawn->low), drawn->high);
@@ -130,8 +130,8 @@ static void add_names(const struct fbd_key *key, size_t b, struct text *text)
     state_free(state);
 }
 
-/* A model cannot list its reactions, which act already: warn the author that answers have to draw them, where
- * the key does not say so. False for lack of memory. */
+/* Warn the author that answers have to draw reactions where the key does not state it; a model cannot list
+ * its reactions, which already act. False when memory is out. */
 static bool tell_reactions(const struct fbd_key *key, fbd_errors *errors)
 {
     struct text text = {0};
@@ -158,8 +158,8 @@ static const fbd_finding *first_fault(const fbd_grade *grade)
     return NULL;
 }
 
-/* Grade the key with itself, and warn of the entries that do not get full marks; false with a note when it has
- * none, or for lack of memory. */
+/* Grade the key with itself, and warn of entries without full marks; false with a note if the key has no
+ * points, or when memory is out. */
 static bool check_itself(struct fbd_key *key, fbd_errors *errors)
 {
     if (!has_points(key, errors)) return false;
@@ -189,7 +189,7 @@ static bool take_settings(struct fbd_key *key, const fbd_setting *settings, size
     return !key->arena.failed;
 }
 
-/* A key of this text, which it takes, that has not been checked; the text may be NULL. */
+/* Make a key of this text, which it takes over, without checking it; the text may be NULL. */
 static fbd_key *compile_text(char *text, size_t length, const char *name, const fbd_setting *settings,
                              size_t count, fbd_errors *errors)
 {
@@ -211,7 +211,7 @@ static fbd_key *compile_text(char *text, size_t length, const char *name, const 
     return NULL;
 }
 
-/* The same, and graded against itself. */
+/* The same, and grade it against itself. */
 static fbd_key *make_key(char *text, size_t length, const char *name, const fbd_setting *settings,
                          size_t count, fbd_errors *errors)
 {
@@ -243,13 +243,13 @@ fbd_key *fbd_key_read_set(const char *path, const fbd_setting *settings, size_t 
 
 static bool check_source(const fbd_model *model, fbd_errors *errors)
 {
-    fbd_errors *others = fbd_errors_new(); /* what the file is warned of was said when it was read */
+    fbd_errors *others = fbd_errors_new(); /* discards warnings already given when the file was read */
     char *copy = others ? file_copy(model->source, model->source_length, others) : NULL;
     fbd_key *key = compile_text(copy, model->source_length, model->scene->file, NULL, 0, others);
     bool lacking = !others || others->out_of_memory;
     if (lacking) diag_out_of_memory(errors);
     diag_in_file(errors, model->scene->file);
-    /* A file that is a model only by what is set for it is refused where it is graded. */
+    /* A file that needs settings to be a valid model is rejected when it is graded. */
     bool done = key ? check_itself(key, errors) : !lacking;
     fbd_key_free(key);
     fbd_errors_free(others);

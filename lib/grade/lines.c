@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Derivations of an answer, each line on the key's own mechanics.
+ * Evaluate the derivations of an answer, each line on the key's own mechanics.
  *
- * A line of the key is met by lines that are true and say something of the same unknown: an acceleration, or the
- * normal force. A line that is true whatever the unknowns are, as `m*a = m*a`, says nothing.
+ * A line of the key is matched by true lines about the same unknown: an acceleration, or the normal force. A
+ * line that is true for all values of the unknowns, as `m*a = m*a`, matches none.
  */
 #include <stdlib.h>
 #include <string.h>
@@ -29,7 +29,8 @@ static void count_samples(const struct hand_check *check, double tolerance, stru
     }
 }
 
-/* The senses of slip of which bit k is set: those of the motion of the sheet, or where a line does not hold there, all. */
+/* Set the relevant senses of slip: the sampled ones of the motion of the sheet, or all sampled ones if there
+ * is none. */
 static void count_slips(struct line *line, unsigned of_motion)
 {
     unsigned seen = 0;
@@ -52,7 +53,8 @@ static bool sample_line(struct lines *lines, const struct node *root, double spr
     return true;
 }
 
-/* Does it fail under other forces, where these leave a motion that can be? */
+/* Set line->dynamic if the line fails under other forces, or if these leave no admissible state. Returns
+ * false when memory is out. */
 static bool look_at_pushed(struct lines *lines, double tolerance, struct line *line)
 {
     bool seen_any = false;
@@ -74,7 +76,7 @@ static bool look_at_pushed(struct lines *lines, double tolerance, struct line *l
     return true;
 }
 
-/* For the values of the sheet: to rounding, or to three digits where it has numbers that may be rounded. */
+/* Judge for the values of the sheet: to rounding, or to three digits if it has numbers that may be rounded. */
 static bool look_at_values(struct lines *lines, const char *text, double *tolerance, struct line *line)
 {
     const struct line general = *line;
@@ -90,7 +92,7 @@ static bool look_at_values(struct lines *lines, const char *text, double *tolera
     return true;
 }
 
-/* An equation that names forces, as a form of its unknowns at the start. */
+/* Store an equation with forces as a linear form of its unknowns at the start. */
 static bool take_form(struct lines *lines, int body, struct line *line)
 {
     double size;
@@ -101,7 +103,7 @@ static bool take_form(struct lines *lines, int body, struct line *line)
     return state != NULL;
 }
 
-/* A line of energy or momentum: it is met by one that says the same of the velocities. */
+/* Judge a line of energy or momentum: it is matched by one that is equivalent in the velocities. */
 static bool look_at_run(struct lines *lines, int body, struct line *line)
 {
     line->checked = true;
@@ -114,7 +116,7 @@ static bool look_at_run(struct lines *lines, int body, struct line *line)
     return true;
 }
 
-/* For all values of the parameters, or for those of the sheet. */
+/* Judge a line for all values of the parameters, or for those of the sheet. */
 static bool look_at_line(struct lines *lines, int body, int index, struct line *line)
 {
     const fbd_model *model = lines->model;
@@ -135,12 +137,12 @@ static bool look_at_line(struct lines *lines, int body, int index, struct line *
     if (line->says == 0 && !in_general && !line_is_of_rest(lines, body, text, &line->rest)) return false;
     if (line_agrees(line)) return look_at_pushed(lines, tolerance, line);
     struct line again;
-    return sample_line(lines, lines->root, 0.3, 1e-9, &again); /* for what is said of it */
+    return sample_line(lines, lines->root, 0.3, 1e-9, &again); /* for the text of the finding */
 }
 
-/* ---- what is said of it */
+/* ---- findings about it */
 
-/* Kinematics is asked for where the key has it. */
+/* Kinematics is required if the key has it. */
 static bool is_asked(const struct line *line, const struct line *keys, size_t count)
 {
     for (size_t k = 0; k < count; k++)
@@ -223,7 +225,7 @@ static bool is_of_motion(const struct line *line)
     return line->dynamic && (line->says & accelerations) != 0;
 }
 
-/* By which share of these senses of slip a line agrees. */
+/* The fraction of these senses of slip for which a line agrees. */
 static double share_agreed(unsigned wanted, const struct line *line)
 {
     int cases = 0, agreed = 0;
@@ -235,8 +237,9 @@ static double share_agreed(unsigned wanted, const struct line *line)
     return cases ? (double)agreed / cases : 0;
 }
 
-/* With one degree of freedom there is one equation of motion, whichever acceleration it is written for. Where none of
- * the key's is met, the first is by the answer's first that is true: a second one might be the same again. */
+/* With one degree of freedom there is one equation of motion, in any of the accelerations. If none of the
+ * key's is matched, the first is matched by the answer's first true line: a second one might be equivalent to
+ * it. */
 static void meet_by_another(struct lines *lines, struct body_lines *bodies, size_t count)
 {
     struct line *wanted = NULL, *given = NULL;
@@ -263,7 +266,7 @@ static void meet_by_another(struct lines *lines, struct body_lines *bodies, size
     say_of_key_line(lines, (int)body, wanted);
 }
 
-/* The lines of a body, in the order of the file. */
+/* Judge the lines of a body, in the order of the file. */
 static bool look_at_lines(struct lines *lines, int body, struct line *found, size_t count)
 {
     for (size_t i = 0; i < count; i++)
@@ -271,7 +274,7 @@ static bool look_at_lines(struct lines *lines, int body, struct line *found, siz
     return true;
 }
 
-/* One line of the answer, in its own coordinates or in those of the sheet. */
+/* Judge one line of the answer, in its own coordinates or in those of the sheet. */
 static bool look_at_own(struct lines *lines, struct lines *plain, int body, int index, struct line *line)
 {
     if (!look_at_line(lines, body, index, line)) return false;
@@ -329,7 +332,7 @@ static void close_lines(struct lines *lines)
     if (lines->rng) gsl_rng_free(lines->rng);
 }
 
-/* The same lines read in the coordinates of the sheet, where the answer has others. */
+/* Read the same lines in the coordinates of the sheet, if the answer has others. */
 static bool read_plain(struct lines *lines, struct lines *plain)
 {
     if (!lines->grade->own || !lines->model) return true;

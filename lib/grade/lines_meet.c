@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Which line of an answer meets which line of the key.
+ * Match the lines of an answer with the lines of the key.
  *
- * A line of the key is met by a true line about the same unknowns: the same acceleration, or where it names forces, the same
- * accelerations and reactions. Lines about just the same ones come first, then those that have some of them in common. A
- * line that names forces, or meets one that does, meets one line of the key alone; and it has to say something that those
- * before it do not: as a linear form of its unknowns it does not follow from theirs.
+ * A line of the key is matched by a true line about the same unknowns: the same acceleration, or if it names
+ * forces, the same accelerations and reactions. Lines about exactly the same ones come first, then those that
+ * have some of them in common. A line that names forces, or matches one that does, matches only one line of
+ * the key; and it must be linearly independent of those before it, as a form of its unknowns.
  */
 #include "grade/lines.h"
 
@@ -21,7 +21,7 @@ bool line_agrees(const struct line *line)
     return false;
 }
 
-/* The senses of slip for which a line of the key has to be matched: those for which it holds itself. */
+/* The senses of slip for which a line of the key has to be matched: those for which it is true. */
 unsigned line_wanted_slips(const struct line *key)
 {
     unsigned wanted = 0;
@@ -40,7 +40,7 @@ unsigned long long line_unknowns(const struct line *line)
     return first ? first : says; /* inertia and arms */
 }
 
-/* Lines that have met one of the key, as forms. */
+/* Lines that have matched one of the key, as forms. */
 struct forms {
     double *base;
     size_t count;
@@ -51,7 +51,8 @@ static bool names_forces(const struct line *line)
     return (line->says & (unsigned)hand_named_forces) != 0;
 }
 
-/* One line of the answer meets one line of the key, or several about the same acceleration (for each sense of slip). */
+/* One line of the answer matches one line of the key, or several about the same acceleration (for each sense
+ * of slip). */
 static bool meets(const struct line *own, const struct line *key, int slip)
 {
     const unsigned long long asked = line_unknowns(key);
@@ -61,7 +62,7 @@ static bool meets(const struct line *own, const struct line *key, int slip)
            lines_of_run_agree(&own->run, &key->run);
 }
 
-/* Does a line say something new? */
+/* True if a line is linearly independent of the others. */
 static bool take_form(const struct line *own, struct forms *forms)
 {
     if (own->met != 0 || !names_forces(own)) return true;
@@ -70,7 +71,7 @@ static bool take_form(const struct line *own, struct forms *forms)
     return true;
 }
 
-/* A line that meets this one; `same`: one about the same unknowns. */
+/* Find a line that matches this one; `same`: one about the same unknowns. */
 static bool find_line(struct line *own, size_t count, const struct line *key, int slip, bool same,
                       struct forms *forms)
 {
@@ -84,7 +85,7 @@ static bool find_line(struct line *own, size_t count, const struct line *key, in
     return false;
 }
 
-/* By which share of its cases a line of the key is met. */
+/* The fraction of its cases for which a line of the key is matched. */
 static double share_met(const struct line *key, struct line *own, size_t count, bool others,
                         struct forms *forms)
 {
@@ -99,7 +100,8 @@ static double share_met(const struct line *key, struct line *own, size_t count, 
     return cases ? (double)met / cases : 0;
 }
 
-/* The next equation of rest that does not follow from those that have matched one of the key: `base` has these. */
+/* Find the next equation of equilibrium that is linearly independent of those that have matched one of the
+ * key, whose basis is `base`. */
 static bool find_line_of_rest(const struct lines *lines, struct line *own, size_t count, double *base,
                               size_t *met)
 {

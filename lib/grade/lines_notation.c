@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * The derivations of an answer as the expressions that they are read as. They may name what the answer has drawn.
+ * Translate the derivations of an answer into expressions. They may refer to the drawn forces of the answer.
  */
 #include <string.h>
 
@@ -10,7 +10,7 @@
 #include "output/hand_forces.h"
 #include "scene/node_edit.h"
 
-/* A text that was read as another one. */
+/* A text and its translation. */
 struct reading {
     const struct node *node;
     const char *text;
@@ -25,7 +25,7 @@ struct readings {
 static bool is_drawn(void *context, const char *body, const char *name)
 {
     const struct readings *readings = context;
-    (void)body; /* a force that acts on another one may be named as well */
+    (void)body; /* forces on other bodies may be named as well */
     for (const struct drawn *one = readings->grade->drawn; one; one = one->next)
         if ((one->symbol && strcmp(one->symbol, name) == 0) || (one->name && strcmp(one->name, name) == 0))
             return true;
@@ -51,7 +51,7 @@ static const char *as_read(struct arena *arena, const struct node *scalar, const
     return arena_text(arena, scalar->text, scalar->length);
 }
 
-/* Read the scene for what is said of its derivations; what is wrong with them is found again later. */
+/* Read the scene for the notes on its derivations; their errors are found again later. */
 static bool read_scene(struct fbd_grade *grade, const struct node *root, struct readings *readings)
 {
     struct override *overrides;

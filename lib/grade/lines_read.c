@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * The derivations of an answer put into the scene of the key, without those that cannot be read.
+ * Put the derivations of an answer into the scene of the key, without unreadable ones.
  */
 #include <string.h>
 
@@ -25,7 +25,7 @@ bool name_is_of_equations(const char *name)
     return false;
 }
 
-/* Parameters that a derivation names beside those of the sheet. */
+/* Add the parameters that a derivation names beside those of the sheet. */
 static const struct node *with_parameters(struct arena *arena, const struct node *root,
                                           const struct node *answer)
 {
@@ -38,7 +38,7 @@ static const struct node *with_parameters(struct arena *arena, const struct node
     return all ? node_with(arena, root, "parameters", all) : NULL;
 }
 
-/* The bodies of the sheet with the derivations of the answer: as they are, or in the coordinates of the sheet. */
+/* The bodies of the sheet with the derivations of the answer: unchanged, or in the coordinates of the sheet. */
 static const struct node *with_lines(struct fbd_grade *grade, const struct node *root,
                                      const struct node *answer, bool as_they_are)
 {
@@ -59,7 +59,7 @@ static const struct node *with_lines(struct fbd_grade *grade, const struct node 
     return made ? node_with(arena, root, "bodies", made) : NULL;
 }
 
-/* ---- lines that cannot be read */
+/* ---- unreadable lines */
 
 static bool is_behind(struct pos a, struct pos b)
 {
@@ -107,7 +107,7 @@ static const struct node *without(struct arena *arena, const struct node *root, 
     return bodies ? node_with(arena, root, "bodies", bodies) : NULL;
 }
 
-/* Leave out every line that an error stands in; false when there is none. */
+/* Leave out every line with an error; false when there is none. */
 static bool leave_out_wrong(struct lines *lines, fbd_errors *errors)
 {
     struct fbd_grade *grade = lines->grade;
@@ -119,7 +119,7 @@ static bool leave_out_wrong(struct lines *lines, fbd_errors *errors)
         const struct node *before = culprit.item;
         if (error->severity != FBD_ERROR) continue;
         culprit = find_culprit(root, (struct pos){error->line, error->column});
-        if (!culprit.item || culprit.item == before) continue; /* notes are in the order of their places */
+        if (!culprit.item || culprit.item == before) continue; /* notes are sorted by position */
         const struct hand here = {.at = culprit.item->at, .written = culprit.item->text};
         bool scalar = culprit.item->kind == node_scalar;
         finding_of_error(grade, FBD_FINDING_UNREADABLE, culprit.body,
@@ -140,7 +140,7 @@ fbd_model *lines_try(struct lines *lines, const struct node *root, bool hands, b
     return model;
 }
 
-/* Parameters of the answer that do not go with the sheet are left out with a word. */
+/* Leave out parameters of the answer that are incompatible with the sheet, with a finding. */
 static void check_parameters(struct lines *lines, const struct node *sheet)
 {
     fbd_errors *errors = fbd_errors_new();
@@ -153,7 +153,7 @@ static void check_parameters(struct lines *lines, const struct node *sheet)
     fbd_errors_free(errors);
 }
 
-/* What is wrong with the lines stands in none of them: all are left out, with a word. */
+/* Leave out all lines, with a finding, if the error is in none of them. */
 static void leave_out_all(struct lines *lines, fbd_errors *errors)
 {
     struct fbd_grade *grade = lines->grade;
@@ -164,7 +164,7 @@ static void leave_out_all(struct lines *lines, fbd_errors *errors)
     lines->left_out = true;
 }
 
-/* Compile until every line that is left can be read. */
+/* Compile until every remaining line is readable. */
 static void compile_lines(struct lines *lines)
 {
     while (lines->root && !lines->model && !lines->grade->arena.failed) {

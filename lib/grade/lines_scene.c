@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * The scenes in which derivations are evaluated: each by itself, with other forces, and how the sheet moves.
+ * The scenes in which derivations are evaluated: each alone, with other forces, and the motion of the sheet.
  */
 #include <string.h>
 
@@ -9,7 +9,7 @@
 #include "grade/lines.h"
 #include "scene/node_edit.h"
 
-/* A scene with one equation alone: the others are not compiled with it each time that a parameter changes. */
+/* A scene with only one equation, so that the others are not compiled again for each change of a parameter. */
 const struct node *lines_alone(struct lines *lines, const struct node *root, int body, int index)
 {
     struct arena *arena = &lines->grade->arena;
@@ -37,8 +37,8 @@ static const struct node *pushed_body(struct arena *arena, const struct node *pr
     return list ? node_with(arena, body->value, "forces", list) : NULL;
 }
 
-/* A push on every body, off its centre where it can turn, by a share of its weight, so that ropes stay taut. No line is
- * at right angles to both of them. */
+/* A force on every body, off its centre if it can turn, proportional to its weight so that ropes stay taut.
+ * No line is perpendicular to both. */
 static const struct vec shares[lines_pushes] = {{1.7, -2.9}, {-3.1, 0.8}};
 
 static void write_pushes(const fbd_model *model, struct vec share, struct text *text)
@@ -78,8 +78,8 @@ void lines_push(struct lines *lines, int k)
 
 /* ---- the motion of the sheet */
 
-/* Of each body: in which senses its friction slips in the run of the sheet, bit k for slip k - 1; all of them where it
- * does not. */
+/* For each body: the senses in which its friction slips in the run of the sheet, bit k for slip k - 1; all of
+ * them if it does not slip. */
 unsigned *lines_slips(struct fbd_grade *grade)
 {
     enum { most_steps = 400 };

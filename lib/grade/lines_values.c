@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Numbers and names of an answer's own in its derivations.
+ * The answer's own numbers and names in its derivations.
  */
 #include <math.h>
 #include <string.h>
@@ -12,7 +12,7 @@ static bool is_of_name(char c)
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
 }
 
-/* A number that was rounded, perhaps: one of two digits or more, that is no part of a name. */
+/* True if the text has a number that may be rounded: of two digits or more, not part of a name. */
 bool line_has_numbers(const char *text)
 {
     size_t digits = 0;
@@ -34,7 +34,8 @@ static bool names_it(const char *text, const char *name)
     return false;
 }
 
-/* Has the sheet a parameter of that value? Then one of another name is that, and not a number that was rounded. */
+/* True if the sheet has a parameter of that value; another name with this value is then that parameter, and
+ * not a rounded number. */
 static bool is_of_the_sheet(const struct lines *lines, double value)
 {
     const struct scene *scene = lines->grade->sheet->scene;
@@ -43,8 +44,8 @@ static bool is_of_the_sheet(const struct lines *lines, double value)
     return false;
 }
 
-/* Does it name parameters that the sheet does not have? Those follow from others, and are not varied with them.
- * *rounded: one of them may be a number that was rounded. */
+/* True if it names parameters that the sheet does not have; these are not varied with the others. *rounded:
+ * one of them may be a rounded number. */
 bool line_has_own_names(const struct lines *lines, const char *text, bool *rounded)
 {
     const struct scene *scene = lines->model->scene;

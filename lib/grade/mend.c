@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * A text that YAML cannot read, without the entries at which it fails.
+ * Repair a text that is not valid YAML by removing the entries at which reading fails.
  *
- * A bracket out of place makes a whole file unreadable, where a person would pass over one force. So the entry in which
- * the reader stops is blanked, or the one before it, whichever lets it get further: a fault is often seen only behind
- * its cause. An entry is an item, on lines of its own, of a list of forces, moments or derivations; or else all of such
- * a list, where it stands on the line of its key.
+ * A misplaced bracket makes a whole file unreadable, where a human reader would ignore one force. So the
+ * entry at which the reader stops is blanked, or the one before it, whichever lets it read further, since an
+ * error is often detected only after its cause. An entry is an item, on lines of its own, of a list of
+ * forces, moments or derivations; or else all of such a list, if it is on the line of its key.
  */
 #include <limits.h>
 #include <string.h>
@@ -16,10 +16,10 @@
 /* Lines from..to of the text, the last one not included; counted from 1. */
 struct entry {
     int from, to;
-    int key; /* the line of `forces:` and its like */
+    int key; /* the line of `forces:` or a similar key */
 };
 
-/* A text and where its lines begin. */
+/* A text and the starts of its lines. */
 struct page {
     char *text;
     size_t length;
@@ -29,7 +29,7 @@ struct page {
 
 /* ---- lines */
 
-/* Nobody writes that many, and to look for an entry may take the square of them. */
+/* Limits the time, as the search for an entry may be quadratic in the number of lines. */
 enum { most_lines = 2000 };
 
 static bool open_page(struct arena *arena, char *text, size_t length, struct page *page)
@@ -61,7 +61,7 @@ static bool is_blank(const char *line)
     return *line == '\n' || *line == '\0' || *line == '#';
 }
 
-/* What is behind the key of a list that is graded, if the line begins with one. */
+/* The text after the key of a graded list, if the line begins with one. */
 static const char *behind_key(const char *line)
 {
     static const char *const keys[] = {"forces:", "moments:", "hand:"};
@@ -77,8 +77,8 @@ static bool is_item(const char *line)
     return line[0] == '-' && (line[1] == ' ' || line[1] == '\n');
 }
 
-/* The line that a line is in, which begins further to the left; 0 when there is none. Items may begin where their key
- * does. */
+/* The enclosing line, which has a smaller indentation; 0 if there is none. Items may have the indentation of
+ * their key. */
 static int line_around(const struct page *page, int line)
 {
     const char *inner = line_of(page, line);
@@ -121,7 +121,7 @@ static bool find_entry(const struct page *page, int line, struct entry *entry)
     return false;
 }
 
-/* In the text, or in a copy of it. */
+/* Blank an entry in the text, or in a copy of it. */
 static void blank(const struct page *page, const struct entry *entry, char *text)
 {
     const char *end = line_of(page, entry->to);
@@ -132,7 +132,7 @@ static void blank(const struct page *page, const struct entry *entry, char *text
 
 /* ---- faults */
 
-/* Where reading stops: `line` is INT_MAX when it does not. The errors belong to the caller. */
+/* The position at which reading stops: `line` is INT_MAX if it does not. The errors belong to the caller. */
 static struct pos find_fault(struct fbd_grade *grade, const char *text, size_t length, fbd_errors *errors)
 {
     struct document document;
@@ -161,14 +161,15 @@ static struct pos fault_without(struct fbd_grade *grade, const struct page *page
     return fault;
 }
 
-/* Does this line belong to an entry that is laid out wrongly: indented by a tab, or a line without a key? */
+/* True if this line may belong to a malformed entry: an item, perhaps indented by a tab, or a line without a
+ * key. */
 static bool is_stray(const char *line)
 {
     line += strspn(line, " \t");
     return *line == '-' || !memchr(line, ':', strcspn(line, "\r\n"));
 }
 
-/* The entry that is to go: that of the fault, the one before, or the line by itself; false when none helps. */
+/* Choose the entry to remove: that of the error, the one before, or the line alone; false if none helps. */
 static bool choose(struct fbd_grade *grade, const struct page *page, struct pos fault, struct entry *chosen)
 {
     struct entry tried[3];
@@ -188,7 +189,7 @@ static bool choose(struct fbd_grade *grade, const struct page *page, struct pos 
     return found;
 }
 
-/* What is said of it is said of the line where it begins. */
+/* The finding refers to the line where the entry begins. */
 static void note(struct fbd_grade *grade, const struct page *page, const struct entry *entry,
                  const fbd_error *error)
 {
@@ -204,7 +205,7 @@ static void note(struct fbd_grade *grade, const struct page *page, const struct 
     if (body_name && name) finding_of_error(grade, FBD_FINDING_UNREADABLE, body_name, name, &there);
 }
 
-/* Blank one entry; false when nothing is wrong, or nothing helps. */
+/* Blank one entry; false if there is no error, or no removal helps. */
 static bool mend_one(struct fbd_grade *grade, const struct page *page)
 {
     struct entry entry;

@@ -22,7 +22,7 @@ static enum relation relation_of_couples(const struct sides *sides, const struct
     return at->moment * key->moment > 0 ? is_scaled : is_other;
 }
 
-/* How an item differs from `key`, a reaction or the component of one. */
+/* Relation of an item to `key`, a reaction or the component of one. */
 static enum relation relation_of(const struct sides *sides, const struct action *key, const struct item *item,
                                  size_t s)
 {
@@ -42,7 +42,8 @@ static enum relation relation_of(const struct sides *sides, const struct action 
     return same && there ? is_turned : is_other;
 }
 
-/* Is an item, at least when its magnitude is right, a component of this wrench at right angles to the rest? *rest. */
+/* True if an item, with a suitable magnitude if that is unknown, is a component of this wrench perpendicular
+ * to the remainder *rest. */
 static bool is_component(const struct sides *sides, const struct action *key, const struct item *item,
                          size_t s, struct action *rest)
 {
@@ -73,7 +74,7 @@ static void consider(struct misdrawn *best, struct item *key, struct item *item,
     *best = (struct misdrawn){key, item, other, relation, rank};
 }
 
-/* An item by itself, or beside a component that is right. */
+/* Consider an item alone, or beside a component that is right. */
 static void consider_item(struct sides *sides, struct item *key, struct item *item, struct misdrawn *best)
 {
     size_t s = reaction_when(sides, key);

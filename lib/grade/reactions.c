@@ -11,7 +11,7 @@ static double reach_of(const struct sides *sides)
     return sides->tolerance * sides->reach + off_by_rounding * (sides->reach + 1);
 }
 
-/* How far to its left a line through `item` passes `point`. */
+/* Distance of `point` from the line of action of `item`, positive to its left. */
 static double distance_to(const struct action *item, struct vec point)
 {
     double size = vec_norm(item->force);
@@ -23,7 +23,7 @@ bool reaction_passes(const struct sides *sides, const struct action *item, struc
     return !sides->turns || fabs(distance_to(item, point)) <= reach_of(sides);
 }
 
-/* Does a component pass the point where the reactions act, or between their points? */
+/* True if a component passes the point where the reactions act, or between their points. */
 static bool meets_support(const struct sides *sides, const struct support *support, const struct action *item,
                           size_t s)
 {
@@ -49,7 +49,7 @@ enum { most_columns = 3 };
 struct column {
     double row[3]; /* force, and moment over a length */
     size_t part;
-    bool any; /* one of two of a force without a direction */
+    bool any; /* one of two components of a force of unknown direction */
 };
 
 static struct column column_of(const struct sides *sides, struct vec force, double moment)
@@ -63,7 +63,7 @@ static double dot(const double *a, const double *b)
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-/* Least squares by Gram-Schmidt; false where columns depend on each other. */
+/* Least squares by Gram-Schmidt; false if columns are linearly dependent. */
 static bool solve(struct column *columns, size_t count, const double *right, double *values)
 {
     double base[most_columns][3], factor[most_columns][most_columns] = {{0}}, along[most_columns] = {0};
@@ -129,7 +129,7 @@ static bool collect(const struct sides *sides, const struct support *support, si
     return fine;
 }
 
-/* The sum of the parts, with these magnitudes of the unknowns. */
+/* The sum of the parts with these values of the unknowns. */
 static struct action sum_of(const struct sides *sides, const struct fitting *fitting)
 {
     struct action sum = fitting->known;
@@ -142,7 +142,8 @@ static struct action sum_of(const struct sides *sides, const struct fitting *fit
     return sum;
 }
 
-/* Do the parts tell each of several reactions? They are nearer to all of them than to those without one. */
+/* True if the parts identify each of several reactions: they are nearer to all of them than to those without
+ * one. */
 static bool tells_each(const struct support *support, size_t s, struct vec off)
 {
     for (size_t i = 0; i < support->key_count && support->key_count > 1; i++) {
@@ -165,7 +166,7 @@ static bool fit(const struct sides *sides, const struct support *support, size_t
            tells_each(support, s, vec_sub(sum.force, fitting->wanted.force));
 }
 
-/* Is an unknown drawn along the line of one of the reactions, the other way? */
+/* True if an unknown is drawn along the line of one of the reactions, with the opposite sense. */
 static bool is_against_line(const struct sides *sides, const struct support *support, struct vec drawn)
 {
     for (size_t i = 0; i < support->key_count; i++) {
@@ -176,8 +177,8 @@ static bool is_against_line(const struct sides *sides, const struct support *sup
     return false;
 }
 
-/* A sense is that of the reaction, for a single force and where the reactions only pull or press. Two components of a
- * force that may point anywhere have any sense, as their signs follow from the equations, and may be zero. */
+/* The sense must be that of the reaction, for a single force and for one-sided reactions. Two components of a
+ * force of unknown direction may have any sense, as their signs follow from the equations, and may be zero. */
 static bool senses_agree(const struct sides *sides, const struct support *support,
                          const struct fitting *fitting)
 {
@@ -208,7 +209,7 @@ bool reaction_is_couple(const struct sides *sides, const struct item *item, size
     return vec_norm(item->at[s].force) <= (item->unknown ? 0 : off_by_rounding * sides->force);
 }
 
-/* Components of a force that may point anywhere are drawn where it acts, others across its support. */
+/* Components of a force of unknown direction are drawn at its point, others across their support. */
 static bool is_drawn_there(const struct sides *sides, const struct support *support, const struct item *part,
                            size_t s)
 {
@@ -222,7 +223,7 @@ static bool is_right_angle(const struct sides *sides, struct vec a, struct vec b
     return fabs(vec_dot(a, b)) <= sides->tolerance * vec_norm(a) * vec_norm(b);
 }
 
-/* Components are at right angles: with two magnitudes to choose, any two forces would do. */
+/* Components must be perpendicular: with two free magnitudes, any two forces would fit. */
 static bool are_components(const struct sides *sides, const struct support *support, size_t s)
 {
     for (size_t i = 0; i < support->count; i++)
@@ -272,8 +273,8 @@ void support_solve(const struct sides *sides, const struct support *support, dou
         if (!fitting.columns[k].any) values[fitting.columns[k].part] = fitting.values[k];
 }
 
-/* Number k of what can be a reaction: those of couplings and joints, then normal forces and friction that the key lists.
- * NULL for what is used or zero. */
+/* Candidate number k for a reaction: those of couplings and joints, then normal forces and friction that the
+ * key lists. NULL for used or zero ones. */
 struct item *reaction_candidate(const struct sides *sides, size_t k)
 {
     bool reaction = k < sides->reaction_count;
@@ -282,7 +283,7 @@ struct item *reaction_candidate(const struct sides *sides, size_t k)
     return reaction_is_nothing(sides, item) ? NULL : item;
 }
 
-/* Do two act at one point, or in one contact? */
+/* True if two act at one point, or in one contact. */
 static bool share_support(const struct sides *sides, const struct item *a, const struct item *b)
 {
     size_t s = reaction_when(sides, a);
@@ -307,7 +308,7 @@ bool supports_meet(const struct support *a, const struct support *b)
     return false;
 }
 
-/* Is one of those found a part of this? A force that is right by itself belongs to no resultant. */
+/* True if one of those found is a part of this. A force that is right alone belongs to no resultant. */
 static bool has_another(const struct supports *found, const struct support *support)
 {
     for (size_t i = 0; i < found->count; i++) {
@@ -322,11 +323,11 @@ static bool has_another(const struct supports *found, const struct support *supp
     return false;
 }
 
-/* Choose parts from item `from` on, and note those that are right. */
+/* Choose parts from item `from` on, and record those that are right. */
 static void choose_parts(const struct sides *sides, const struct search *search, struct support *support,
                          size_t from, size_t *noted, struct supports *found)
 {
-    enum { most_left = 24, most_noted = 6 }; /* among so many components are looked for; of one support */
+    enum { most_left = 24, most_noted = 6 }; /* limits of the search: components; matches of one support */
     if (*noted == most_noted || found->count == most_supports) return;
     if (support->count == search->parts) {
         if (!is_right(sides, support) || has_another(found, support)) return;
@@ -355,7 +356,7 @@ static void try_support(const struct sides *sides, const struct search *search, 
     choose_parts(sides, search, support, 0, &noted, found);
 }
 
-/* Reaction k with one other, or with all at its support. */
+/* Combine reaction k with one other, or with all at its support. */
 static void find_groups(const struct sides *sides, size_t k, const struct search *search,
                         struct support *support, struct supports *found)
 {
@@ -385,7 +386,7 @@ void supports_find(const struct sides *sides, const struct search *search, struc
     }
 }
 
-/* The component of a reaction that may point anywhere, at right angles to one that is right by itself. */
+/* True for the component of a reaction of unknown direction perpendicular to one that is right alone. */
 static bool is_beside(const struct sides *sides, const struct item *item, struct item *key)
 {
     size_t s = reaction_when(sides, key);

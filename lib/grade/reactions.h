@@ -21,7 +21,7 @@ void reaction_describe(const fbd_model *model, int b, const struct arrow *arrow,
 bool reactions_note_asked(struct fbd_key *key, size_t b, const struct sides *sides);
 void reactions_take_asked(const struct fbd_key *key, size_t b, struct sides *sides);
 
-/* Is it zero wherever it is compared? */
+/* True if it is zero at all compared states. */
 bool reaction_is_nothing(const struct sides *sides, const struct item *key);
 
 enum { most_components = 3, most_support = 4 };
@@ -32,14 +32,15 @@ struct support {
     struct item *key[most_support], *parts[most_components];
 };
 
-/* A kind of match: reactions one by one or several together; drawn by so many forces, with a direction or without. */
+/* A kind of match: reactions one by one or several together; drawn by this number of forces, with a direction
+ * or without. */
 struct search {
     bool together;
     size_t parts;
     bool free;
 };
 
-/* All of these that are right; some have reactions or forces in common. */
+/* All correct supports; some have reactions or forces in common. */
 enum { most_supports = 160 };
 
 struct supports {
@@ -49,10 +50,10 @@ struct supports {
 
 void supports_find(const struct sides *sides, const struct search *search, struct supports *found);
 
-/* Do they have a reaction or a force in common? */
+/* True if they have a reaction or a force in common. */
 bool supports_meet(const struct support *a, const struct support *b);
 
-/* The finding about one wrongly drawn reaction, and the reaction that it stands for. */
+/* The finding about one wrongly drawn reaction, and that reaction. */
 struct misdrawn {
     struct item *key, *item, *other; /* `other`: a component that is right, or NULL */
     enum relation relation;
@@ -62,13 +63,13 @@ struct misdrawn {
 /* The likeliest of those with a rank below `below`; false when there is none. */
 bool reactions_closest(struct sides *sides, int below, struct misdrawn *found);
 
-/* Is it an asked reaction that nothing else is drawn for, with the wrong sense? */
+/* True for an asked reaction for which only this item is drawn, with the wrong sense. */
 bool reaction_is_reversed(struct sides *sides, const struct item *item);
 
-/* Is this drawn for a reaction that is zero, or the component that is zero of one which is right? */
+/* True if this is drawn for a reaction that is zero, or for the zero component of one that is right. */
 bool is_of_nothing(struct sides *sides, const struct item *item);
 
-/* The value of the unknowns that make these reactions, by the force of each, for the derivations. */
+/* The values of the unknowns that make up these reactions, by force, for the derivations. */
 void support_solve(const struct sides *sides, const struct support *support, double values[most_components]);
 
 #endif

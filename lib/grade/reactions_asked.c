@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * What exerts a reaction, at which state it is compared, and which reactions have to be drawn.
+ * The source of a reaction, the state at which it is compared, and the reactions that have to be drawn.
  */
 #include "grade/reactions_work.h"
 
@@ -16,7 +16,7 @@ const double reaction_zero = 1e-7;
 
 /* ---- the coupling, contact or guide that exerts it */
 
-/* The direction of the force of row `row` of a coupling at its end k; zero where that has none of its own. */
+/* The direction of the force of row `row` of a coupling at its end k; zero if it has no fixed direction. */
 static struct vec direction_of(const struct coupling *coupling, int k, int row, const struct instant *at)
 {
     struct vec sum = {0, 0};
@@ -32,7 +32,7 @@ void reaction_describe(const fbd_model *model, int b, const struct arrow *arrow,
 {
     const struct model_body *body = &model->bodies[b];
     for (size_t c = 0; c < model->body_count;
-         c++) /* on a body that another one moves on: of the joint of that */
+         c++) /* on a body that carries another one: of that one's joint */
         if (arrow->name && model->bodies[c].reaction_on_parent == arrow->name) body = &model->bodies[c];
     bool joint = arrow->name && (arrow->name == body->reaction || arrow->name == body->reaction_on_parent);
     bool guided = body->kind == motion_slide || body->kind == motion_track;
@@ -56,7 +56,7 @@ void reaction_describe(const fbd_model *model, int b, const struct arrow *arrow,
     }
 }
 
-/* ---- where it is compared */
+/* ---- state of comparison */
 
 bool reaction_is_zero(const struct sides *sides, const struct item *item, size_t s)
 {
@@ -81,7 +81,7 @@ bool reaction_is_nothing(const struct sides *sides, const struct item *key)
     return reaction_when(sides, key) == sides->samples;
 }
 
-/* Is the second wrench the first, to the tolerance? */
+/* True if the second wrench equals the first within the tolerance. */
 bool reaction_is_near(const struct sides *sides, const struct action *key, const struct action *other)
 {
     double size = vec_norm(key->force), off = vec_norm(vec_sub(key->force, other->force));
@@ -91,9 +91,9 @@ bool reaction_is_near(const struct sides *sides, const struct action *key, const
             fabs(key->moment - other->moment) <= sides->tolerance * moments + reaction_zero * sides->moment);
 }
 
-/* ---- which have to be drawn */
+/* ---- reactions to be drawn */
 
-/* Is this the name of the reaction, or of its coupling? */
+/* True if this is the name of the reaction, or of its coupling. */
 static bool is_named(const struct item *key, const char *name)
 {
     size_t length = strlen(name);

@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Arrows of a drawing, on the lines of action that they were drawn for.
+ * Place the arrows of a drawing on the lines of action that they were drawn for.
  *
- * Nobody draws to a thousandth, and an arrow has no length that says a magnitude. So each is matched, nearest first, with a
- * force of the key whose direction and line of action it has within the tolerances of drawings, and is put there exactly;
- * where it has no value and the key lists the force, it has that of the key. What is left over is matched with what has
- * been drawn for nothing yet in one respect: sense, place or direction. The rest of grading compares exactly (compare.h).
+ * Drawings are not exact, and the length of an arrow does not give its magnitude. Each arrow is matched,
+ * nearest first, with a force of the key whose direction and line of action agree within the tolerances of
+ * drawings, and is placed there exactly; if it has no value and the key lists the force, it gets that of the
+ * key. Remaining arrows are matched with remaining forces from which they differ in one respect: sense, place
+ * or direction. The rest of grading compares exactly (compare.h).
  */
 #include <stdlib.h>
 
@@ -16,15 +17,15 @@
 struct line {
     const struct item *key, *other; /* `other`: the second of the sum, or NULL */
     size_t s;                       /* the state where it is compared */
-    struct vec force, point;        /* there, the point as at the start */
-    bool couple, given, taken;      /* `given`: the key lists it, and it does not follow from other forces */
+    struct vec force, point;        /* at that state, the point as at the start */
+    bool couple, given, taken;      /* `given`: the key lists it, and it does not depend on other forces */
 };
 
 struct stroke {
     struct item *item;
     const struct sketch *sketch;
     struct vec along;      /* a unit vector */
-    const struct line *on; /* what it was matched with, or NULL */
+    const struct line *on; /* the matched line, or NULL */
     bool placed;
 };
 
@@ -43,7 +44,7 @@ static struct vec unit(struct vec v)
     return size > 0 ? vec_scale(1 / size, v) : v;
 }
 
-/* ---- what may be drawn */
+/* ---- candidate lines */
 
 static struct vec force_at(const struct line *line, size_t s)
 {
@@ -51,7 +52,7 @@ static struct vec force_at(const struct line *line, size_t s)
     return line->other ? vec_add(force, line->other->at[s].force) : force;
 }
 
-/* The first state at which a force that is given is not zero. */
+/* The first state at which a given force is not zero. */
 static size_t when_given(const struct sides *sides, const struct item *key)
 {
     size_t s = 0;
@@ -111,7 +112,7 @@ static bool make_strokes(struct sheet *sheet)
     return sheet->strokes != NULL;
 }
 
-/* ---- where an arrow is put */
+/* ---- placing an arrow */
 
 static void put(struct item *item, size_t s, struct vec force, struct vec point)
 {
@@ -124,7 +125,7 @@ static void put(struct item *item, size_t s, struct vec force, struct vec point)
     at->arm = size > 0 ? fabs(at->moment) / size : 0;
 }
 
-/* As it is drawn, with its magnitude: entries of drawings point to the right. */
+/* Place an arrow as drawn, with its magnitude: entries of drawings point to the right. */
 static void put_as_drawn(const struct sheet *sheet, const struct stroke *stroke, struct vec along)
 {
     struct item *item = stroke->item;
@@ -137,7 +138,7 @@ static void put_as_drawn(const struct sheet *sheet, const struct stroke *stroke,
     }
 }
 
-/* On a line, with its own magnitude; `there`: its place too. */
+/* Place an arrow on a line, with its own magnitude; `there`: at the point of the line, too. */
 static void put_on_line(const struct sheet *sheet, struct stroke *stroke, const struct line *line,
                         double sense, bool there)
 {
@@ -150,7 +151,7 @@ static void put_on_line(const struct sheet *sheet, struct stroke *stroke, const 
     stroke->placed = true;
 }
 
-/* As the key's force by `factor`, turned by `angle`; at its place, or where it is drawn. */
+/* Set an arrow to the key's force times `factor`, turned by `angle`; at its point, or where it is drawn. */
 static void put_as_given(const struct sheet *sheet, struct stroke *stroke, const struct line *line,
                          double factor, double angle, bool there)
 {
@@ -175,12 +176,12 @@ static void put_as_given(const struct sheet *sheet, struct stroke *stroke, const
     stroke->placed = true;
 }
 
-/* ---- how near an arrow is to a line */
+/* ---- distance of an arrow from a line */
 
 struct nearness {
     double turn;  /* from the line, to the left */
     double angle; /* between the lines, 0 to pi/2 */
-    double off;   /* of the line of action, over what may be off */
+    double off;   /* distance of the line of action over its tolerance */
     bool forward;
 };
 
@@ -220,7 +221,7 @@ static bool touches(const struct sheet *sheet, const struct stroke *stroke, cons
 
 enum respect { all_right, as_sum, by_sense, by_place, by_direction };
 
-/* How far an arrow is from a line of which it differs in one respect at most; HUGE_VAL: in more. */
+/* Distance of an arrow from a line from which it differs in at most one respect; HUGE_VAL if in more. */
 static double off_in(enum respect respect, const struct sheet *sheet, const struct stroke *stroke,
                      const struct line *line)
 {
@@ -253,7 +254,7 @@ static void match_one(const struct sheet *sheet, struct stroke *stroke, struct l
     stroke->placed = true;
 }
 
-/* The arrows without a value and the lines that nothing was drawn for, nearest first. */
+/* Match the arrows without a value with the unmatched lines, nearest first. */
 static void match_all(const struct sheet *sheet, enum respect respect)
 {
     for (;;) {
@@ -277,7 +278,7 @@ static void match_all(const struct sheet *sheet, enum respect respect)
     }
 }
 
-/* Is the magnitude of an arrow that of the force? */
+/* True if an arrow has the magnitude of the force. */
 static bool is_as_large(const struct sides *sides, const struct item *item, const struct line *line)
 {
     double size = line->couple ? fabs(line->key->at[line->s].moment) : vec_norm(line->force);
@@ -285,7 +286,7 @@ static bool is_as_large(const struct sides *sides, const struct item *item, cons
     return fabs(size - own) <= sides->tolerance * size;
 }
 
-/* An arrow with a value: onto the nearest line, if possible of that magnitude and sense. */
+/* Place an arrow with a value on the nearest line, preferably one of that magnitude and sense. */
 static void match_value(const struct sheet *sheet, struct stroke *stroke)
 {
     double least = HUGE_VAL;
@@ -308,7 +309,8 @@ static void match_value(const struct sheet *sheet, struct stroke *stroke)
 
 /* ---- components, and the rest */
 
-/* The nearest direction along x or y, or of a force of the key, or at right angles to that; NULL beyond the tolerance. */
+/* The nearest direction along x or y, along a force of the key, or perpendicular to one; NULL beyond the
+ * tolerance. */
 static struct vec straight(const struct sheet *sheet, struct vec along)
 {
     struct vec best = along;
@@ -325,7 +327,7 @@ static struct vec straight(const struct sheet *sheet, struct vec along)
     return best;
 }
 
-/* Two arrows without values at right angles, as components of a force that the key lists. */
+/* Match two perpendicular arrows without values with the components of a force that the key lists. */
 static void match_components(const struct sheet *sheet, struct line *line)
 {
     for (size_t i = 0; i < sheet->stroke_count; i++)
@@ -344,8 +346,8 @@ static void match_components(const struct sheet *sheet, struct line *line)
         }
 }
 
-/* The nearest point of the key that the line of an arrow passes, or that it touches; NULL where there is none. `any`: of
- * reactions that may point anywhere. */
+/* The nearest point of the key that is on the line of an arrow, or that the arrow touches; NULL if there is
+ * none. `any`: of reactions of unknown direction. */
 static const struct line *point_near(const struct sheet *sheet, const struct stroke *stroke, bool any)
 {
     const struct line *found = NULL;
@@ -362,7 +364,7 @@ static const struct line *point_near(const struct sheet *sheet, const struct str
     return found;
 }
 
-/* Along this direction, through the point of a line, or where it is. */
+/* Turn an arrow to this direction, through the point of a line, or its own point. */
 static void put_along(const struct sheet *sheet, struct stroke *stroke, struct vec along,
                       const struct line *line)
 {
@@ -375,8 +377,8 @@ static void put_along(const struct sheet *sheet, struct stroke *stroke, struct v
     stroke->placed = true;
 }
 
-/* What is left over at the point of a reaction that may point anywhere: a component of that, with the arrow there at right
- * angles to it, if there is one. */
+/* Place a remaining arrow at a reaction of unknown direction as a component of it, together with a
+ * perpendicular arrow at that point, if there is one. */
 static void put_components(const struct sheet *sheet, struct stroke *stroke, const struct line *line)
 {
     struct vec along = straight(sheet, stroke->along), across = vec_perp(along);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * What a solution has that no key lists: reactions by their values at the start, and equations.
+ * The parts of a solution that no key lists: reactions by their values at the start, and equations.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -24,7 +24,7 @@ fbd_model *solution_model(const struct handout *handout, fbd_errors *errors)
     return model;
 }
 
-/* `R_` and the name of a reaction, which the coupling itself has. */
+/* `R_` and the name of a reaction, since the coupling has the name itself. */
 static void write_name(struct text *text, const char *name)
 {
     text_add(text, "R_");
@@ -47,7 +47,7 @@ static void write_reaction(struct text *text, const fbd_model *model, const stru
     text_add(text, "}\n");
 }
 
-/* The start, in the modes in which it moves on (compare.c). NULL when memory is out. */
+/* The start, in the modes of the motion that follows (compare.c). NULL when memory is out. */
 static fbd_state *start_of(const struct handout *handout)
 {
     fbd_state *state = state_new(handout->model);

@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Equations of rest: sums of forces and moments that are zero at the start of the sheet.
+ * Equations of equilibrium: sums of forces and moments that are zero at the start of the sheet.
  *
- * Such an equation names no acceleration, and is true for the values of the sheet alone. It is one where it holds there,
- * and where it is a combination of the sums of forces and moments on the bodies: when the parameters are changed a
- * little, it changes as a combination of these sums does. An equation that states a value (W = 400[N]) does not. What
- * belongs to a sum is what the key lists and the reactions that the answer has drawn rightly, each of which is a
- * parameter.
+ * Such an equation contains no acceleration, and is true for the values of the sheet only. It is accepted if
+ * it is satisfied there and is a combination of the sums of forces and moments on the bodies: under small
+ * changes of the parameters it changes as a combination of these sums does. An equation that states a value
+ * (W = 400[N]) does not. The sums contain the loads that the key lists and the correct reactions of the
+ * answer, each of which is a parameter.
  */
 #include <stdlib.h>
 #include <string.h>
@@ -24,7 +24,7 @@ enum { sums = 3 }; /* of a body: forces along x and y, moments about the origin 
 
 /* ---- models whose parameters are changed a little */
 
-/* A number with or without a unit; parameters that follow from others change with them. */
+/* True for a number with or without a unit; parameters that depend on others change with them. */
 static bool is_given(const struct node *value)
 {
     if (value->kind == node_map) value = lines_value(value, "value");
@@ -35,7 +35,7 @@ static bool is_given(const struct node *value)
     return *end == '\0' || *end == ' ' || (*end >= 'A' && *end <= 'z');
 }
 
-/* Between -1 and 1, by the name and the number of the change. */
+/* Pseudo-random number between -1 and 1 from the name and the number of the change. */
 static double change_of(const char *name, int number)
 {
     unsigned long long mixed = (unsigned long long)hash_text(name, strlen(name)) ^
@@ -45,7 +45,7 @@ static double change_of(const char *name, int number)
     return (double)(mixed >> 11) / 4503599627370496.0 - 1;
 }
 
-/* The model of a tree with all given parameters changed: 0 as it is. */
+/* The model of a tree with all given parameters changed; unchanged for number 0. */
 static fbd_model *changed_model(struct fbd_grade *grade, const struct node *root, const fbd_model *like,
                                 bool hands, int number)
 {
@@ -87,8 +87,8 @@ fbd_state *lines_start_of(const fbd_model *model)
 struct rest {
     int draws;
     size_t rows;
-    double *sum;  /* draws + 1 times rows: the first as the sheet is */
-    double *size; /* rows: of what was added up */
+    double *sum;  /* draws + 1 times rows: the first with the values of the sheet */
+    double *size; /* rows: sums of magnitudes */
 };
 
 static bool counts_here(const struct fbd_grade *grade, const struct load *load, bool answer)
@@ -98,7 +98,7 @@ static bool counts_here(const struct fbd_grade *grade, const struct load *load, 
     return drawn && isfinite(drawn->size);
 }
 
-/* Add what the bodies of a model list to their sums. */
+/* Add the listed loads of the bodies of a model to their sums. */
 static bool add_sums(struct lines *lines, const fbd_model *model, double length, double force, bool answer,
                      double *sum, double *size)
 {
@@ -127,7 +127,7 @@ static bool add_sums(struct lines *lines, const fbd_model *model, double length,
     return done;
 }
 
-/* The sums under one change of the parameters, in the units of the key. False where a model cannot be. */
+/* The sums under one change of the parameters, in the units of the key. False if a model is invalid. */
 static bool take_sums(struct lines *lines, const fbd_model *answer, int number, double *sum, double *size)
 {
     struct fbd_grade *grade = lines->grade;
@@ -200,7 +200,7 @@ static const struct node *varied_bodies(struct fbd_grade *grade, const struct no
     return made;
 }
 
-/* The parameters of a tree, and one for each reaction that is drawn rightly. */
+/* The parameters of a tree, and one for each correct reaction. */
 static const struct node *with_reactions(struct fbd_grade *grade, const struct node *root)
 {
     struct arena *arena = &grade->arena;
@@ -231,7 +231,7 @@ static fbd_model *make_varied(struct lines *lines)
     return model;
 }
 
-/* All sums, once for all lines; false where they are not known. */
+/* Compute all sums, once for all lines; false if they cannot be computed. */
 static bool find_sums(struct lines *lines)
 {
     struct fbd_grade *grade = lines->grade;
@@ -255,7 +255,7 @@ static bool find_sums(struct lines *lines)
 
 /* ---- one equation */
 
-/* The key's scene with this equation alone, over the parameters of the reactions. */
+/* The key's scene with only this equation, with the parameters of the reactions. */
 static const struct node *root_of_line(struct lines *lines, int body, const char *text)
 {
     struct fbd_grade *grade = lines->grade;
@@ -298,7 +298,7 @@ static double lack_of(const fbd_model *model, int body, double *size)
     return lack;
 }
 
-/* How left less right changes; false where it cannot be evaluated, or is not zero for the sheet. */
+/* Changes of left minus right; false if it cannot be evaluated, or is not zero for the sheet. */
 static bool find_changes(struct lines *lines, int body, const char *text, double *changes)
 {
     struct fbd_grade *grade = lines->grade;
@@ -322,7 +322,7 @@ static bool find_changes(struct lines *lines, int body, const char *text, double
     return done && rest_norm(changes, lines->rest->draws) > rounding * size;
 }
 
-/* Are the changes a combination of those of the sums that are zero? */
+/* True if the changes are a combination of those of the sums that are zero. */
 static bool is_of_sums(const struct lines *lines, const double *changes)
 {
     enum { most_rows = 30, most_draws = 30 };

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * What is right is paired first, by numbers alone; then what is left over, by name, kind and likeness.
+ * Entries that are right are paired first, by numbers alone; then the remaining ones, by name, kind and
+ * similarity.
  */
 
 #include <string.h>
@@ -78,7 +79,7 @@ static const char *inertia_fault(const struct fbd_grade *grade, const struct mod
     double I_G = I * body->inertia.I_G, I_O = I * body->I_O, mass = force / length * body->inertia.mass;
     struct vec apart = vec_sub(centre_of(body, length, sides->turned), centre_of(key, 1, 0));
     double gyration =
-        sqrt(fmax(key->inertia.I_G, 0) / key->inertia.mass); /* G may be the origin, but for rounding */
+        sqrt(fmax(key->inertia.I_G, 0) / key->inertia.mass); /* G may be the origin, up to rounding */
     double size = tolerance * (vec_norm(key->inertia.G) + key->L + gyration);
     bool pivot = key->kind == motion_pivot, turns = pivot || key->kind == motion_planar;
     *kind = FBD_FINDING_INERTIA;
@@ -145,7 +146,7 @@ void verdict_right(struct fbd_grade *grade, const char *body, struct item *key, 
     text_free(&text);
 }
 
-/* A weight that is off as the mass is: said of the mass. */
+/* A weight with the relative error of the mass is reported as an error of the mass. */
 static bool follows_mass(const struct item *key, const struct item *item, const struct difference *difference,
                          double masses)
 {
@@ -162,14 +163,15 @@ static void pair_equal(struct fbd_grade *grade, const char *body, struct sides *
                 if (!is_left(key) || !is_left(item)) continue;
                 if (same_kind && key->source->kind != item->source->kind) continue;
                 if (key->source->kind != item->source->kind && is_drawn_as_such(sides, key)) continue;
-                if (is_nothing(sides, item) && !is_nothing(sides, key)) continue; /* where friction rests */
+                if (is_nothing(sides, item) && !is_nothing(sides, key))
+                    continue; /* for friction that is zero */
                 struct difference difference = difference_of(sides, key, item);
                 if (difference.relation == is_same || follows_mass(key, item, &difference, masses))
                     verdict_right(grade, body, key, item, "right");
             }
 }
 
-/* Are these the parts of `whole`? Then they are used. */
+/* If these are the parts of `whole`, mark them as used. */
 static bool take_parts(const struct sides *sides, struct item **parts, size_t count, const struct item *whole)
 {
     for (size_t i = 0; i < count; i++)
@@ -179,7 +181,7 @@ static bool take_parts(const struct sides *sides, struct item **parts, size_t co
     return true;
 }
 
-/* Two of `items` that make one `whole`, or else three: how many, 0 when none do. */
+/* Find two of `items` that add up to `whole`, or else three; returns their number, 0 if there are none. */
 static size_t find_parts(const struct sides *sides, struct item *items, size_t count,
                          const struct item *whole, struct item *parts[3])
 {
@@ -197,7 +199,7 @@ static size_t find_parts(const struct sides *sides, struct item *items, size_t c
     return 0;
 }
 
-/* Components for one force, or one resultant for several. */
+/* Pair components with one force, or one resultant with several. */
 static void pair_sums(struct fbd_grade *grade, const char *body, struct sides *sides)
 {
     struct item *parts[3];
@@ -216,8 +218,8 @@ static void pair_sums(struct fbd_grade *grade, const char *body, struct sides *s
     }
 }
 
-/* Several of the key and several of the answer that do the same together, as forces at G with one moment for all of
- * their offsets: the smallest such group first. */
+/* Pair several of the key with several of the answer that are equivalent together, as forces at G with one
+ * moment of all their offsets: the smallest such group first. */
 static void pair_groups(struct fbd_grade *grade, const char *body, struct sides *sides)
 {
     struct group group;
@@ -228,9 +230,9 @@ static void pair_groups(struct fbd_grade *grade, const char *body, struct sides 
     }
 }
 
-/* ---- what is left over, as what it was meant to be */
+/* ---- pairing of the remaining entries */
 
-/* Factors between units, and those of weight for mass. */
+/* Factors between units, and that of weight written for mass. */
 static const char *unit_of_ratio(double ratio, double g)
 {
     static const struct {
@@ -273,7 +275,7 @@ static fbd_finding_kind kind_of(const struct difference *difference, double g)
     return FBD_FINDING_DIRECTION;
 }
 
-/* How unlikely it is that one was meant to be the other; none means that it was not. */
+/* How unlikely it is that one was meant to be the other; at no_pair and above they are not paired. */
 enum { no_pair = 9 };
 
 static int unlikeness(const struct item *key, const struct item *item, const struct difference *difference)
@@ -284,10 +286,10 @@ static int unlikeness(const struct item *key, const struct item *item, const str
     bool same_kind = key->source->kind == item->source->kind;
     bool same_noun = strcmp(verdict_noun(key->source), verdict_noun(item->source)) == 0;
     if (!same_noun) return no_pair + 1;
-    /* Another size and the opposite sense: two errors are none, and nothing exerts it. */
+    /* With another magnitude and the opposite sense, a pair needs the same name or kind. */
     if (difference->relation == is_scaled && !(difference->ratio > 0) && !same_name && !same_kind)
         return no_pair;
-    /* Any two moments are along one line: only what is a constant share of the other is like it. */
+    /* Any two moments are parallel: only a constant ratio makes them similar. */
     bool alike = difference->relation != is_scaled || isfinite(difference->ratio);
     bool nothing = difference->relation == is_scaled && fabs(difference->ratio) < 1e-9;
     if ((!alike && !same_name) || nothing) return no_pair;
@@ -315,7 +317,7 @@ static void say_pair(struct fbd_grade *grade, const char *body, struct item *key
         message = unit ? unit : "its magnitude is wrong";
         if (isfinite(difference->ratio)) text_printf(&detail, ": %.6g times as large", difference->ratio);
         break;
-    case is_same: message = "right"; break; /* it is zero, since what it follows from is missing */
+    case is_same: message = "right"; break; /* it is zero, since a force that it depends on is missing */
     case is_other: break;
     }
     if (detail.failed) grade->arena.failed = true;
@@ -325,7 +327,7 @@ static void say_pair(struct fbd_grade *grade, const char *body, struct item *key
 
 /* ---- the rest */
 
-/* The closest pair of the forces that the key lists and those of the answer that are left. */
+/* The closest pair of a remaining force of the key and one of the answer. */
 struct closest {
     struct item *key, *item;
     struct difference difference;

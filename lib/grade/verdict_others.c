@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Bodies and couplings that an answer has and the key has not, or the other way round.
+ * Bodies and couplings that only the answer has, or only the key.
  */
 #include <string.h>
 
@@ -59,7 +59,7 @@ static bool same_coupling(const struct scene *key, const struct force_coupling *
            near(a->load.free_length, b->load.free_length, 1e-6);
 }
 
-/* ---- what joins bodies, by number: constraints first, then couplings that exert a force */
+/* ---- connections, by number: constraints first, then couplings that exert a force */
 
 static size_t joint_count(const struct scene *scene, bool forces)
 {
@@ -72,7 +72,7 @@ static bool same_joint(const struct scene *a, size_t i, const struct scene *b, s
                   : same_constraint(a, &a->constraints[i], b, &b->constraints[k]);
 }
 
-/* How many of the first `count` of a scene are like number `index` of another one. */
+/* The number of the first `count` of a scene that are like number `index` of another one. */
 static size_t joints_like(const struct scene *scene, size_t count, const struct scene *of, size_t index,
                           bool forces)
 {
@@ -81,7 +81,7 @@ static size_t joints_like(const struct scene *scene, size_t count, const struct 
     return found;
 }
 
-/* Is number `index` of a scene one more than the other scene has of its like? */
+/* True if number `index` of a scene exceeds the number of its like in the other scene. */
 static bool is_joint_more(const struct scene *scene, size_t index, const struct scene *other, bool forces)
 {
     return joints_like(scene, index + 1, scene, index, forces) >
@@ -93,7 +93,7 @@ static void compare_joints(struct fbd_grade *grade, const struct scene *key, con
 {
     const char *lost = "a coupling of the sheet is not in the answer, or was changed",
                *more = "it is not on the sheet";
-    size_t changed = 0; /* of the answer's own, so many are those of the sheet as they were changed */
+    size_t changed = 0; /* number of the answer's that are changed ones of the sheet */
     for (size_t i = 0; i < joint_count(key, forces); i++) {
         if (!is_joint_more(key, i, answer, forces)) continue;
         const char *name = forces ? key->force_couplings[i].load.name : key->constraints[i].name;

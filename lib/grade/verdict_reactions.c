@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Reactions that are drawn rightly: one force may be read as several reactions, by itself or as a component. Of all
- * readings the one counts that brings the most points.
+ * Reactions that are drawn correctly: one force may be read as several reactions, alone or as a component.
+ * The reading with the most points counts.
  */
 #include <string.h>
 
@@ -10,7 +10,7 @@
 #include "grade/reactions_work.h"
 #include "grade/verdict_work.h"
 
-/* The value of a reaction for derivations that name it: of an unknown the value that makes it right. */
+/* Keep the value of a reaction for derivations that name it: for an unknown the value that makes it right. */
 static void keep_values(struct fbd_grade *grade, const fbd_model *answer, const struct sides *sides,
                         const struct support *support)
 {
@@ -44,7 +44,7 @@ static void take_support(struct fbd_grade *grade, const fbd_model *answer, const
         verdict_right(grade, body, support->key[i], support->parts[0], message);
 }
 
-/* A `normal` of the answer for a guide of the key is a force across the body's line. */
+/* Treat a `normal` of the answer for a guide of the key as a force across the body's line. */
 static void take_normals(struct sides *sides)
 {
     for (size_t j = 0; j < sides->count; j++) {
@@ -109,11 +109,11 @@ struct reading {
     struct supports supports;
     bool taken[most_supports], best[most_supports];
     struct state *states;
-    double most, points; /* that there are; of the best one */
+    double most, points; /* available; of the best one */
     size_t steps;
 };
 
-/* The work for one body is bounded: steps, of which weighing takes many. */
+/* The work for one body is bounded: steps, of which computing points takes many. */
 enum { most_steps = 8192, steps_to_weigh = 64 };
 
 static void use_support(struct support *support, bool used)
@@ -188,7 +188,7 @@ static void weigh(struct reading *reading)
     memcpy(reading->best, reading->taken, sizeof reading->best);
 }
 
-/* Can a reaction still be right, with one of the supports from `from` on? */
+/* True if a reaction can still be right, with one of the supports from `from` on. */
 static bool is_within_reach(const struct reading *reading, const struct item *key, size_t from)
 {
     for (size_t i = from; i < reading->supports.count; i++) {
@@ -199,7 +199,7 @@ static bool is_within_reach(const struct reading *reading, const struct item *ke
     return false;
 }
 
-/* The most that can come of the supports from `from` on. */
+/* Upper bound of the points from the supports from `from` on. */
 static double most_from(const struct reading *reading, size_t from)
 {
     const struct sides *sides = reading->sides;
@@ -213,7 +213,7 @@ static double most_from(const struct reading *reading, size_t from)
     return most;
 }
 
-/* Does a support certainly earn more points than any other reading of its forces? */
+/* True if a support certainly earns more points than any other reading of its forces. */
 static bool stands_alone(const struct reading *reading, size_t index)
 {
     const struct support *support = &reading->supports.all[index];

@@ -9,7 +9,7 @@
 #include "grade/reactions.h"
 #include "grade/verdict.h"
 
-/* Of the key, and of the answer: both are used then. */
+/* Record the finding on a force of the key and one of the answer; both are then used. */
 void verdict_pair(struct fbd_grade *grade, const char *body, struct item *key, struct item *item,
                   fbd_finding_kind kind, const char *message, const char *detail);
 void verdict_right(struct fbd_grade *grade, const char *body, struct item *key, struct item *item,

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * One name each: the arrows of a diagram are columns and keys of the output.
+ * Make the names of the arrows of each diagram unique, since they are columns and keys of the output.
  *
- * What a file lists has names that differ. What follows from it has not: a rope that meets a body twice, or a
- * pulley between two points of the ground; a coupling called as a body that moves on its other body,
+ * Loads listed in the file have distinct names; derived ones may not: of a rope that meets a body twice, a
+ * pulley between two points of the ground, a coupling called as a body that moves on its other body,
  * `b1.friction`. All but the first get a number.
  */
 #include <stdlib.h>
@@ -13,9 +13,9 @@
 
 struct arrow_name {
     int body;
-    size_t order;      /* among all */
-    const char *text;  /* as it was to be */
-    const char **made; /* where it stands; NULL when it is as the file says */
+    size_t order;      /* among all arrows */
+    const char *text;  /* the intended name */
+    const char **made; /* where it is stored; NULL for a name of the file */
 };
 
 struct arrow_names {

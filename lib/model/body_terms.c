@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * The plan body by body: which part of every list belongs to a body, and what its forces change with.
+ * The plan body by body: the range of every list that belongs to a body, and the variables of its forces.
  */
 #include "model/builder.h"
 
@@ -22,7 +22,7 @@ unsigned formula_depends(const struct model_body *body, const struct formula *fo
     return on;
 }
 
-/* Does a slot stand for how fast the body slips on its surface? */
+/* True if a slot is the slip velocity of the body on its surface. */
 static bool is_own_slip(const struct fbd_model *model, const struct model_body *body, int slot)
 {
     int first = 1 + (int)plan_size(&model->plan) + hand_slots;
@@ -31,7 +31,7 @@ static bool is_own_slip(const struct fbd_model *model, const struct model_body *
            &model->bodies[absolute->body] == body;
 }
 
-/* What kinetic friction changes with: where its law goes with the slip, also with what the surface does. */
+/* Variables of kinetic friction; if its law depends on the slip, also those of the surface speed. */
 static unsigned friction_depends(const struct fbd_model *model, const struct model_body *body,
                                  const struct mode *mode)
 {
@@ -68,7 +68,7 @@ static void ranges_end(const struct plan *plan, struct body_terms *terms)
     terms->at_points = terms->links.count + terms->drags.count + terms->forces.count > 0;
 }
 
-/* By slot, keeping the order within a slot, so that the formulas of a coordinate stand together. */
+/* Stable sort by slot, so that the formulas of a coordinate are contiguous. */
 static void sort_formulas(struct formula_term *terms, int count)
 {
     for (int i = 1; i < count; i++) {
@@ -90,9 +90,8 @@ void body_terms_add(struct builder *builder, int b)
     sort_formulas(model->plan.formulas + terms->formulas.first, terms->formulas.count);
 }
 
-/* ---- lists in the order of the slots: the entries below slot `end`, from the place `*next` on, which moves
- * on
- */
+/* ---- lists in the order of the slots: take the entries below slot `end` from index `*next` on, and advance
+ * it */
 
 static struct range take_affine(const struct plan *plan, int *next, int end)
 {
@@ -124,7 +123,7 @@ static void take_slots(struct fbd_model *model)
             plan->bodies[b].across = take_affine(plan, &affine, model->bodies[b].normal_slot + 1);
 }
 
-/* ---- what a body's forces change with */
+/* ---- variables of a body's forces */
 
 static unsigned simple_depends(const struct plan *plan, const struct body_terms *terms)
 {
@@ -164,17 +163,17 @@ static unsigned point_terms_depend(const struct plan *plan, const struct model_b
     return on;
 }
 
-/* A single sine term may do with the sine or the cosine alone. */
+/* A single sine term may need the sine or the cosine only. */
 static bool needs_both(const struct plan *plan, const struct model_body *body, const struct body_terms *terms)
 {
     const struct sine_term *sine = &plan->sine[terms->sine.first];
-    if (body->place.link > 0) return false; /* its link knows them */
+    if (body->place.link > 0) return false; /* its link holds them */
     return terms->sine.count > 1 || (terms->sine.count == 1 && sine->s != 0 && sine->c != 0) ||
            terms->offset >= 0 ||
            (terms->at_points && (body->kind == motion_pivot || body->kind == motion_planar));
 }
 
-/* Has the body a term in the lists of the plan? */
+/* True if the body has a term in the lists of the plan. */
 static bool has_terms(const struct body_terms *terms)
 {
     return terms->affine.count + terms->sine.count + terms->square.count + terms->formulas.count +

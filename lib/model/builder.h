@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * What the files that compile a scene share.
+ * Declarations shared by the files that compile a scene.
  */
 #ifndef FBD_MODEL_BUILDER_H
 #define FBD_MODEL_BUILDER_H
@@ -15,10 +15,10 @@ struct builder {
     struct sine_term *sine;     /* slots */
 };
 
-/* The formula of a value of the scene; registers its switches. */
+/* Compile a value of the scene; registers its switches. */
 struct formula builder_formula(struct builder *builder, const struct value *value, int body, int load);
 
-/* The same of the rate of a state. */
+/* The same for the rate of user state `own`. */
 struct formula builder_rate(struct builder *builder, const struct value *value, int own);
 
 struct formula formula_constant(double value);
@@ -27,7 +27,7 @@ static inline bool formula_given(const struct formula *formula)
     return formula->expr != NULL || formula->constant != 0;
 }
 
-/* What a formula changes with, seen from one body: a set of depends_... bits. */
+/* The variables of a formula, relative to one body: a set of depends_... bits. */
 unsigned formula_depends(const struct model_body *body, const struct formula *formula);
 
 /* Put one load of a body into the plan's lists. */
@@ -36,39 +36,39 @@ void plan_load(struct builder *builder, struct model_body *body, int index);
 /* Add the modes of couplings and of prescribed motion (plan_couplings.c). */
 void plan_couplings(struct builder *builder);
 
-/* Put all loads of a body into the lists and note which part of them is its own; when all bodies are in and
- * the terms by slot are packed, finish. */
+/* Put all loads of a body into the lists and record the ranges of its terms; call `finish` when all bodies
+ * are added and the terms by slot are packed. */
 void body_terms_add(struct builder *builder, int b);
 void body_terms_finish(struct builder *builder);
 
-/* Find the switches that a motion may slide on, when the plan has all else (slides.c). */
+/* Find the switches on which a sliding mode is possible; the rest of the plan is complete (slides.c). */
 void slides_find(struct fbd_model *model);
 
-/* Find the pairs of friction whose slip is named, when the plan has them (slips.c). False when memory is out.
- */
+/* Find the friction modes whose slip velocity a law names; requires their list in the plan (slips.c). False
+ * when memory is out. */
 bool slips_find(struct fbd_model *model);
 
-/* Refuse gears on fixed axes whose pitch circles do not touch, wheels that do not touch their racks, and belts whose
- * tension nothing tells or two things do; put the tension of those between axes that keep their distance
- * (gear_check.c). */
+/* Reject gears on fixed axes whose pitch circles do not touch, wheels that do not touch their racks, and
+ * belts whose tension is undetermined or given twice. Add the preload of belts between axes at a constant
+ * distance (gear_check.c). */
 void couplings_check(struct builder *builder);
 
-/* Refuse contacts of points with points that do not move on one line (contact_points.c). */
+/* Reject contacts between points that do not move on one line (contact_points.c). */
 void contacts_check(struct builder *builder);
 
-/* Give the arrows of each diagram names that differ (arrow_names.c). False when memory is out. */
+/* Give the arrows of each diagram distinct names (arrow_names.c). False when memory is out. */
 bool arrows_name(struct fbd_model *model);
 
-/* As model_compile, with the labels left to the caller. */
+/* As model_compile; the caller makes the labels. */
 struct fbd_model *model_compile_group(struct scene *scene, fbd_errors *errors);
 
 /* Fill the plan from the bodies and loads of the model. False when memory is out. */
 bool plan_build(struct builder *builder);
 
-/* Decide for each load whether a potential energy exists, and say why. */
+/* Decide for each load whether a potential energy exists, with the reason. */
 bool classify_loads(struct builder *builder);
 
-/* What a track needs beyond its link (track.c): false when memory is out. */
+/* The data of tracks beyond their links (track.c): false when memory is out. */
 bool tracks_set(struct builder *builder);
 void track_set_body(const struct scene *scene, struct model_body *body);
 

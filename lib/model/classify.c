@@ -3,8 +3,8 @@
  * Which forces are conservative, and why.
  *
  * A force of one coordinate that depends on that coordinate alone is conservative: V(q) = -integral Q dq. A
- * constant force fixed in the world is so for any motion. What depends on time, on a rate or on another body
- * is not; its work is integrated along the motion.
+ * constant force fixed in the world is so for any motion. A force that depends on time, on a rate or on
+ * another body is not; its work is integrated along the motion.
  */
 #include "model/builder.h"
 
@@ -20,7 +20,7 @@ static const char *why_not(unsigned on)
     return "not conservative: it depends on the motion of another body";
 }
 
-/* A constant force on a jointed body: fixed in the world, or it turns. */
+/* Classify a constant force on a jointed body: fixed in the world, or turning with the body. */
 static struct verdict judge_jointed(const struct model_body *body, const struct model_load *load)
 {
     const struct load *source = load->source;
@@ -32,7 +32,7 @@ static struct verdict judge_jointed(const struct model_body *body, const struct 
     return (struct verdict){potential_constant, "conservative: a constant force, V = -f . p"};
 }
 
-/* What of the force has no potential that could be had by quadrature: relays and tables. */
+/* Switches of the force that exclude a potential by quadrature: relays and tables. */
 struct odd_switches {
     bool relay, table;
 };
@@ -127,8 +127,8 @@ static struct verdict judge(const struct model_body *body, const struct model_lo
     }
 }
 
-/* V is counted from q = 0, or from the start where the force has no value at 0. `origin` is a state of zeros.
- */
+/* The coordinate where V = 0: 0, or the start where the force is not finite at 0. `origin` is a state of
+ * zeros. */
 static double reference_of(const struct fbd_model *model, const struct model_load *load, const double *origin)
 {
     const struct formula *formulas[] = {&load->value, &load->angle, &load->fx, &load->fy};

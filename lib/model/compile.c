@@ -41,14 +41,14 @@ struct formula builder_rate(struct builder *builder, const struct value *value, 
 
 /* ---- bodies */
 
-/* The side that its surface pushes to: up in the world, as the body starts. */
+/* Direct the normal to the side of the surface force: the given one, else up in the world at the start. */
 static void set_side(struct model_body *body, const struct scene *scene)
 {
     const struct vec turn = vec_unit(start_angle(scene, body->source->motion.parent));
     enum normal_side side = side_up;
     for (size_t i = 0; i < body->source->load_count; i++)
         if (body->source->loads[i].kind == load_normal) side = body->source->loads[i].side;
-    const double upright = 1e-12; /* on a vertical line no side is up: left of +x it is */
+    const double upright = 1e-12; /* on a vertical line: the left of +x */
     double up = vec_turn(turn, body->n).y;
     if (side == side_right || (side == side_up && up < -upright)) body->n = vec_scale(-1, body->n);
 }
@@ -165,8 +165,8 @@ static void set_loads(struct builder *builder)
     }
 }
 
-/* A coupling is a load of the body at its first end that is not the ground; the other end feels the opposite.
- */
+/* A coupling is a load of the body at its first end that is not the ground; the opposite force acts at the
+ * other end. */
 static void set_couplings(struct builder *builder)
 {
     struct fbd_model *model = builder->model;
@@ -184,7 +184,7 @@ static void set_couplings(struct builder *builder)
     }
 }
 
-/* The force along the line of a rolling body, and a rope, by name: for events and their work. */
+/* Name the friction force of rolling bodies and the force of ropes, for events and their work. */
 static bool set_named_couplings(struct builder *builder)
 {
     struct fbd_model *model = builder->model;
@@ -206,7 +206,7 @@ static bool set_named_couplings(struct builder *builder)
     return true;
 }
 
-/* What a prescribed motion takes, by name. */
+/* Name the force of each prescribed motion. */
 static bool set_drives(struct builder *builder)
 {
     struct fbd_model *model = builder->model;
@@ -227,7 +227,7 @@ static bool set_drives(struct builder *builder)
     return true;
 }
 
-/* What comes and goes with a mass that varies, by name. */
+/* Name the energy carried by each varying mass. */
 static bool set_carried(struct builder *builder)
 {
     struct fbd_model *model = builder->model;
@@ -241,7 +241,8 @@ static bool set_carried(struct builder *builder)
         body->carried = (int)--next;
         set_load(builder, &model->loads[next], source, (int)b);
         body->mass = builder_formula(builder, &body->source->mass, (int)b, (int)next);
-        const struct formula inverse = {.expr = body->source->inverse_mass.expr, .branch = -1}; /* as it is */
+        const struct formula inverse = {.expr = body->source->inverse_mass.expr,
+                                        .branch = -1}; /* unchanged */
         model->plan.poles[model->plan.pole_count++] =
             (struct pole){inverse, (int)b, (int)next, -1, expr_poles(inverse.expr)};
     }
@@ -306,7 +307,7 @@ static void set_rates(struct builder *builder)
         model->plan.rates[i] = builder_rate(builder, &model->scene->own[i].rate, i);
 }
 
-/* User events come last, so that loads keep the first branches. */
+/* User events come last, so that loads have the first branches. */
 static void set_watches(struct builder *builder)
 {
     struct fbd_model *model = builder->model;

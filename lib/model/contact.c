@@ -13,8 +13,8 @@ int shape_sides(const struct contact_shape *shape)
 
 /* ---- features
  *
- * corners on a line: the corner. A disc at corners: the side, then, behind the sides, the corner. Corners at
- * corners: first those of shape 0 on sides of shape 1, then the other way round. Thin: five sides (enum thin_side) to
+ * corners on a line: the corner. A disc at corners: the side; after the sides, the corner. Corners at
+ * corners: first those of shape 0 on sides of shape 1, then vice versa. Thin: five sides (enum thin_side) to
  * each of two corners of each shape. */
 
 enum { thin_sides = thin_round + 1 };
@@ -157,7 +157,7 @@ static bool set_part(struct fbd_model *model, struct contact_shape *shape, const
     return set_corners(model, shape, place, &outline.center, 1);
 }
 
-/* A part that can meet something. */
+/* True for a part that can have contact. */
 static bool is_solid(const struct part *part)
 {
     return part->mass > 0 && part->shape != shape_given;
@@ -229,7 +229,7 @@ int meetings_most(const struct fbd_model *model, int index)
     return shapes_of(model, source, 0) * shapes_of(model, source, 1);
 }
 
-/* The size of the scene as it starts: two points that meet have none of their own. */
+/* The largest initial coordinate of a length, since two points have no size. */
 static double farthest_start(const struct scene *scene)
 {
     double most = 0;
@@ -238,7 +238,8 @@ static double farthest_start(const struct scene *scene)
     return most;
 }
 
-/* What distances are measured against; of a stop its limit, and of one at zero a unit. */
+/* The reference length of distances: size of the shapes, limit of a stop and farthest start; 1 for an angle
+ * or if it is zero. */
 static double reach_of(const struct fbd_model *model, const struct meeting *meeting)
 {
     bool turns = meeting->stop != 0 && model->tree->links[meeting->shape[0].link].kind == motion_pivot;
@@ -260,7 +261,7 @@ bool meeting_is_of_points(const struct meeting *meeting)
     return a->kind == contact_corners && b->kind == contact_corners && a->count + b->count == 2;
 }
 
-/* Does the body, or the other one of the pair, have only points? */
+/* True if the body, or the other one of the pair, has only points. */
 static bool is_of_points(const struct fbd_model *model, const struct constraint *source, int k)
 {
     if (source->contact.stop != 0) return false;

@@ -1,12 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Contacts: what can touch what, and how.
+ * Contacts: which shapes can touch, and in which features.
  *
- * A contact of the file is one meeting or several, each of two shapes: a line of the ground, a disc, or
- * corners. Corners are those of a convex polygon, counter-clockwise, the two ends of a bar, or one point. Two
- * shapes touch in features: a corner or circle on a side (or line), or two circles, of which one may be a
- * corner. A meeting has as many couplings as features can last at a time: two where corners are on a line or on
- * each other, else one. Which feature a coupling has at present is part of the state (dynamics/contact.h).
+ * A contact of the file is one contact pair (`meeting`) or several, each of two shapes: a line of the ground,
+ * a disc, or corners. Corners are those of a convex polygon, counter-clockwise, the two ends of a bar, or one
+ * point. A feature of a pair is a corner or circle on a side (or line), or two circles, of which one may be a
+ * corner. A pair has as many couplings as features can be closed simultaneously: two where corners are on a
+ * line or on each other, else one. The present feature of each coupling is part of the state
+ * (dynamics/contact.h).
  */
 #ifndef FBD_MODEL_CONTACT_H
 #define FBD_MODEL_CONTACT_H
@@ -17,8 +18,8 @@
 
 struct fbd_model;
 
-/* Share of the scene's size: tolerance of touching, and of level heights. A bounce within 2e-9 ends in rest
- * (loop/zeno_rest.c), so that smaller steps cannot be distinguished from contact. */
+/* Tolerances of touching and of level heights, relative to the size of the scene. A bounce lower than 2e-9
+ * ends in rest (loop/zeno_rest.c), so smaller steps cannot be distinguished from contact. */
 #define contact_near  1e-12
 #define contact_level 1e-8
 
@@ -27,7 +28,7 @@ struct contact_shape {
         contact_line,
         contact_disc,
         contact_corners,
-        contact_stop /* no shape: the joint of the link, or what it moves on */
+        contact_stop /* no shape: the joint of the link, or its support */
     } kind;
     int link;             /* 0: the ground */
     const void *source;   /* its part or polygon; NULL for others */
@@ -38,16 +39,16 @@ struct contact_shape {
     double radius;        /* disc; corners: the farthest from `center` */
 };
 
-/* At a corner: the side that begins, or ends, there runs along another shape, inside of both; the corner is in the middle of
- * a side of both. */
+/* Bits of a corner: the side that begins, or ends, there runs along another shape, inside the union of both;
+ * the corner is within a side of both. */
 enum contact_inner { inner_begin = 1, inner_end = 2, inner_flat = 4 };
 
 struct meeting {
     int constraint, first_coupling, coupling_count;
     struct contact_shape shape[2];
     double size,
-        reach; /* of the shapes; with the places where bodies start: what distances are measured against */
-    int stop;  /* of a coordinate: +1 at its least, -1 at its largest value; else 0 */
+        reach; /* of the shapes and the start positions of bodies: the reference length of distances */
+    int stop;  /* of a coordinate: +1 at its lower, -1 at its upper limit; else 0 */
     double limit;
     int probes; /* functions whose zeros are new features (dynamics/contact.h) */
     bool thin;  /* two bars, or a point and a bar; a probe is a corner at the other's bar */
@@ -56,52 +57,52 @@ struct meeting {
 /* A feature: a point or circle of one shape at a side of the other, or two circles. */
 struct touch {
     bool circles;
-    int moving;       /* whose point or circle it is: 0 or 1 */
+    int moving;       /* the shape that has the point or circle: 0 or 1 */
     struct vec point; /* in the frame of its link */
     double radius;
-    struct vec base,
-        e;         /* of the other: where its side begins and its direction, or the centre of its circle */
-    double length; /* of the side; infinite for a line */
+    struct vec base, e; /* of the other: start and direction of its side, or the centre of its circle */
+    double length;      /* of the side; infinite for a line */
     double base_radius;
-    double side; /* the normal is side k x e; 0 for a line of the ground: as it is at the start */
+    double side; /* the normal is side k x e; 0 for a line of the ground: chosen at the start */
 };
 
-/* Feature number `feature` of a meeting. */
+/* Feature number `feature` of a contact pair. */
 struct touch meeting_touch(const struct meeting *meeting, int feature);
 
 /* Corner `corner` of shape `moving` on side `side` of the other. */
 int meeting_feature(const struct meeting *meeting, int moving, int corner, int side);
 
-/* Thin: the shape and the number of the corner of a probe. */
+/* Thin pair: the shape and corner that belong to a probe. */
 struct thin_corner {
     int moving, corner;
 };
 struct thin_corner thin_corner_of(const struct meeting *meeting, int probe);
 
-/* Its feature at a side of the bar: to the right of the bar's direction, to its left, its end faces, and the circle round
- * the bar, which nothing touches. */
+/* Side of the bar: to the right of the bar's direction, to its left, its end faces, and the circle round the
+ * bar, which is never touched. */
 enum thin_side { thin_right, thin_left, thin_end, thin_begin, thin_round };
 int thin_feature(struct thin_corner corner, enum thin_side side);
 
 /* The corner of a feature of a thin contact pair. */
 struct thin_corner thin_corner_at(int feature);
 
-/* How many sides: none of a point, two of a bar. */
+/* The number of sides: none of a point, two of a bar. */
 int shape_sides(const struct contact_shape *shape);
 
-/* Build the meetings of constraint `index` of the scene with their couplings. False when memory is out. */
+/* Build the contact pairs of constraint `index` of the scene with their couplings. False when memory is out. */
 bool meetings_add(struct fbd_model *model, int index);
 
-/* Two points: make the second the line across the one line on which both move. False where there is none. */
+/* Two points: replace the second by the line across the one line on which both move. False if there is no
+ * such line. */
 bool points_meet_on_line(const struct fbd_model *model, struct meeting *meeting);
 
-/* The contact pair has two points, and no line on which both move. */
+/* True if the pair has two points and no line on which both move. */
 bool meeting_is_of_points(const struct meeting *meeting);
 
 /* Level the surfaces of all contact pairs (contact_level.c). False when memory is out. */
 bool meetings_level(struct fbd_model *model);
 
-/* At most how many meetings and couplings the contact will have. */
+/* Upper bound of the contact pairs and couplings of a contact. */
 int meetings_most(const struct fbd_model *model, int index);
 
 #endif

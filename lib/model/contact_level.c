@@ -1,13 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Level surfaces, and corners inside of them: of shapes that move as one (the parts of a body, or all of the ground),
- * corners closer to each other than the level are one place, and corners closer to the line of a side are on it.
+ * Level surfaces, and corners inside them: for shapes that move together (the parts of a body, or all of the
+ * ground), corners closer to each other than the level are merged, and corners closer to the line of a side
+ * are moved onto it.
  */
 #include "model/contact.h"
 
 #include "model/model.h"
 
-/* Shapes that are level already, each once. */
+/* Shapes that are already level, each once. */
 struct levelled {
     const struct contact_shape **shapes;
     int count;
@@ -45,7 +46,7 @@ static bool side_of(const struct contact_shape *shape, int k, struct vec *base, 
     return length > 0;
 }
 
-/* Onto a line; of two lines that cross onto their intersection, where that is near as well. */
+/* Move a point onto a near line; for two crossing lines onto their intersection, if that is near as well. */
 static void put_on_lines(const struct levelled *done, int link, struct vec *p)
 {
     struct vec along = {0, 0}, base, e;
@@ -98,7 +99,7 @@ static bool is_along(struct vec a, struct vec b, double sense)
     return fabs(vec_cross(a, b)) <= direction && sense * vec_dot(a, b) > 0;
 }
 
-/* The sides at corner k of a shape that `other` covers, where it has a corner as well. A bar covers nothing. */
+/* The sides at corner k of a shape that `other` covers at a corner of its own. A bar covers none. */
 static unsigned char inner_at(const struct contact_shape *shape, int k, const struct contact_shape *other)
 {
     unsigned char inner = 0;

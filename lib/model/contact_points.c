@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Contacts of two points: each has a side only where both move on one line, by slides along it.
+ * Contacts of two points: a normal exists only where both move on one line, by slides along it.
  */
 #include "model/builder.h"
 
-/* A point as seen from a link below its own: where it is at the start, and the directions in which it moves there (0
- * while it does not) and in which the x axis of its own link points. */
+/* A point relative to a link below its own: its position at the start, the direction in which it moves there
+ * (0 while it is at rest) and that of the x axis of its own link. */
 struct seen {
     int link;
     struct vec point, e, x;
@@ -14,7 +14,7 @@ struct seen {
 
 static const double digits = 1e-9;
 
-/* As seen from the link below; false where slides along one direction are not all that lies between. */
+/* Transform to the link below; false if other joints than slides along one direction are between. */
 static bool climb(const struct fbd_model *model, struct seen *seen)
 {
     const struct tree_link *link = &model->tree->links[seen->link];

@@ -82,7 +82,7 @@ static void wind(const struct constraint *source, int end, struct coupling *coup
     coupling->spare[end] = source->spare[end];
 }
 
-/* A rope is cut at the pulleys that it takes along; each piece is a coupling. */
+/* A rope is divided at the pulleys that move with it; each piece is a coupling. */
 static void add_rope(struct fbd_model *model, int index)
 {
     const struct constraint *source = &model->scene->constraints[index];
@@ -94,7 +94,7 @@ static void add_rope(struct fbd_model *model, int index)
         if (from == 0) wind(source, 0, coupling);
         if (k + 1 == source->end_count) wind(source, 1, coupling);
         coupling->reels = from == 0 && source->reel.expr;
-        /* A length in the file is that of the whole rope; pieces keep theirs of the start. */
+        /* A length in the file is that of the whole rope; pieces keep their length at the start. */
         if (from > 0 || k + 1 < source->end_count) coupling->length_given = false;
         from = k;
     }
@@ -117,7 +117,7 @@ static const char *body_name(const struct fbd_model *model, int body)
     return body == ground_body ? "ground" : model->bodies[body].name;
 }
 
-/* The drum has both strands of a rope that rubs on it. */
+/* Both strands of a rope with friction on a drum act on the drum. */
 static void name_strands(struct fbd_model *model, struct coupling *coupling, int k)
 {
     struct coupling_end *end = &coupling->end[k];
@@ -128,7 +128,7 @@ static void name_strands(struct fbd_model *model, struct coupling *coupling, int
                                          body_name(model, coupling->end[2 * (size_t)strand].body));
 }
 
-/* A rope's forces on a pulley are named after what hangs on the other side; all others after the coupling. */
+/* A rope's forces on a pulley are named after the body on the other side; all others after the coupling. */
 static void name_end(struct fbd_model *model, struct coupling *coupling, int k)
 {
     struct arena *arena = &model->arena;

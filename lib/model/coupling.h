@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Couplings: the constraints of a scene as rows of equations between links, g(q) = 0.
+ * Couplings: the constraints of a scene as equations g(q) = 0 between links.
  *
- * A coupling has one or two rows. A pin has its two components; a rope has a coupling for each piece between places
- * that hold it (its ends and the pulleys that it takes along); a rolling body has one row that keeps it on
- * its line and one that keeps it from slipping. The force of a row is its multiplier times the gradient of g.
+ * A coupling has one or two rows. A pin has its two components; a rope has a coupling for each piece between
+ * its fixed points (its ends and the pulleys that move with it); a rolling body has one row that keeps it on
+ * its line and one against slip. The force of a row is its multiplier times the gradient of g.
  */
 #ifndef FBD_MODEL_COUPLING_H
 #define FBD_MODEL_COUPLING_H
@@ -25,30 +25,30 @@ struct coupling {
     enum constraint_kind kind;
     const struct constraint_law *law;
     int constraint;                  /* index into scene.constraints, */
-    const struct constraint *source; /* and that */
+    const struct constraint *source; /* that entry */
     const char *name;
     const char *row_name[2]; /* "knuckle in x", "tread.normal" */
     int first_row, row_count;
-    int place; /* rope: where the piece starts on its way */
+    int place; /* rope: index of the end where the piece starts */
     int end_count;
     struct coupling_end end[most_constraint_ends];
     struct vec e;      /* roll, rack: the line in the frame of the link of end 1 */
     double turn;       /* roll, rack: the angle of the line there */
     bool length_given; /* rod, rope */
     double length;
-    int wound[2]; /* rope: enum wound_side where the piece begins, and ends, on a disc that it is wound on */
-    double spare[2];     /* and how much there is of it at the start, or HUGE_VAL */
-    bool reels;          /* rope: its length goes with the time, from `length` at t = 0 */
-    struct formula reel; /* so */
-    int strands;         /* that must not push: 2 of a belt, else 0 */
-    int slack_slot[2];   /* where minus their tensions go */
-    int normal_slot;     /* roll, slot that only presses or rubs: where minus its normal force goes */
+    int wound[2]; /* rope: enum wound_side at the start and end of the piece, on a disc that it is wound on */
+    double spare[2];     /* and its wound length at the start, or HUGE_VAL */
+    bool reels;          /* rope: its length is a function of time, `length` at t = 0 */
+    struct formula reel; /* that function */
+    int strands;         /* with tension >= 0: 2 of a belt, else 0 */
+    int slack_slot[2];   /* slots of minus their tensions */
+    int normal_slot;     /* roll, one-sided or rough slot: slot of minus its normal force */
     int load;            /* roll, rope: its entry in the model's loads */
-    int pair;            /* roll, contact: its dry friction; rope: its mode; index into plan.modes, or -1 */
-    int surface;         /* roll, contact: the mode of its normal force, closed (`stick`) or open; index into
+    int pair;    /* roll, contact: mode of its dry friction; rope: its mode; index into plan.modes, or -1 */
+    int surface; /* roll, contact: the mode of its normal force, closed (`stick`) or open; index into
                         plan.modes, else -1 */
-    int meeting;         /* contact: index into tree.meetings, else -1 */
-    int root[most_constraint_ends], root_count; /* first links of the trees that it joins */
+    int meeting; /* contact: index into tree.meetings, else -1 */
+    int root[most_constraint_ends], root_count; /* first links of the connected trees */
 };
 
 struct fbd_model;
@@ -57,46 +57,47 @@ struct tree;
 /* The name of row `row` of the tree. */
 const char *coupling_row_name(const struct tree *tree, int row);
 
-/* The name of its force: what is along a surface and across it is called as in the diagram of its first body, where
- * names differ. */
+/* The name of the force of row `row`: its normal and tangential components are called as in the diagram of
+ * its first body, where the names differ. */
 const char *coupling_force_name(const struct tree *tree, int row);
 
 /* Place `k` of constraint `index` of the scene. */
 struct coupling_end coupling_end_of(const struct fbd_model *model, int index, int k);
 
-/* Does anything move by a law of the time: a joint, or the length of a rope? */
+/* True if a joint or the length of a rope is a given function of time. */
 bool model_is_driven(const struct fbd_model *model);
 
-/* The same, or is there a surface whose speed varies, under what couplings may hold? It turns round whatever the forces
- * are, as drives do. */
+/* As model_is_driven, and also true if a surface has a varying speed and there are couplings: a body that
+ * sticks to it has a prescribed velocity, as with a drive. */
 bool model_has_speeds_given(const struct fbd_model *model);
 
-/* Is the force of its first row known by itself: of what presses, and cannot pull, or rubs? */
+/* True if the first row is a normal force, of a surface or of a one-sided slot. */
 static inline bool coupling_presses(const struct coupling *coupling)
 {
     return coupling->law->surface || coupling->source->presses != 0;
 }
 
-/* Is it a surface whose impulses are found with those of contacts and ropes? What rolls is, and a follower on its cam. */
+/* True for a surface whose impulses are computed with those of contacts and ropes: of a rolling body, or a
+ * follower on its cam. */
 static inline bool coupling_takes_impulses(const struct coupling *coupling)
 {
     return coupling->surface >= 0 && coupling->meeting < 0 && coupling->kind != constraint_capstan;
 }
 
-/* A slot that rubs and holds on both sides is a guide. */
+/* A guide is a two-sided slot with friction. */
 static inline bool coupling_is_guide(const struct coupling *coupling)
 {
     return coupling->kind == constraint_groove && coupling->surface < 0;
 }
 
-/* Add a coupling of contact `index` of the scene for one feature of the meeting. */
+/* Add a coupling of contact `index` of the scene for one feature of the contact pair. */
 void coupling_of_contact(struct fbd_model *model, int index, int meeting);
 
-/* Compile the constraints of the scene; places of the bodies are known. False when memory is out. */
+/* Compile the constraints of the scene; requires the positions of the bodies. False when memory is out. */
 bool couplings_build(struct fbd_model *model);
 
-/* The order in which the system's unknowns are eliminated, and which of them meet; the tree is finished by
- * then (coupling_order.c). False when memory is out. */
+/* Set the elimination order of the system's unknowns and its envelope; requires the finished tree
+ * (coupling_order.c). False when memory is out. */
 bool couplings_order(struct fbd_model *model);
 
 #endif

@@ -1,20 +1,20 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * In which order the unknowns of dynamics/tree_system.h are eliminated, fixed when the model is compiled.
+ * Elimination order of the unknowns of dynamics/tree_system.h, fixed when the model is compiled.
  *
- * Two unknowns meet when they join a common tree: rows of couplings, and frictions of slides, which belong to one
- * tree each. What is kept of a row and column reaches from the first unknown that it meets to the diagonal,
- * so that a chain of loops takes time in proportion to its length when its unknowns are numbered along it. A
- * file may list couplings and bodies in any order; so they are numbered anew from one end of each connected
- * part to the other, breadth first and then backwards (George's reverse Cuthill-McKee order; George and Liu,
- * Computer Solution of Large Sparse Positive Definite Systems, 1981, chapter 4), and that order is taken when
- * it keeps less than the order of the file does.
+ * Two unknowns are coupled when they act on a common tree: rows of couplings, and frictions of slides, which
+ * belong to one tree each. The stored envelope of a row and column reaches from its first coupled unknown to
+ * the diagonal, so that a chain of loops takes time in proportion to its length when its unknowns are
+ * numbered along it. A file may list couplings and bodies in any order; so they are renumbered from one end
+ * of each connected part to the other by George's reverse Cuthill-McKee order (George and Liu, Computer
+ * Solution of Large Sparse Positive Definite Systems, 1981, chapter 4). That order is used if its envelope is
+ * smaller than that of the order of the file.
  */
 #include <string.h>
 
 #include "model/model.h"
 
-/* Unknowns that stay together: the rows of a coupling, or the friction of a slide. */
+/* Unknowns that are kept together: the rows of a coupling, or the friction of a slide. */
 struct group {
     int first, count;
     const int *roots;
@@ -26,7 +26,7 @@ struct graph {
     int group_count, unknowns;
     struct group *groups;
     int *at_root, *members; /* groups of the tree with first link i: members[at_root[i]] to at_root[i + 1] */
-    int *queue, *level;     /* groups in the order of a search, and their distance; -1: not seen */
+    int *queue, *level;     /* groups in search order, and their distance; -1: not visited */
     bool *root_seen;
 };
 
@@ -54,7 +54,7 @@ static void set_members(struct graph *graph)
             int root = graph->groups[g].roots[i];
             graph->members[--at[root + 1]] = g;
         }
-    /* at[i + 1] is now where the groups of tree i begin. */
+    /* at[i + 1] is now the index of the first group of tree i. */
     for (int i = 0; i < links; i++) at[i] = at[i + 1];
 }
 
@@ -80,7 +80,8 @@ static bool make_graph(struct graph *graph, const struct tree *tree, struct aren
     return true;
 }
 
-/* Breadth first from a group; queue[from ..] gets those of its connected part. Returns behind the last. */
+/* Breadth-first search from a group; queue[from ..] receives its connected part. Returns the index past the
+ * last. */
 static int search(struct graph *graph, int start, int from)
 {
     int end = from;
@@ -112,8 +113,7 @@ static void forget(struct graph *graph, int from, int end)
     }
 }
 
-/* Each connected part from one of its ends: a group that is farthest from one that is farthest from another.
- */
+/* Order each connected part from a pseudo-peripheral group: the farthest from the farthest of any group. */
 static void set_order(struct graph *graph, int *unknown_at)
 {
     int from = 0, place = graph->unknowns;
@@ -135,7 +135,7 @@ static void set_order(struct graph *graph, int *unknown_at)
     }
 }
 
-/* What the order in unknown_at keeps. */
+/* Compute the envelope of the order in unknown_at. */
 static void set_envelope(struct graph *graph, struct tree *tree, int *group_of, int *lowest, int *highest)
 {
     int m = graph->unknowns;

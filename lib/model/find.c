@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * What people call the parts of a model.
+ * Look up parts of a model by their names.
  */
 #include <string.h>
 

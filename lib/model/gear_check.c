@@ -1,16 +1,16 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Gears whose axes keep their distance, and wheels that keep theirs from a rack: the pitch circles have to
- * touch there.
+ * Check that pitch circles touch, for gears whose axes are at a constant distance and for wheels at a
+ * constant distance from a rack.
  *
- *   distance of the axes = r_1 + r_2, and |r_1 - r_2| of a wheel inside a ring
- *   distance of the axis from the line of the rack = r
+ *     distance of the axes = r_1 + r_2, and |r_1 - r_2| of a wheel inside a ring
+ *     distance of the axis from the line of the rack = r
  */
 #include "model/builder.h"
 
-static const double digits = 2e-6; /* six digits in a file are meant to fit */
+static const double digits = 2e-6; /* numbers with six digits in a file count as fitting */
 
-/* A centre in the frame in which it rests: of what turns about it, that of the body below. */
+/* A centre in the frame in which it is at rest; for a body that turns about it, the frame of the body below. */
 struct centre {
     int link;
     struct vec point;
@@ -23,8 +23,8 @@ static struct centre centre_of(const struct tree *tree, const struct coupling_en
     return turns ? (struct centre){link->parent, link->at} : (struct centre){end->link, end->point};
 }
 
-/* The distance of two axes that keeps as the bodies move; negative where it does not. Both rest on the same body, or one
- * on an arm about the axis of the other. */
+/* The distance of two axes if it is constant; negative otherwise. It is constant if both are at rest on the
+ * same body, or one is on an arm about the axis of the other. */
 static double axes_apart(const struct tree *tree, const struct coupling *coupling, double close)
 {
     struct centre centre[2];
@@ -40,14 +40,14 @@ static double axes_apart(const struct tree *tree, const struct coupling *couplin
     return -1;
 }
 
-/* A point in the frame of a link, and the one direction in which it moves there; 0 while it does not. */
+/* A point in the frame of a link, and the only direction in which it moves there; 0 while it is at rest. */
 struct seen {
     int link;
     struct vec point, e;
 };
 
-/* As seen from the link below; false when it moves there otherwise than by slides along that one direction.
- */
+/* Transform to the frame of the link below; false if it moves there otherwise than by slides along that one
+ * direction. */
 static bool climb(const struct tree *tree, struct seen *seen)
 {
     const struct tree_link *link = &tree->links[seen->link];
@@ -57,8 +57,8 @@ static bool climb(const struct tree *tree, struct seen *seen)
     return true;
 }
 
-/* The distance of a wheel's axis from the line of a rack that keeps as the bodies move; negative where it
- * does not: slides along the line are all that lies between them. */
+/* The distance of a wheel's axis from the line of a rack if it is constant, that is, if only slides along the
+ * line are between them; negative otherwise. */
 static double line_apart(const struct tree *tree, const struct coupling *coupling, double close)
 {
     const struct tree_link *wheel = &tree->links[coupling->end[0].link];
@@ -96,8 +96,9 @@ static void check_gear(struct builder *builder, const struct coupling *coupling)
              fabs(r2), r2 < 0 ? "differ by" : "add up to", needed);
 }
 
-/* Both strands pull with 2 T cos(gamma) along the line of centres, whatever the belt drives: sin(gamma) = (R_1 -+ R_2) /
- * d. A spring of the length d has that force for ever. */
+/* Both strands together pull with 2 T cos(gamma) along the line of centres, independent of the transmitted
+ * moment: sin(gamma) = (R_1 -+ R_2) / d. As d is constant, a spring of zero free length and length d models
+ * that force. */
 static void preload(struct tree *tree, const struct coupling *coupling, double apart)
 {
     double rho = coupling->end[0].radius + (coupling->source->crossed ? 1 : -1) * coupling->end[1].radius;

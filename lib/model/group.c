@@ -5,7 +5,7 @@
 
 #include "model/builder.h"
 
-/* What is copied. */
+/* Source and destination of a copy. */
 struct copy {
     const struct scene *from;
     struct scene *to;
@@ -88,7 +88,7 @@ static void copy_absolute(const struct copy *copy, const struct absolute *from)
         if (copy->selection->constraints[i] == from->roll - 1) absolute->roll = 1 + (int)i;
 }
 
-/* Room for what is copied. */
+/* Allocate the arrays of the copy. */
 static void prepare(const struct copy *copy)
 {
     struct scene *to = copy->to;
@@ -112,9 +112,9 @@ static struct scene *copy_scene(const struct scene *from, const struct selection
     struct scene *to = calloc(1, sizeof *to);
     if (!to) return NULL;
     *to = *from;
-    to->tables = NULL; /* the whole holds them, and outlives its parts */
+    to->tables = NULL; /* owned by the whole, which outlives its groups */
     to->table_count = 0;
-    to->output_point_count = 0; /* written of the whole */
+    to->output_point_count = 0; /* written for the whole only */
     struct copy copy = {from, to, selection};
     prepare(&copy);
     for (size_t i = 0; !to->arena.failed && i < selection->body_count; i++)
@@ -132,7 +132,7 @@ static struct scene *copy_scene(const struct scene *from, const struct selection
     return NULL;
 }
 
-/* Those of the whole: a message out of a group names things as the file does. */
+/* Copy those of the whole, so that messages of a group name things as the file does. */
 static bool copy_labels(struct fbd_model *model, const struct fbd_model *whole,
                         const struct selection *selection)
 {

@@ -1,17 +1,17 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Group: the model of some of a scene's bodies, as if the file had listed nothing else.
+ * Group: the model of some of a scene's bodies, as if the file had listed only these.
  *
- * It is compiled from the same scene by the same code, with the coordinates renumbered, so a group knows
- * nothing of being one: its plan, its state and its right-hand side are those of a smaller scene.
+ * It is compiled from the same scene by the same code, with the coordinates renumbered; its plan, state and
+ * right-hand side are those of a smaller scene.
  */
 #ifndef FBD_MODEL_GROUP_H
 #define FBD_MODEL_GROUP_H
 
 #include "model/model.h"
 
-/* What of a scene a group consists of, as indices in their order; and for all of the scene, how things are
- * renumbered in the group that they belong to: slot s of expressions is moved[s], body b is local[b]. */
+/* The items of a scene that form a group, as indices in their order; and for the whole scene the numbers in
+ * the group: slot s of expressions becomes moved[s], body b becomes local[b]. */
 struct selection {
     const int *bodies, *events, *force_couplings, *constraints, *absolutes;
     size_t body_count, event_count, force_coupling_count, constraint_count, absolute_count;

@@ -55,7 +55,7 @@ struct inertia inertia_of_parts(const struct part *parts, size_t count, struct v
         sum.mass += parts[i].mass;
         moment = vec_add(moment, vec_scale(parts[i].mass, parts[i].center));
     }
-    /* One part keeps its centre to the last bit. */
+    /* A single part keeps its centre without rounding. */
     sum.G = count == 1 ? parts[0].center : vec_scale(1 / sum.mass, moment);
     for (size_t i = 0; i < count; i++) {
         struct vec d = vec_sub(parts[i].center, sum.G);

@@ -19,13 +19,13 @@ struct own_label {
     const char *unit, *rate_unit; /* "1" for a pure number */
 };
 
-/* A unit in a text: nothing for a pure number. */
+/* A unit in a text: empty for a pure number. */
 static inline const char *unit_word(const char *unit)
 {
     return unit[0] == '1' && !unit[1] ? "" : unit;
 }
 
-/* One for each state of the file's own. */
+/* One for each user state. */
 const struct own_label *own_labels_make(struct arena *arena, const struct scene *scene);
 
 /* One label for each coordinate of the scene, in `arena`; NULL when memory is out. */

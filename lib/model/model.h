@@ -1,10 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Model: the scene compiled, constant ever after, shareable by threads.
+ * Model: the compiled scene; constant after compilation, so that threads can share it.
  *
  * A model holds two views of the same scene. The bodies and their loads, by name, serve equations, ledgers
- * and drawings. The plan (plan.h) serves the right-hand side: dense lists of the effects that the scene has
- * and nothing else.
+ * and drawings. The plan (plan.h) serves the right-hand side: dense lists of the effects in the scene.
  */
 #ifndef FBD_MODEL_MODEL_H
 #define FBD_MODEL_MODEL_H
@@ -24,9 +23,9 @@ struct model_body {
     struct inertia inertia; /* mass, G in the body frame, I_G */
     double I_O;             /* pivot: about the axis */
     double L;               /* pivot: distance from O to G */
-    bool varies;            /* its mass does; then the inertia is that at the start, */
-    struct formula mass;    /* this is its mass, and inertia goes with it (dynamics/mass.h) */
-    int carried;            /* its entry in the loads: the energy that goes with the mass; else -1 */
+    bool varies;            /* its mass varies; then the inertia is that at the start, */
+    struct formula mass;    /* and this is its mass; the inertia is proportional to it (dynamics/mass.h) */
+    int carried;            /* entry in the loads of the energy carried by the mass; else -1 */
     struct vec origin;      /* slide: where x = 0; pivot: the axis O */
     struct vec arm;  /* pivot: from the axis to G; planar: from the frame's origin to G; in the body frame */
     struct vec pin;  /* pivot: the point of the body that sits on the axis, in the body frame */
@@ -57,14 +56,14 @@ enum potential_kind {
     potential_quadrature, /* V = -integral of Q(q) dq from `reference` */
 };
 
-/* See struct absolute of the scene. */
+/* Resolved struct absolute of the scene. */
 struct model_absolute {
     int body;
     struct vec point;
     enum absolute_kind kind;
     int coordinate; /* absolute_acceleration */
-    int pair;       /* absolute_slip: index into plan.modes, or -1 when that has been left out */
-    bool even;      /* absolute_slip: stays a magnitude beyond the end of a mode, see slips.c */
+    int pair;       /* absolute_slip: index into plan.modes, or -1 when that mode was removed */
+    bool even;      /* absolute_slip: remains a magnitude beyond the end of a mode, see slips.c */
 };
 
 /* A load with everything that it refers to resolved. */
@@ -87,40 +86,39 @@ struct model_load {
 struct fbd_model {
     struct arena arena;
     struct scene *scene;
-    bool scene_lent; /* it is not owned */
+    bool scene_lent; /* the scene is borrowed */
     char *source;    /* the file's text, owned: hand derivations are checked under changed parameters */
     size_t source_length;
     size_t body_count;
     size_t load_count;    /* the loads that bodies list, then the couplings that are springs and dampers */
     size_t listed_count;  /* the former */
-    size_t coupled_count; /* with the latter; behind them one for each rolling body: its friction */
+    size_t coupled_count; /* with the latter; after them one per rolling body: its friction */
     struct model_body *bodies;
     struct model_load *loads;
     const struct label *labels;         /* of the coordinates */
-    const struct own_label *own_labels; /* of the states of the file's own */
+    const struct own_label *own_labels; /* of the user states */
     size_t absolute_count;
     struct model_absolute *absolutes;
-    bool names_places; /* not in derivations by hand alone: where they are has to be known as bodies move */
+    bool names_places;         /* world positions are used, not only in hand derivations */
     struct vec *output_points; /* scene->output_points, in the frames of their bodies */
     struct plan plan;
     struct tree *tree; /* the jointed bodies; NULL when there are none */
-    bool assembles;    /* some bodies find their place from their couplings at the start */
+    bool assembles;    /* some start positions follow from couplings */
 };
 
-/* Compile a scene; the model takes the scene over, also when it fails. NULL with notes in `errors`: masses
- * and inertias that no body can have
- * (`bad-inertia`), ... */
+/* Compile a scene; the model takes ownership of the scene, also on failure. NULL with notes in `errors`, for
+ * example for impossible masses and inertias (`bad-inertia`). */
 struct fbd_model *model_compile(struct scene *scene, fbd_errors *errors);
 
-/* The same for a scene that stays its owner's and has the bodies, parameters and units of `like`, whose labels serve
- * here and which must outlive the model. */
+/* The same for a scene that the caller keeps, with the bodies, parameters and units of `like`, whose labels
+ * are used and which must outlive the model. */
 struct fbd_model *model_compile_again(struct scene *scene, const struct fbd_model *like, fbd_errors *errors);
 
 void model_free(struct fbd_model *model);
 
 /* ---- by name (find.c); -1 when there is none */
 
-/* The component of a state (n coordinates, n rates, then the states of the file's own) that is called "block.x",
+/* The component of a state (n coordinates, n rates, then the user states) that is called "block.x",
  * "block.v", "states.charge", ...; with `plain` also "x" where the scene has one body. */
 int model_find_component(const struct fbd_model *model, const char *name, bool plain);
 

@@ -53,7 +53,7 @@ struct outline_part outline_of_part(const struct part *part)
         break;
     case shape_ring:
         if (faces)
-            set_circle(&outline, part->radius, 0.94 * part->radius); /* thin, but to be seen */
+            set_circle(&outline, part->radius, 0.94 * part->radius); /* thin, but visible */
         else
             set_bar(&outline, vec_perp(along), 2 * part->radius);
         break;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Outline: what a body looks like, from its parts, in its own frame and in the scene's lengths.
+ * Outline: the visible shape of a body, from its parts, in its own frame and in the scene's lengths.
  */
 #ifndef FBD_MODEL_OUTLINE_H
 #define FBD_MODEL_OUTLINE_H
@@ -12,7 +12,7 @@ enum outline_kind {
     outline_bar,     /* slender: from corner[0] to corner[1] */
     outline_circle,  /* center, radius; inner > 0 for a ring or tube */
     outline_polygon, /* four corners */
-    outline_unknown, /* the file gives its moment of inertia and no shape */
+    outline_unknown, /* the file gives only its moment of inertia */
 };
 
 struct outline_part {
@@ -23,15 +23,15 @@ struct outline_part {
     struct vec corner[4];
 };
 
-/* How the part looks in the plane. */
+/* The shape of the part in the plane. */
 struct outline_part outline_of_part(const struct part *part);
 
-/* The farthest that the body reaches from `center` in the direction `along` (a unit vector), all in the body
- * frame; 0 when nothing of it has a size. */
+/* The largest extent of the body from `center` in the direction `along` (a unit vector), all in the body
+ * frame; 0 when no part has a size. */
 double outline_reach(const struct body *body, struct vec center, struct vec along);
 
-/* The corners of the smallest upright rectangle, in the body frame, that holds the body's parts. False when
- * it has no size. */
+/* The corners of the smallest axis-parallel rectangle, in the body frame, around the body's parts. False when
+ * no part has a size. */
 bool outline_size(const struct body *body, struct vec *low, struct vec *high);
 
 #endif

@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * From named loads to dense lists of terms. Whatever is constant is folded into an affine or a sine term;
- * whatever has a fixed direction becomes a scaled formula; only the rest keeps a general term that needs the
- * body's pose.
+ * From named loads to dense lists of terms. Constants are folded into an affine or a sine term; a force of
+ * fixed direction becomes a scaled formula; only the rest keeps a general term that needs the body's pose.
  */
 #include "model/builder.h"
 
@@ -126,8 +125,8 @@ static void add_directed_force(struct builder *builder, const struct model_body 
     }
 }
 
-/* Beside the body: the moment of the offset. Where that is constant and so is the direction, it goes with the
- * formulas of the force itself, whose switches it then shares. */
+/* Add the moment of the offset. Where that and the direction are constant, it is added with the formulas of
+ * the force itself and shares their switches. */
 static void add_couple(struct builder *builder, const struct model_body *body, const struct model_load *load)
 {
     const struct load *source = load->source;
@@ -287,7 +286,7 @@ static void add_friction(struct builder *builder, struct model_body *body, int i
     plan->modes[plan->mode_count++] = mode;
 }
 
-/* What acts on a body that moves by itself. */
+/* Add a load of a body that is not jointed. */
 static void add_load(struct builder *builder, struct model_body *body, int index)
 {
     const struct model_load *load = &builder->model->loads[index];
@@ -308,13 +307,13 @@ static void add_load(struct builder *builder, struct model_body *body, int index
     case load_belt:
     case load_contact:
     case load_carried:
-    case load_normal: break; /* the contact below, and the friction that needs it */
+    case load_normal: break; /* see the contact below, and its friction */
     case load_friction:
     case moment_friction: add_friction(builder, body, index); break;
     }
 }
 
-/* What acts on a jointed body goes to the tree, except what acts within its joint. */
+/* Loads of a jointed body are added to the tree, except those within its joint. */
 static void add_jointed_load(struct builder *builder, struct model_body *body, int index)
 {
     const struct model_load *load = &builder->model->loads[index];
@@ -411,7 +410,7 @@ static void plan_inertias(struct fbd_model *model)
     }
 }
 
-/* Keep the terms that say something, in slot order (a fixed order of summation). */
+/* Keep the nonzero terms, in slot order (a fixed order of summation). */
 static void pack(struct builder *builder)
 {
     struct plan *plan = &builder->model->plan;

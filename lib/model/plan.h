@@ -1,15 +1,15 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Plan: what the right-hand side does, and nothing else.
+ * Plan: the effects that the right-hand side computes.
  *
- * Every effect ends in slots. Slot i < n is the generalized force of coordinate i (a force along a slide, a
- * moment about a pivot, ...). The slots that follow are the sums of the forces across slides whose normal
+ * Every effect is added to slots. Slot i < n is the generalized force of coordinate i (a force along a slide,
+ * a moment about a pivot, ...). The following slots are the sums of the forces across slides whose normal
  * force is needed. For each kind of effect there is one dense list, empty when no body lists it. Constants
- * are folded: on a slide, gravity, constant pushes, springs along the line and viscous dampers together are a
+ * are folded: on a slide, gravity, constant forces, springs along the line and viscous dampers together are a
  * single affine term.
  *
- * Dry friction is not a term: it depends on a mode (stick, slip+, slip-) and on the normal force, so it comes
- * after the terms.
+ * Dry friction is not a term: it depends on a mode (stick, slip+, slip-) and on the normal force, so it is
+ * computed after the terms.
  */
 #ifndef FBD_MODEL_PLAN_H
 #define FBD_MODEL_PLAN_H
@@ -19,7 +19,7 @@
 
 struct user_event;
 
-/* An expression in use: a constant, or a program with the place of its branches. */
+/* An expression in use: a constant, or a program with the index of its branches. */
 struct formula {
     const struct expr *expr; /* NULL: absent, or a constant already read */
     double constant;
@@ -85,29 +85,29 @@ struct force_term {
     struct formula value, angle;
 };
 
-/* What a mode is the mode of. What is one-sided is closed (`stick`) or open (`slip_plus`). */
+/* The kinds of modes. A one-sided constraint is closed (`stick`) or open (`slip_plus`). */
 enum mode_kind {
-    mode_single,  /* dry friction along the coordinate of a body that nothing joins: decided by itself */
-    mode_joint,   /* dry friction along a coordinate between links: decided with all that rests there */
-    mode_tangent, /* dry friction along the tangent of a coupling: what rolls, touches or is wound */
+    mode_single,  /* dry friction along the coordinate of an unconnected body: decided independently */
+    mode_joint,   /* dry friction along a coordinate between links: decided with all modes at rest there */
+    mode_tangent, /* dry friction along the tangent of a coupling: rolling, contact, capstan */
     mode_rope,    /* one-sided: taut or slack; see coupling.h */
-    mode_surface, /* one-sided: what rolls presses on its line or has left it */
+    mode_surface, /* one-sided: a rolling body touches its line or has left it */
     mode_contact, /* one-sided: shapes touch or are apart; see contact.h */
-    mode_drive,   /* always sticks, and `position` says where */
+    mode_drive,   /* always sticks, at `position` */
     mode_kinds
 };
 
-/* One hold with a mode. */
+/* A unilateral constraint, dry friction or drive with its mode. */
 struct mode {
     enum mode_kind kind;
     int body, load, coordinate;
     int normal_slot; /* -1 for a bearing, whose limits are moments */
-    bool two_sided;  /* a guide: friction goes with |N| */
+    bool two_sided;  /* a guide: friction is proportional to |N| */
     struct formula mu_s, mu_k, surface_speed;
     bool moving;             /* the surface moves */
-    double inertia;          /* of what is single: m or I_O */
-    int hold_slot;           /* the force needed to hold is inertia times acceleration minus this slot */
-    int coupling;            /* index into tree.couplings; -1 for what acts along `coordinate` */
+    double inertia;          /* mode_single: m or I_O */
+    int hold_slot;           /* the sticking force is inertia times acceleration minus this slot */
+    int coupling;            /* index into tree.couplings; -1 for friction along `coordinate` */
     struct formula position; /* of a drive */
 };
 
@@ -127,8 +127,8 @@ static inline bool mode_is_one_sided(const struct mode *mode)
     return mode->kind == mode_rope || mode->kind == mode_surface || mode->kind == mode_contact;
 }
 
-/* A normal force that must not become a pull: `pair` is the mode that opens then, or -1 where the body has
- * no freedom to leave its surface, which ends the run. */
+/* A normal force that must not become tensile: `pair` is the mode that then opens, or -1 where the body
+ * cannot leave its surface, which ends the run. */
 struct contact {
     int body, load, slot, pair;
 };
@@ -136,11 +136,11 @@ struct contact {
 /* The switches of one formula (see expr.h). */
 struct kink {
     struct formula formula;
-    int body, load; /* where it stands; -1 for a user event and for the rate of a state */
-    int own;        /* that state, or -1 */
+    int body, load; /* its load; -1 for a user event and for the rate of a state */
+    int own;        /* the user state, or -1 */
     size_t count;
-    bool slides;     /* some of its switches may be slid on: see dynamics/sliding.h */
-    unsigned places; /* a bit for each that watches a sum of coordinates: to be slid on in second order */
+    bool slides;     /* some of its switches admit a sliding mode: see dynamics/sliding.h */
+    unsigned places; /* a bit for each switch on a sum of coordinates: second-order sliding mode */
 };
 
 static inline bool kink_watches_places(const struct kink *kink, int part)
@@ -151,8 +151,8 @@ static inline bool kink_watches_places(const struct kink *kink, int part)
 /* The divisions of one formula (see expr.h). */
 struct pole {
     struct formula formula;
-    int body, load; /* where it stands; -1 for the rate of a state */
-    int own;        /* that state, or -1 */
+    int body, load; /* its load; -1 for the rate of a state */
+    int own;        /* the user state, or -1 */
     size_t count;
 };
 
@@ -163,13 +163,13 @@ struct offset_body {
     struct vec arm; /* from the origin to G, body frame */
 };
 
-/* A user event: something happens where left - right crosses zero. */
+/* A user event: it occurs where left - right crosses zero. */
 struct watch {
     const struct user_event *source;
     struct formula left, right;
 };
 
-/* What a sum of forces may change with. */
+/* Variables that a sum of forces may depend on. */
 enum {
     depends_time = 1,
     depends_place = 2, /* coordinates of the body itself */
@@ -190,15 +190,15 @@ struct body_terms {
     int offset;          /* index into offsets, or -1 */
     bool at_points;      /* it has links, drags or forces: its pose is needed */
     bool turns;          /* cosine and sine of its angle are both needed */
-    unsigned depends;    /* what the forces on it, friction included, change with */
+    unsigned depends;    /* variables of the forces on it, friction included */
 };
 
 struct plan {
     int n;                   /* coordinates */
     int slots;               /* n + normal slots */
-    int own;                 /* states of the file's own: entries 2 n and on of y */
+    int own;                 /* user states: entries 2 n and on of y */
     size_t size;             /* 2 n + own: the length of y = [q, v, z] */
-    struct formula *rates;   /* own: what they change by */
+    struct formula *rates;   /* own: their time derivatives */
     double *inverse_inertia; /* n: 1/m, 1/I_O or 1/I_G */
 
     size_t affine_count, sine_count, square_count, formula_count, potential_count, link_count, drag_count,
@@ -221,9 +221,9 @@ struct plan {
     struct offset_body *offsets;
     struct watch *watches;
 
-    int branches;        /* ints that a state keeps for the kinks */
-    int slide_count;     /* switches that may be slid on */
-    bool *slot_constant; /* slots: the sum never changes */
+    int branches;        /* ints of a state for the branches of the kinks */
+    int slide_count;     /* switches that admit a sliding mode */
+    bool *slot_constant; /* slots: the sum is constant */
 };
 
 static inline size_t plan_size(const struct plan *plan)
@@ -231,13 +231,13 @@ static inline size_t plan_size(const struct plan *plan)
     return plan->size;
 }
 
-/* Where the states of the file's own begin in y. */
+/* Index of the first user state in y. */
 static inline size_t plan_own_place(const struct plan *plan)
 {
     return 2 * (size_t)plan->n;
 }
 
-/* The length of [a, z']: what the rates of y are behind v. */
+/* The length of [a, z'], the part of y' after v. */
 static inline size_t plan_rates(const struct plan *plan)
 {
     return plan->size - (size_t)plan->n;

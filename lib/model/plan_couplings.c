@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
  * The modes of couplings: rolling bodies that stick or slip, ropes that are taut or slack, prescribed joints.
- * They stand with the pairs of dry friction, so that one list of modes serves all.
+ * They are in one list with the modes of dry friction.
  */
 #include "model/builder.h"
 
-/* A mode of a coupling, without a normal force; returns its index among them. */
+/* Add a mode of a coupling, without a normal force; returns its index. */
 static int add_mode(struct builder *builder, const struct coupling *coupling, enum mode_kind kind, int body)
 {
     struct plan *plan = &builder->model->plan;
@@ -28,7 +28,8 @@ static void add_rubbing(struct builder *builder, struct coupling *coupling)
     mode->mu_k = builder_formula(builder, &coupling->source->mu_k, body, coupling->load);
 }
 
-/* A surface, or what lies on one side of its slot, is pressed on or left, and rubs while it is closed, where it has coefficients. */
+/* Add the modes of a surface or one-sided slot: closed or open, and friction while it is closed, where it has
+ * coefficients. */
 static void plan_surface(struct builder *builder, struct coupling *coupling)
 {
     struct plan *plan = &builder->model->plan;
@@ -53,8 +54,8 @@ static void plan_rope(struct builder *builder, struct coupling *coupling)
     coupling->length = expr_eval(coupling->reel.expr, 0, NULL, NULL);
 }
 
-/* No strand of a belt pushes. What does not move with the axes is a pull between them that is known, of a spring that
- * keeps its length (gear_check.c). */
+/* The strand tensions of a belt must not become negative. Their mean between fixed axes is a known force,
+ * that of a spring of constant length (gear_check.c). */
 static void plan_belt(struct builder *builder, struct coupling *coupling)
 {
     struct plan *plan = &builder->model->plan;
@@ -66,7 +67,7 @@ static void plan_belt(struct builder *builder, struct coupling *coupling)
     }
 }
 
-/* A slot that holds on both sides rubs on the one that presses, by mu |N|; on one side it is a surface. */
+/* A two-sided slot has friction mu |N|; a one-sided slot is a surface. */
 static void plan_groove(struct builder *builder, struct coupling *coupling)
 {
     if (coupling->source->presses != 0) {
@@ -78,7 +79,7 @@ static void plan_groove(struct builder *builder, struct coupling *coupling)
     builder->model->plan.modes[coupling->pair].two_sided = true;
 }
 
-/* A prescribed motion is a joint that sticks to a surface which moves so. */
+/* A prescribed motion is a joint that sticks to a surface with that motion. */
 static void plan_drive(struct builder *builder, struct model_body *body)
 {
     struct plan *plan = &builder->model->plan;
@@ -96,7 +97,7 @@ static void plan_drive(struct builder *builder, struct model_body *body)
                       .position = builder_formula(builder, &body->source->motion.prescribed, b, body->drive)};
 }
 
-/* What opens, closes, sticks or must not pull, by kind. */
+/* Add the modes of a coupling, by kind. */
 static void (*const plans[constraint_kinds])(struct builder *builder, struct coupling *coupling) = {
     [constraint_roll] = plan_surface,    [constraint_slot] = plan_surface,
     [constraint_groove] = plan_groove,   [constraint_belt] = plan_belt,
@@ -112,7 +113,7 @@ void plan_couplings(struct builder *builder)
         struct coupling *coupling = &model->tree->couplings[i];
         if (!constraint_has_load(coupling->source)) continue;
         if (coupling->constraint != last)
-            load++; /* the pieces of a rope share one, and the features of a contact */
+            load++; /* the pieces of a rope share one, as do the features of a contact */
         last = coupling->constraint;
         coupling->load = load;
         plans[coupling->kind](builder, coupling);

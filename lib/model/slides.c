@@ -1,14 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Which switches a motion may slide on (dynamics/sliding.h): those at which a force jumps, or a coefficient
- * of friction, by what goes with a velocity; and those that watch a sum of coordinates, which are passed as
- * long as there is a speed left, but may be slid on in second order where it ends.
+ * Find the switches that admit a sliding mode (dynamics/sliding.h): those at which a force or a coefficient
+ * of friction jumps as a function of a velocity; and those on a sum of coordinates, which are crossed while
+ * their rate is not zero but admit a second-order sliding mode where it becomes zero.
  */
 #include "model/builder.h"
 
 enum { most_slides = 32 };
 
-/* Is it a force, whose branches can be mixed? Directions, potentials and prescribed motions are not. */
+/* True for a force, whose branches can be mixed; false for directions, potentials and prescribed motions. */
 static bool is_force(const struct fbd_model *model, const struct kink *kink)
 {
     int branch = kink->formula.branch;
@@ -26,7 +26,7 @@ static bool is_force(const struct fbd_model *model, const struct kink *kink)
     return false;
 }
 
-/* Does it read a velocity: a rate, or one in the world? */
+/* True if the expression depends on a velocity: a rate, or one in the world. */
 static bool reads_velocity(const struct fbd_model *model, const struct expr *expr)
 {
     const int *slots, n = model->plan.n, size = (int)plan_size(&model->plan);
@@ -41,7 +41,7 @@ static bool reads_velocity(const struct fbd_model *model, const struct expr *exp
     return false;
 }
 
-/* The jumps that watch a sum of coordinates with constant factors, a bit each. */
+/* The jumps at switches on a sum of coordinates with constant factors, a bit each. */
 static unsigned watch_places(const struct fbd_model *model, const struct kink *kink)
 {
     enum { most_bits = 32 };

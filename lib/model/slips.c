@@ -1,17 +1,17 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * The pairs of dry friction whose slip a law names.
+ * Find the friction modes whose slip velocity a law names.
  *
- * A step goes a little beyond the instant at which a pair comes to rest, before that is found. There the law
- * is continued to a slip below zero, so that a step sees no kink. A law with a root, (slip/v_s)^0.5, has no
- * value there; it has a kink at rest anyway, and goes on with the magnitude.
+ * A step extends a little beyond the time at which a mode comes to rest, before that event is located. There
+ * the law is continued to negative slip, so that a step crosses no kink. A law with a root, (slip/v_s)^0.5,
+ * has no value there; it has a kink at rest in any case, and is continued with the magnitude.
  */
 #include <math.h>
 #include <stdlib.h>
 
 #include "model/builder.h"
 
-/* Is the law finite at `slip`, all else as it starts? */
+/* True if the law is finite at `slip`, with all other variables at the start. */
 static bool finite_at(const struct formula *law, double *y, size_t component, double slip)
 {
     y[component] = slip;
@@ -20,7 +20,7 @@ static bool finite_at(const struct formula *law, double *y, size_t component, do
     return finite;
 }
 
-/* Has the law values at these slips, but none at their negatives? */
+/* True if at one of these slips the law is finite, but not at its negative. */
 static bool ends_at_rest(const struct formula *law, double *y, size_t component)
 {
     const int lowest = -9, highest = 3; /* decades of m/s (rad/s) */

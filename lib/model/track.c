@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Tracks: where their pieces begin, as switches of an expression of s, and what cannot be on them.
+ * Tracks: the starts of their pieces, as switches of an expression of s, and the checks of bodies on them.
  */
 #include <string.h>
 
@@ -34,7 +34,7 @@ static bool set_piece(struct builder *builder, struct model_body *body, struct t
     return expr != NULL;
 }
 
-/* Does it need a moment to change its rate of turning, or does something hang on it that does? */
+/* True if the link has rotational inertia or is the base of another link or an end of a coupling. */
 static bool resists_turning(const struct fbd_model *model, int index)
 {
     const struct tree *tree = model->tree;
@@ -47,7 +47,7 @@ static bool resists_turning(const struct fbd_model *model, int index)
     return resists;
 }
 
-/* Of a body that does not turn along: forces that would. */
+/* Reject forces that would turn a body that does not turn with its track. */
 static void check_directions(struct builder *builder, const struct model_body *body)
 {
     for (size_t i = 0; i < body->source->load_count; i++) {
@@ -87,7 +87,7 @@ bool tracks_set(struct builder *builder)
     return true;
 }
 
-/* The side of its track that the surface of a body pushes to: up is where it starts. */
+/* Set the direction, normal, origin and point of a body on its track at the start. */
 void track_set_body(const struct scene *scene, struct model_body *body)
 {
     const struct motion *motion = &body->source->motion;

@@ -7,7 +7,7 @@
 
 /* ---- which bodies are jointed, and in which order */
 
-/* Children of each body, as lists threaded through arrays; entry `body_count` stands for the ground. */
+/* Children of each body, as lists threaded through arrays; entry `body_count` is the ground. */
 struct family {
     int *first, *next;
     bool *jointed;
@@ -53,7 +53,7 @@ static bool find_family(struct fbd_model *model, struct family *family)
     return true;
 }
 
-/* Depth first, each body before those that move on it: a chain lies in memory as it hangs. */
+/* Depth first, each body before those that move on it, so that chains are contiguous in memory. */
 static void order_bodies(const struct fbd_model *model, struct tree *tree, const struct family *family)
 {
     int count = (int)model->body_count;
@@ -61,7 +61,7 @@ static void order_bodies(const struct fbd_model *model, struct tree *tree, const
     while (b >= 0) {
         if (family->jointed[b]) tree->bodies[tree->body_count++] = b;
         int down = family->first[b];
-        while (down < 0 && b != ground_body) { /* back up to the next one beside */
+        while (down < 0 && b != ground_body) { /* back up to the next sibling */
             down = family->next[b];
             if (down < 0) b = model->scene->bodies[b].motion.parent;
         }
@@ -261,7 +261,7 @@ static void add_applied(struct builder *builder, const struct model_body *body, 
     if (load_is_placed(load->source)) add_moment(builder, body, &load->couple);
 }
 
-/* What wind adds, and the drag as in still air. */
+/* Add the term of the wind, and the drag as in still air. */
 static void add_drag(struct builder *builder, const struct model_body *body, const struct model_load *load)
 {
     const double up = 1.5707963267948966;
@@ -351,7 +351,7 @@ void tree_add_load(struct builder *builder, int index)
 
 /* ---- diagrams */
 
-/* Does it act between the two bodies of its joint? */
+/* True if it acts between the two bodies of its joint. */
 static bool is_in_joint(const struct model_load *load)
 {
     enum law_place place = load_law(load->source)->place;
@@ -370,8 +370,7 @@ static bool is_off_center(const struct model_body *body, struct vec at)
     return at.x != body->inertia.G.x || at.y != body->inertia.G.y;
 }
 
-/* Constraints that hold a body beside its centre of mass; a line that something rolls on is pressed anywhere.
- */
+/* Mark bodies with constraint forces off their centre of mass; on a line for rolling, they act at any point. */
 static void find_held(const struct fbd_model *model, bool *twisted)
 {
     for (size_t c = 0; c < model->scene->constraint_count; c++) {
@@ -389,8 +388,8 @@ static void find_held(const struct fbd_model *model, bool *twisted)
     }
 }
 
-/* On which bodies does a force act that would turn it, if it were a particle that could turn? Found for all
- * at once: a coupling is not in the lists of the bodies that it joins. */
+/* Find the bodies with a force that would turn them if they were particles that could turn. Computed for all
+ * at once, as a coupling is not in the lists of the bodies that it joins. */
 static bool *find_twisted(struct fbd_model *model)
 {
     bool *twisted = ARENA_ARRAY(&model->arena, model->body_count, bool);
@@ -407,7 +406,7 @@ static bool *find_twisted(struct fbd_model *model)
     return twisted;
 }
 
-/* The force of a joint beside what is listed: a slide with `normal` has it in its list. */
+/* The name of the joint force beside the listed loads: a slide with `normal` has it in its list. */
 static const char *reaction_of(const struct fbd_model *model, const struct model_body *body, bool twisted)
 {
     switch (body->kind) {

@@ -1,14 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Tree: the bodies that are joined to bodies, as the recursion of dynamics/tree.h sees them.
+ * Tree: the jointed bodies, in the form that the recursion of dynamics/tree.h uses.
  *
  * A body is jointed when it moves on another body, carries one, or is an end of a coupling. A link is a
- * jointed body with all that is welded to it: one frame, one mass, one moment of inertia. Links are numbered
+ * jointed body with all bodies welded to it: one frame, one mass, one moment of inertia. Links are numbered
  * from 1 so that each comes after the one that it moves on; link 0 is the ground. A model without jointed
  * bodies has no tree, and a body that is not jointed is no part of it.
  *
  * The reference point O of a link is the axis of its pivot or the origin of its body's frame. Points of a
- * link are counted from there, in the frame of the link's own body.
+ * link are measured from O, in the frame of the link's own body.
  */
 #ifndef FBD_MODEL_TREE_H
 #define FBD_MODEL_TREE_H
@@ -18,7 +18,7 @@
 #include "model/plan.h"
 #include "scene/scene.h"
 
-/* Where the frame of a jointed body lies in its link: a point p of the body is shift + R(turn) p. */
+/* Position of the frame of a jointed body in its link: a point p of the body is shift + R(turn) p. */
 struct placement {
     int link; /* 0: the body is not jointed */
     struct vec shift, turn;
@@ -28,30 +28,30 @@ struct placement {
 /* The curve of a track. */
 struct tree_track {
     const struct curve *curve;
-    struct formula
-        piece;  /* that switches where a new piece of the curve begins; expr NULL where it has one */
-    bool turns; /* the body goes along with the tangent */
+    struct formula piece; /* switches at the start of each piece of the curve; expr NULL for a single piece */
+    bool turns;           /* the body turns with the tangent */
 };
 
 struct tree_link {
     int body, parent; /* its body; the link that it moves on, less than its own number */
     enum motion_kind kind;
-    int coordinate;  /* the first of its coordinates */
-    struct vec at;   /* pivot: the axis; slide: where x = 0; else the zero of x, y; from the parent's O */
-    struct vec e;    /* slide, free: direction of +x; track: of the x axis of its curve */
-    int side;        /* slide, track: its surface pushes to the left (+1) or the right (-1) of +x */
-    struct vec tilt; /* cosine and sine of `along` */
-    double along;    /* angle of the link's frame in its parent's at q = 0; track: of its curve */
+    int coordinate; /* the first of its coordinates */
+    struct vec at;  /* pivot: the axis; slide: where x = 0; else the zero of x, y; from the parent's O */
+    struct vec e;   /* slide, free: direction of +x; track: of the x axis of its curve */
+    int side;       /* slide, track: its surface force is directed to the left (+1) or the right (-1) of +x */
+    struct vec tilt;          /* cosine and sine of `along` */
+    double along;             /* angle of the link's frame in its parent's at q = 0; track: of its curve */
     struct tree_track *track; /* or NULL */
-    double mass, I_O;         /* with all that is welded to it; I_O about O */
+    double mass, I_O;         /* with all bodies welded to it; I_O about O */
     double inverse_I_O;       /* 1 / I_O */
     double I_G;               /* about the centre of mass */
-    double across; /* mass I_G / I_O: its inertia at O across the arm to its centre, when it turns freely */
+    double
+        across; /* mass I_G / I_O: effective mass at O perpendicular to the arm to G, when it turns freely */
     struct vec moment;   /* mass times the vector from O to its centre of mass */
     struct vec force;    /* constant forces in the world, all of them */
     double sine, cosine; /* their moment about O: sine sin(angle) + cosine cos(angle) */
     int pair;            /* its dry friction: index into plan.modes, or -1 */
-    int normal_slot;     /* where minus its normal force goes, or -1 */
+    int normal_slot;     /* slot of minus its normal force, or -1 */
     int root;            /* the first link of its tree */
     int end;             /* links from its own number up to this one (not included) move with it */
 };
@@ -68,7 +68,7 @@ struct tree_force {
     int link;
     struct vec point;
     double turn;     /* the angle of its body in the link, when it turns with the body */
-    bool body_frame; /* it does */
+    bool body_frame; /* it turns with the body */
     struct formula value, angle;
 };
 
@@ -90,15 +90,15 @@ struct tree_drag {
     double linear, quadratic;
 };
 
-/* A body of the link whose mass varies. Its share of the constants of the link is that at the start. */
+/* A body of varying mass in a link. Its contribution to the constants of the link is that at the start. */
 struct tree_bulk {
     int link, body;
     struct vec G;  /* its centre of mass, from O */
-    double start;  /* its mass then */
+    double start;  /* its mass at the start */
     double square; /* of its radius of gyration about G */
     struct formula mass;
-    struct vec g; /* gravity, where that acts on it; else 0 */
-    bool last;    /* of those of its link */
+    struct vec g; /* gravity if it acts on the body; else 0 */
+    bool last;    /* the last of its link */
 };
 
 struct tree {
@@ -111,13 +111,13 @@ struct tree {
     struct tree_spring *springs;
     struct tree_drag *drags;
     struct tree_bulk *bulks;
-    int acting_count;  /* bodies whose own terms count: not jointed, or with forces in the joint */
+    int acting_count;  /* bodies with terms in the plan: not jointed, or with forces in the joint */
     int *acting;       /* their numbers */
-    bool loaded;       /* something of the lists above acts on links */
+    bool loaded;       /* a load of the lists above acts on links */
     bool curved;       /* there are tracks */
     bool pivots_only;  /* every joint is a pivot, and none has dry friction */
-    double mass_ratio; /* of the heaviest link and the lightest */
-    int pair_count;    /* links whose dry friction goes with a normal force */
+    double mass_ratio; /* heaviest over lightest link */
+    int pair_count;    /* links whose dry friction depends on a normal force */
     int *pairs;        /* their numbers */
     int watched_count; /* links whose joint has a normal force or dry friction */
     int *watched;      /* their numbers */
@@ -125,11 +125,11 @@ struct tree {
     struct coupling *couplings;
     int meeting_count; /* see contact.h */
     struct meeting *meetings;
-    /* of the unknowns of dynamics/tree_system.h, the rows and then the pairs: */
-    int *coupling_of_row; /* rows alone */
-    int *unknown_at;      /* the unknown that is eliminated at a place */
-    int *first, *reach;   /* of a place: the first that it meets, and behind the last */
-    size_t *envelope;     /* where the entries from first[p] to p begin */
+    /* of the unknowns of dynamics/tree_system.h, first the rows, then the friction modes: */
+    int *coupling_of_row; /* rows only */
+    int *unknown_at;      /* the unknown at each elimination position */
+    int *first, *reach;   /* of a position: the first coupled one, and one past the last */
+    size_t *envelope;     /* start of the entries from first[p] to p */
     size_t envelope_size;
     int body_count; /* jointed bodies */
     int *bodies;    /* each after the one that it moves on */
@@ -138,8 +138,8 @@ struct tree {
 struct builder;
 struct fbd_model;
 
-/* Find the jointed bodies, number the links and give each jointed body its place. model->tree stays NULL when
- * there are none. False when memory is out. */
+/* Find the jointed bodies, number the links and set the placement of each jointed body. model->tree stays
+ * NULL when there are none. False when memory is out. */
 bool tree_number(struct fbd_model *model);
 
 /* Name the forces in the joints and count the arrows of all diagrams. False when memory is out. */
@@ -148,7 +148,7 @@ bool tree_name_reactions(struct fbd_model *model);
 /* Add a load of a jointed body to the lists of the tree and to those of the plan that act in joints. */
 void tree_add_load(struct builder *builder, int index);
 
-/* The constants of the links, when all loads are in. False when memory is out. */
+/* Compute the constants of the links after all loads are added. False when memory is out. */
 bool tree_finish(struct fbd_model *model);
 
 static inline struct vec placement_point(const struct placement *place, struct vec point)

@@ -5,7 +5,7 @@
 
 #include "base/text.h"
 
-/* Every parameter as text that reads back as the same number, in `arena`. */
+/* All parameters as text that reads back as the same number, in `arena`. */
 static struct override *parameters_as_they_are(struct arena *arena, const struct scene *scene)
 {
     struct override *overrides = ARENA_ARRAY(arena, scene->parameter_count + 1, struct override);

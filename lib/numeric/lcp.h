@@ -2,7 +2,7 @@
  *
  * The linear complementarity problem: w = M z + q with w >= 0, z >= 0 and w_i z_i = 0 for each i.
  *
- * Lemke's method (Cottle, Pane and Stone, The Linear Complementarity Problem, section 4.4): a further unknown
+ * Lemke's method (Cottle, Pang and Stone, The Linear Complementarity Problem, section 4.4): a further unknown
  * z_0 with a column of ones makes the start feasible, and pivots on complements of what has just left drive
  * it out. Rows that tie are told apart by the lexicographic rule, so that it cannot cycle: redundant holds,
  * as the feet of a block, always tie. Rows and columns are brought to one size first, which changes neither

@@ -12,7 +12,7 @@ static int row_count(const struct fbd_model *model)
     return model->tree ? model->tree->row_count : 0;
 }
 
-/* Rows that take part in the modes of an evaluated state: not those of a slack rope. */
+/* Rows that are active in the modes of an evaluated state: not those of a slack rope. */
 static size_t rows_at_work(const struct fbd_state *state)
 {
     struct instant at = state_instant(state);
@@ -39,7 +39,7 @@ size_t fbd_redundant(fbd_state *state, const char **names, size_t room)
 
 /* ---- the drift of a run */
 
-/* What hardly moves is measured as if it went a thousandth of its size in the run. */
+/* For a nearly motionless coupling the reference speed is at least a thousandth of its size per run. */
 static void add_drift(fbd_drift *all, const struct drift *drift, const struct run_options *options)
 {
     if (!drift->worst) return;
@@ -77,7 +77,7 @@ static void write_redundant(struct text *text, struct fbd_state *state)
     if (count > most_named) text_printf(text, " and %zu more", count - most_named);
 }
 
-/* The ropes that take no part as it starts. */
+/* Write the ropes that are slack at the start. */
 static void write_slack(struct text *text, fbd_state *state)
 {
     enum { most_named = 12 };

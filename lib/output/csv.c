@@ -84,7 +84,7 @@ static void headers(struct csv *csv, const struct fbd_state *start)
 
 /* ---- rows */
 
-/* The next field of the row; one whose number is not finite is empty. */
+/* Write the next field of the row; empty if the number is not finite. */
 static void field(struct csv *csv, double value)
 {
     if (csv->numbers) numbers_add(csv->numbers, value);
@@ -99,13 +99,13 @@ static void number(struct csv *csv, double value)
     field(csv, value);
 }
 
-/* An error may be unknown. */
+/* Write an error, which may be unknown. */
 static void error(struct csv *csv, double value)
 {
     if (csv->bars) field(csv, value);
 }
 
-/* A quantity of the run and of its companion. */
+/* Write a quantity of the run and its difference from the companion. */
 static void value(struct csv *csv, double main, double other)
 {
     number(csv, main);
@@ -177,7 +177,7 @@ static void component(struct csv *csv, const struct fbd_state *state, int i)
     if (csv->bars) error(csv, bars_component(csv->bars, state, (size_t)i) / size);
 }
 
-/* A row with a number that is not finite is not written: it ends the run. */
+/* A row with a number that is not finite is not written and ends the run. */
 static bool refuse_line(struct csv *csv, struct ensemble *ensemble)
 {
     csv->line.length = 0;

@@ -11,29 +11,28 @@ struct csv {
     const struct fbd_model *model;
     struct ledger *ledger;          /* NULL without force and energy columns */
     struct bars *bars;              /* NULL without columns of errors */
-    const fbd_recording *recording; /* where to write, and whom to ask */
-    struct numbers *numbers;        /* where the numbers go, NULL without */
+    const fbd_recording *recording; /* destination and callbacks */
+    struct numbers *numbers;        /* destination of the numbers, or NULL */
     double start, every, until;
-    double near; /* a regular row and an event that are no further apart share a row */
+    double near; /* a regular row and an event within this time share a row */
     double last; /* time of the row before */
     long next;   /* index of the next regular row: t = start + next * every */
     struct text line;
     struct arrow *arrows;
     double *work; /* integrals up to the row */
     bool odd;     /* the line has a number that is not finite */
-    bool failed;  /* memory or the writer */
+    bool failed;  /* out of memory or error of the writer */
 };
 
-/* Write the header and the row of the start, where the run of the result is. False when memory is out or the
+/* Write the header and the row at the start, the current time of the run. False when memory is out or the
  * writer refused. */
 bool csv_begin(struct csv *csv, fbd_result *result, const fbd_recording *recording);
 
-/* The time up to which no row is due, but for events. */
+/* The time of the next regular row. */
 double csv_next(const struct csv *csv);
 
-/* The row at the ensemble's time, if one is due there: by the output interval, by an event, or as the last
- * one.
- */
+/* Write the row at the ensemble's time if one is due: by the output interval, by an event, or as the last
+ * one. */
 bool csv_row(struct csv *csv, struct ensemble *ensemble, bool event);
 
 void csv_free(struct csv *csv);

@@ -1,14 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * The equations of a body. First those of its coordinates, in which what its own joint gives does not stand:
- * of a slide the forces along it, m v_dot = sum of f_x; of a pivot the moments about its axis O. A joint on
- * another body may accelerate itself, and the accelerations are then those in the world: a_x is the component
- * of a_G along x, and
+ * The equations of a body. First those of its coordinates, which do not contain the reaction of its own
+ * joint: of a slide the forces along it, m v_dot = sum of f_x; of a pivot the moments about its axis O. A
+ * joint on another body may be accelerated, and the accelerations are then those in the world: a_x is the
+ * component of a_G along x, and
  *
  *     I_O alpha = sum of moments about O - m r_OG x a_O
  *
- * Then, where they are asked for and of a body without coordinates, Newton's and Euler's for the body cut free,
- * reactions and all: m a_G = sum of forces, I_G alpha = sum of moments about G.
+ * Then, on request and for a body without coordinates, Newton's and Euler's equations of the body cut free,
+ * including reactions: m a_G = sum of forces, I_G alpha = sum of moments about G.
  */
 #include "output/equations.h"
 
@@ -30,7 +30,7 @@ void state_ready(struct fbd_state *state)
         modes_settle(state, NULL);
 }
 
-/* ---- accelerations and shares */
+/* ---- accelerations and components */
 
 bool equation_has_coordinate(const struct model_body *body)
 {
@@ -139,7 +139,7 @@ static void add_cut_free(struct fbd_equations *all, const struct fbd_state *stat
     const struct instant at = state_instant(state);
     const struct vec G = mass_center(body, &at), a_G = mass_center_acceleration(body, &at, state->a);
     const double acceleration[] = {a_G.x, a_G.y, body_angular_acceleration(body, &at, state->a)};
-    /* Of one that does not turn, by itself, nobody has asked what keeps it from that. */
+    /* For an unconnected body that does not turn, the moment that prevents it is not computed. */
     bool straight = body->place.link == 0 && (body->kind == motion_slide || body->kind == motion_particle);
     for (int part = 0; part < (straight ? 2 : 3); part++) {
         bool moment = part == 2;

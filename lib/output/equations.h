@@ -11,8 +11,8 @@
 
 struct equation {
     fbd_equation public;
-    int body, part;   /* the coordinate is number `part` of the body; of one cut free the direction */
-    bool cut_free;    /* Newton's or Euler's, reactions and all */
+    int body, part;   /* the coordinate is number `part` of the body; for a body cut free the direction */
+    bool cut_free;    /* Newton's or Euler's equation, including reactions */
     const int *loads; /* of each term, -1 for none */
 };
 
@@ -28,12 +28,12 @@ fbd_equations *assemble(fbd_state *state, bool components);
 /* Settle the modes if the state was changed, and evaluate. */
 void state_ready(struct fbd_state *state);
 
-/* The share of an arrow in equation `part` of a body whose centre of mass is at G. A planar body's moments
- * are taken about its centre of mass, which decouples its equations. */
+/* The contribution of an arrow to equation `part` of a body whose centre of mass is at G. A planar body's
+ * moments are taken about its centre of mass, which decouples its equations. */
 double equation_term(const struct model_body *body, const struct arrow *arrow, int part, struct vec G);
 
-/* The acceleration on the other side of that equation, where a[n] are those of the coordinates, and its name;
- * is it that of the coordinate itself? */
+/* The acceleration on the other side of that equation, given those of the coordinates, a[n]; its name; and
+ * whether it is that of the coordinate. */
 double equation_acceleration(const struct model_body *body, const struct instant *at, const double *a,
                              int part);
 const char *equation_acceleration_name(const struct fbd_model *model, const struct model_body *body,
@@ -43,7 +43,7 @@ bool equation_has_coordinate(const struct model_body *body);
 /* An arrow with its moment about a point, for fbd.h. */
 fbd_arrow public_arrow(const struct arrow *arrow, struct vec about);
 
-/* Write the equations, and what they belong to, as text. */
+/* Write the equations, and their context, as text. */
 void equations_write(struct text *text, struct fbd_state *state, bool components);
 
 #endif

@@ -34,7 +34,7 @@ static void write_coordinates(struct text *text, const struct fbd_state *state)
     text_add(text, "},\n");
 }
 
-/* The states of the file's own, their values and rates. */
+/* Write the user states, their values and rates. */
 static void write_states(struct text *text, const struct fbd_state *state)
 {
     const struct fbd_model *model = state->model;
@@ -53,11 +53,11 @@ static void write_states(struct text *text, const struct fbd_state *state)
     text_add(text, "\n  },\n");
 }
 
-/* What is written, and in which symbols. */
+/* The state to be written, and the symbols. */
 struct written {
     struct fbd_state *state;
     bool components;
-    struct formulas *formulas; /* NULL: in none */
+    struct formulas *formulas; /* NULL: without symbols */
 };
 
 static bool has_symbols(const struct written *written, const struct equation *equation)
@@ -125,7 +125,7 @@ static void write_equations(struct text *text, const struct written *written, co
     text_add(text, "\n  ],\n");
 }
 
-/* Of the bodies that are cut free. */
+/* For the bodies that are cut free. */
 static void write_kinematics(struct text *text, const struct written *written)
 {
     const struct fbd_model *model = written->state->model;

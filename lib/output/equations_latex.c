@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * The assembled equations as LaTeX (amsmath): each in symbols, and below with the numbers of the state.
+ * The assembled equations as LaTeX (amsmath): each in symbols, followed by the numbers of the state.
  */
 #include <math.h>
 #include <string.h>
@@ -71,7 +71,7 @@ static void write_equation(struct text *text, struct formulas *formulas, const s
     text_add(text, "\n\\end{align*}\n");
 }
 
-/* Where a body is cut free, the acceleration of its G. */
+/* For a body cut free, the acceleration of its G. */
 static void write_kinematics(struct text *text, struct formulas *formulas, int b)
 {
     const char *lines[most_kinematic_lines];

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * The assembled equations as a person reads them.
+ * The assembled equations as text.
  */
 #include <stdlib.h>
 
@@ -39,7 +39,8 @@ static void write_row(struct text *text, const char *name, double value, const c
     text_add(text, "\n");
 }
 
-/* What the body lists stands there whatever it is; what follows from other bodies where it says something. */
+/* Write the terms of the body's own loads always, those due to other bodies only if they have a value or
+ * remark. */
 static void write_terms(struct text *text, struct fbd_state *state, const struct equation *equation)
 {
     const fbd_equation *e = &equation->public;
@@ -85,7 +86,7 @@ static void write_body(struct text *text, const struct fbd_state *state, int b)
     text_printf(text, " %s\n", model->scene->units == unit_si ? "m" : "ft");
 }
 
-/* Of the file's own: their rates. */
+/* Write the rates of the user states. */
 static void write_states(struct text *text, const struct fbd_state *state)
 {
     const struct fbd_model *model = state->model;
@@ -106,7 +107,7 @@ static void write_line(struct text *text, const char *line)
     if (line) text_printf(text, "    %s\n", line);
 }
 
-/* The equations of body b, and the acceleration of its G. */
+/* Write the equations of body b, and the acceleration of its G. */
 static void write_lines(struct text *text, struct formulas *formulas, const fbd_equations *all, int b,
                         bool components)
 {
@@ -120,7 +121,7 @@ static void write_lines(struct text *text, struct formulas *formulas, const fbd_
     for (int i = 0; i < count; i++) write_line(text, lines[i]);
 }
 
-/* Of bodies that are joined, or of all, Newton's and Euler's equations with all reactions, a line each. */
+/* Write Newton's and Euler's equations with all reactions, for joined bodies or for all, a line each. */
 static void write_cut_free(struct text *text, struct fbd_state *state, bool components)
 {
     const struct fbd_model *model = state->model;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * What a scene simulates and what it does not.
+ * Explain which effects of a scene are simulated and which are not.
  */
 #include "output/explain.h"
 
@@ -17,7 +17,7 @@
 
 enum { most_names = 4, most_bodies = 20 };
 
-/* Names after one another, with a count of those that are too many: begin with *shown = 0. `load` may be
+/* Write names after one another, and count those beyond the limit: begin with *display = 0. `load` may be
  * NULL. */
 static void write_name(struct text *text, size_t *display, const char *body, const char *load)
 {
@@ -108,7 +108,7 @@ static void write_effect(struct text *text, const struct fbd_model *model, const
 
 static void write_effects(struct text *text, const struct fbd_model *model)
 {
-    enum { most_effects = 64 }; /* kinds times reasons: there are fewer */
+    enum { most_effects = 64 }; /* upper bound of kinds times reasons */
     const struct model_load *seen[most_effects];
     size_t count = 0;
     text_printf(text, "\nEffects simulated (%zu)\n", model->load_count);
@@ -122,12 +122,12 @@ static void write_effects(struct text *text, const struct fbd_model *model)
     }
 }
 
-/* ---- effects that are not, and what would have to be listed */
+/* ---- effects that are not simulated, and how to add them */
 
 struct absent {
     enum load_kind kind;
-    bool on[motion_kinds_count]; /* by enum motion_kind: where it could act */
-    bool anybody; /* said only when no body at all lists it: it is nothing that a body might be missing */
+    bool on[motion_kinds_count]; /* by enum motion_kind: motions to which it applies */
+    bool anybody;                /* reported only when no body lists it: no body needs it */
     const char *words;
 };
 
@@ -217,7 +217,7 @@ char *fbd_explain(const fbd_model *model, const fbd_options *options)
     struct text text = {0};
     struct fbd_state *state = state_new(model);
     if (!state) return NULL;
-    modes_settle(state, NULL); /* where that fails, the run will say so */
+    modes_settle(state, NULL); /* a failure is reported by the run */
     struct rates *rates = rates_new(state, rates_by_rows);
     if (rates) {
         write_coordinates(&text, model);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * How a scene is simulated: the terms of its right-hand side, what they change with, the events that are
- * looked for, and the structure that is made use of.
+ * Explain how a scene is simulated: the terms of its right-hand side, the variables they depend on, the
+ * watched events, and the exploited structure.
  */
 #include "output/explain.h"
 
@@ -107,7 +107,7 @@ static void write_dependence(struct text *text, const struct fbd_model *model)
 
 /* ---- events: a function is watched only where an effect could make it zero */
 
-/* A normal force that is constant is looked at once, at the start. */
+/* A constant normal force is checked once, at the start. */
 static size_t watched_contacts(const struct plan *plan)
 {
     size_t count = 0;

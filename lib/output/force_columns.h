@@ -1,15 +1,15 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * What an arrow of a diagram is in tables of numbers (CSV, page, plots), by the motion of its body whatever
- * that is joined to.
+ * The columns of an arrow of a diagram in tables of numbers (CSV, page, plots). They depend on the motion of
+ * its body, not on its connections.
  *
- *   slide, track   the component along +x, of `normal` the normal force
- *   pivot          the moment about the axis
- *   particle       x and y
- *   planar, weld   x, y, and the moment about the centre of mass
+ *     slide, track   the component along +x, of `normal` the normal force
+ *     pivot          the moment about the axis
+ *     particle       x and y
+ *     planar, weld   x, y, and the moment about the centre of mass
  *
- * What the joint of the body itself gives has no such share: of a pivot x and y, of a guide nothing. With
- * `components` every arrow has x, y and the moment about the centre of mass as well.
+ * The reaction of the body's own joint has no such component: of a pivot x and y are written, of a guide no
+ * column. With `components` every arrow has x, y and the moment about the centre of mass as well.
  */
 #ifndef FBD_OUTPUT_FORCE_COLUMNS_H
 #define FBD_OUTPUT_FORCE_COLUMNS_H
@@ -26,7 +26,7 @@ size_t force_columns(const struct fbd_model *model, int b, const struct arrow *a
 const char *force_part_name(enum force_part part);
 const char *force_part_unit(const struct fbd_model *model, int b, enum force_part part);
 
-/* At the instant that the arrow is of. */
+/* The value at the instant of the arrow. */
 double force_part_value(const struct fbd_model *model, int b, const struct instant *at,
                         const struct arrow *arrow, enum force_part part);
 

@@ -13,14 +13,14 @@ bool equations_cut_free(const struct fbd_model *model, bool components)
     return model->body_count <= most_bodies && (components || model->tree);
 }
 
-/* Do the equations of its coordinates have the accelerations of G in the world? */
+/* True if the equations of its coordinates contain the accelerations of G in the world. */
 static bool is_on_ground(const struct model_body *body)
 {
     const bool off_center = body->kind == motion_planar && (body->arm.x != 0 || body->arm.y != 0);
     return body->parent == ground_body && body->count > 0 && !off_center;
 }
 
-/* Is the sum in that direction one of its coordinates' equations? */
+/* True if the sum in that direction is one of its coordinates' equations. */
 static bool has_coordinate_along(const struct model_body *body, int part)
 {
     switch (body->kind) {
@@ -45,7 +45,8 @@ bool equation_is_written(const struct fbd_model *model, int b, bool cut_free, in
     const bool straight =
         body->place.link == 0 && (body->kind == motion_slide || body->kind == motion_particle);
     if (!body_is_cut_free(model, b, components)) return !cut_free;
-    if (cut_free && part == 2 && straight) return false; /* nobody has asked what keeps it from turning */
+    if (cut_free && part == 2 && straight)
+        return false; /* the moment that keeps it from turning is not computed */
     return cut_free ? !ground || !has_coordinate_along(body, part) : ground;
 }
 
@@ -106,7 +107,7 @@ const char *slope_of(struct formulas *formulas, struct vec e)
                 : arena_printf(&formulas->arena, "%.9g[deg]", atan2(e.y, e.x) * 180 / 3.141592653589793);
 }
 
-/* The law of a term of the equation where it says more than its symbol, or "". */
+/* The law of a term of the equation where it is more specific than its symbol, or "". */
 static const char *law_of(struct formulas *formulas, const struct equation *equation, size_t term)
 {
     const int load = equation->loads[term];
@@ -133,7 +134,7 @@ static const char *law_of(struct formulas *formulas, const struct equation *equa
 
 /* ---- terms */
 
-/* That of the body's arrow of this name; NULL for none. */
+/* The symbol of the body's arrow of this name; NULL for none. */
 static const struct force_symbol *symbol_of_arrow(struct formulas *formulas, int body, const char *name)
 {
     const struct fbd_state *state = formulas->state;
@@ -150,14 +151,14 @@ static bool is_of_moments(const struct equation *equation)
     return equation->public.inertia_name[0] == 'I';
 }
 
-/* Does a moment have a share in the equation of forces, along a curve? */
+/* True if a moment contributes to the equation of forces, along a curve. */
 static bool turns_along(const struct formulas *formulas, const struct equation *equation)
 {
     const struct model_body *body = &formulas->state->model->bodies[equation->body];
     return !equation->cut_free && body->kind == motion_track && body->source->motion.turns;
 }
 
-/* The direction of an equation of forces in the world, or (0, 0) where that goes with the motion. */
+/* The direction of an equation of forces in the world, or (0, 0) where it varies with the motion. */
 static struct vec direction_of(const struct formulas *formulas, const struct equation *equation)
 {
     const struct model_body *body = &formulas->state->model->bodies[equation->body];
@@ -167,7 +168,7 @@ static struct vec direction_of(const struct formulas *formulas, const struct equ
     return equation->part == 0 ? (struct vec){1, 0} : (struct vec){0, 1};
 }
 
-/* The line of the ground along which or across which a force acts: a slide, what the body rolls on or touches. */
+/* The line of the ground along or across which a force acts: of a slide, a rolling body or a contact. */
 static struct vec line_of(const struct formulas *formulas, const struct equation *equation, const char *name,
                           struct vec d)
 {
@@ -182,7 +183,7 @@ static struct vec line_of(const struct formulas *formulas, const struct equation
     return fmin(along, across) <= 1e-9 * fmax(along, across) ? vec_scale(1 / vec_norm(e), e) : d;
 }
 
-/* The share in direction u of a force of that size along d: N cos(phi). */
+/* The component in direction u of a force of that size along d: N cos(phi). */
 static const char *share_of_size(struct formulas *formulas, const struct equation *equation, const char *name,
                                  struct vec d, struct vec u, const char *symbol)
 {
@@ -202,7 +203,7 @@ static const char *share_of_size(struct formulas *formulas, const struct equatio
                  : NULL;
 }
 
-/* Of a force whose direction goes with the motion, by its components in the world. */
+/* The component of a force whose direction varies with the motion, by its components in the world. */
 static const char *share_of_vector(struct formulas *formulas, const struct acts *acts, struct vec u,
                                    const char *symbol, const char *minus)
 {
@@ -224,7 +225,7 @@ static const char *share_of_vector(struct formulas *formulas, const struct acts 
     return arena_printf(arena, "%s(%s cos(%s) + %s sin(%s))", minus, x, angle, y, angle);
 }
 
-/* The share of a force in an equation of forces. */
+/* The component of a force in an equation of forces. */
 static const char *share_by_symbol(struct formulas *formulas, const struct equation *equation,
                                    const char *name, const struct acts *acts, const struct letter *letter)
 {
@@ -245,7 +246,7 @@ static const char *share_by_symbol(struct formulas *formulas, const struct equat
     return share_of_size(formulas, equation, name, vec_scale(letter->sign, d), u, letter->size);
 }
 
-/* What a force is called: while it slips friction is mu_k N, in the sense that it has now. */
+/* The letters of a force: slipping friction is mu_k N, in its present sense. */
 static struct letter letter_of(const struct formulas *formulas, const struct force_symbol *symbol,
                                const struct acts *acts)
 {
@@ -257,7 +258,7 @@ static struct letter letter_of(const struct formulas *formulas, const struct for
     return letter;
 }
 
-/* One term; "" where it is zero at all times. */
+/* One term; "" if it is zero at all times. */
 static const char *term_of(struct formulas *formulas, const struct equation *equation, size_t index)
 {
     const fbd_term *term = &equation->public.terms[index];

@@ -14,7 +14,7 @@
 
 enum { parameter_draws = 12, states_of_a_draw = 24, tries_of_a_state = 8 };
 
-/* Does a sample agree? To rounding: 1e-9 of what was added up. */
+/* True if a sample agrees to rounding: 1e-9 of the sum of magnitudes. */
 static bool agrees(const struct hand_sample *sample)
 {
     return fabs(sample->lack) <= 1e-9 * sample->size && isfinite(sample->size);
@@ -27,7 +27,7 @@ size_t hand_room(const struct fbd_model *model)
     return plan_size(&model->plan) + hand_slots + model->absolute_count;
 }
 
-/* Minus what its slot has is the normal force of a body's own surface. */
+/* Minus the sum in its slot is the normal force of a body's own surface. */
 static double normal_force(const struct fbd_state *state, const struct model_body *body,
                            const struct hand_named *named)
 {
@@ -71,8 +71,7 @@ static double inertia_of(const struct model_body *body, int part, const struct i
                                       : body_mass(body, at);
 }
 
-/* The slope of left - right with respect to each acceleration; the one that is not zero names the coordinate.
- */
+/* The slope of left - right with respect to each acceleration; the nonzero one determines the coordinate. */
 static int accelerated_part(const struct hand *hand, int size, int count, double t, const double *y,
                             double *slope)
 {
@@ -83,14 +82,14 @@ static int accelerated_part(const struct hand *hand, int size, int count, double
         expr_eval_slot(hand->left, t, y, slot, NULL, &left);
         expr_eval_slot(hand->right, t, y, slot, NULL, &right);
         if (left - right == 0) continue;
-        if (part >= 0) return -1; /* several accelerations: compared side with side */
+        if (part >= 0) return -1; /* several accelerations: compare the two sides */
         part = k;
         *slope = left - right;
     }
     return part;
 }
 
-/* What gravity's term would be if sine and cosine were exchanged. */
+/* The term of gravity with sine and cosine exchanged. */
 static double swapped_gravity(const struct model_body *body, const struct fbd_state *state)
 {
     struct instant at = state_instant(state);
@@ -118,7 +117,7 @@ static void take_factors(const struct model_body *body, const struct fbd_state *
     factors[factor_coordinate] = body->count == 1 ? q : NAN;
 }
 
-/* The equation's summands as forces on the coordinate: scaled as the whole is. */
+/* The equation's summands as forces on the coordinate, with the scale of the whole equation. */
 static void take_summands(struct hand_check *check, const struct hand *hand, double t, const double *y,
                           double scale, struct hand_sample *sample)
 {
@@ -132,8 +131,8 @@ static void take_summands(struct hand_check *check, const struct hand *hand, dou
     }
 }
 
-/* Which names the equation depends on: bit k for hand slot k, hand_others for accelerations of other bodies. An identity
- * depends on none. *size grows by what these contribute to a side. */
+/* The names that the equation depends on: bit k for hand slot k, hand_others for accelerations of other
+ * bodies. An identity depends on none. *size grows by their contributions to a side. */
 static unsigned depends_on(const struct hand *hand, const struct fbd_state *state, int b,
                            const struct hand_named *named, const double *y, double *size)
 {
@@ -182,7 +181,7 @@ static void take_sample(struct hand_check *check, const struct hand *hand, const
     hand_form_at(state, check->body, check->index, named, y, form);
     for (int k = 0; k < hand_unknowns; k++) check->unknowns |= form[k] != 0 ? 1ULL << k : 0;
     double slope = 0, scale = 1;
-    /* Several unknowns in one equation: side against side. */
+    /* Several unknowns in one equation: compare the two sides. */
     bool jointed =
         body->place.link > 0 || (says & ((unsigned)hand_named_forces | (unsigned)hand_others)) != 0;
     int part =
@@ -195,7 +194,7 @@ static void take_sample(struct hand_check *check, const struct hand *hand, const
         sample.a_hand = sample.a - (sample.left - sample.right) / slope;
         scale = sample.I / slope;
     }
-    /* Next to no inertia: side against side, since beyond the largest number nothing differs. */
+    /* Almost no inertia: compare the two sides, since the scaled ones overflow. */
     if (!isfinite(scale * (fabs(sample.left) + fabs(sample.right)))) scale = 1;
     sample.lack = scale * (sample.left - sample.right);
     sample.size = fabs(scale) * (fabs(sample.left) + fabs(sample.right)) + DBL_MIN;
@@ -329,7 +328,7 @@ static bool write_open(const struct hand_check *check, struct text *text)
     return true;
 }
 
-/* In which sense does the friction of the body slip at the start? */
+/* The sense in which the friction of the body slips at the start. */
 static int slip_at_start(const struct hand_check *check)
 {
     const int friction = check->model->bodies[check->body].friction;
@@ -359,7 +358,8 @@ static bool write_verdict(const struct hand_check *check, struct text *text)
         hand_say_zeros(check, text);
         return true;
     }
-    /* With friction an equation without `when` may claim one direction of motion, that of the start if it slips there. */
+    /* With friction an equation without `when` may hold for one direction of motion, that of the start if it
+     * slips there. */
     const bool any = !check->model->scene->bodies[check->body].hands[check->index].when;
     const int start = any ? slip_at_start(check) : 0;
     for (int slip = 1; slip >= -1 && any; slip -= 2) {
@@ -395,7 +395,7 @@ bool hand_take_samples(struct hand_check *check, const struct document *document
     return !any || hand_find_point(check);
 }
 
-/* A line of a run: of the one that is made for the first of them. */
+/* Judge a line about a run; the run is made for the first of them. */
 static int judge_by_run(struct hand_check *check, const struct hand *hand, struct text *text)
 {
     if (!check->run.model) {
@@ -434,7 +434,7 @@ static int check_one(struct hand_check *check, const struct document *document, 
     return write_verdict(check, text) ? 0 : 1;
 }
 
-/* Check all equations of check->model; how many differ, -1 out of memory. */
+/* Check all equations of check->model; returns the number that differ, -1 out of memory. */
 static int check_all(struct hand_check *check, const struct document *document, gsl_rng *rng,
                      struct text *text)
 {

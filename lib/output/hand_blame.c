@@ -16,11 +16,11 @@ static const double tolerance = 1e-6; /* of the sum of the magnitudes of the ter
 struct inquiry {
     const struct hand_check *check;
     int slip;
-    struct suspects_look look, other; /* at states of the model itself, and of those with other parameters */
+    struct suspects_look look, other; /* at states of the model, and of variants with other parameters */
     struct arena arena;
     struct suspect *list;
     size_t count, alive, states;
-    bool *named; /* of each arrow: is it in the line? */
+    bool *named; /* of each arrow: it is in the line */
 };
 
 static bool is(double a, double b)
@@ -30,7 +30,7 @@ static bool is(double a, double b)
 
 /* ---- at all states */
 
-/* Is the lack k V here? k is that of the first state at which V is not small. */
+/* True if the residual is k V at this state; k is that of the first state at which V is not small. */
 static bool holds(const struct suspects_look *look, struct suspect *suspect)
 {
     const double V = suspect_value(look, suspect), lack = look->lack, large = 1e-3 * look->size;
@@ -81,7 +81,7 @@ static bool visit(void *context, struct fbd_state *state, const struct hand_name
     return true;
 }
 
-/* ---- the first of those that are left */
+/* ---- choice among the remaining ones */
 
 static bool is_wrong_sign(const struct inquiry *inquiry, const struct suspect *s)
 {
@@ -119,7 +119,7 @@ static bool is_letter(const struct hand_forces *forces, const char *name)
     return *name == '='; /* declared */
 }
 
-/* Is the other one called by a letter as that in the line is, or by its name? */
+/* True if both forces are denoted by letters, or both by names. */
 static bool is_alike(const struct inquiry *inquiry, const struct suspect *s)
 {
     if (!is_other_force(inquiry, s)) return false;
@@ -183,7 +183,7 @@ static const char *point_name(const struct body *body, const struct point *point
     return "O";
 }
 
-/* R_2_x as it is written: R_2x; a declared symbol, =T, as T. */
+/* Print R_2_x as R_2x, and a declared symbol, =T, as T. */
 static void write_force(const char *name, bool letter, struct text *text)
 {
     const char *first = strchr(name, '_'), *last = strrchr(name, '_');
@@ -240,7 +240,7 @@ static void say_factor(double s, struct text *text)
         text_printf(text, " has the factor %.6g instead of 1\n", s);
 }
 
-/* Of a summand the factor with which the line would be right is the inverse. */
+/* For a summand the factor that corrects the line is the inverse. */
 static void say_summand(const struct inquiry *inquiry, const struct suspect *s, struct text *text)
 {
     text_add(text, "  the summand `");

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * In which term a hand derivation differs.
+ * Find the term in which a hand derivation differs.
  *
- * If the hand equation has the factor s on term T and all else right, it lacks (1 - s) T at every state. So
- * for each named term the factor is estimated by least squares, 1 - s = sum(lack T) / sum(T T), and believed
- * if it explains every sample. The same for the inertia, by the ratio of the accelerations, which tells I_G
- * from I_O.
+ * If the hand equation has the factor s on term T and is otherwise right, its error is (1 - s) T at every
+ * state. So for each named term the factor is estimated by least squares, 1 - s = sum(lack T) / sum(T T), and
+ * accepted if it explains every sample. The same for the inertia, by the ratio of the accelerations, which
+ * distinguishes I_G from I_O.
  */
 #include "output/hand.h"
 
@@ -27,7 +27,7 @@ static bool same(double a, double b)
     return isfinite(a) && isfinite(b) && fabs(a - b) <= 1e-6 * (fabs(a) + fabs(b));
 }
 
-/* The factor that makes lack = factor * candidate everywhere, if there is one. */
+/* The factor for which lack = factor * candidate at every sample, if there is one. */
 static bool explains(const struct hand_check *check, int slip, candidate *value, int index, double *factor)
 {
     double top = 0, bottom = 0;
@@ -45,12 +45,12 @@ static bool explains(const struct hand_check *check, int slip, candidate *value,
         const struct hand_sample *sample = &check->samples[i];
         if (sample->slip == slip &&
             !(fabs(sample->lack - *factor * value(sample, index)) <= 1e-6 * sample->size))
-            return false; /* also for what is no number */
+            return false; /* also for NAN */
     }
     return true;
 }
 
-/* Is the factor s of a term 1/L (or L) at every sample? */
+/* True if the factor s of a term is 1/L (or L) at every sample. */
 static bool arm_power(const struct hand_check *check, int slip, int index, int power)
 {
     size_t seen = 0;
@@ -160,7 +160,7 @@ static const struct hand_sample *worst_sample(const struct hand_check *check, in
     return worst;
 }
 
-/* What the assembly has along the coordinate of an eliminated line. */
+/* Write the terms of the assembly along the coordinate of an eliminated line. */
 static void show_terms(const struct hand_check *check, const struct hand_sample *sample, struct text *text)
 {
     const struct model_body *body = &check->model->bodies[check->body];
@@ -171,7 +171,7 @@ static void show_terms(const struct hand_check *check, const struct hand_sample 
     text_add(text, "\n");
 }
 
-/* What the summands of any other line come to. */
+/* Write the values of the summands of any other line. */
 static void show_summands(const struct hand_check *check, const struct hand_sample *sample, struct text *text)
 {
     const struct hand *hand = &check->model->scene->bodies[check->body].hands[check->index];
@@ -185,7 +185,7 @@ static void show_summands(const struct hand_check *check, const struct hand_samp
     text_add(text, "\n");
 }
 
-/* The state where it is worst, with all terms: enough to find the fault by hand. */
+/* Write the state of the largest error, with all terms: enough to find the error by hand. */
 static void show_worst(const struct hand_check *check, int slip, struct text *text)
 {
     const struct hand_sample *worst = worst_sample(check, slip);
@@ -204,8 +204,8 @@ static void show_worst(const struct hand_check *check, int slip, struct text *te
         show_summands(check, worst, text);
 }
 
-/* With one term on the right, a wrong factor there and a wrong inertia look the same. An equation whose left
- * side has the very inertia of the assembly has its fault elsewhere. */
+/* With one term on the right, a wrong factor there and a wrong inertia are indistinguishable. An equation
+ * whose left side has exactly the inertia of the assembly has its error elsewhere. */
 static bool inertia_is_right(const struct hand_check *check, int slip)
 {
     for (size_t i = 0; i < check->count; i++) {
@@ -247,11 +247,11 @@ void hand_diagnose(const struct hand_check *check, int slip, struct text *text)
                     check->elsewhere, hand->about_name);
         return;
     }
-    /* An equation for N is one across the line: the terms, which act along it, say nothing of it. */
+    /* An equation for N is across the line: the terms, which are along it, are not in it. */
     bool across = check->part < 0 && check->says & 1U << hand_N;
     bool found = !across && !(check->says & (unsigned)hand_named_forces) && !inertia_is_right(check, slip) &&
                  blame_inertia(check, slip, text);
-    /* Terms are those along the coordinate of a body by itself. */
+    /* Terms are those along the coordinate of an unconnected body. */
     const bool named = (check->says & ((unsigned)hand_named_forces | (unsigned)hand_others)) != 0 ||
                        check->model->bodies[check->body].place.link > 0;
     if (!found && !across && !named) found = blame_term(check, slip, text) || hand_match(check, slip, text);

@@ -14,13 +14,14 @@ static const struct model_load *load_of(const struct fbd_model *model, const str
     return arrow->load >= 0 ? &model->loads[arrow->load] : NULL;
 }
 
-/* Rows are about what a surface does across it and along it. */
+/* True if the rows are the normal and tangential components at a surface. */
 static bool is_surface(const struct coupling *coupling)
 {
     return coupling->law->surface || coupling->kind == constraint_slot;
 }
 
-/* Has the force of a coupling a direction of its own there? A rope that goes round a point of the body has none. */
+/* True if the force of a coupling has a direction of its own there; false for a rope that passes over a point
+ * of the body. */
 static bool coupling_has_size(const struct coupling *coupling, int end)
 {
     bool corner = coupling->law->way && !coupling->law->strands && end > 0 && end + 1 < coupling->end_count;
@@ -46,7 +47,7 @@ static double coupling_size(const struct fbd_model *model, const struct coupling
     return length > 0 ? vec_cross(normal, arrow->force) / length : 0;
 }
 
-/* Of a spring or damper between points: positive as it pulls. */
+/* Tension of a spring or damper between points. */
 static double pull_of(const struct fbd_model *model, int body, const struct arrow *arrow,
                       const struct instant *at)
 {
@@ -62,7 +63,7 @@ static bool acts_along(const struct fbd_model *model, int body)
     return model->bodies[body].kind == motion_slide || model->bodies[body].kind == motion_track;
 }
 
-/* Has it a size, with a sign? */
+/* True if the force has a size, with a sign. */
 static bool has_size(const struct fbd_model *model, const struct arrow *arrow,
                      const struct force_symbol *symbol, int body)
 {
@@ -113,7 +114,7 @@ struct naming {
     const struct fbd_model *model;
     struct arena *arena;
     struct hand_forces *forces;
-    const struct force_symbol *symbols; /* of the body at hand, and its arrows */
+    const struct force_symbol *symbols; /* of the current body, and its arrows */
     const struct arrow *arrows;
     size_t count;
     int body;
@@ -134,8 +135,8 @@ static void add(const struct naming *naming, size_t i, enum hand_force_part part
         .name = {naming->body, name, letter, dim}, .arrow = i, .part = part, .sign = sign, .symbol = symbol};
 }
 
-/* May its arrow have a couple beside the force? A joint that keeps the body from turning does; a slide on the ground takes
- * whatever couple it has to, which nobody computes. */
+/* True if its arrow may have a couple beside the force. A joint that keeps the body from turning has; the
+ * couple of a slide on the ground is not computed. */
 static bool has_couple(const struct naming *naming, size_t i)
 {
     const int joint = naming->symbols[i].joint;
@@ -155,7 +156,7 @@ static void add_letter(const struct naming *naming, size_t i, const char *letter
     add(naming, i, hand_force_y, true, sign, arena_printf(naming->arena, "%s_y", letter));
 }
 
-/* Has the body another force of this letter? */
+/* True if no other force of the body has this letter. */
 static bool is_alone(const struct naming *naming, size_t i)
 {
     for (size_t k = 0; k < naming->count; k++)
@@ -211,7 +212,7 @@ bool hand_forces_make(const struct fbd_model *model, struct arena *arena, struct
     return done && !arena->failed;
 }
 
-/* ---- those that are named */
+/* ---- named forces */
 
 static const struct hand_force *find(const struct hand_forces *forces, int body, const char *name)
 {
@@ -221,7 +222,7 @@ static const struct hand_force *find(const struct hand_forces *forces, int body,
     return NULL;
 }
 
-/* A force, or those of a symbol. */
+/* Find a force, or those of a symbol. */
 static bool find_sum(const struct hand_forces *forces, const struct absolute *absolute, struct arena *arena,
                      struct hand_sum *sum)
 {
@@ -261,7 +262,7 @@ bool hand_named_find(const struct fbd_model *model, struct arena *arena, struct 
     return !arena->failed;
 }
 
-/* What goes with accelerations and inertia; 0 for all else. */
+/* The value of an acceleration or moment of inertia. */
 static double place_value(const struct fbd_state *state, const struct model_absolute *absolute)
 {
     const struct model_body *body = &state->model->bodies[absolute->body];
@@ -332,7 +333,7 @@ double hand_slot_size(const struct fbd_state *state, int b, int slot, const stru
 
 static double size_of_force(const struct hand_force *force, struct forces_size size)
 {
-    if (force->name.dim.mass == 0) return 0; /* a place */
+    if (force->name.dim.mass == 0) return 0; /* a position */
     return force->name.dim.length == dim_moment.length ? size.moment : size.force;
 }
 
@@ -388,7 +389,7 @@ bool hand_forces_list(const struct fbd_model *model, struct arena *arena, struct
     if (hand_forces_make(model, arena, &forces))
         names = ARENA_ARRAY(arena, forces.count + 1, struct force_name);
     for (size_t i = 0; names && i < forces.count; i++) {
-        const char *name = forces.list[i].name.name; /* lives as long as the model */
+        const char *name = forces.list[i].name.name; /* owned by the model */
         names[i] = forces.list[i].name;
         names[i].name = arena_text(arena, name, strlen(name));
     }

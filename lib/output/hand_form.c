@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * An equation as a linear form of its unknowns, so that equations about the same ones are told apart, and one that is written
- * twice is seen.
+ * An equation as a linear form of its unknowns, which identifies equations about the same unknowns, and
+ * duplicates.
  */
 #include <string.h>
 
@@ -16,11 +16,11 @@ static int unknown_of_force(const struct fbd_model *model, int b, size_t arrow, 
            (int)((3 * (before + arrow) + (size_t)part) % (hand_unknowns - hand_unknown_force));
 }
 
-/* A force whose name is its size, by its components. */
+/* Add a force that is named by its size, by its components. */
 static void add_size(const struct fbd_model *model, int b, const struct arrow *arrow, size_t i, double slope,
                      double *form)
 {
-    const double size = vec_norm(arrow->force), little = 1e-9; /* rounding of a direction */
+    const double size = vec_norm(arrow->force), little = 1e-9; /* round-off level of a direction */
     const double parts[] = {arrow->force.x, arrow->force.y};
     for (int k = 0; k < 2; k++)
         if (fabs(parts[k]) > little * size) form[unknown_of_force(model, b, i, k)] += slope * parts[k] / size;
@@ -40,7 +40,7 @@ static void add_named(const struct fbd_state *state, const struct hand_force *fo
         form[unknown_of_force(state->model, b, force->arrow, (int)force->part)] += slope * force->sign;
 }
 
-/* N: the normal force that the body lists. */
+/* Add N, the normal force that the body lists. */
 static void add_normal(const struct fbd_state *state, int b, struct arrow *arrows, double slope, double *form)
 {
     const struct fbd_model *model = state->model;

@@ -27,7 +27,7 @@ static void add_place(struct suspects_look *look, const char *name, bool own, st
         (struct place_of){.name = name, .own = own, .frame = where, .p = where};
 }
 
-/* G, O, points of the body, and where reactions act. */
+/* List G, O, points of the body, and points of application of reactions. */
 static void list_places(struct suspects_look *look)
 {
     const struct model_body *body = look_body(look);
@@ -122,7 +122,7 @@ static void take_slopes(struct suspects_look *look)
     }
 }
 
-/* The force for which a letter stands, of this body; NULL where it is a sum, or another body's. */
+/* The force of this body that a letter denotes; NULL for a sum, or another body's. */
 const struct hand_force *look_force(const struct suspects_look *look, const struct letter *letter,
                                     double *sign)
 {
@@ -189,7 +189,7 @@ static void vote(struct votes *votes, double slope, double coefficient)
     if (slope != 0 && coefficient != 0 && isfinite(factor)) votes->of[votes->count++] = factor;
 }
 
-/* The factor that most of them have, of equal ones the first; 0 without any. */
+/* The most frequent factor, of equally frequent ones the first; 0 without any. */
 static double most_votes(const struct votes *votes)
 {
     size_t best = 0;
@@ -205,7 +205,7 @@ static double most_votes(const struct votes *votes)
     return factor;
 }
 
-/* Inertia times acceleration stands on the right of an equation: minus its coefficient. */
+/* Inertia times acceleration is on the right of an equation: minus its coefficient. */
 static void vote_by_inertia(const struct suspects_look *look, const struct letter *letter, double slope,
                             int equation, struct votes *votes)
 {
@@ -262,7 +262,7 @@ bool look_inertia_fits(const struct suspects_look *look, int equation, double fa
     return votes.count == 0;
 }
 
-/* ---- looking */
+/* ---- evaluation */
 
 static bool open_model(struct suspects_look *look, const struct fbd_model *model)
 {

@@ -12,14 +12,14 @@ double look_line(const struct suspects_look *look);
 
 const struct model_body *look_body(const struct suspects_look *look);
 
-/* The force for which a letter stands, of this body; NULL where it is a sum, or another body's. */
+/* The force of this body that a letter denotes; NULL for a sum, or another body's. */
 const struct hand_force *look_force(const struct suspects_look *look, const struct letter *letter,
                                     double *sign);
 
-/* Is it where a force acts? */
+/* True for a coordinate of the point of application. */
 bool look_is_place(const struct hand_force *force);
 
-/* A force at a point, and a couple, in an equation of the body: a component, or the moment. */
+/* Contribution of a force at a point, and a couple, to an equation of the body: a component, or the moment. */
 double look_part(const struct suspects_look *look, struct vec F, struct vec point, double couple,
                  int equation);
 double look_term(const struct suspects_look *look, const struct arrow *arrow, int equation);
@@ -28,8 +28,8 @@ double look_term(const struct suspects_look *look, const struct arrow *arrow, in
 double look_coefficient(const struct suspects_look *look, const struct hand_force *force, double value,
                         int equation);
 
-/* Has the angular acceleration, where the line has it, the coefficient that it has in an equation that was multiplied by `factor`
- * (0: nothing is known of that)? */
+/* True if the angular acceleration, if it is in the line, has its coefficient of the equation times `factor`
+ * (0: unknown). */
 bool look_inertia_fits(const struct suspects_look *look, int equation, double factor);
 
 #endif

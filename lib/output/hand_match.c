@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * A hand equation held against the assembly summand by summand.
+ * Compare a hand equation with the assembly summand by summand.
  *
- * Scaled to forces, the summands c_j of a right equation are the terms T_i of the assembly, each of them or a
- * few together. So those that are equal at every sample are paired, then a summand with two terms and a term
- * with two summands; what is left over on both sides is where the derivation differs. If that is one summand
- * for one term, their ratio tells more: a factor of a usual kind that is missing or too many.
+ * Scaled to forces, the summands c_j of a right equation are the terms T_i of the assembly, each of them or
+ * sums of a few. So those that are equal at every sample are paired, then a summand with two terms and a term
+ * with two summands; the remaining ones on both sides are the error. If that is one summand for one term,
+ * their ratio may show a missing or additional factor.
  */
 #include "output/hand.h"
 
@@ -31,7 +31,7 @@ typedef double part(const struct hand_sample *sample, size_t index);
 
 enum { nothing = -1 };
 
-/* Are one of a kind and one or two of the other kind the same at every sample? */
+/* True if one element of `a` equals one or two of `b` at every sample. */
 static bool equal(const struct match *match, part *a, size_t i, part *b, size_t j, int k)
 {
     for (size_t s = 0; s < match->check->count; s++) {
@@ -43,7 +43,7 @@ static bool equal(const struct match *match, part *a, size_t i, part *b, size_t 
     return true;
 }
 
-/* Is it zero at every sample? A force across the motion is, and an acceleration of no interest. */
+/* True if it is zero at every sample, as a force across the motion, or an acceleration without influence. */
 static bool vanishes(const struct match *match, part *a, size_t i)
 {
     for (size_t s = 0; s < match->check->count; s++) {
@@ -64,7 +64,7 @@ static void pair_single(struct match *match)
         }
 }
 
-/* Pair one `a` with two `b`, among those that are left. */
+/* Pair one `a` with two `b` that are not paired yet. */
 static void pair_two(struct match *match, part *a, bool *a_paired, size_t a_count, part *b, bool *b_paired,
                      size_t b_count)
 {
@@ -109,7 +109,7 @@ static const char *const factor_names[hand_factors] = {
     [factor_coordinate] = "q",
 };
 
-/* How a summand c is to be changed into a term T: T = k c missing / extra, with the factors' indices. */
+/* The change of a summand c into a term T: T = k c missing / extra, with the factors' indices. */
 struct relation {
     int missing, extra; /* enum hand_factor, or `nothing` */
     double k;           /* 0 when there is no such relation */
@@ -120,7 +120,7 @@ static double factor_at(const struct hand_sample *sample, int factor)
     return factor == nothing ? 1 : sample->factors[factor];
 }
 
-/* The constant of a relation, 0 when it is not one. */
+/* The constant of a relation, 0 if the ratio is not constant. */
 static double constant_of(const struct match *match, size_t i, size_t j, int missing, int extra)
 {
     double first = 0;
@@ -137,8 +137,8 @@ static double constant_of(const struct match *match, size_t i, size_t j, int mis
     return first;
 }
 
-/* The simplest relation: a constant, one factor missing or too many, one in the place of another. Among these
- * one without a constant. */
+/* The simplest relation: a constant, one factor missing or additional, one replaced by another; preferably
+ * without a constant. */
 static struct relation relate(const struct match *match, size_t i, size_t j)
 {
     struct relation best = {nothing, nothing, constant_of(match, i, j, nothing, nothing)};
@@ -194,7 +194,7 @@ static const char *term_name(const struct match *match, size_t i)
     return model->loads[(size_t)body->first_load + i].source->name;
 }
 
-/* ---- what is left over */
+/* ---- unpaired terms */
 
 static void say_pair(const struct match *match, size_t i, size_t j, struct text *text)
 {
@@ -207,8 +207,8 @@ static double opposite(const struct hand_sample *sample, size_t i)
     return -sample->terms[i];
 }
 
-/* What a summand that fits no left-over term is: once more a term that is there, the opposite of one, or of
- * its own. */
+/* Classify a summand that matches no unpaired term: a duplicate of a term, the opposite of one, or a foreign
+ * one. */
 static const char *oddity(const struct match *match, size_t j, bool terms_left)
 {
     for (size_t i = 0; i < match->terms; i++) {
@@ -219,7 +219,7 @@ static const char *oddity(const struct match *match, size_t j, bool terms_left)
     return terms_left ? "is no term of the assembly" : "is no force that the body lists";
 }
 
-/* Say which terms the left-over summands were meant for, as far as a relation tells it, and pair them. */
+/* Write which terms the unpaired summands were meant for, as far as a relation exists, and pair them. */
 static void say_meant(struct match *match, struct text *text)
 {
     for (size_t i = 0; i < match->terms; i++)
@@ -233,7 +233,7 @@ static void say_meant(struct match *match, struct text *text)
         }
 }
 
-/* Say what is left then. */
+/* Write the terms and summands that are still unpaired. */
 static void say_rest(const struct match *match, struct text *text)
 {
     size_t terms = left_over(match->term_paired, match->terms);

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * About which point a line has moments that says about which it has them.
+ * Determine the moment point of a line that states one.
  *
- * A sum of moments about one point is as true as that about another one. So the names of forces in it tell: it is about a
- * point where each has the coefficient that its arm there gives. Only a line that is about another point, and not about its
- * own, is refused: in one in which reactions have been put in terms of each other, the names tell nothing.
+ * A sum of moments about one point is as true as that about another. The coefficients of forces in it
+ * determine the point: each is the arm about that point. A line is rejected only if it is about another point
+ * and not about its own: one in which reactions were eliminated determines none.
  */
 #include "base/format.h"
 #include "output/hand_suspects.h"

@@ -11,7 +11,7 @@
 
 enum { most_steps = 400, most_shots = most_steps + most_run_impacts };
 
-/* ---- the bodies and forces of which data are recorded */
+/* ---- the bodies and forces that are recorded */
 
 void hand_run_mark(const struct fbd_model *model, const struct expr *expr, bool *bodies)
 {
@@ -68,7 +68,7 @@ const struct arrow *hand_run_arrow(struct hand_run *run, const struct hand_force
     return &run->named.arrows[force->arrow];
 }
 
-/* Does all of a load act on one body that moves? */
+/* True if a load acts on one moving body only. */
 static bool is_of_one_body(const struct fbd_model *model, int load)
 {
     if (load < 0) return false;
@@ -93,7 +93,7 @@ bool hand_run_is_impulsive(const struct fbd_model *model, int load)
 
 enum { covered = -2 };
 
-/* How many arrows of a body are of a load: a contact that touches at two points is one. */
+/* The number of arrows of a body that belong to a load: a contact with two points is one load. */
 static size_t count_arrows(struct hand_run *run, int body, int load)
 {
     struct instant at = state_instant(run->state);
@@ -104,8 +104,8 @@ static size_t count_arrows(struct hand_run *run, int body, int load)
     return count;
 }
 
-/* The load that has the work of force i of a sum: `covered` where it is that of another one, -1 for none, or where it is
- * that of others as well. */
+/* The load with the work of force i of a sum: `covered` if that work is counted with another force of the
+ * sum, -1 if there is none, or if it includes forces that are not in the sum. */
 static int load_of(struct hand_run *run, const struct hand_sum *sum, size_t i)
 {
     struct coupling_place place;
@@ -160,7 +160,7 @@ static void add_rates(struct hand_run *run, double weight)
     }
 }
 
-/* Gauss's rule with five points over a part of the last step, as the ledger has it. */
+/* Integrate by Gauss's rule with five points over a part of the last step, as in the ledger. */
 static bool integrate(struct hand_run *run, double from, double to)
 {
     static const double point[] = {-0.90617984593866396, -0.53846931010568311, 0, 0.53846931010568311,
@@ -177,7 +177,7 @@ static bool integrate(struct hand_run *run, double from, double to)
 
 /* ---- shots */
 
-/* The works of a sum by the ledger; `struck` are those of impacts that are not to be counted, or NULL. */
+/* The works of a sum from the ledger; `without`: works of impacts to be excluded, or NULL. */
 static double ledger_sum(struct hand_run *run, size_t k, const double *without)
 {
     const struct hand_sum *sum = &run->named.of[k];
@@ -191,7 +191,7 @@ static double ledger_sum(struct hand_run *run, size_t k, const double *without)
     return work;
 }
 
-/* Everything that lines name, at run->state. */
+/* Write the values of all names in lines, at run->state. */
 static void write_names(struct hand_run *run, const double *without, double *y)
 {
     const struct fbd_model *model = run->model;
@@ -206,7 +206,7 @@ static void write_names(struct hand_run *run, const double *without, double *y)
     }
 }
 
-/* run->state becomes that at the end of the last step before its impacts. */
+/* Set run->state to the end of the last step before its impacts. */
 static bool look_before(struct hand_run *run)
 {
     const struct ensemble *ensemble = run->ensemble;
@@ -221,7 +221,7 @@ static bool look_before(struct hand_run *run)
     return true;
 }
 
-/* Leave every second of the shots of steps. */
+/* Drop every second shot of steps. */
 static void thin_out(struct hand_run *run)
 {
     size_t kept = 1, step = 0;
@@ -281,7 +281,7 @@ static bool take_shot(struct hand_run *run, double t, bool impact, size_t event)
     return true;
 }
 
-/* Do velocities jump at the end of the last step? */
+/* True if velocities jump at the end of the last step. */
 static bool jumps(struct hand_run *run)
 {
     const size_t n = run->model->scene->coordinate_count;
@@ -290,7 +290,7 @@ static bool jumps(struct hand_run *run)
     return memcmp(run->state->y + n, after, n * sizeof *after) != 0;
 }
 
-/* The number of parts of the last step, at whose ends the lines are judged: as many as the integrals need. */
+/* The number of parts of the last step, at whose ends the lines are judged: as required by the integrals. */
 static int parts_of_step(const struct hand_run *run)
 {
     enum { parts_of_run = 50 };
@@ -391,7 +391,7 @@ bool hand_run_make(struct hand_run *run, const struct fbd_model *model, fbd_erro
     given.method = "auto";
     given.tolerance = tolerance > 0 ? fmin(tolerance, coarsest) : coarsest;
     if (!options_choose(model, &given, &options, errors)) return false;
-    options.step = 0; /* steps of a size that is given have no tolerance */
+    options.step = 0; /* steps of given size have no tolerance */
     run->ensemble = ensemble_new(model, &options);
     bool done = run->ensemble && make_room(run);
     if (done) {

@@ -17,13 +17,14 @@
 #include "output/hand_forces.h"
 #include "record/ledger.h"
 
-/* How forces of the diagrams may change a line: by their work, by their impulses in x and y and along the coordinates. */
+/* Contributions of diagram forces to a line: their work, and their impulses in x and y and along the
+ * coordinates. */
 enum { by_work, by_x, by_y, by_coordinate, agent_parts = by_coordinate + most_coordinates_of_a_body };
 
-/* Impacts that are looked at. */
+/* Maximum number of impacts that are evaluated. */
 enum { most_run_impacts = 100 };
 
-/* A force on a body that lines of a run name. */
+/* A force on a body that lines of a run refer to. */
 struct agent {
     int body;
     size_t arrow;
@@ -34,7 +35,7 @@ struct agent {
 struct run_shot {
     double t;
     double *y, *before; /* hand_room of each body with lines, one after the other; `before` an impact */
-    double *done;       /* agent_parts of each agent since the start; those of impacts are not in it */
+    double *done;       /* agent_parts of each agent since the start, without those of impacts */
     bool impact;        /* velocities jump, */
     size_t event;       /* by this event of the ensemble and the next ones of the same time */
 };
@@ -47,22 +48,23 @@ struct hand_run {
     struct ledger ledger;
     struct fbd_state *state;
     bool *named_bodies; /* in lines of a run */
-    int *place;         /* of a body's numbers in run_shot.y; -1 for none */
+    int *place;         /* index of a body's numbers in run_shot.y; -1 for none */
     size_t bodies, width;
     size_t agent_count;
     struct agent *agents;
-    size_t count, every, skipped; /* shots; of steps between those that are kept, and since the last one */
+    size_t count, every, skipped; /* shots; every so many steps one is kept; steps since the last one */
     size_t steps, impacts;        /* of the run */
     struct run_shot *shots;
-    double *integrals; /* of each absolute that is no work of the ledger, then agent_parts of each agent */
+    double *integrals; /* of each absolute that is not a work of the ledger, then agent_parts of each agent */
     bool *by_ledger;   /* of each absolute: its works are those of the ledger */
-    double *works, *struck; /* of each load: works at a shot; those of impacts up to the begin of its step */
+    double *works, *struck; /* of each load: works at a shot; those of impacts up to the start of its step */
     double *before;         /* the velocities before an impact */
     struct hand_impact *impact; /* room for hand_run_add_impact; NULL before the first */
     bool no_memory;
 };
 
-/* Run a model and keep its shots. False when memory is out, or with a note: there is no end of the run, ... */
+/* Run a model and keep its shots. False when memory is out, or with a note, for example if the run has no
+ * end. */
 bool hand_run_make(struct hand_run *run, const struct fbd_model *model, fbd_errors *errors);
 void hand_run_free(struct hand_run *run);
 
@@ -77,15 +79,15 @@ bool hand_run_is_impulsive(const struct fbd_model *model, int load);
  * (hand_run_impacts.c). */
 bool hand_run_add_impact(struct hand_run *run, const double *before, const double *after);
 
-/* Mark the bodies that an expression names, in any sense. */
+/* Mark the bodies in an expression, with names of any kind. */
 void hand_run_mark(const struct fbd_model *model, const struct expr *expr, bool *bodies);
 
-/* How left less right of a line changes with velocities, at some times of the run or at impacts: their number. They are in
- * the arena; 0 when memory is out (hand_run_judge.c). */
+/* Derivatives of left - right of a line by the velocities, at some times of the run or at impacts; returns
+ * their number. They are in the arena; 0 when memory is out (hand_run_judge.c). */
 size_t hand_run_slopes(struct hand_run *run, int body, const struct hand *hand, struct arena *arena,
                        double **slopes);
 
-/* Judge a line; false when it does not hold (hand_run_judge.c). */
+/* Judge a line; false when it is false (hand_run_judge.c). */
 bool hand_run_judge(struct hand_run *run, int body, const struct hand *hand, struct text *text);
 
 #endif

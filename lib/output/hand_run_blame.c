@@ -20,7 +20,7 @@ static double summand(const struct judge *judge, const struct judged *judged, un
     return judged->summands[which];
 }
 
-/* The first of the list that is not to be explained by works: forces act between impacts. */
+/* End of the shots that works may explain: up to the first impact, as forces act between impacts. */
 static size_t end_of(const struct judge *judge)
 {
     size_t end = 0;
@@ -29,7 +29,8 @@ static size_t end_of(const struct judge *judge)
     return end;
 }
 
-/* Is the lack `factor` times the series everywhere? Twice the tolerance: the series is off as well. */
+/* True if the residual is `factor` times the series everywhere, to twice the tolerance, as the series has an
+ * error as well. */
 static bool fits(const struct judge *judge, series *values, unsigned which, double factor)
 {
     const size_t end = end_of(judge);
@@ -81,8 +82,8 @@ static bool blame_one(const struct judge *judge, unsigned j, bool plain, struct 
     return true;
 }
 
-/* A line is right with the factor s on one summand if it lacks (1 - s) times that: first with factors that people forget.
- * Others only where there are times enough to tell. */
+/* A line is right with the factor s on one summand if its residual is (1 - s) times that: try frequent
+ * factors first, others only if there are enough times. */
 static bool blame_summand(const struct judge *judge, bool plain, struct text *text)
 {
     const bool few = end_of(judge) < 3 || judge->hand->kind == hand_of_impacts;
@@ -103,7 +104,7 @@ static double done_by(const struct judge *judge, const struct judged *judged, un
     return sum;
 }
 
-/* Has the line the work or the impulse of it? */
+/* True if the line contains its work or impulse. */
 static bool is_named(const struct judge *judge, const struct agent *agent)
 {
     const struct hand_run *run = judge->run;
@@ -146,7 +147,7 @@ static unsigned count_bits(unsigned set)
     return count;
 }
 
-/* The smallest set of forces that explains the lack; 0 for none. */
+/* The smallest set of forces that explains the residual; 0 for none. */
 static unsigned find_agents(const struct judge *judge, double factor)
 {
     for (unsigned bits = 1; bits <= judge->agent_count; bits++)
@@ -171,7 +172,7 @@ static void say_agents(const struct judge *judge, unsigned which, struct text *t
     }
 }
 
-/* The work or impulse of each force that a line of this dimension may lack. */
+/* True if the work or impulse of a missing force has the dimension of the line. */
 static bool counts(const struct judge *judge, int part)
 {
     const struct hand *hand = judge->hand;
@@ -217,7 +218,7 @@ void judge_say_impact(const struct judge *judge, const struct run_shot *shot, st
     }
 }
 
-/* Do impacts at a shot act on a body that the line does not name, or on the ground? */
+/* True if impacts at a shot act on a body that the line does not name, or on the ground. */
 static bool comes_from_outside(const struct judge *judge, const struct run_shot *shot)
 {
     const struct fbd_model *model = judge->run->model;
@@ -269,7 +270,7 @@ static void blame_impact(const struct judge *judge, const struct run_shot *shot,
     }
 }
 
-/* Is the first failure an impact, before which the line holds? */
+/* True if the line is first violated at an impact. */
 static bool fails_by_impact(const struct judge *judge)
 {
     const struct run_shot *shot = judge->list[judge->first].shot;

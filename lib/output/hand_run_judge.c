@@ -24,7 +24,7 @@ static void set(const struct judge *judge, enum hand_sense sense, const double *
     memcpy(judge->y + sense * judge->block, numbers(judge, y), hand_room(judge->run->model) * sizeof *y);
 }
 
-/* Put a shot where the line reads it. In an equation of an impact works are those of the impact. */
+/* Write a shot to the variables of the line. In an equation of an impact works are those of the impact. */
 static void put(const struct judge *judge, const struct run_shot *shot, bool before)
 {
     const struct fbd_model *model = judge->run->model;
@@ -67,7 +67,7 @@ struct judged judge_evaluate(const struct judge *judge, const struct run_shot *s
     return judged;
 }
 
-/* Does it name a quantity that has moved since the start, is moving, or jumps? */
+/* True if it names a quantity that has changed since the start, is changing, or jumps. */
 static bool names_motion(const struct judge *judge, const struct expr *expr)
 {
     const struct fbd_model *model = judge->run->model;
@@ -87,7 +87,7 @@ static bool names_motion(const struct judge *judge, const struct expr *expr)
     return false;
 }
 
-/* Is it the impact that the line names? */
+/* True for the impact that the line names. */
 static bool is_asked(const struct judge *judge, const struct run_shot *shot)
 {
     const struct hand *hand = judge->hand;
@@ -98,7 +98,8 @@ static bool is_asked(const struct judge *judge, const struct run_shot *shot)
     return false;
 }
 
-/* Is it the last impact of a series, behind which the body is put at rest? That stands for infinitely many more. */
+/* True for the last impact before a Zeno limit, after which the body is at rest: it represents infinitely
+ * many more. */
 static bool ends_series(const struct judge *judge, const struct run_shot *shot)
 {
     const struct ensemble *ensemble = judge->run->ensemble;
@@ -175,7 +176,7 @@ static void say_failure(struct judge *judge, struct text *text)
     judge_diagnose(judge, text);
 }
 
-/* Summands whose factor the run does not determine. */
+/* Report summands whose factor the run does not determine. */
 static void say_constant(const struct judge *judge, struct text *text)
 {
     const struct hand *hand = judge->hand;
@@ -192,7 +193,7 @@ static void say_constant(const struct judge *judge, struct text *text)
         text_printf(text, "`: %s throughout\n", hand->kind == hand_conserved ? "constant" : "zero");
 }
 
-/* No impact is of the contact or rope that the line names: say which there are. */
+/* Report that no impact is of the contact or rope in the line, and list the actual ones. */
 static void say_no_impact(const struct judge *judge, struct text *text)
 {
     const struct ensemble *ensemble = judge->run->ensemble;

@@ -11,7 +11,7 @@
 
 enum { most_agents = 12 };
 
-/* A line at a shot. */
+/* The evaluation of a line at a shot. */
 struct judged {
     const struct run_shot *shot;
     double left, right, size;
@@ -24,14 +24,14 @@ struct judge {
     const struct hand *hand;
     double *y; /* hand_senses times hand_sense_size */
     size_t block;
-    size_t count, failed, first; /* judged, those that fail, the first of these */
+    size_t count, failed, first; /* judged shots, those that fail, the first of these */
     struct judged *list;
     double tolerance;
-    bool *bodies; /* that it names */
-    bool moves;   /* something that it names */
-    bool known;   /* all works and impulses are */
+    bool *bodies; /* named in the line */
+    bool moves;   /* a named quantity changes */
+    bool known;   /* all works and impulses are known */
     bool varies[most_summands];
-    size_t agents[most_agents]; /* of those of the run: the names of those that may be missing, */
+    size_t agents[most_agents]; /* indices into those of the run: forces that may be missing, */
     size_t agent_count;
     int part; /* and the work or impulse of each */
 };
@@ -41,13 +41,13 @@ static inline double lack_of(const struct judged *judged)
     return judged->left - judged->right;
 }
 
-/* Is it an integral over the run: a work or an impulse? */
+/* True for an integral over the run: a work or an impulse. */
 static inline bool is_integral(const struct fbd_model *model, size_t k)
 {
     return model->absolutes[k].kind == absolute_work || model->absolutes[k].kind == absolute_impulse;
 }
 
-/* Is it an impact? The end of a series of impacts is none: the laws of a single one do not hold there. */
+/* True for a single impact. A Zeno limit is none: the impact laws do not apply to it. */
 static inline bool run_event_is_impact(const struct run_event *event)
 {
     return event->kind == FBD_EVENT_IMPACT || event->kind == FBD_EVENT_ROPE_TAUT ||

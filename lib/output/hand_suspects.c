@@ -55,7 +55,7 @@ static void find_kinds(const struct suspects_look *look, bool *forces, bool *mom
     *moments = !dim_equal(own, force);
 }
 
-/* The terms of an arrow in an equation, and those of others that may stand in its place. */
+/* Add the terms of an arrow in an equation, and those of others in its place. */
 static void add_term(const struct suspects_look *look, struct listing *listing, size_t i, int equation)
 {
     add(listing, suspect_term, i, 0, equation, false);
@@ -117,7 +117,7 @@ static double I_about(const struct suspects_look *look, struct vec point)
     return inertia.I_G + inertia.mass * vec_dot(arm, arm);
 }
 
-/* The accelerations of one point along x and y, in the place of those of another one. */
+/* Change of the line with the accelerations of one point along x and y in place of those of another. */
 static double change_of_point(const struct suspects_look *look, const struct suspect *suspect)
 {
     const struct absolute *own = look->letters[suspect->which].absolute;
@@ -136,8 +136,8 @@ static double change_of_point(const struct suspects_look *look, const struct sus
     return change;
 }
 
-/* The common factor of the line as an equation of this kind: 1 where the names determine none of any kind, NAN where they
- * determine none of this one. */
+/* The common factor of the line as an equation of this kind: 1 if the names determine none of any kind, NAN
+ * if they determine none of this one. */
 static double factor_as(const struct suspects_look *look, double factor)
 {
     bool any = false;
@@ -170,7 +170,7 @@ double suspect_value(const struct suspects_look *look, const struct suspect *sus
         const double value =
             hand_force_value(look->model, &look->forces.list[suspect->other], &look->at, look->arrows);
         const bool none = fabs(value) <= 1e-12 * fabs(look->y[look->letters[n].slot]);
-        return none ? NAN : change_by(look, n, value); /* without it: one too many */
+        return none ? NAN : change_by(look, n, value); /* without it: it is superfluous */
     }
     case suspect_inertia: return change_by(look, n, I_about(look, look->places[suspect->other].frame));
     case suspect_acceleration: return change_of_point(look, suspect);
@@ -183,7 +183,7 @@ double suspect_value(const struct suspects_look *look, const struct suspect *sus
     return factor_as(look, look->factor_of_arms[n]) * vec_cross(arm, look->m_a);
 }
 
-/* Have the names of an arrow in the line the coefficients that they have in this equation? *named: there are some. */
+/* True if the names of an arrow in the line have the coefficients of this equation. *named: there are some. */
 static bool is_as_it_should(const struct suspects_look *look, size_t arrow, const struct suspect *suspect,
                             bool *named)
 {
@@ -205,7 +205,7 @@ static bool is_as_it_should(const struct suspects_look *look, size_t arrow, cons
     return fits;
 }
 
-/* Is one of them nothing to the other? */
+/* True if one of them is negligible compared with the other. */
 static bool is_little(double a, double b)
 {
     return fmin(fabs(a), fabs(b)) <= 1e-9 * fmax(fabs(a), fabs(b));

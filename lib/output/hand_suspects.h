@@ -2,10 +2,10 @@
  *
  * Possible mistakes in a line of a derivation, as numbers at a state.
  *
- * The lack of a line is left - right. Each suspect has a value V at a state such that the lack is k V with the same k at
- * every state when the line has that mistake and no other:
+ * The residual (lack) of a line is left - right. Each suspect has a value V at a state such that the residual
+ * is k V with the same k at every state when the line has that mistake and no other:
  *
- *     a summand of the line            its value: k = -2 with the wrong sign, -1 where it is one too many
+ *     a summand of the line            its value: k = -2 with the wrong sign, -1 if it is superfluous
  *     a name in the line               the total contribution of the name to the line: k = 2 with the wrong sign
  *     a name in the place of another   the change of the line with the other one in its place: k = 1
  *     a term of the body's equation    the component or moment of an arrow of its diagram, times the common factor
@@ -13,7 +13,7 @@
  *     a term in the place of another   the difference of the two: k = 1
  *     moments about another point      (P - Q) x m a_G: k = 1 when the arms are from P, and the inertia is about Q
  *
- * The common factor of a line follows from the coefficients of its names; the factor that most of them give is taken.
+ * The common factor of a line follows from the coefficients of its names; the most frequent value is used.
  */
 #ifndef FBD_OUTPUT_HAND_SUSPECTS_H
 #define FBD_OUTPUT_HAND_SUSPECTS_H
@@ -72,13 +72,13 @@ struct suspect {
 struct suspects_look {
     const struct hand_check *check;
     struct arena arena;            /* of one model */
-    const struct fbd_model *model; /* whose forces these are */
+    const struct fbd_model *model; /* the model of these forces */
     const struct hand *hand;
     struct hand_forces forces;
     struct arrow *arrows;
     size_t arrow_count;
     size_t place_count, letter_count;
-    bool about; /* the first place is the one that the line is about */
+    bool about; /* the first place is the point that the line states */
     struct place_of places[most_places];
     struct letter letters[most_letters];
     const struct fbd_state *state;
@@ -86,37 +86,38 @@ struct suspects_look {
     struct instant at;
     double *y;
     double lack, size;
-    double slope[most_letters]; /* of left less right by each letter */
+    double slope[most_letters]; /* d(left - right) / d(letter) */
     double factor[equation_moment +
                   most_places];         /* the common factor of the line, as an equation of that kind; */
-    double factor_of_arms[most_places]; /* by the forces alone. 0: nothing tells */
+    double factor_of_arms[most_places]; /* by the forces alone. 0: undetermined */
     struct vec m_a;
 };
 
-/* Forget the model. */
+/* Release the data of the model. */
 void suspects_close(struct suspects_look *look);
 
-/* Look at a state; false when memory is out. */
+/* Evaluate at a state; false when memory is out. */
 bool suspects_look_at(struct suspects_look *look, const struct fbd_state *state,
                       const struct hand_named *named, double *y);
 
 /* All suspects of a line, in the arena; NULL when memory is out. */
 struct suspect *suspects_list(const struct suspects_look *look, struct arena *arena, size_t *count);
 
-/* V, NAN where it has none. */
+/* V, NAN if undefined. */
 double suspect_value(const struct suspects_look *look, const struct suspect *suspect);
 
-/* Does a state tell anything of it? Not where one of two forces that are exchanged is zero, or a summand is all of the line. */
+/* True if the state is informative: not where one of two exchanged forces is zero, or a summand is the whole
+ * line. */
 bool suspect_shows(const struct suspects_look *look, const struct suspect *suspect);
 
-/* Do names in the line have the right coefficients that would have wrong ones by this slip? */
+/* True if names in the line have the right coefficients that would be wrong under this mistake. */
 bool suspect_contradicted(const struct suspects_look *look, const struct suspect *suspect);
 
-/* Is the line the equation of moments about place k, times some factor? Its names of forces have the coefficients of that, and
- * no reaction with a moment about it is left out. */
+/* True if the line is a multiple of the equation of moments about place k: its names of forces have those
+ * coefficients, and no reaction with a moment about that place is left out. */
 bool suspects_is_about(const struct suspects_look *look, size_t place);
 
-/* Is the force of arrow i named in the line, or written out as a summand? */
+/* True if the force of arrow i is named in the line, or written out as a summand. */
 bool suspects_name(const struct suspects_look *look, size_t arrow);
 
 #endif

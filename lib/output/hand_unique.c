@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Reactions that the equations do not determine, in derivations by hand: a beam on three supports, a door on two hinges.
+ * Indeterminate reactions in derivations by hand: a beam on three supports, a door on two hinges.
  *
- * What is shown of them is one choice of many, by which no line may be judged. The others differ from it by the null
- * vectors of the constraints (rest_system.h). A line that changes along one of these says how the load is shared, and is
- * neither right nor wrong; one that changes along none is judged as any other: the sums in it are unique.
+ * The displayed values are one choice of many and cannot be used to judge a line. The others differ from it
+ * by the null vectors of the constraints (rest_system.h). A line that changes along one of these depends on
+ * the load distribution, and is neither right nor wrong; one that changes along none is judged as any other,
+ * since its sums are unique.
  */
 #include <string.h>
 
@@ -19,7 +20,7 @@ struct question {
     const struct hand_named *named;
     struct rest_system system;
     double *before, *after; /* hand_room each: as extended */
-    double size;            /* of what the line adds up */
+    double size;            /* sum of the magnitudes of the terms of the line */
 };
 
 static double lack_of(const struct question *question, const double *y)
@@ -29,7 +30,7 @@ static double lack_of(const struct question *question, const double *y)
     return expr_eval(hand->left, t, y, NULL) - expr_eval(hand->right, t, y, NULL);
 }
 
-/* What the line would change by if each force in it changed by that of the scene. */
+/* Change of the line if each force in it changed by the force scale of the scene. */
 static double reach_of(const struct question *question)
 {
     const struct fbd_model *model = question->system.state->model;
@@ -48,7 +49,7 @@ static double reach_of(const struct question *question)
     return reach;
 }
 
-/* The first name in the line that has changed. */
+/* Record the first name in the line that has changed. */
 static void note_name(const struct question *question)
 {
     const struct fbd_model *model = question->system.state->model;
@@ -67,7 +68,7 @@ static void note_name(const struct question *question)
     }
 }
 
-/* Does it change along null vector k? */
+/* True if the line changes along null vector k. */
 static bool changes_along(struct question *question, size_t k)
 {
     struct fbd_state *state = question->system.state;

@@ -35,7 +35,7 @@ static const char *outcome_name(fbd_outcome outcome)
     return "";
 }
 
-/* The states of the file's own. */
+/* Write the user states. */
 static void write_own(struct text *text, const struct fbd_model *model, const double *values,
                       const char *before)
 {
@@ -48,7 +48,7 @@ static void write_own(struct text *text, const struct fbd_model *model, const do
     text_add(text, "}");
 }
 
-/* A number of y as it is shown. */
+/* A component of y in display units. */
 static void component(struct text *text, const fbd_result *result, const struct fbd_state *state, int i,
                       const char *name, bool last)
 {
@@ -78,7 +78,7 @@ static void write_final(struct text *text, const fbd_result *result, const struc
     text_add(text, "\n  },\n");
 }
 
-/* Of the points that the file asks for. */
+/* Write the points under `output` of the file. */
 static void write_points(struct text *text, const struct fbd_model *model, const struct fbd_state *state)
 {
     const struct scene *scene = model->scene;
@@ -145,7 +145,7 @@ static void text_member(struct text *text, const char *name, const char *value, 
     if (!last) text_add(text, ", ");
 }
 
-/* Each of its velocities before and after. */
+/* Write each of its velocities before and after. */
 static void write_impact(struct text *text, const struct impact_record *impact)
 {
     member(text, "normal_impulse", impact->p, false);
@@ -190,7 +190,7 @@ static void write_events(struct text *text, const fbd_simulation *simulation)
     text_add(text, run->event_count ? "\n  ],\n" : "],\n");
 }
 
-/* The friction of a rolling body or of a slot, whose arrow is called `name`; NULL when it is something else. */
+/* The friction of a rolling body or of a slot with an arrow of this name; NULL for any other force. */
 static const struct coupling *rolling_friction(const struct fbd_model *model, int body, const char *name)
 {
     for (int i = 0; model->tree && i < model->tree->coupling_count; i++) {
@@ -202,7 +202,7 @@ static const struct coupling *rolling_friction(const struct fbd_model *model, in
     return NULL;
 }
 
-/* Friction says also whether it holds, and up to where. */
+/* Write whether friction sticks, and its limit. */
 static void write_friction(struct text *text, struct fbd_state *state, int body, const struct arrow *arrow)
 {
     const struct fbd_model *model = state->model;
@@ -214,13 +214,13 @@ static void write_friction(struct text *text, struct fbd_state *state, int body,
     state_balance_of(state, body, state->scratch);
     struct friction_values values = friction_at(model, pair, &at, state->scratch);
     text_printf(text, ", \"mode\": \"%s\", ", state->slip[pair] == stick ? "stick" : "slip");
-    double share = fabs(values.force) / values.limit; /* of next to nothing it is not a number of any use */
+    double share = fabs(values.force) / values.limit; /* not finite if the limit is almost zero */
     member(text, "limit", values.limit, false);
     member(text, "utilisation", isfinite(share) ? share : NAN, false);
-    member(text, "margin", isfinite(share) ? share : NAN, true); /* its old name, kept for one version */
+    member(text, "margin", isfinite(share) ? share : NAN, true); /* deprecated alias */
 }
 
-/* Where moments are taken about: the axis of a pivot, else the centre of mass. */
+/* Reference point of moments: the axis of a pivot, else the centre of mass. */
 static struct vec moment_center(const struct model_body *body, const struct fbd_state *state)
 {
     struct instant at = state_instant(state);

@@ -7,7 +7,7 @@
 #include "dynamics/kinematics.h"
 #include "output/moments.h"
 
-/* A name of body b as it is written in the lines of body `of`. */
+/* A name of body b as written in the lines of body `of`. */
 static const char *name_of(struct formulas *formulas, int b, int of, const char *name)
 {
     return b == of ? name
@@ -22,7 +22,7 @@ static const char *acceleration_of(struct formulas *formulas, int b, int of, int
 
 /* ---- a point of a body that turns */
 
-/* Its angle in the world, and the rates of that. */
+/* The angle of a body in the world, and its rates. */
 struct turning {
     const char *angle, *rate, *acceleration;
 };
@@ -40,7 +40,7 @@ static struct turning turning_of(struct formulas *formulas, int b, int of)
                             acceleration_of(formulas, b, of, body->count - 1)};
 }
 
-/* From one point of a body to another, in its frame. */
+/* Vector from one point of a body to another, in its frame. */
 static struct vec arm_in_frame(const struct formulas *formulas, int b, struct vec from, struct vec to)
 {
     const struct instant at = state_instant(formulas->state);
@@ -135,7 +135,7 @@ static const char *line(struct formulas *formulas, char point, int part, const c
                  : NULL;
 }
 
-/* Of a pivot: by the axis O, whose acceleration has a line of its own where it moves on a curve. */
+/* For a pivot: by the axis O, whose acceleration has its own line if it moves on a curve. */
 static int lines_of_pivot(struct formulas *formulas, int b, const char **lines)
 {
     const struct fbd_model *model = formulas->state->model;
@@ -155,7 +155,7 @@ static int lines_of_pivot(struct formulas *formulas, int b, const char **lines)
     return count;
 }
 
-/* Of a slide on the ground; where it slides along x or y, that is the acceleration in its equation. */
+/* For a slide on the ground; along x or y it is the acceleration in its equation. */
 static int lines_of_slide(struct formulas *formulas, int b, const char **lines)
 {
     const struct vec e = formulas->state->model->bodies[b].e;

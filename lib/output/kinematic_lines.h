@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * The acceleration of G of a body cut free by those of the coordinates, as a textbook writes it beside the equations:
+ * The acceleration of G of a body cut free in terms of those of the coordinates, in textbook form:
  *
  *     a_Gx = a_Ox - L (angle_ddot sin(angle) + angle_dot^2 cos(angle))
  *     a_Ox = -l (rod.omega_dot sin(rod.theta) + rod.omega^2 cos(rod.theta))
  *
- * O is the axis of a pivot; its acceleration follows from the body that it is on.
+ * O is the axis of a pivot; its acceleration follows from the body that carries it.
  */
 #ifndef FBD_OUTPUT_KINEMATIC_LINES_H
 #define FBD_OUTPUT_KINEMATIC_LINES_H
@@ -14,8 +14,8 @@
 
 enum { most_kinematic_lines = 4 };
 
-/* The lines of body b. Returns their number, 0 where a_G is a coordinate's acceleration or has no such line. A line is
- * NULL when memory is out. */
+/* Write the lines of body b. Returns their number, 0 if a_G is a coordinate's acceleration or has no such
+ * line. A line is NULL when memory is out. */
 int kinematic_lines(struct formulas *formulas, int b, const char *lines[static most_kinematic_lines]);
 
 #endif

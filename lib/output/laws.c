@@ -23,7 +23,7 @@ bool body_lists(const struct fbd_model *model, int body, int load)
 
 /* ---- gravity */
 
-/* Its component along d, a fixed direction of the world at the angle that is called `angle`. */
+/* Write its component along d, a fixed direction of the world at the angle named `angle`. */
 static void write_weight_along(struct text *text, struct vec g, struct vec d, const struct law_names *names)
 {
     const char *m = names->mass, *angle = names->along;
@@ -40,8 +40,8 @@ static void write_weight_along(struct text *text, struct vec g, struct vec d, co
         text_printf(text, "%s%s g %s(%s)", minus_of(size), m, along_y ? "sin" : "cos", angle);
 }
 
-/* Its moment about the axis, m (r_x g_y - r_y g_x). On the ground OG follows from theta where G is on an axis of the body's
- * frame: (L cos, L sin) for an arm along +x, (-L sin, L cos) for one along +y. */
+/* Write its moment about the axis, m (r_x g_y - r_y g_x). On the ground OG follows from theta if G is on an
+ * axis of the body's frame: (L cos, L sin) for an arm along +x, (-L sin, L cos) for one along +y. */
 static void write_weight_about(struct text *text, struct vec g, const struct model_body *body,
                                const struct law_names *names)
 {
@@ -78,7 +78,7 @@ static void write_weight(struct text *text, const struct fbd_model *model, const
 
 /* ---- the others */
 
-/* Drag at G, of a body that does not turn; in a wind w by vectors. */
+/* Write drag at G of a body that does not turn; in a wind w by vectors. */
 static void write_drag(struct text *text, const struct load *load, const struct model_body *body, int part,
                        const char *rate)
 {
@@ -98,7 +98,7 @@ static void write_drag(struct text *text, const struct load *load, const struct 
         text_add(text, rate);
 }
 
-/* The formula of a row of the language (scene/law.h). */
+/* Write the formula of a row of the language (scene/law.h). */
 static void write_formula(struct text *text, const char *formula, const struct coordinate *q, int part)
 {
     for (const char *c = formula; *c; c++) {
@@ -113,12 +113,12 @@ static void write_formula(struct text *text, const char *formula, const struct c
     }
 }
 
-/* Does the law act along coordinate `part` of the body, so that its formula is that of the term? */
+/* True if the law acts along coordinate `part` of the body, so that its formula is the term. */
 static bool acts_along(const struct load *load, const struct model_body *body, int part)
 {
     const bool moment = is_of_moments(body, part);
     switch (load->kind) {
-    case load_potential: /* about G, not about the origin of the frame, is another moment */
+    case load_potential: /* its moment about G differs from that about the origin of the frame */
         return part < 2 || (body->arm.x == 0 && body->arm.y == 0);
     case moment_applied:
     case moment_spring:

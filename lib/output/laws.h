@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * The law of a term: what it is in the symbols of a textbook, true at every state. Report, LaTeX and page have it from
- * here.
+ * The law of a term in textbook symbols, valid at every state; used by report, LaTeX and page.
  *
  *     m g_x, m g_y   components of the weight, where gravity has both; else m g with its sign
  *     along          the angle of a slide; r_x, r_y: from the axis O of a pivot to G; L = |OG|
@@ -19,12 +18,12 @@ struct law_names {
     const char *mass, *along, *L;
 };
 
-/* "-m g sin(along)", "-k (x - x0)"; nothing for a term that has no law of such symbols, or is zero by it. Of a body that is
- * cut free the weight alone has one. */
+/* Write "-m g sin(along)", "-k (x - x0)"; writes no text for a term that has no such law or is zero by it.
+ * For a body cut free, only the weight has one. */
 void law_write(struct text *text, const struct fbd_model *model, const struct equation *equation, size_t term,
                const struct law_names *names);
 
-/* Is it one of the loads that the body itself lists? */
+/* True for a load that the body itself lists. */
 bool body_lists(const struct fbd_model *model, int body, int load);
 
 #endif

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * A linearisation as a person reads it.
+ * A linearisation as text.
  */
 #include <math.h>
 
@@ -30,7 +30,7 @@ static void write_equilibrium(struct text *text, const struct fbd_linearization 
     }
 }
 
-/* How coordinates that are not independent follow the others. */
+/* Write the dependent coordinates in terms of the independent ones. */
 static void write_ways(struct text *text, const struct fbd_linearization *linear)
 {
     const struct label *labels = linear->model->labels;
@@ -126,7 +126,7 @@ char *fbd_linearization_text(const fbd_linearization *linear)
     text_add(&text, "\nEigenvalues\n");
     for (size_t i = 0; i < linear->size; i++)
         if (linear->modes[i].im >= 0)
-            write_mode(&text, &linear->modes[i], linear->degenerate); /* the conjugate says the same */
+            write_mode(&text, &linear->modes[i], linear->degenerate); /* the conjugate is redundant */
     if (text.failed) text_free(&text);
     return text.data;
 }

@@ -8,7 +8,7 @@
 #include "model/tree.h"
 #include "output/words.h"
 
-static const double length_tolerance = 1e-12; /* relative, of lengths that are equal but for rounding */
+static const double length_tolerance = 1e-12; /* relative round-off level of equal lengths */
 
 const char *component_by_symbol(struct arena *arena, const char *symbol, const char *axis)
 {
@@ -16,7 +16,7 @@ const char *component_by_symbol(struct arena *arena, const char *symbol, const c
     return arena_printf(arena, strchr(symbol, '_') ? "%s%s" : "%s_%s", symbol, axis);
 }
 
-/* R1 of R_1: what is an index itself. */
+/* R1 for R_1, to be used as an index. */
 static const char *without_index_line(struct arena *arena, const char *symbol)
 {
     char *text = arena_printf(arena, "%s", symbol), *to = text;
@@ -33,7 +33,7 @@ static bool is_length(double a, double b)
     return fabs(a - b) <= length_tolerance * fabs(b);
 }
 
-/* Is it what a force is called, or the arm that a law names? */
+/* True if the name is already that of a force, or used in a law. */
 static bool is_taken(const struct formulas *formulas, const char *name)
 {
     const struct fbd_model *model = formulas->state->model;
@@ -47,7 +47,7 @@ static bool is_taken(const struct formulas *formulas, const char *name)
     return false;
 }
 
-/* The name of a length above zero: that of a parameter, "(l/2)", or its value. */
+/* The name of a positive length: that of a parameter, "(l/2)", or its value. */
 static const char *length_name(struct formulas *formulas, double length)
 {
     const struct scene *scene = formulas->state->model->scene;
@@ -117,8 +117,8 @@ static bool can_turn(const struct fbd_model *model, const struct model_body *bod
     return true;
 }
 
-/* u cos(theta) - v sin(theta), or u sin(theta) + v cos(theta): a component of the arm in the world, times a force along an axis of
- * it, whose symbol is `force` times its component. */
+/* u cos(theta) - v sin(theta), or u sin(theta) + v cos(theta): a component of the arm in the world, times a
+ * force along an axis of the world whose symbol has the sign of `force`. */
 static const char *by_one_component(struct formulas *formulas, int b, const struct arm *arm,
                                     const char *symbol, double force, bool upright)
 {
@@ -139,7 +139,7 @@ static const char *by_one_component(struct formulas *formulas, int b, const stru
                         arm->angle, (U < 0) == (V < 0) ? '+' : '-', v, second, arm->angle);
 }
 
-/* d_x F_y - d_y F_x where F has the components Fx and Fy, and so with axes that turn. */
+/* d_x F_y - d_y F_x where F has the components Fx and Fy; the same in axes that turn. */
 static const char *by_components(struct formulas *formulas, int b, const struct arm *arm,
                                  const struct letter *letter)
 {
@@ -162,7 +162,7 @@ static const char *by_components(struct formulas *formulas, int b, const struct 
                         (dx < 0) == (dy < 0) ? '+' : '-', v, along);
 }
 
-/* A force along an axis of the world is its size, or its only component. */
+/* A force along an axis of the world is represented by its size, or its only component. */
 static const char *by_arm(struct formulas *formulas, int b, const struct arm *arm, const struct acts *acts,
                           const struct letter *letter)
 {
@@ -176,7 +176,7 @@ static const char *by_arm(struct formulas *formulas, int b, const struct arm *ar
     return component ? by_one_component(formulas, b, arm, component, letter->minus[0] ? -1 : 1, no_x) : NULL;
 }
 
-/* At a point that moves in the body: by the coordinates of that point from there. */
+/* At a point that moves in the body: by the coordinates of that point relative to the reference point. */
 static const char *by_place(struct formulas *formulas, const struct acts *acts, const struct letter *letter)
 {
     struct arena *arena = &formulas->arena;

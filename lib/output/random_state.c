@@ -54,7 +54,7 @@ static double duration_of(const struct scene *scene)
     return until->expr ? expr_value(until->expr) : 1;
 }
 
-/* To time t: prescribed coordinates are there, the others follow. */
+/* Advance to time t: set prescribed coordinates there, and assemble the others. */
 static bool follow_to(struct fbd_state *state, double t)
 {
     state->t = t;
@@ -62,7 +62,7 @@ static bool follow_to(struct fbd_state *state, double t)
     return state_project(state, false);
 }
 
-/* Along the path to the state's time, from node to node, the last of which is kept for the states to come. */
+/* Advance along the path to the state's time, from node to node; the last node is kept for later states. */
 static bool follow_prescribed(struct fbd_state *state, struct random_path *path)
 {
     const size_t n = state->model->scene->coordinate_count;
@@ -81,8 +81,7 @@ static bool follow_prescribed(struct fbd_state *state, struct random_path *path)
     return follow_to(state, t);
 }
 
-/* What touches at the start stays closed, what is apart is open; the rest on its surface, where round bodies slip as
- * often as they roll. */
+/* Rolling bodies touch their surface, and slip as often as they roll. All other modes stay as at the start. */
 static void draw_modes(gsl_rng *rng, struct fbd_state *state)
 {
     const struct plan *plan = &state->model->plan;
@@ -93,8 +92,9 @@ static void draw_modes(gsl_rng *rng, struct fbd_state *state)
     }
 }
 
-/* Along the ways that couplings leave, in steps from each of which the nearest state that fits is on the same side of
- * all loops; so fast that what moves by itself hardly does. `way`: by how much each coordinate would move alone. */
+/* Move along the free directions of the couplings, in steps so small that the assembled state stays on the
+ * same branch of all loops, and so fast that prescribed motions contribute little. `way`: displacement of
+ * each coordinate without couplings. */
 static bool wander(struct fbd_state *state, const double *way)
 {
     enum { steps = 4 };
@@ -109,8 +109,9 @@ static bool wander(struct fbd_state *state, const double *way)
     return true;
 }
 
-/* Where couplings close loops, most states do not fit: so the start moves by up to 0.3 rad or a tenth of a
- * metre, with random rates. False when no state fits there, or bodies would be in each other. */
+/* With closed loops most random states are inconsistent: so the start is displaced by up to 0.3 rad or a
+ * tenth of a metre, with random rates. False when no consistent state is found there, or bodies would
+ * overlap. */
 static bool draw_closed(gsl_rng *rng, struct fbd_state *state, struct random_path *path)
 {
     const struct fbd_model *model = state->model;

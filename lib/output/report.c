@@ -21,7 +21,7 @@ static size_t column(const struct page *page, size_t plain, size_t with_bars)
     return page->bars ? with_bars : plain;
 }
 
-/* ` ± 3.1e-11`, or a question mark for an error that is not known. */
+/* ` ± 3.1e-11`, or a question mark for an unknown error. */
 static void plus_minus(const struct page *page, double error)
 {
     if (!page->bars) return;
@@ -31,7 +31,7 @@ static void plus_minus(const struct page *page, double error)
         text_add(page->text, " ± ?");
 }
 
-/* A coordinate, rate or state of the file as `name = value unit`; `error` may be NULL. */
+/* Write a coordinate, rate or user state as `name = value unit`; `error` may be NULL. */
 static void write_value(const struct page *page, const struct fbd_model *model, size_t component,
                         const char *name, double value, const double *error)
 {
@@ -44,7 +44,7 @@ static void write_value(const struct page *page, const struct fbd_model *model, 
 
 /* ---- events; switches of expressions are counted, not listed, when there are many */
 
-/* Mark the bodies whose motion a condition names. */
+/* Mark the bodies whose motion is in a condition. */
 static void mark_named(const struct fbd_model *model, const struct formula *formula, bool *named)
 {
     const int *slots, size = (int)plan_size(&model->plan), n = model->plan.n;
@@ -56,7 +56,7 @@ static void mark_named(const struct fbd_model *model, const struct formula *form
     }
 }
 
-/* Where the bodies are that the condition of an event of the file names. */
+/* Write the positions of the bodies in the condition of a user event. */
 static void write_event_state(const struct page *page, const struct run_event *event)
 {
     const struct fbd_model *model = page->result->simulation->ensemble->model;
@@ -131,7 +131,7 @@ static void write_events(const struct page *page)
 
 /* ---- final state and forces */
 
-/* A body that sticks says how near it is to breaking away: |F| / (mu_s N). */
+/* Write how near a sticking body is to breaking away: |F| / (mu_s N). */
 static void write_friction(struct text *text, struct fbd_state *state, int b)
 {
     const struct model_body *body = &state->model->bodies[b];
@@ -147,7 +147,7 @@ static void write_friction(struct text *text, struct fbd_state *state, int b)
         text_add(text, "   (sticks)");
 }
 
-/* Of a body whose mass varies: behind its coordinates. */
+/* For a body of varying mass, after its coordinates. */
 static void write_mass(const struct page *page, const struct model_body *body, const struct fbd_state *state)
 {
     const struct instant at = state_instant(state);
@@ -228,7 +228,7 @@ static void write_work(const struct page *page, const struct fbd_state *state, s
     text_printf(text, " %s\n", energy_unit(ledger->model));
 }
 
-/* `other`: the same arrow of the companion, or `arrow`; `account`: the load whose work it tells, or -1. */
+/* `other`: the same arrow of the companion, or `arrow`; `account`: the load whose work is written, or -1. */
 static void write_force(const struct page *page, const struct fbd_state *state, const struct arrow *arrow,
                         const struct arrow *other, int account)
 {
@@ -258,7 +258,7 @@ static void write_force(const struct page *page, const struct fbd_state *state, 
     write_work(page, state, (size_t)account);
 }
 
-/* No force, but the energy that mass brings or takes. */
+/* Not a force: the energy carried by varying mass. */
 static void write_carried(const struct page *page, const struct fbd_state *state,
                           const struct model_body *body)
 {
@@ -301,7 +301,7 @@ static void energy_row(const struct page *page, const char *name, double start, 
     text_printf(text, "%s\n", energy_unit(page->result->ledger.model));
 }
 
-/* What the potential energy is of. */
+/* List the contributions to the potential energy. */
 static void write_potentials(const struct page *page)
 {
     const struct fbd_model *model = page->result->ledger.model;
@@ -327,7 +327,7 @@ void report_energy(const struct page *page)
     text_add(page->text, "\nEnergy                start             end\n");
     energy_row(page, "kinetic", energy.initial_kinetic, energy.kinetic, error.kinetic);
     energy_row(page, "potential", energy.initial_potential, energy.potential, error.potential);
-    if (isnan(energy.work)) return; /* only the motion was wanted */
+    if (isnan(energy.work)) return; /* only the motion was computed */
     energy_row(page, "work of the others", 0, energy.work, error.work);
     text_printf(page->text,
                 "  residual %.2e %s: change of kinetic + potential, less that work (0 for the true motion)\n",
@@ -340,7 +340,7 @@ void report_energy(const struct page *page)
                     explained, energy_unit(page->result->ledger.model));
 }
 
-/* "3 independent groups; constant accelerations in 1, ..."; nothing for one group without structure. */
+/* "3 independent groups; constant accelerations in 1, ..."; empty for one group without structure. */
 static void write_structure(struct text *text, const fbd_stats *stats)
 {
     const struct {
@@ -362,7 +362,7 @@ static void write_structure(struct text *text, const fbd_stats *stats)
     }
 }
 
-/* What the error bars say of the whole run, what they cost, and what was asked for. */
+/* Write the error bars of the whole run, their cost, and the requested accuracy. */
 static void write_accuracy(const struct page *page, const fbd_stats *stats)
 {
     const double all = 0.1;
@@ -421,7 +421,7 @@ void report_cost(const struct page *page)
     write_accuracy(page, &stats);
 }
 
-/* What `assemble: true` has decided. */
+/* Write the positions found by `assemble: true`. */
 static void write_assembled(const struct page *page, const struct fbd_model *model,
                             const struct fbd_state *start)
 {
@@ -446,7 +446,7 @@ static void write_assembled(const struct page *page, const struct fbd_model *mod
     text_add(text, "\n");
 }
 
-/* All there is to say. */
+/* Write the full report. */
 static void write_full(const struct page *page)
 {
     enum { most_parameters = 40 };
@@ -478,7 +478,7 @@ static char *report(fbd_result *result, bool full)
     struct text text = {0};
     const struct page page = {&text, result, result->simulation->bars};
     text_heading(&text, run->model->scene->title);
-    if (run->refused) /* nothing has moved, and its equations may have no numbers */
+    if (run->refused) /* no motion was computed, and its equations may have no numbers */
         text_printf(&text, "The run did not start: %s.\n", run->reason);
     else if (full || run->model->body_count <= report_few_bodies)
         write_full(&page);

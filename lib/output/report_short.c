@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * The report of a scene of many bodies: what an engineer looks at first. In full it has some ten lines for each body.
+ * The report of a scene of many bodies: a summary. The full report has some ten lines for each body.
  */
 #include <string.h>
 
@@ -37,7 +37,7 @@ static bool is_alike(const struct fbd_model *model, const struct run_event *a, c
            (a->kind != FBD_EVENT_USER || strcmp(event_name(model, a), event_name(model, b)) == 0);
 }
 
-/* All that are like event `first`. */
+/* Write all events that are like event `first`. */
 static void write_kind(struct text *text, const struct ensemble *run, size_t first)
 {
     const struct run_event *event = &run->events[first], *last = event;
@@ -161,10 +161,10 @@ struct large {
     double size;
 };
 
-/* Keep it among the largest, in order; of a force and its opposite the one that comes first. */
+/* Insert into the ordered list of the largest; of a force and its opposite keep the first. */
 static void consider(struct large list[static few_forces], struct large one)
 {
-    const double rounding = 1e-12; /* of numbers that two bodies were given from one */
+    const double rounding = 1e-12; /* of the same force on two bodies */
     size_t place = 0;
     while (place < few_forces && list[place].size > one.size * (1 + rounding)) place++;
     if (place == few_forces || one.size == 0) return;

@@ -10,7 +10,7 @@
 #include "dynamics/project.h"
 #include "model/tree.h"
 
-static const double same = 1e-9; /* relative: states that are projected are off by more than a rounding */
+static const double same = 1e-9; /* relative: projected states have errors above round-off level */
 
 /* ---- the states */
 
@@ -35,7 +35,8 @@ static void move(struct fbd_state *state, gsl_rng *rng, double reach)
     for (size_t i = 0; i < scene->own_count; i++) state->y[2 * n + i] += between(rng, -1, 1);
 }
 
-/* Friction that holds may have nothing to hold, and a rope may be slack. */
+/* Set sticking friction to slipping and slack ropes to taut, as their forces may be zero in the present
+ * modes. */
 static void take_other_modes(struct fbd_state *state)
 {
     const struct plan *plan = &state->model->plan;
@@ -61,7 +62,7 @@ static bool draw(struct fbd_state *state, const struct fbd_state *from, gsl_rng 
     return true;
 }
 
-/* Where couplings have no state so far away, nearer ones are tried. */
+/* Draw all states; if couplings have no consistent state so far away, try nearer ones. */
 static bool draw_all(struct samples *samples, struct fbd_state *state, gsl_rng *rng)
 {
     enum { tries = 16, tries_of_a_reach = 4 };
@@ -104,7 +105,7 @@ static double size_of(const struct samples *samples, const struct instant *at, i
     return NAN;
 }
 
-/* Less than that is rounding beside the other forces on the body. */
+/* Round-off level of the forces on the body. */
 static double least_force(const struct arrow *arrows, size_t count)
 {
     double most = 0;
@@ -112,7 +113,7 @@ static double least_force(const struct arrow *arrows, size_t count)
     return 1e-10 * most;
 }
 
-/* From `about` to a point; no arm where they differ by rounding. */
+/* Vector from `about` to a point; zero if they differ by rounding. */
 static struct vec arm_to(struct vec point, struct vec about)
 {
     const struct vec arm = vec_sub(point, about);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * A scene at rest for programs: its free-body diagrams by name, and as one JSON object (docs/output.md).
+ * Statics of a scene for programs: its free-body diagrams by name, and as one JSON object (docs/output.md).
  */
 #include "dynamics/spatial.h"
 #include "fbd_study.h"
@@ -69,7 +69,7 @@ static void write_verdict(struct text *text, const struct fbd_statics *statics)
     text_add(text, statics->limit_count > 0 ? "\n  },\n" : "},\n");
 }
 
-/* Positive is pulled; of a rope one entry for each piece between pulleys. */
+/* Positive in tension; for a rope one entry for each piece between pulleys. */
 static void write_tensions(struct text *text, const struct fbd_statics *statics)
 {
     const struct tree *tree = statics->model->tree;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * A scene at rest as a person reads it: does it hold, what would hold it, and the table of each body.
+ * Statics of a scene as text: is it in equilibrium, which loads would balance it, and the table of each body.
  */
 #include <string.h>
 
@@ -13,13 +13,13 @@
 
 enum { digits = 9 };
 
-/* A difference that is nothing but rounding is written as 0. */
+/* A difference at round-off level is written as 0. */
 static double without_rounding(const struct fbd_statics *statics, double value, double size)
 {
     return fabs(value) <= 1e-12 * size * statics->force ? 0 : value;
 }
 
-/* ---- what holds */
+/* ---- equilibrium */
 
 static void write_names(struct text *text, const struct fbd_statics *statics)
 {
@@ -48,7 +48,7 @@ static void write_determinacy(struct text *text, const struct fbd_statics *stati
                     statics->mobility == 1 ? "" : "s");
 }
 
-/* ---- what does not */
+/* ---- no equilibrium */
 
 static void write_unbalanced(struct text *text, const struct fbd_statics *statics)
 {
@@ -65,7 +65,7 @@ static void write_unbalanced(struct text *text, const struct fbd_statics *static
     }
 }
 
-/* Another feature of the same shapes that is pressed on: `floor.normal_2` beside `floor.normal`. */
+/* Another closed feature of the same shapes: `floor.normal_2` beside `floor.normal`. */
 static const char *held_beside(const struct fbd_statics *statics, const fbd_limit *limit)
 {
     const char *normal = strstr(limit->name, ".normal");
@@ -97,7 +97,7 @@ static void write_broken(struct text *text, const struct fbd_statics *statics, c
     text_add(text, "\n");
 }
 
-/* The coordinates that are not those of the file. */
+/* Write the coordinates that differ from those of the file. */
 static void write_place(struct text *text, const struct fbd_statics *statics)
 {
     enum { most_listed = 40 };
@@ -131,7 +131,7 @@ static void write_verdict(struct text *text, const struct fbd_statics *statics)
     }
     text_add(text, " s: NOT in equilibrium\n");
     write_unbalanced(text, statics);
-    if (statics->unbalanced_count > 0) return; /* what limits would have to bear depends on what holds it */
+    if (statics->unbalanced_count > 0) return; /* loads of limits depend on how it is balanced */
     bool opens = false;
     for (size_t i = 0; i < statics->limit_count; i++)
         opens |= statics->limits[i].kind == FBD_LIMIT_NORMAL && !statics->limits[i].holds;
@@ -192,7 +192,7 @@ static void write_body(struct text *text, const struct fbd_statics *statics, siz
     write_row(text, statics, "sum", sum, moment, turns);
 }
 
-/* Rods are pulled or pushed, ropes pulled. The pieces of a rope between pulleys bear its name each. */
+/* Rods have tension or compression, ropes tension. The pieces of a rope between pulleys each have its name. */
 static void write_members(struct text *text, const struct fbd_statics *statics)
 {
     const struct tree *tree = statics->model->tree;

@@ -9,12 +9,12 @@
 #include "expr/glyph.h"
 #include "model/tree.h"
 
-/* One force of the scene, whichever diagram it stands in. */
+/* One force of the scene, in any diagram. */
 struct force_key {
     const char *letter;
     enum key_of { of_load, of_coupling, of_corner, of_joint } of;
     int index;
-    int owner;   /* the body on which it acts as its symbol says; no_body: at each end */
+    int owner;   /* the body on which it acts in the sense of its symbol; no_body: at each end */
     bool moment; /* at all times */
 };
 
@@ -29,13 +29,13 @@ struct naming {
 
 /* ---- which force it is */
 
-/* The strand that part `part` of end k is of: a drum between two strands has a part of each, their far ends are of one. */
+/* The strand of part `part` of end k: a drum between two strands has a part of each, their far ends have one. */
 static int strand_of(const struct coupling *coupling, int k, int part)
 {
     return !coupling->law->strands ? 0 : coupling->end[k].name[1] ? part : k / 2;
 }
 
-/* The pulls of a rope at its ends are not opposite where it turns corners. */
+/* The pulls of a rope at its ends are not opposite where it passes over corners. */
 static int owner_of_coupling(const struct coupling *coupling, int strand)
 {
     int owner = no_body;
@@ -49,13 +49,13 @@ static int owner_of_coupling(const struct coupling *coupling, int strand)
     return owner;
 }
 
-/* Where a rope goes round a point of the body: its force there is the sum of two pulls. */
+/* True where a rope passes over a point of the body: its force there is the sum of two pulls. */
 static bool is_corner(const struct coupling *coupling, int k)
 {
     return coupling->law->way && !coupling->law->strands && k > 0 && k + 1 < coupling->end_count;
 }
 
-/* The stop of a pivot. */
+/* True for the stop of a pivot. */
 static bool stops_turning(const struct fbd_model *model, const struct coupling *coupling)
 {
     return coupling->kind == constraint_contact && coupling->source->contact.stop != 0 &&
@@ -155,7 +155,7 @@ static bool take(struct naming *naming, const struct force_key *key)
     return true;
 }
 
-/* ---- what it is called */
+/* ---- names */
 
 const char *symbol_of_mass(const struct fbd_model *model, int body, struct arena *arena)
 {
@@ -181,7 +181,8 @@ static const char *slipping(struct naming *naming, const struct model_load *load
 {
     const struct fbd_model *model = naming->state->model;
     const struct model_body *body = &model->bodies[load->body];
-    const bool turns = body->kind == motion_track && body->source->motion.turns; /* N is not all across it */
+    const bool turns =
+        body->kind == motion_track && body->source->motion.turns; /* N is not all of the force across it */
     if (load->source->kind != load_friction || body->friction < 0 || turns ||
         naming->state->slip[body->friction] == stick)
         return NULL;
@@ -243,7 +244,7 @@ const struct force_symbol *const *symbols_of_forces(const struct fbd_state *stat
     struct arrow *arrows = ARENA_ARRAY(arena, diagram_most_arrows(model), struct arrow);
     struct force_symbol **symbols = ARENA_ARRAY(arena, model->body_count, struct force_symbol *);
     if (!naming.keys || !arrows || !symbols) return NULL;
-    for (int named = 0; named < 2; named++) /* all are known before any is numbered */
+    for (int named = 0; named < 2; named++) /* collect all before numbering */
         for (size_t b = 0; b < model->body_count; b++) {
             size_t count = diagram_fill(model, (int)b, &at, state->a, state->slots, arrows);
             if (named) symbols[b] = ARENA_ARRAY(arena, count + 1, struct force_symbol);
@@ -259,7 +260,7 @@ const struct force_symbol *const *symbols_of_forces(const struct fbd_state *stat
     return arena->failed ? NULL : (const struct force_symbol *const *)symbols;
 }
 
-/* ---- as it is printed */
+/* ---- printing */
 
 static const struct greek {
     const char *name, *letter;
@@ -285,7 +286,7 @@ static bool is_word(char c)
     return is_digit(c) || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c & 0x80);
 }
 
-/* Does an index consist of what Unicode has below the line? */
+/* The length of an index for which Unicode has subscripts, else 0. */
 static size_t low_index(const char *index)
 {
     size_t length = 0;
@@ -331,7 +332,7 @@ static bool is_velocity(const char *word, size_t length)
     return length == 2 && word[0] == 'v' && (word[1] == 'x' || word[1] == 'y');
 }
 
-/* One word: a Greek letter, a function; a letter stands as it is, more of them upright. */
+/* Write one word: a Greek letter, a function; a single letter in italics, longer words upright. */
 static void write_word(struct text *text, const char *word, size_t length)
 {
     bool function = length == 3 && (strncmp(word, "sin", 3) == 0 || strncmp(word, "cos", 3) == 0);
@@ -343,7 +344,7 @@ static void write_word(struct text *text, const char *word, size_t length)
         text_add_bytes(text, word, length);
 }
 
-/* A unit, "[deg]" or "[m]"; returns its length. */
+/* Write a unit, "[deg]" or "[m]"; returns its length. */
 static size_t write_unit(struct text *text, const char *unit)
 {
     const size_t length = strcspn(unit, "]") + 1;

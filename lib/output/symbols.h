@@ -1,14 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Symbols: the letters that a textbook gives to the forces of a scene: m g, N, mu_k N, T_1, R_2.
+ * Symbols: the textbook letters of the forces of the scene: m g, N, mu_k N, T_1, R_2.
  *
- * A force and its opposite on another body have one symbol. It stands for the force on the body whose joint or list it is
- * in, of a coupling for that on the first of its bodies. A rope that turns corners has one symbol for its pulls, and `F` for
- * its force where it goes round a point of a body. Letters that stand for several forces are numbered in the order of
- * the bodies; so are masses where there are several bodies. A force with a name in the file (an applied force)
- * keeps that name.
+ * A force and its opposite on another body have one symbol. It denotes the force on the body in whose joint
+ * or list it is, of a coupling that on the first of its bodies. A rope that passes over corners has one
+ * symbol for its pulls, and `F` for its force at a point of a body that it passes over. Letters shared by
+ * several forces are numbered in the order of the bodies; so are masses if there are several bodies. A force
+ * with a name in the file (an applied force) keeps that name.
  *
- * Written plainly: factors apart by blanks, an index behind `_`, Greek letters by name.
+ * In plain text: factors separated by blanks, an index after `_`, Greek letters by name.
  */
 #ifndef FBD_OUTPUT_SYMBOLS_H
 #define FBD_OUTPUT_SYMBOLS_H
@@ -21,13 +21,14 @@
 struct force_symbol {
     const char *text;     /* N, T_1, m g */
     const char *slipping; /* mu_k N while it slips; else NULL */
-    bool moment;          /* it is a moment at all times, and no force */
-    bool opposite;        /* the arrow is minus that for which it stands */
+    bool moment;          /* it is a pure moment at all times */
+    bool opposite;        /* the arrow is minus the force of the symbol */
     const char *letter;   /* N of N_1 */
     int joint;            /* the body in whose joint it acts, or -1 */
 };
 
-/* The coupling whose force on body b is called so: its index, its end there, and which of two forces it is; false for none. */
+/* The coupling of a named force on body b: its index, its end there, and which of two forces it is; false for
+ * none. */
 struct coupling_place {
     int coupling, end, part, strand;
 };
@@ -36,16 +37,16 @@ bool coupling_of_force(const struct fbd_model *model, int b, const char *name, s
 /* The symbols of each body's arrows, in the order of diagram_fill: symbols[body][arrow]. NULL when memory is out. */
 const struct force_symbol *const *symbols_of_forces(const struct fbd_state *state, struct arena *arena);
 
-/* As a diagram of this state has it. */
+/* The symbol in the present state. */
 const char *symbol_now(const struct force_symbol *symbol);
 
 /* The mass of a body: "m", "m_2". */
 const char *symbol_of_mass(const struct fbd_model *model, int body, struct arena *arena);
 
-/* As it is printed in a drawing: mg, μₖN, T₁. */
+/* The symbol as printed in a drawing: mg, μₖN, T₁. */
 const char *symbol_printed(const char *symbol, struct arena *arena);
 
-/* As LaTeX; \mathit for what is longer than a letter. */
+/* The symbol as LaTeX; \mathit for more than one letter. */
 void symbol_write_latex(struct text *text, const char *symbol);
 
 #endif

@@ -7,7 +7,7 @@
 #include "dynamics/diagram.h"
 #include "output/laws.h"
 
-/* A surface that is no guide cannot pull; less than the rounding of the weight is nothing. */
+/* True if a one-sided surface would have a tensile normal force above round-off level of the weight. */
 static bool normal_is_lost(const struct fbd_state *state, const struct model_body *body)
 {
     double slack = 1e-12 * body->inertia.mass * vec_norm(state->model->scene->gravity);
@@ -18,7 +18,7 @@ static bool normal_is_lost(const struct fbd_state *state, const struct model_bod
     return false;
 }
 
-/* A normal force and friction name the values that they stand for. */
+/* Write the value of a normal force or friction. */
 static void normal_remark(const struct fbd_state *state, const struct model_body *body, char *remark)
 {
     if (body->normal_slot >= 0)
@@ -35,7 +35,7 @@ static const char *friction_limit(const struct mode *mode, bool kinetic)
     return kinetic ? "mu_k N" : "mu_s N";
 }
 
-/* The speed on the surface where the law goes with it. */
+/* Write the slip velocity if the law depends on it. */
 static void slip_remark(const struct fbd_state *state, int pair, char *remark)
 {
     const struct fbd_model *model = state->model;
@@ -66,7 +66,7 @@ static void friction_remark(struct fbd_state *state, int b, char *remark)
 
 /* ---- the remark */
 
-/* Where its law is not one of these symbols, or zero. */
+/* Words for gravity where its law has no symbols, or is zero. */
 static const char *gravity_words(const struct model_body *body, int part)
 {
     switch (body->kind) {

@@ -9,8 +9,8 @@
 
 enum { term_remark_size = 160 };
 
-/* Remark for a term of an equation: "-m g sin(along)", "N = 16.99 N acts across", "slips: -mu_k N", ...; empty
- * for what is there by another body's list, and where the body is cut free. False when memory is out. */
+/* Remark for a term of an equation: "-m g sin(along)", "N = 16.99 N acts across", "slips: -mu_k N", ...;
+ * empty for loads listed by other bodies, and for a body cut free. False when memory is out. */
 bool equation_remark(struct fbd_state *state, const struct equation *equation, size_t term,
                      char remark[static term_remark_size]);
 

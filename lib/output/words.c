@@ -45,8 +45,8 @@ const char *event_name(const struct fbd_model *model, const struct run_event *ev
     return event->load >= 0 ? model->loads[event->load].source->name : "";
 }
 
-/* A located loss is a rounding below zero; a jump of the forces may go straight to a pull. The load of a
- * `roll` is known by its friction; what is lost is its normal force. */
+/* A located loss is below zero by rounding; a jump of the forces may lead directly to a tensile force. The
+ * load of a `roll` is identified by its friction; the lost force is its normal force. */
 static void contact_lost_detail(const struct run_event *event, const char *name, const char *unit,
                                 char *detail, size_t size)
 {
@@ -75,7 +75,7 @@ static void impact_detail(const struct fbd_model *model, const struct run_event 
                                 : "");
 }
 
-/* The speed at which its ends move apart, beyond what a drum gives, before the impact and after it. */
+/* Write the separation speed of its ends, minus that of a drum, before and after the impact. */
 static void rope_taut_detail(const struct fbd_model *model, const struct run_event *event, const char *name,
                              char *detail, size_t size)
 {
@@ -115,7 +115,7 @@ static bool is_moment(const struct fbd_model *model, const struct run_event *eve
 static void stick_detail(const struct run_event *event, const char *name, const char *unit, char *detail,
                          size_t size)
 {
-    if (fabs(event->force) > event->limit * (1 + 1e-6)) /* decided before another hold */
+    if (fabs(event->force) > event->limit * (1 + 1e-6)) /* decided before another mode */
         format_into(detail, size,
                     "%s is at rest; %+.6g %s would be needed to hold it, with a limit of %.6g %s", name,
                     event->force, unit, fmax(event->limit, 0), unit);
@@ -144,7 +144,7 @@ static void several_detail(const struct run_event *event, const char *name, cons
                  "determined by "
                  "rigid bodies, and one of them is taken",
                  name);
-    else if (event->force > 1) /* friction that feeds its own normal force */
+    else if (event->force > 1) /* friction that increases its own normal force */
         format_into(detail, size,
                     "%s: several motions agree with the forces, as in Painleve's paradox, and one of them is "
                     "taken; each %s of its normal force causes %.4g %s more of it",

@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Words: what an event was, and the units of a scene.
+ * Descriptions of events, and the units of a scene.
  */
 #ifndef FBD_OUTPUT_WORDS_H
 #define FBD_OUTPUT_WORDS_H
 
 #include "loop/run.h"
 
-/* What happened, in a few words: "friction +4.81 N holds, limit 8.496 N". Writes at most `size` bytes. */
+/* Describe an event briefly: "friction +4.81 N holds, limit 8.496 N". Writes at most `size` bytes. */
 enum { event_detail_size = 320 };
 
 void event_detail(const struct fbd_model *model, const struct run_event *event, char *detail, size_t size);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Points of bodies in the world: where they are, how fast they move, and how that changes.
+ * Points of bodies in the world: position, velocity and acceleration.
  */
 #ifndef FBD_OUTPUT_WORLD_H
 #define FBD_OUTPUT_WORLD_H
@@ -19,7 +19,7 @@ struct world_quantity {
 const char *world_part_name(enum world_part part);
 const char *world_part_unit(const struct fbd_model *model, enum world_part part);
 
-/* Find `rod.right.vx`: a named point, G, or O of a pivot. False when there is none. */
+/* Find `rod.right.vx`: a named point, G, or O of a pivot. False if it does not exist. */
 bool world_find(const struct fbd_model *model, const char *name, struct world_quantity *quantity);
 
 /* All parts of a point, in coherent units; the state has been evaluated. */
