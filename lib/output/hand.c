@@ -317,14 +317,14 @@ static bool write_open(const struct hand_check *check, struct text *text)
     size_t open = 0;
     for (size_t i = 0; i < check->count; i++) open += check->samples[i].open;
     if (open == 0) return false;
-    const char *force = check->open_force[0] ? check->open_force : NULL;
+    const char *force = check->open_force[0] ? check->open_force : "N";
+    const bool other = check->open_force[0] && check->open_body != check->body;
     text_printf(
         text,
         "  not unique at %zu of %zu random states: the equations do not determine `%s%s%s`, only sums "
         "of it with others\n",
-        open, check->count,
-        force && check->open_body != check->body ? check->model->bodies[check->open_body].name : "",
-        force && check->open_body != check->body ? "." : "", force ? force + (*force == '=') : "N");
+        open, check->count, other ? check->model->bodies[check->open_body].name : "", other ? "." : "",
+        force + (*force == '='));
     return true;
 }
 

@@ -16,19 +16,10 @@
 #include "fbd_study.h"
 #include "gallery.h"
 #include "holds/impact.h"
+#include "scenes.h"
 
 /* Sums and products of a few numbers, each rounded. */
 static const double roundings = 1e-13;
-
-static fbd_model *model_of(const char *text)
-{
-    fbd_errors *errors = fbd_errors_new();
-    fbd_model *model = fbd_model_parse(text, strlen(text), "scene", NULL, 0, errors);
-    if (!model) fbd_errors_print(errors, stdout);
-    assert_non_null(model);
-    fbd_errors_free(errors);
-    return model;
-}
 
 /* A rod of 3 kg hangs from a cart that is pushed. About its axis: I_O theta'' = -m g (L/2) sin(theta) - m r x a, where
  * r = L/2 (sin, -cos) and the axis has the acceleration (a, 0): the last is -m (L/2) a cos(theta). */
@@ -36,12 +27,12 @@ static void an_axis_that_moves_has_its_term(void **unused)
 {
     (void)unused;
     struct checks checks = {0};
-    fbd_model *model = model_of("fbd: 1\ngravity: 10\nbodies:\n"
-                                "  cart: {mass: 2 kg, motion: slide, forces: [{applied: 7 N}]}\n"
-                                "  rod:\n"
-                                "    shape: rod\n    mass: 3 kg\n    length: 2 m\n"
-                                "    motion: {pivot: {on: cart, at: G, point: left}}\n"
-                                "    initial: {theta: -50 deg}\n    forces: [gravity]\n");
+    fbd_model *model = model_from("fbd: 1\ngravity: 10\nbodies:\n"
+                                  "  cart: {mass: 2 kg, motion: slide, forces: [{applied: 7 N}]}\n"
+                                  "  rod:\n"
+                                  "    shape: rod\n    mass: 3 kg\n    length: 2 m\n"
+                                  "    motion: {pivot: {on: cart, at: G, point: left}}\n"
+                                  "    initial: {theta: -50 deg}\n    forces: [gravity]\n");
     fbd_state *state = fbd_state_new(model);
     fbd_equations *equations = fbd_assemble(state);
     const fbd_equation rod = fbd_equations_find(equations, "rod.theta");
@@ -70,11 +61,11 @@ static void moments_about_O_and_G_differ(void **unused)
 {
     (void)unused;
     struct checks checks = {0};
-    fbd_model *model = model_of("fbd: 1\nbodies:\n  bar:\n    motion: planar\n    parts:\n"
-                                "      a: {shape: point, mass: 1 kg, center: [0, 0]}\n"
-                                "      b: {shape: point, mass: 3 kg, center: [2 m, 0]}\n"
-                                "    forces: [{applied: {name: lift, value: 2 N, angle: 90 deg, at: G}}]\n"
-                                "simulate: {until: 1 s}\n");
+    fbd_model *model = model_from("fbd: 1\nbodies:\n  bar:\n    motion: planar\n    parts:\n"
+                                  "      a: {shape: point, mass: 1 kg, center: [0, 0]}\n"
+                                  "      b: {shape: point, mass: 3 kg, center: [2 m, 0]}\n"
+                                  "    forces: [{applied: {name: lift, value: 2 N, angle: 90 deg, at: G}}]\n"
+                                  "simulate: {until: 1 s}\n");
     fbd_simulation *simulation = fbd_simulation_new(model, NULL, NULL);
     fbd_result *result = fbd_simulation_run(simulation, NULL);
     char *json = fbd_result_json(result);
@@ -93,7 +84,7 @@ static void a_table_has_the_normal_force(void **unused)
 {
     (void)unused;
     struct checks checks = {0};
-    fbd_model *model = model_of(
+    fbd_model *model = model_from(
         "fbd: 1\ngravity: 10\nbodies:\n  block:\n    mass: 2 kg\n    motion: {slide: {along: 60 deg}}\n"
         "    initial: {v: -1 m/s}\n    forces: [gravity, normal, {friction: 0.25}]\n"
         "simulate: {until: 1 s}\n");
@@ -123,10 +114,10 @@ static void a_slide_keeps_from_turning(void **unused)
     (void)unused;
     struct checks checks = {0};
     fbd_model *model =
-        model_of("fbd: 1\ngravity: 10\nbodies:\n  sledge: {mass: 4 kg, motion: slide}\n"
-                 "  box:\n    mass: 2 kg\n    motion: {slide: {on: sledge}}\n"
-                 "    points: {top: [0, 0.4 m]}\n"
-                 "    forces: [gravity, {applied: {name: push, value: 5 N, angle: 0 deg, at: top}}]\n");
+        model_from("fbd: 1\ngravity: 10\nbodies:\n  sledge: {mass: 4 kg, motion: slide}\n"
+                   "  box:\n    mass: 2 kg\n    motion: {slide: {on: sledge}}\n"
+                   "    points: {top: [0, 0.4 m]}\n"
+                   "    forces: [gravity, {applied: {name: push, value: 5 N, angle: 0 deg, at: top}}]\n");
     fbd_state *state = fbd_state_new(model);
     fbd_arrow arrows[8];
     for (size_t body = 0; body < 2; body++) {
@@ -160,7 +151,7 @@ static void friction_shares_up_to_both_sides_of_its_limit(void **unused)
                  "{friction: 0.1}]}\n"
                  "couplings: [{rod: {name: bar, between: [light.G, heavy.G], length: 1 m}}]\n",
                  4 * side);
-        fbd_model *model = model_of(text);
+        fbd_model *model = model_from(text);
         fbd_state *state = fbd_state_new(model);
         fbd_statics *statics = fbd_statics_new(state, NULL);
         fbd_arrow arrows[8];
@@ -188,7 +179,7 @@ static void friction_shares_up_to_both_sides_of_its_limit(void **unused)
 
 static double acceleration_of(const char *text, const char *coordinate)
 {
-    fbd_model *model = model_of(text);
+    fbd_model *model = model_from(text);
     fbd_state *state = fbd_state_new(model);
     fbd_equations *equations = fbd_assemble(state);
     double acceleration = fbd_equations_find(equations, coordinate).acceleration;
@@ -267,11 +258,11 @@ static void a_moment_in_a_joint_helps_to_hold(void **unused)
     (void)unused;
     struct checks checks = {0};
     fbd_model *model =
-        model_of("fbd: 1\ngravity: 10\nground: {points: {hook: [2, 1]}}\nbodies:\n"
-                 "  bar:\n    shape: rod\n    mass: 1 kg\n    length: 2 m\n"
-                 "    motion: {pivot: {at: [0, 0], point: left}}\n    forces: [gravity]\n"
-                 "    moments: [{applied: {name: help, value: 4 N*m}}]\n"
-                 "couplings: [{rod: {name: hanger, between: [bar.right, ground.hook], length: 1 m}}]\n");
+        model_from("fbd: 1\ngravity: 10\nground: {points: {hook: [2, 1]}}\nbodies:\n"
+                   "  bar:\n    shape: rod\n    mass: 1 kg\n    length: 2 m\n"
+                   "    motion: {pivot: {at: [0, 0], point: left}}\n    forces: [gravity]\n"
+                   "    moments: [{applied: {name: help, value: 4 N*m}}]\n"
+                   "couplings: [{rod: {name: hanger, between: [bar.right, ground.hook], length: 1 m}}]\n");
     fbd_state *state = fbd_state_new(model);
     fbd_statics *statics = fbd_statics_new(state, NULL);
     fbd_arrow arrows[8];
@@ -304,7 +295,7 @@ static void friction_at_rest_needs_a_surface(void **unused)
                  "      - applied: {name: lift, value: %d N, angle: 90 deg}\n      - applied: {name: push, "
                  "value: 2 N}\n",
                  lifted ? 30 : 0);
-        fbd_model *model = model_of(text);
+        fbd_model *model = model_from(text);
         fbd_state *state = fbd_state_new(model);
         fbd_statics *statics = fbd_statics_new(state, NULL);
         for (size_t i = 0; i < fbd_statics_limit_count(statics); i++) {
@@ -336,7 +327,7 @@ static void at_the_limit_the_trend_decides(void **unused)
                  "      - gravity\n      - normal\n      - friction: 0.5\n"
                  "      - applied: {name: push, value: \"%g*(5[N] %c 1[N/s]*t)\"}\nsimulate: {until: 1 s}\n",
                  side, more ? '+' : '-');
-        fbd_model *model = model_of(text);
+        fbd_model *model = model_from(text);
         fbd_simulation *simulation = fbd_simulation_new(model, NULL, NULL);
         fbd_result *result = fbd_simulation_run(simulation, NULL);
         check_that(&checks, "it has a velocity", fbd_state_get(fbd_result_state(result), "block.v", &v));
@@ -358,7 +349,7 @@ struct ended {
 static struct ended run_of(const char *text, const char *rate)
 {
     struct ended ended = {.v = NAN, .t = NAN, .told = NAN};
-    fbd_model *model = model_of(text);
+    fbd_model *model = model_from(text);
     fbd_simulation *simulation = fbd_simulation_new(model, NULL, NULL);
     fbd_result *result = fbd_simulation_run(simulation, NULL);
     const fbd_event event = fbd_simulation_event(simulation, 0);
@@ -448,7 +439,7 @@ static void bars_in_line_have_no_linear_motion(void **unused)
                  " initial: {theta: %g rad}, moments: [{spring: {stiffness: 3 N*m/rad}}]}\n"
                  "couplings: [{rod: {name: bar, between: [a.right, b.right], length: 2 m}}]\n",
                  0.1 * beside, 0.1 * beside);
-        fbd_model *model = model_of(text);
+        fbd_model *model = model_from(text);
         fbd_state *state = fbd_state_new(model);
         fbd_errors *errors = fbd_errors_new();
         fbd_linearization *linear = fbd_linearize(state, errors);
