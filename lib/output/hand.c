@@ -487,11 +487,9 @@ char *fbd_check_hand(const fbd_model *model, unsigned seed, size_t *differing)
     fbd_errors *errors = fbd_errors_new();
     bool done = false;
     if (errors) {
-        bool open =
-            document_open(&document, model->source, model->source_length, model->scene->file, errors) &&
-            !errors->out_of_memory;
+        done = document_open(&document, model->source, model->source_length, model->scene->file, errors);
         document.like = model->scene;
-        done = open && hand_check_document(model, &document, seed, &text, &differ);
+        done = done && !errors->out_of_memory && hand_check_document(model, &document, seed, &text, &differ);
         document_close(&document);
     }
     fbd_errors_free(errors);
