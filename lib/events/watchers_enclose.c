@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Enclosures of event functions over a stretch of the motion, each as watchers.c has it at an instant.
+ * Enclosures of event functions over a stretch of the motion; watchers_values.c has their values at an
+ * instant.
  *
- * They are there for what is made of expressions: switches, user events, the speed of a pair on its surface,
- * and the forces of a body by itself as far as they are sums of expressions, affine terms and weights.
+ * They exist for functions of expressions: switches, user events, the speed of a pair on its surface, and the
+ * forces on a body without joints or couplings if they are sums of expressions, affine terms and weights.
  */
 #include <float.h>
 
@@ -109,7 +110,7 @@ static bool stays_zero(const struct enclosure_input *o, const struct formula *mu
     return f.value.low == 0 && f.value.high == 0;
 }
 
-/* Friction that is idle throughout (friction_is_idle) has none. */
+/* Slip velocity of a pair. Friction that is idle throughout (friction_is_idle) has no event. */
 static struct enclosure slip_stop(const struct enclosure_input *o, int pair)
 {
     const struct fbd_model *model = o->state->model;
@@ -130,7 +131,7 @@ struct enclosure enclose_normal_force(const struct enclosure_input *o, int pair)
     return enclosure_scale(-o->state->pull[pair], sum);
 }
 
-/* max(f, g): the rate is one of both, or lies between. */
+/* max(f, g): the rate is that of one of them, or between both. */
 static struct enclosure larger_of(struct enclosure f, struct enclosure g)
 {
     if (f.value.low >= g.value.high) return f;
@@ -140,7 +141,7 @@ static struct enclosure larger_of(struct enclosure f, struct enclosure g)
                               {fmax(f.middle.low, g.middle.low), fmax(f.middle.high, g.middle.high)}};
 }
 
-/* What is left to both ends, which share the limit and the force that is held. */
+/* Distances to both friction limits, which share the limit and the friction force. */
 static void enclose_stick_limits(const struct enclosure_input *o, const struct watcher *watchers,
                                  size_t count, struct enclosure *out)
 {
@@ -153,7 +154,7 @@ static void enclose_stick_limits(const struct enclosure_input *o, const struct w
     struct enclosure moving = enclosure_multiply(enclose_formula(o, &mode->mu_k), press);
     struct enclosure limit = larger_of(enclose_centred(o, at_rest), enclose_centred(o, moving));
     struct enclosure push = enclose_slot(o, mode->body, mode->hold_slot);
-    /* The room for rounding that friction_rounding gives. */
+    /* The same tolerance as by friction_rounding. */
     double rounding = 8 * DBL_EPSILON * (interval_size(push.value) + interval_size(limit.value));
     for (size_t i = 0; i < count; i++) {
         struct enclosure f = enclosure_add(limit, enclosure_scale(watchers[i].end == 0 ? 1 : -1, push));

@@ -59,8 +59,8 @@ void stiffness_forget(struct stiffness *stiffness);
 
 /* Count an accepted step; true when the other method is to attempt it now. `h_rate` is the size of the step
  * times the fastest rate that the explicit method has detected in it: while that is far from stiff, the
- * attempt is put off; in a small system for three more waits, in a large one, where an attempt costs as much
- * as many steps, until a step has a larger h_rate. */
+ * attempt is put off. In a small system that is for three more waits, in a large one, where an attempt costs
+ * as much as many steps, for more steps, each of which is checked. */
 bool stiffness_due(struct stiffness *stiffness, double h_rate);
 
 /* The size of the step that the other method attempts, relative to that of the accepted step. */
