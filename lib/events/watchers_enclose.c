@@ -177,7 +177,8 @@ bool watchers_can_enclose(const struct fbd_model *model, const struct watcher *w
     const struct mode *mode = &plan->modes[watcher->index];
     if (mode->coupling >= 0) return false;
     if (watcher->kind == watch_slip_stop) return true;
-    bool known = watcher->kind != watch_stick_limit || !mode->surface_speed.expr; /* its second rate */
+    bool known = watcher->kind != watch_stick_limit ||
+                 !mode->surface_speed.expr; /* it would need the second derivative of the surface speed */
     return known && mode->kind == mode_single && enclosure_is_known(model, mode->body);
 }
 
@@ -210,7 +211,7 @@ static struct enclosure enclose_user(const struct watchers *watchers, int index,
     return enclose_centred(o, enclosure_add(enclosure_scale(armed, difference), band));
 }
 
-/* s of the upper branch, or what is left to 1. */
+/* The weight s of the upper branch, or 1 - s. */
 static struct enclosure enclose_share(const struct enclosure_input *o, const struct watcher *watcher)
 {
     const struct fbd_state *state = o->state;
@@ -249,7 +250,7 @@ static struct enclosure enclose_one(const struct watchers *watchers, const struc
     return enclosure_everything();
 }
 
-/* Are forces, and with them shares, in functions of this kind? */
+/* Do functions of this kind contain forces, and with them weights of sliding modes? */
 static bool asks_shares(enum watcher_kind kind)
 {
     return kind == watch_share || kind == watch_contact || kind == watch_stick_limit ||
@@ -272,7 +273,7 @@ void watchers_enclose(const struct watchers *watchers, const struct watcher_set 
         for (size_t i = 0; i < those->count; i++) out[i] = enclose_one(watchers, &first[i], &input);
 }
 
-/* ---- what they read */
+/* ---- the components that they read */
 
 static void mark_formula(const struct formula *formula, bool *used)
 {
@@ -309,7 +310,7 @@ static void mark_friction(const struct plan *plan, const struct watcher *watcher
     mark_body(plan, mode->body, used);
 }
 
-/* What the switch of a slide watches, and the forces on the bodies whose coordinates these are. */
+/* Mark the variables of a sliding mode's switch, and the forces on the bodies of these coordinates. */
 static void mark_share(const struct fbd_model *model, const struct formula *formula, bool *used)
 {
     const int *slots;

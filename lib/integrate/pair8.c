@@ -51,7 +51,7 @@ struct tableau {
 static const struct tableau dop853 = {dop853_c, dop853_a, dop853_a[13], dop853_e5, dop853_e3, false};
 static const struct tableau rk8pd = {rk8pd_c, rk8pd_a, rk8pd_a[14], rk8pd_e7, NULL, true};
 
-/* `n` is s->n, passed as a compile-time constant by the caller: see `make_stages`. */
+/* `n` is s->n, a compile-time constant for small systems: see `make_stages`. */
 INLINE double *vector_of(struct pair8 *s, size_t n, int index)
 {
     return s->v + (size_t)index * n;
