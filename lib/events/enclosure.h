@@ -13,8 +13,8 @@ struct enclosure_input {
     const struct fbd_state *state;
     const struct stretch *stretch;
     const struct enclosure *y;
-    /* For each unit of switches in a Filippov sliding mode (dynamics/filippov.h): the difference of its
-     * weight from 1/2. */
+    /* For each unit of switches in a Filippov sliding mode (dynamics/sliding.h): the difference of its weight
+     * from 1/2. */
     struct enclosure shares[most_enclosed_units];
 };
 

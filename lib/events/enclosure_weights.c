@@ -1,15 +1,16 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Enclosures of the shares of switches that are slid on.
+ * Enclosures of the weights of switches in Filippov sliding modes.
  *
- * The surface of a unit is w = g_x x + g_v v with constant g, or with places alone u' = g v. Along the motion
+ * The surface of a unit is w = g_x x + g_v v with constant g, or with positions alone u' = g v. Along the
+ * motion
  *
  *     w' = g_x v + g_v a = c_0 + sum_l C_l d_l = 0,
  *
- * with d_l = s - 1/2 of unit l (of the sign of each slide), because a formula with one slide is (F+ + F-)/2 + d
- * (F+ - F-), and each of these coordinates has an acceleration of its own, its force by its inertia. Where
- * friction holds a coordinate that is at its place, its sum of forces has the place of w' (sliding.h). With
- * one unit d = -c_0/C, else C has to be constant and is eliminated.
+ * with d_l = s - 1/2 of unit l (with the sign of each switch), because a formula with one sliding switch is
+ * (F+ + F-)/2 + d (F+ - F-), and each of these coordinates has an acceleration independent of the others: its
+ * force divided by its inertia. Where friction keeps the coordinate of the surface at rest, its sum of forces
+ * replaces w' (sliding.h). With one unit d = -c_0/C, else C has to be constant and is eliminated.
  */
 #include <string.h>
 
