@@ -169,7 +169,7 @@ static bool watches_share(const struct watcher *watcher, const struct view *view
 static double shared_value(struct view *view, const struct watcher *watcher, double *rate)
 {
     bool turns = watcher->kind == watch_normal_turns && view->at.slip[watcher->index] == stick;
-    bool told = view->told || turns; /* where the normal force reverses, friction does not hold the pair */
+    bool told = view->told || turns; /* where the normal force reverses, no friction acts */
     view->told |= !told;
     *rate = told ? 0 : view->margin.rate;
     return told ? HUGE_VAL : view->margin.value + rest_margin_slack(&view->margin);

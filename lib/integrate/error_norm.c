@@ -125,16 +125,16 @@ static inline double raised(double ratio, double error, double error_level, doub
     return larger(ratio, counts ? own : smaller(own, at_least));
 }
 
-/* The least ratio within noise that allows the step only to double: a step six times as long, out of the
- * noise, errs a million times as much, and of the many steps within a pulse some have a small estimate by
- * chance. */
+/* The least ratio within the round-off level, such that the step at most doubles: a step six times as long,
+ * beyond that level, errs a million times as much, and of the many steps within a pulse some have a small
+ * estimate by chance. */
 static inline double least_in_noise(const struct error_norm *w, size_t i)
 {
     return w->passing[i] > 0 ? w->law.doubles : 0;
 }
 
-/* The noise in a step over which an acceleration goes from a0 to a1. The part proportional to the
- * acceleration falls with it: the noise on the flank of a pulse must not excuse a step that ends behind the
+/* The round-off level in a step over which an acceleration goes from a0 to a1. The part proportional to the
+ * acceleration falls with it: the level on the flank of a pulse must not excuse a step that ends behind the
  * pulse. */
 static inline double noise_over(const struct error_norm *w, size_t i, double a0, double a1)
 {

@@ -78,10 +78,10 @@ gsl_odeiv2_control *error_norm_alloc(const struct layout *layout, double toleran
 void error_norm_set_floor(gsl_odeiv2_control *control, size_t i, double floor);
 
 /* The acceleration of pair i (for indices beyond the pairs: the rate of a component outside the pairs) has
- * the round-off level `noise` (the difference of large forces, or a force at a late time). An error of noise
- * h in v_i, and of noise h^2 in q_i, cannot be reduced by a smaller step and is allowed. Without it a body
+ * the round-off level `noise` (the difference of large forces, or a force at a late time). Errors of noise h
+ * in v_i, and of noise h^2 in q_i, cannot be reduced by a smaller step and are allowed. Without this a body
  * that starts to move out of a balance of large forces would take ever smaller steps. The part `passing` of
- * the noise is proportional to the acceleration: rounding of a time-dependent force. */
+ * it is proportional to the acceleration: rounding of a time-dependent force. */
 void error_norm_set_roundoff(gsl_odeiv2_control *control, size_t i, double noise, double passing);
 
 /* Does the round-off level allow a larger error of a rate, in a step of size h, than the tolerance does? Then
@@ -97,7 +97,7 @@ void error_norm_update(gsl_odeiv2_control *control, const double *y, const doubl
 double error_norm_ratio(const gsl_odeiv2_control *control, double h, const double *y, const double *yerr,
                         const double *f);
 
-/* Factor for the step size after a step with this error ratio; `order` is what the stepper reports. */
+/* Factor for the step size after a step with this error ratio; `order` is that reported by the stepper. */
 double error_norm_factor(const gsl_odeiv2_control *control, double ratio, unsigned order);
 
 /* A rate r [1/s] of the system from the difference df of the slopes of two states at one time that differ by
