@@ -49,7 +49,7 @@ const char *diag_hint(fbd_errors *errors, const char *format, ...) __attribute__
 /* A hint "did you mean 'x'?" for the nearest of `names`, or a list of them when none is near. */
 const char *diag_nearest(fbd_errors *errors, const char *wrong, const char *const *names, size_t count);
 
-/* The present end of a list; the second function removes all notes added since, for input that is read again. */
+/* The present end of a list; the second function removes all notes added since. */
 struct diag_mark {
     struct diag_note *last;
     size_t count, errors;

@@ -42,8 +42,7 @@ struct prover {
     struct enclosure *now, *end; /* for the largest group */
     bool *waiting;               /* negative at the start of the search, and not yet seen positive */
     int blind;                   /* instants at which an enclosure was unbounded */
-    bool
-        strict; /* bounds are wider than rounding: a search that depends on them, or needs many stretches, is left unfinished */
+    bool strict; /* bounds are wider than rounding: a search that depends on them is left unfinished */
 };
 
 enum roots_result { roots_clear, roots_found, roots_unfinished };

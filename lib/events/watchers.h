@@ -64,9 +64,8 @@ struct watchers {
     int *zeros;                  /* scratch for that: components that are zero */
     double *place;               /* scratch: a state with these zeros, and as many zeros */
     double *fast,
-        *quiet; /* per pair whose slip is due to drives alone: its largest speed; 0, or where a step starts with nearly none the speed up to which a reversal is ignored. Of one-sided modes: how far beyond zero they were left open */
-    double *most,
-        *band; /* per user event: largest size of the difference; half width of the band where a step starts within it, else 0 */
+        *quiet; /* per mode: largest driven slip speed; band within which its sign is ignored, see watchers_arm */
+    double *most, *band; /* per user event: largest size of the difference; half width of its band, or 0 */
 };
 
 /* Build the sets for a model, in `memory`; false when that is out. */
@@ -113,8 +112,9 @@ void watchers_set_rounding(const struct watcher_set *set, const struct fbd_state
 void watchers_hold(struct watchers *watchers, const struct fbd_state *state);
 
 /* Arm user events that have left zero, and determine which are within their band, and which pairs slip by
- * drives alone at nearly zero speed. Call at the start and after each accepted step, of the length `step`
- * [s], 0 at the start. */
+ * drives alone at nearly zero speed: `quiet` is the speed up to which their reversal is ignored. (For
+ * one-sided modes it is how far beyond zero they were left open.) Call at the start and after each accepted
+ * step, of the length `step` [s], 0 at the start. */
 void watchers_arm(struct watchers *watchers, struct fbd_state *state, double step);
 
 /* A user event has occurred within a step: arm it on the other side. */

@@ -28,8 +28,7 @@ struct view {
     int friction;                      /* the pair of `now` and `along`, -1 for none */
     struct friction_values now, along;
     struct arena arena;
-    bool shared,
-        told; /* the forces of a load on several sticking or closed constraints are redundant; a watcher has its margin already */
+    bool shared, told; /* the forces of a load are redundant; a watcher has its margin already */
     struct rest_margin margin;
 };
 

@@ -6,8 +6,9 @@
  * number with a unit, and a purely relative one demands infinite accuracy where a component passes through
  * zero. Here the error of component i is compared with tolerance * S_i, where the scale S_i is the largest of
  *
- * - the running maximum of |y_i| over all accepted states (error_norm_update), - a floor that the caller may
- * give, - |y_i| at the end of the step,
+ *   - the running maximum of |y_i| over all accepted states (error_norm_update),
+ *   - a floor that the caller may give,
+ *   - |y_i| at the end of the step,
  *
  * and only if these are zero the motion within the step: |h v_i| + |h^2 a_i| for a coordinate q_i, |h y'_i|
  * for any other. That motion is not used otherwise, because a step that has gone wrong in a stiff direction

@@ -22,10 +22,10 @@ struct method {
     bool multistep;     /* uses earlier steps: cannot redo part of a step, must be reset after an event */
     bool needs_driver;  /* reads the error level of a driver's control */
     double
-        stable; /* it is stable for h lambda in [-stable, 0]; 0: implicit methods, and rk8pd and dop853, which estimate it */
+        stable; /* stable for h lambda in [-stable, 0]; 0: implicit, or rk8pd and dop853, which estimate it */
     double by_time; /* as in struct step_law: for methods that lose their order where forces are stiff */
     bool
-        exact; /* no truncation error: a part of a step agrees with its dense output, and a first step may have any length */
+        exact; /* no truncation error: parts of a step agree with its dense output, a first step may have any length */
 };
 
 /* Method number `index` in the order of preference; NULL beyond the last one. Number 0 is the default. */
