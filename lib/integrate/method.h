@@ -21,11 +21,9 @@ struct method {
     bool implicit;      /* requires the Jacobian */
     bool multistep;     /* uses earlier steps: cannot redo part of a step, must be reset after an event */
     bool needs_driver;  /* reads the error level of a driver's control */
-    double
-        stable; /* stable for h lambda in [-stable, 0]; 0: implicit, or rk8pd and dop853, which estimate it */
-    double by_time; /* as in struct step_law: for methods that lose their order where forces are stiff */
-    bool
-        exact; /* no truncation error: parts of a step agree with its dense output, a first step may have any length */
+    double stable;      /* stable for h lambda in [-stable, 0]; 0: implicit, or estimated (rk8pd, dop853) */
+    double by_time;     /* as in struct step_law: for methods that lose their order where forces are stiff */
+    bool exact;         /* dense output agrees with parts of a step, and a first step may have any length */
 };
 
 /* Method number `index` in the order of preference; NULL beyond the last one. Number 0 is the default. */
