@@ -17,9 +17,8 @@ struct arena_chunk;
 
 struct arena {
     struct arena_chunk *chunks;
-    bool failed; /* true once any allocation has failed */
-    bool
-        much_room; /* the first chunk has the largest size: for arenas that are filled and freed repeatedly */
+    bool failed;    /* true once any allocation has failed */
+    bool much_room; /* the first chunk has the largest size, for arenas that are refilled often */
 };
 
 /* `count` zeroed objects of `size` bytes, or NULL when memory is out or count * size overflows. */

@@ -45,8 +45,7 @@ struct scan {
     void *context;
     bool *crossed; /* count: result, which functions became negative at `t` */
     double t;      /* result: the first instant at which one is negative, within two roundings of its zero */
-    double
-        resolved; /* result: advisable upper limit of the next interval; HUGE_VAL if all functions are smooth */
+    double resolved;           /* result: advisable limit of the next interval; HUGE_VAL if all are smooth */
     double clear;              /* result: no function becomes negative up to here (meant for a return of 2) */
     long samples;              /* counted */
     struct scan_point *points; /* two ends of a bracket and a spare one */

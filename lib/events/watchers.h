@@ -64,7 +64,7 @@ struct watchers {
     int *zeros;                  /* scratch for that: components that are zero */
     double *place;               /* scratch: a state with these zeros, and as many zeros */
     double *fast,
-        *quiet; /* per mode: largest driven slip speed; band within which its sign is ignored, see watchers_arm */
+        *quiet; /* per mode: largest driven slip speed; band of it that is ignored, see watchers_arm */
     double *most, *band; /* per user event: largest size of the difference; half width of its band, or 0 */
 };
 

@@ -19,12 +19,11 @@ struct stepper {
     double h_max, h_fixed;
     gsl_odeiv2_control *control;
     gsl_odeiv2_step *step;
-    gsl_odeiv2_step *redo;    /* of the same type, for parts of steps, as `step` keeps its dense output */
-    gsl_odeiv2_driver driver; /* GSL's steppers only read its control */
-    struct dense *dense;      /* of explicit methods and msadams */
-    struct history *history;  /* of msbdf, else NULL */
-    struct resteps
-        *inside; /* of methods whose interpolant is missing or less accurate than their steps, else NULL */
+    gsl_odeiv2_step *redo;     /* of the same type, for parts of steps, as `step` keeps its dense output */
+    gsl_odeiv2_driver driver;  /* GSL's steppers only read its control */
+    struct dense *dense;       /* of explicit methods and msadams */
+    struct history *history;   /* of msbdf, else NULL */
+    struct resteps *inside;    /* of methods without an interpolant as accurate as their steps, else NULL */
     struct substeps *substeps; /* of one-step methods, else NULL */
     struct stepper_counts counts;
     double *jacobian; /* n n + 3 n, for the limit of stability; NULL: no such limit */
