@@ -12,7 +12,7 @@ void *api_refuse(fbd_errors *errors, const char *what)
 
 bool api_take_options(void *whole, size_t room, const void *given, fbd_errors *errors)
 {
-    enum { most = 4096 }; /* what is larger was never set */
+    enum { most = 4096 }; /* a larger size is uninitialised memory */
     size_t size = room;
     if (!given) return true;
     memcpy(&size, given, sizeof size);

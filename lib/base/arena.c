@@ -15,8 +15,8 @@ struct arena_chunk {
     max_align_t data[];
 };
 
-/* Chunks grow from the first to the largest, since many an arena holds no more than one expression. What is
- * handed out is cleared where that is asked for, and nothing else. */
+/* Chunks grow from the first to the largest size, since many arenas hold no more than one expression. Only
+ * requested memory is cleared, and only on request. */
 enum { first_chunk = 512, largest_chunk = 16384 };
 
 static size_t round_up(size_t size)
@@ -25,8 +25,8 @@ static size_t round_up(size_t size)
     return (size + unit - 1) / unit * unit;
 }
 
-/* Put a chunk with room for `wanted` bytes at the head; one that a large piece has for itself is clear, as
- * the system gives it, and need not be touched. */
+/* Put a chunk with room for `wanted` bytes at the head. The chunk of a single large piece comes zeroed from
+ * calloc and is not cleared again. */
 static bool add_chunk(struct arena *arena, size_t wanted, bool *clear)
 {
     size_t next = arena->chunks ? 4 * arena->chunks->size : first_chunk;

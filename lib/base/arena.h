@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Arena: memory that is handed out piece by piece and given back all at once.
+ * Arena: memory that is allocated piece by piece and freed all at once.
  *
  * A scene and a model are built from many small objects that live exactly as long as their owner, so one call
  * frees them. Memory is zeroed and aligned for any type. A failed allocation returns NULL and sets `failed`,
@@ -18,13 +18,13 @@ struct arena_chunk;
 struct arena {
     struct arena_chunk *chunks;
     bool failed;    /* true once any allocation has failed */
-    bool much_room; /* the first chunk is as large as any: of what is made and freed again and again */
+    bool much_room; /* the first chunk has the largest size, for arenas that are refilled often */
 };
 
 /* `count` zeroed objects of `size` bytes, or NULL when memory is out or count * size overflows. */
 void *arena_array(struct arena *arena, size_t count, size_t size);
 
-/* The same, cleared or not: tables that are written as a whole before they are read need not be. */
+/* The same, cleared or not: tables that are written completely before they are read need not be. */
 void *arena_take(struct arena *arena, size_t count, size_t size, bool cleared);
 
 /* A zero-terminated copy of the first `length` bytes of `text`, or NULL. */
@@ -33,17 +33,18 @@ char *arena_text(struct arena *arena, const char *text, size_t length);
 /* printf into the arena; NULL when memory is out. */
 char *arena_printf(struct arena *arena, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
-/* The address in `b` of what is at an address in `a`, 0 where nothing of `a` is there: the two were filled by the same
- * calls. */
+/* The address in `b` that corresponds to an address in `a`, if the two were filled by the same calls; 0 if
+ * the address is not in `a`. */
 uintptr_t arena_twin(const struct arena *a, const struct arena *b, uintptr_t address);
 
-/* Told of a word of one arena that differs from its twin; false ends the comparison. */
+/* Receives a word of one arena that differs from its twin; false ends the comparison. */
 typedef bool arena_difference(void *context, uint64_t *word, uint64_t twin);
 
-/* Compare two arenas word by word. False when they were not filled by the same calls, or `differs` said so. */
+/* Compare two arenas word by word. False when they were not filled by the same calls, or `differs` returned
+ * false. */
 bool arena_compare(const struct arena *a, const struct arena *b, arena_difference *differs, void *context);
 
-/* Give everything back; the arena is then empty and may be used again. */
+/* Free all memory; the arena is then empty and may be used again. */
 void arena_free(struct arena *arena);
 
 #define ARENA_NEW(arena, type)          ((type *)arena_array((arena), 1, sizeof(type)))

@@ -9,7 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { most_notes = 200 }; /* a file with more faults than this is not a model file */
+enum { most_notes = 200 }; /* limit for files that are no model files */
 
 fbd_errors *fbd_errors_new(void)
 {
@@ -29,7 +29,7 @@ void fbd_errors_free(fbd_errors *errors)
 size_t fbd_errors_count(const fbd_errors *errors)
 {
     return errors ? errors->count + (errors->out_of_memory ? 1 : 0)
-                  : 0; /* without memory there is a note of its own */
+                  : 0; /* when memory is out a separate note is made */
 }
 
 size_t fbd_errors_failed_count(const fbd_errors *errors)
@@ -48,7 +48,7 @@ static char *format_text(struct arena *arena, const char *format, va_list args)
     return text;
 }
 
-/* A message on one line, without what a terminal would obey: what a file says is quoted in it. */
+/* A message on one line, with control characters of quoted text escaped. */
 static const char *shown_text(struct arena *arena, const char *text)
 {
     bool plain = true;
@@ -241,7 +241,7 @@ static bool starts_with(const char *name, const char *start)
 
 const char *diag_nearest(fbd_errors *errors, const char *wrong, const char *const *names, size_t count)
 {
-    /* A single letter is near to every other: only its case may differ. */
+    /* Any two single letters are at distance 1: for these only the case may differ. */
     size_t best = count, length = strlen(wrong), least = length > 1 ? 1 + length / 3 : 0;
     for (size_t i = 0; i < count; i++) {
         size_t d =
@@ -263,7 +263,7 @@ const char *diag_nearest(fbd_errors *errors, const char *wrong, const char *cons
     return count ? diag_hint(errors, "one of: %s%s", list, count > most_listed ? ", ..." : "") : NULL;
 }
 
-/* ---- taking back */
+/* ---- removal of notes */
 
 struct diag_mark diag_mark(const fbd_errors *errors)
 {
@@ -283,7 +283,7 @@ void diag_take_back(fbd_errors *errors, struct diag_mark mark)
     errors->sorted = NULL;
 }
 
-/* ---- showing */
+/* ---- output */
 
 static bool stands_after(const fbd_error *a, const fbd_error *b)
 {
@@ -305,7 +305,7 @@ static bool sort_notes(fbd_errors *errors)
     return true;
 }
 
-/* Without memory to sort them they are still there, in the order in which they were found. */
+/* If memory for sorting is out, the notes are returned in the order of discovery. */
 static const fbd_error *unsorted(const fbd_errors *errors, size_t index)
 {
     const struct diag_note *note = errors->first;
@@ -349,7 +349,7 @@ size_t fbd_escape(const char *text, char *shown, size_t room)
     return length;
 }
 
-/* The name of a file is kept as it is, so that a program can open it, and shown without harm. */
+/* The stored name of a file is unchanged, so that a program can open it; for output it is escaped. */
 static void print_shown(FILE *stream, const char *text)
 {
     while (*text) {
@@ -363,7 +363,7 @@ void fbd_errors_print(fbd_errors *errors, FILE *stream)
 {
     if (!stream) return;
     const fbd_error *e;
-    if (errors && errors->out_of_memory) { /* what else is noted may come of that */
+    if (errors && errors->out_of_memory) { /* other notes may be a consequence */
         fputs("error: out of memory [out-of-memory]\n", stream);
         return;
     }

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Diagnostics: everything that is wrong with a file, collected in the order of discovery and sorted by
- * position when it is shown. The public face is `fbd_errors` in fbd.h.
+ * Diagnostics: all faults of a file, collected in the order of discovery and sorted by position for display.
+ * The public interface is `fbd_errors` in fbd.h.
  */
 #ifndef FBD_BASE_DIAG_H
 #define FBD_BASE_DIAG_H
@@ -9,7 +9,7 @@
 #include "base/arena.h"
 #include "fbd.h"
 
-/* A place in a text; line and column are 1-based, 0 means unknown. */
+/* A position in a text; line and column are 1-based, 0 means unknown. */
 struct pos {
     int line, column;
 };
@@ -19,7 +19,7 @@ struct diag_note {
     struct diag_note *next;
 };
 
-/* A file that was read, or that reading was tried of. */
+/* A file that was read, or could not be read. */
 struct diag_file {
     const char *path;
     struct diag_file *next;
@@ -31,15 +31,15 @@ struct fbd_errors {
     struct diag_file *files;
     fbd_error **sorted; /* filled by diag_get */
     size_t count, errors, limit;
-    const char *file; /* file name of notes that are added now */
+    const char *file; /* file name of notes added from now on */
     bool out_of_memory;
 };
 
-/* Add a note. `id` must be a string literal; `hint` may be NULL. `format` makes the message. */
+/* Add a note. `id` must be a string literal; `hint` may be NULL. The message is formatted by `format`. */
 void diag_add(fbd_errors *errors, fbd_severity severity, const char *id, struct pos at, const char *hint,
               const char *format, ...) __attribute__((format(printf, 6, 7)));
 
-/* The same, saying also what was being read (`context`), as for a YAML error far from its cause. */
+/* The same with the construct that was being read (`context`), as for a YAML error far from its cause. */
 void diag_add_within(fbd_errors *errors, const char *id, struct pos at, struct pos context, const char *hint,
                      const char *format, ...) __attribute__((format(printf, 6, 7)));
 
@@ -49,7 +49,7 @@ const char *diag_hint(fbd_errors *errors, const char *format, ...) __attribute__
 /* A hint "did you mean 'x'?" for the nearest of `names`, or a list of them when none is near. */
 const char *diag_nearest(fbd_errors *errors, const char *wrong, const char *const *names, size_t count);
 
-/* Where a list ends, and take back all that was noted since: what was read is read again. */
+/* The present end of a list; the second function removes all notes added since. */
 struct diag_mark {
     struct diag_note *last;
     size_t count, errors;
@@ -59,26 +59,26 @@ void diag_take_back(fbd_errors *errors, struct diag_mark mark);
 
 void diag_out_of_memory(fbd_errors *errors);
 
-/* Notes that are added now are of this file (NULL: of none). The name is copied: notes outlive a model. */
+/* Notes added from now on belong to this file (NULL: to none). The name is copied: notes outlive a model. */
 void diag_in_file(fbd_errors *errors, const char *file);
 
-/* Note `index` as fbd_errors_get gives it, or NULL past the end; lives as long as the list. */
+/* Note `index` in the order of fbd_errors_get, or NULL past the end; lives as long as the list. */
 const fbd_error *diag_get(fbd_errors *errors, size_t index);
 
-/* This file is going to be read: fbd_errors_file tells of it, once. */
+/* Add a file that is going to be read to the list of fbd_errors_file, once. */
 void diag_reads(fbd_errors *errors, const char *path);
 
-/* A call of the public interface. Within it fbd_errors_failed_count counts the errors of this call alone, so that a
- * list with earlier ones can be used again; and a caller who gives no list gets none. */
+/* A call of the public interface. Within it fbd_errors_failed_count counts the errors of this call alone, so
+ * that a list with earlier errors can be used again; for a caller without a list the errors are discarded. */
 struct diag_call {
-    fbd_errors own;     /* takes the place of a list that was not given */
-    fbd_errors *errors; /* the list that was given, or NULL */
-    size_t earlier;     /* errors that were in it */
+    fbd_errors own;     /* replaces a list that is NULL */
+    fbd_errors *errors; /* the caller's list, or NULL */
+    size_t earlier;     /* number of earlier errors in it */
     bool earlier_out_of_memory;
     const char *file;
 };
 
-/* The list for this call; it is to be ended by diag_end. Calls may be nested. */
+/* The list for this call, which ends with diag_end. Calls may be nested. */
 fbd_errors *diag_begin(struct diag_call *call, fbd_errors *errors);
 void diag_end(struct diag_call *call);
 

@@ -1,16 +1,16 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Double-double arithmetic: a number as the unevaluated sum of two doubles, x + rest with |rest| <= ulp(x) / 2, which
- * has some 32 digits.
+ * Double-double arithmetic: a number as the unevaluated sum of two doubles, x + rest with |rest| <= ulp(x) /
+ * 2, which has some 32 digits.
  *
- * The rounding error of a sum and of a product of doubles is itself a double, and can be had:
+ * The rounding error of a sum and of a product of doubles is itself a double, and can be computed:
  *
  *     a + b = s + e,  s = fl(a + b),  z = fl(s - a),  e = fl(fl(a - fl(s - z)) + fl(b - z))    (Knuth)
  *     a * b = p + e,  p = fl(a * b),  e = fma(a, b, -p), rounded once
  *
- * exactly, for operands of any order of size, as long as nothing overflows and the product's error is no
- * denormal number. The operations below add up such errors to first order and leave some eps^2 = 5e-32 of the
- * result (of the operands, where they cancel).
+ * exactly, for operands of any order of size, as long as nothing overflows and the product's error is not
+ * denormal. The operations below add up such errors to first order, with an error of some eps^2 = 5e-32 of
+ * the result (of the operands, where they cancel).
  *
  * Source: T. J. Dekker, A floating-point technique for extending the available precision, Numer. Math. 18
  * (1971) 224; D. E. Knuth, The Art of Computer Programming 2, 4.2.2; J.-M. Muller et al., Handbook of
@@ -25,7 +25,7 @@ struct double_double {
     double x, rest;
 };
 
-/* The sum of two doubles, exactly. What is not finite has no rest. */
+/* The sum of two doubles, exactly. The rest of a sum that is not finite is 0. */
 static inline struct double_double dd_sum(double a, double b)
 {
     double s = a + b, z = s - a, rest = (a - (s - z)) + (b - z);
@@ -44,7 +44,7 @@ static inline double dd_value(struct double_double a)
     return a.x + a.rest;
 }
 
-/* a.x + b.x with what both leave. */
+/* a.x + b.x with the rests of both. */
 static inline struct double_double dd_add(struct double_double a, struct double_double b)
 {
     struct double_double s = dd_sum(a.x, b.x);
@@ -68,7 +68,7 @@ static inline struct double_double dd_multiply(struct double_double a, struct do
     return isfinite(rest) ? dd_sum(p.x, rest) : p;
 }
 
-/* The quotient q of the leading parts, and what a - q b leaves of it. */
+/* The quotient q of the leading parts, corrected by the remainder a - q b. */
 static inline struct double_double dd_divide(struct double_double a, struct double_double b)
 {
     double q = a.x / b.x;

@@ -5,8 +5,8 @@
 #include <stdbool.h>
 #include <string.h>
 
-/* 128 bits hold all products here. Compilers for 32 bits have no such integer; there every fraction is left to
- * others. */
+/* 128 bits hold all products here. Compilers for 32 bits have no such integer; there every fraction returns
+ * -1. */
 #ifdef __SIZEOF_INT128__
 __extension__ typedef unsigned __int128 wide;
 enum { wide_bits = 128 };
@@ -61,8 +61,8 @@ static uint64_t round_to(const struct scaled *scaled, wide step)
     return (uint64_t)floor + up;
 }
 
-/* A decimal reads back as the value when it lies within half a unit of its last place; at just that half when the
- * value is the even one of the two. */
+/* A decimal reads back as the value if it is within half a unit of its last place; at exactly half a unit if
+ * the value is the even one. */
 static bool reads_back(const struct scaled *scaled, uint64_t decimal, wide step)
 {
     wide number = scaled->m * scaled->u, there = decimal * step * scaled->d;
@@ -105,7 +105,8 @@ static int write_decimal(char *buffer, uint64_t decimal, int count, int exponent
 
 static const uint64_t ten_to_16 = UINT64_C(10000000000000000);
 
-/* The number scaled to 17 digits before the point; false where it is not known. `exponent` of the first. */
+/* Scale the number to 17 digits before the point; false outside the supported range. `exponent` is that of
+ * the first digit. */
 static bool scale_to_17(double value, struct scaled *scaled, int *exponent)
 {
     *exponent = (int)floor(log10(value));
@@ -123,13 +124,13 @@ static bool scale_to_17(double value, struct scaled *scaled, int *exponent)
     return false;
 }
 
-/* What is common to all: the sign, and numbers that are left to others. False for those. */
+/* The part common to all functions: the sign, and the check of the range. False outside it. */
 static bool begin(struct scaled *scaled, int *exponent, double value)
 {
     return value != 0 && isfinite(value) && scale_to_17(fabs(value), scaled, exponent);
 }
 
-/* Write a decimal of so many digits, 9.99... of which may have become 10. */
+/* Write a decimal of so many digits; rounding of 9.99... may have given 10. */
 static int write_rounded(char *buffer, bool minus, uint64_t decimal, int digits, uint64_t limit, int exponent)
 {
     bool carried = decimal >= limit;
@@ -137,7 +138,7 @@ static int write_rounded(char *buffer, bool minus, uint64_t decimal, int digits,
     return minus + write_decimal(buffer, carried ? decimal / 10 : decimal, digits, exponent + carried);
 }
 
-/* A count: its digits, without a power of ten. */
+/* Write the digits of an integer, without a power of ten. */
 static int write_whole(char *buffer, uint64_t whole)
 {
     char digits[most_digits];
@@ -158,7 +159,7 @@ int dtoa_shortest(char buffer[dtoa_size], double value)
     if (value >= 0 && value < largest_whole && !signbit(value) && value == (double)(uint64_t)value)
         return write_whole(buffer, (uint64_t)value);
     if (!begin(&scaled, &exponent, value)) return -1;
-    if (scaled.m == least_mantissa) return -1; /* its neighbours are not equally far */
+    if (scaled.m == least_mantissa) return -1; /* the distances to its neighbours differ */
     wide step = 100;
     uint64_t limit = ten_to_16 / 10;
     for (int digits = most_digits - 2; digits <= most_digits; digits++, step /= 10, limit *= 10) {

@@ -26,7 +26,7 @@ static void cannot_read(fbd_errors *errors, const char *path, const char *why)
     diag_add(errors, FBD_ERROR, "cannot-read", (struct pos){0, 0}, hint, "cannot read the file: %s", why);
 }
 
-/* The whole of a stream, with a zero behind it, or NULL with *why, which is NULL when memory is out. */
+/* Read the whole of a stream, with a zero behind it; NULL with *why, which is NULL when memory is out. */
 static char *read_stream(FILE *stream, size_t *length, const char **why)
 {
     size_t room = 16384;
@@ -87,7 +87,7 @@ static FILE *open_plain(const char *path, const char **why)
     return stream;
 }
 
-/* Do not open an open file again: a pipe whose writer has ended would wait for another. */
+/* Do not reopen an open file: a pipe whose writer has ended would wait for another. */
 static FILE *open_stream(const char *path, const char **why)
 {
     int number = number_of(path), copy = number < 0 ? -1 : dup(number);

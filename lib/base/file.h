@@ -7,14 +7,14 @@
 
 #include "fbd.h"
 
-/* The whole of a plain file, of standard input ("-") or of an open file (/dev/fd/3), with a zero behind it, to be
- * freed with free(); NULL with a note `cannot-read`. */
+/* Read the whole of a plain file, of standard input ("-") or of an open file (/dev/fd/3), with a zero behind
+ * it, to be freed with free(); NULL with a note `cannot-read`. */
 char *file_text(const char *path, size_t *length, fbd_errors *errors);
 
-/* The same of a text that the caller keeps; NULL, and noted, when memory is out. */
+/* A copy of a text owned by the caller; NULL with a note when memory is out. */
 char *file_copy(const char *text, size_t length, fbd_errors *errors);
 
-/* What messages call it. */
+/* The name of a file in messages. */
 const char *file_name(const char *path);
 
 #endif

@@ -7,8 +7,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-/* The C locale is a constant of the C library (glibc, musl): asking for it takes no memory and cannot fail.
- * uselocale is a matter of this thread alone. */
+/* The C locale is a constant of the C library (glibc, musl): newlocale allocates no memory for it and cannot
+ * fail. uselocale affects this thread only. */
 int format_list(char *buffer, size_t size, const char *format, va_list args)
 {
     locale_t plain = newlocale(LC_ALL_MASK, "C", (locale_t)0);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Vectors of two doubles, which every processor has. Each component is rounded as a scalar is.
+ * Vectors of two doubles, which every supported processor has. Each component is rounded as a scalar.
  */
 #ifndef FBD_BASE_SIMD2_H
 #define FBD_BASE_SIMD2_H

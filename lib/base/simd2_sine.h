@@ -8,7 +8,7 @@
 #include "base/simd2.h"
 #include "base/sine.h"
 
-/* Zero where it is the rounding of a quarter turn: vec_without_rounding. */
+/* Set components to zero that are the rounding of a quarter turn: vec_without_rounding. */
 static inline simd2 simd2_without_rounding(simd2 x)
 {
     const simd2_bits size = (simd2_bits)x & LLONG_MAX;

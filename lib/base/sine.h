@@ -1,17 +1,19 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Sine by operations that every processor rounds alike, one number at a time or as many as a vector has: what a run
- * computes alone and in a batch (batch.h) has the same bits, with every mathematics library.
+ * Sine by operations that every processor rounds alike, one number at a time or in vectors: a run computed
+ * alone and in a SIMD batch (batch.h) has the same bits, with every mathematics library.
  *
- * Derivation. x = n pi/2 + r with the whole number n next to x 2/pi. pi/2 is the sum of three parts; the first two have 33
- * bits, so that n times each of them, and with it both differences, are exact up to n = 2^20 (W. J. Cody, W. Waite, Software
- * Manual for the Elementary Functions, 1980). r is kept as y0 + y1. The third part and its product are rounded, to n 2^-120
- * in all: looked at for each n, the double next to n pi/2 has an r that this leaves known to 0.24 of its rounding up to
- * n = 14,500, and to 0.76 up to 2^17. Then sin r or cos r by the polynomials of fdlibm (K. C. Ng, Sun Microsystems, 1993:
- * k_sin.c, k_cos.c), as n says, in an order of sums by which little waits for what comes before it: where states follow from each
- * other, that is the time of a sine. Measured against quadruple precision: at most 0.79 of a rounding of the result.
+ * Derivation. x = n pi/2 + r with the integer n nearest to x 2/pi. pi/2 is the sum of three parts; the first
+ * two have 33 bits, so that n times each of them, and with it both differences, are exact up to n = 2^20 (W.
+ * J. Cody, W. Waite, Software Manual for the Elementary Functions, 1980). r is kept as y0 + y1. The third
+ * part and its product are rounded, with a total error of n 2^-120: checked for each n, for the double
+ * nearest to n pi/2 this error is 0.24 of the rounding of r up to n = 14,500, and 0.76 up to 2^17. Then sin r
+ * or cos r, depending on n, by the polynomials of fdlibm (K. C. Ng, Sun Microsystems, 1993: k_sin.c,
+ * k_cos.c), summed in an order with few dependent operations: where each state depends on the one before,
+ * latency is the cost of a sine. Measured against quadruple precision: at most 0.79 of a rounding of the
+ * result.
  *
- * Beyond 20,000 rad, and for what is no number, it is that of the mathematics library.
+ * Beyond 20,000 rad, and for infinity and NaN, the result is that of the mathematics library.
  */
 #ifndef FBD_BASE_SINE_H
 #define FBD_BASE_SINE_H
@@ -24,7 +26,7 @@
 /* The largest |x| that is reduced here. */
 #define SINE_MOST 20000.0
 
-/* For a number x, or a vector of them: y0 + y1 = r; the last two bits of `shifted` are those of n. */
+/* For a scalar or vector x: y0 + y1 = r; the last two bits of `shifted` are those of n. */
 #define SINE_REDUCE(number, x, shifted, y0, y1)                                                              \
     do {                                                                                                     \
         const double whole_ = 6755399441055744.0; /* 1.5 2^52, whose last bit is 1 */                        \
@@ -70,7 +72,7 @@ static inline double sine(double x)
     return quarter & 2 ? -result : result;
 }
 
-/* Both of an angle. */
+/* Cosine and sine of an angle. */
 static inline void cosine_and_sine(double x, double *cosine, double *sine)
 {
     if (!(fabs(x) <= SINE_MOST)) {
@@ -90,7 +92,7 @@ static inline void cosine_and_sine(double x, double *cosine, double *sine)
     *cosine = (quarter + 1) & 2 ? -c : c;
 }
 
-/* vec_unit by these: in the right-hand sides of small trees. */
+/* vec_unit by these functions: in the right-hand sides of small trees. */
 static inline struct vec unit_by_sine(double angle)
 {
     struct vec unit;

@@ -55,7 +55,7 @@ void text_heading(struct text *text, const char *title)
     if (title[0]) text_add(text, "\n\n");
 }
 
-/* Mostly there is room, and one pass is enough. */
+/* Usually there is room, and one pass is enough. */
 void text_printf(struct text *text, const char *format, ...)
 {
     va_list args, again;
@@ -79,7 +79,7 @@ void text_printf(struct text *text, const char *format, ...)
 void text_number(struct text *text, double value, int digits)
 {
     char buffer[64];
-    double shown = value == 0 ? 0.0 : value; /* -0 and 0 read the same */
+    double shown = value == 0 ? 0.0 : value; /* write -0 as 0 */
     if (dtoa_rounded(buffer, shown, digits) < 0 &&
         format_into(buffer, sizeof buffer, "%.*g", digits, shown) < 0)
         return;
@@ -107,7 +107,7 @@ void text_pad(struct text *text, size_t column)
     text->data[text->length] = '\0';
 }
 
-/* JSON has \uXXXX for half a pair of surrogates, and no way to keep a byte that is no UTF-8. */
+/* JSON writes surrogate pairs as two \uXXXX, and cannot represent a byte that is not UTF-8. */
 static void json_escape(struct text *text, unsigned code)
 {
     const unsigned first = 0x10000;

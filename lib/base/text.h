@@ -15,17 +15,17 @@ struct text {
     bool odd;    /* a number that is not finite was written */
 };
 
-/* Room for `more` bytes and the end; false when memory is out. */
+/* Reserve room for `more` bytes and the terminating zero; false when memory is out. */
 bool text_reserve(struct text *text, size_t more);
 
 void text_add(struct text *text, const char *string);
 void text_add_bytes(struct text *text, const char *bytes, size_t length);
 void text_printf(struct text *text, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
-/* A text that somebody else wrote (a title, an expression, a path), as it is shown: base/utf8.h. */
+/* Append external text (a title, an expression, a path) with control characters escaped: base/utf8.h. */
 void text_shown(struct text *text, const char *string);
 
-/* A title above what follows, and a line between; nothing for "". */
+/* A title above the following text, and a line between; no output for "". */
 void text_heading(struct text *text, const char *title);
 
 /* `value` with `digits` significant digits as %g writes it, always with a decimal point. */
@@ -34,18 +34,18 @@ void text_number(struct text *text, double value, int digits);
 /* The shortest decimal that reads back as `value`. */
 void text_exact(struct text *text, double value);
 
-/* Pad with blanks up to display column `column` of the current line (UTF-8 counted by characters); where the line is that
- * long already, with one, if it does not end with one. */
+/* Pad with blanks up to display column `column` of the current line (UTF-8 counted by characters); a line
+ * that is already as long gets one blank, unless it ends with one. */
 void text_pad(struct text *text, size_t column);
 
 /* `string` between double quotes with JSON's escapes. */
 void text_json_string(struct text *text, const char *string);
 
-/* `"name": ` before a value; a number with all its digits, null for what JSON has no number for. */
+/* `"name": ` before a value; a number with all its digits, null for infinity and NaN. */
 void text_json_key(struct text *text, const char *name);
 void text_json_number(struct text *text, double value);
 
-/* A member of an object, `behind` what follows it: ", " or "}". */
+/* A member of an object, followed by `behind`: ", " or "}". */
 void text_json_member(struct text *text, const char *name, double value, const char *behind);
 void text_json_words(struct text *text, const char *name, const char *value, const char *behind);
 void text_json_flag(struct text *text, const char *name, bool value, const char *behind);

@@ -2,14 +2,15 @@
  *
  * Time in double-double arithmetic: t + rest, the unevaluated sum of two doubles.
  *
- * At t = 1e5 s adjacent doubles are 1.5e-11 s apart. The root of an event function is found relative to the start of
- * the step, and so is the length of a pulse of a nanosecond: both are known much better than that. If the time of an
- * event were rounded to a double, a body of velocity v would be off by v 1.5e-11 s after each event, and by a thousand
- * times that after 1e6 events. Two runs with different steps would not show it, since they round alike.
+ * At t = 1e5 s adjacent doubles are 1.5e-11 s apart. The root of an event function is found relative to the
+ * start of the step, and so is the length of a pulse of a nanosecond: both are much more accurate than that.
+ * If the time of an event were rounded to a double, a body of velocity v would be off by v 1.5e-11 s after
+ * each event, and by a thousand times that after 1e6 events. Two runs with different steps would not show it,
+ * since they round alike.
  *
- * The start and the end of a step are therefore kept as t + rest. The step size is a double, the rounded difference of
- * the two. Forces, expressions and output use t, the nearest double. Only events have a rest: all other steps end at
- * doubles.
+ * The start and the end of a step are therefore kept as t + rest. The step size is a double, the rounded
+ * difference of the two. Forces, expressions and output use t, the nearest double. Only events have a rest:
+ * all other steps end at doubles.
  */
 #ifndef FBD_BASE_TIME_DD_H
 #define FBD_BASE_TIME_DD_H

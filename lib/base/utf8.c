@@ -27,7 +27,7 @@ size_t utf8_decode(const char *text, size_t length, unsigned *code)
     return width;
 }
 
-/* Unicode's categories Cc, Cf, Zl and Zp, what it calls default ignorable, and the noncharacters of a block:
+/* Unicode's categories Cc, Cf, Zl and Zp, the property Default_Ignorable, and the noncharacters of a block:
  * first and last of each run, in order. */
 static const unsigned hidden[][2] = {
     {0x0000, 0x001F},   {0x007F, 0x009F},   {0x00AD, 0x00AD},   {0x034F, 0x034F},   {0x0600, 0x0605},
@@ -42,7 +42,7 @@ bool utf8_is_plain(unsigned code)
 {
     size_t low = 0, high = sizeof hidden / sizeof *hidden;
     if (code >= ' ' && code <= '~') return true;
-    if ((code & 0xFFFE) == 0xFFFE) return false; /* the last two of each plane are no characters */
+    if ((code & 0xFFFE) == 0xFFFE) return false; /* the last two of each plane are noncharacters */
     while (low < high) {
         size_t middle = (low + high) / 2;
         if (code > hidden[middle][1])

@@ -7,8 +7,8 @@
 
 #include <math.h>
 
-/* The larger one, or NaN where one of them is: what fmax forgets counts as too large in every comparison that
- * is written as !(x <= most). */
+/* The larger one, or NaN if one of them is: fmax would ignore a NaN, which must count as too large in every
+ * comparison of the form !(x <= most). */
 static inline double larger(double a, double b)
 {
     return a > b || isnan(a) ? a : b;
@@ -50,7 +50,8 @@ static inline struct vec vec_perp(struct vec a)
     return (struct vec){-a.y, a.x};
 }
 
-/* sqrt(x^2 + y^2), by hypot only where the squares would overflow or lose digits; what rests has neither. */
+/* sqrt(x^2 + y^2), by hypot only where the squares would overflow or lose digits; the zero vector needs
+ * neither. */
 static inline double vec_norm(struct vec a)
 {
     const double least = 1e-280, most = 1e280;
@@ -65,8 +66,8 @@ static inline struct vec vec_cos_sin(double angle)
     return (struct vec){cos(angle), sin(angle)};
 }
 
-/* Of a unit vector: a component that is the rounding of a quarter turn is zero, so that what acts straight up
- * does not push sideways by 1e-16. */
+/* Set a component of a unit vector to zero if it is the rounding of a quarter turn, so that a vertical force
+ * has no horizontal component of 1e-16. */
 static inline struct vec vec_without_rounding(struct vec u)
 {
     const double rounding = 2.5e-16;
@@ -79,7 +80,7 @@ static inline struct vec vec_unit(double angle)
     return vec_without_rounding(vec_cos_sin(angle));
 }
 
-/* `a` turned by the rotation whose cosine and sine are the components of `r`. */
+/* `a` rotated by the rotation whose cosine and sine are the components of `r`. */
 static inline struct vec vec_turn(struct vec r, struct vec a)
 {
     return (struct vec){r.x * a.x - r.y * a.y, r.y * a.x + r.x * a.y};

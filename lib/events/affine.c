@@ -5,7 +5,7 @@
 
 #include "events/enclosure.h"
 
-/* ---- what is affine */
+/* ---- affine functions */
 
 static bool add_term(struct affine *f, int component, double factor)
 {
@@ -30,7 +30,8 @@ static bool add_terms(const struct plan *plan, const struct range *range, int sl
     return true;
 }
 
-/* Add `factor` times the sum of forces in a slot of a body of which enclosure.h knows all; false when it is not affine. */
+/* Add `factor` times the sum of forces in a slot of a body (see enclosure_is_known); false when it is not
+ * affine. */
 static bool add_slot(const struct plan *plan, int body, int slot, double factor, struct affine *f)
 {
     const struct body_terms *terms = &plan->bodies[body];
@@ -44,7 +45,7 @@ static bool add_slot(const struct plan *plan, int body, int slot, double factor,
            add_terms(plan, &terms->across, slot, factor, f);
 }
 
-/* Friction one of whose coefficients is a number beside zero is never idle (friction_is_idle). */
+/* Friction with a constant coefficient other than zero is never idle (friction_is_idle). */
 static bool may_idle(const struct mode *mode)
 {
     return (mode->mu_s.expr || mode->mu_s.constant == 0) && (mode->mu_k.expr || mode->mu_k.constant == 0);
@@ -60,7 +61,7 @@ static bool find_slip_stop(const struct fbd_state *state, const struct watcher *
     return add_term(f, plan->n + mode->coordinate, slip);
 }
 
-/* The limit under a load across that is a number. */
+/* The friction limit under a constant normal load. */
 static bool find_limit(const struct fbd_state *state, int pair, double *limit)
 {
     const struct plan *plan = &state->model->plan;
@@ -77,7 +78,7 @@ static bool find_limit(const struct fbd_state *state, int pair, double *limit)
     return true;
 }
 
-/* With the room for rounding that friction_rounding gives. */
+/* With the rounding tolerance of friction_rounding. */
 static bool find_stick_limit(const struct fbd_state *state, const struct watcher *watcher, struct affine *f)
 {
     const struct plan *plan = &state->model->plan;
@@ -110,7 +111,7 @@ double affine_value(const struct affine *f, const double *y, const double *dy, d
     return f->constant + sum + f->roundings * DBL_EPSILON * (fabs(sum) + f->limit);
 }
 
-/* ---- over a piece of the course */
+/* ---- over a piece of the trajectory */
 
 /* Add one component; false where it is not followed. */
 static bool add_component(const struct trajectory *trajectory, int component, double factor, struct affine *f)
@@ -132,7 +133,7 @@ static bool add_component(const struct trajectory *trajectory, int component, do
     return true;
 }
 
-/* Leave out highest powers, with their share of |f''|. */
+/* Omit the highest powers, and sum up their part of |f''|. */
 static void set_rough(struct affine *f)
 {
     const double negligible = 1.0 / 1024;
@@ -173,7 +174,7 @@ static bool is_followed(struct affine *f, const struct trajectory *trajectory)
     return f->top >= 0;
 }
 
-/* By the powers up to `top`. */
+/* Sum of the powers up to `top`. */
 static double value_at(const struct affine *f, int top, double s, double *slope)
 {
     double value = f->power[top], rate = 0;
@@ -185,9 +186,9 @@ static double value_at(const struct affine *f, int top, double s, double *slope)
     return value;
 }
 
-/* With |f''| <= B: |f - f(s0) - f'(s0) x| <= B x^2/2 and |f' - f'(s0)| <= B |x|. Wider than what trajectory_poly.c makes of all powers of a
- * series by little where they fall like those of a step of a method, and by far less work. Over long stretches B is so much that
- * the high powers do not matter. */
+/* With |f''| <= B: |f - f(s0) - f'(s0) x| <= B x^2/2 and |f' - f'(s0)| <= B |x|. The bounds are slightly
+ * wider than those of trajectory_poly.c from all powers if these fall like those of a step of a method, and
+ * cost far less. Over long stretches B is so large that the high powers do not matter. */
 bool affine_enclose(struct affine *f, const struct trajectory *trajectory, const struct stretch *stretch,
                     struct enclosure *out)
 {
@@ -201,14 +202,14 @@ bool affine_enclose(struct affine *f, const struct trajectory *trajectory, const
     out->value = interval_widen(value - reach, value + reach + f->slack, 1);
     out->rate = interval_widen((slope - steep) * f->per, (slope + steep) * f->per, 3);
     out->middle =
-        interval_widen(value - f->doubt, value + f->doubt + f->slack, 1); /* as wide as its rounding */
+        interval_widen(value - f->doubt, value + f->doubt + f->slack, 1); /* width: its round-off level */
     return true;
 }
 
-/* ---- its zero */
+/* ---- zero */
 
-/* Newton, in a bracket that is halved where he leaves it. A step d leaves an error of
- * f'' d^2/(2 f'). */
+/* Newton's method, in a bracket that is halved where an iterate leaves it. A step d leaves an error of f''
+ * d^2/(2 f'). */
 double affine_zero(struct affine *f, const struct trajectory *trajectory, double low, double high)
 {
     enum { most_steps = 60 };

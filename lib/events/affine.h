@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Affine: event functions that are f = c + sum_k a_k y_k as long as the modes last.
+ * Event functions that are f = c + sum_k a_k y_k while the modes last.
  *
- * So is the speed of a pair on a surface of constant speed, and what is left to the limit of friction while it sticks
- * under constant loads across, springs and dampers along. Where a step is a polynomial, f is one: its bounds are those of
- * one polynomial instead of a formula of intervals for each, and its zero is found without samples.
+ * Examples are the speed of a pair on a surface of constant speed, and the distance to the friction limit
+ * while it sticks, with constant normal loads and tangential springs and dampers. Where a step is a
+ * polynomial, f is one: its bounds are those of one polynomial instead of a formula of intervals, and its
+ * zero is found without samples.
  */
 #ifndef FBD_EVENTS_AFFINE_H
 #define FBD_EVENTS_AFFINE_H
@@ -19,37 +20,35 @@ struct watcher;
 struct affine {
     bool known;
     double constant;
-    double limit,
-        roundings; /* f is let go below zero by so many roundings of the limit and of sum |a_k y_k| */
+    double limit, roundings; /* f may be negative by so many roundings of the limit and of sum |a_k y_k| */
     int count;
     struct {
         int component; /* of y */
         double factor;
     } terms[affine_most_terms];
-    /* Over a piece of the course: */
+    /* Over a piece of the trajectory: */
     unsigned long piece; /* its number, 0: none */
     double middle, per;  /* s = (t - middle) per */
-    int top;             /* of the powers of s, below zero where the course does not tell */
-    int rough;           /* of those that tell enough over long stretches */
+    int top;             /* highest power of s, below zero where the trajectory is not followed */
+    int rough;           /* highest power that suffices over long stretches */
     double power[trajectory_most_powers + 1];
     double extent; /* sum of the sizes of terms */
     double doubt, slack;
-    double bend,
-        rest; /* what |f''| is at most, with d/ds; the share of that which the rough one leaves out */
+    double bend, rest; /* bound of |f''|, with d/ds; the part of it outside the rough polynomial */
 };
 
-/* What the function of a watcher is in the modes of `state`. */
+/* Set f to the function of a watcher in the modes of `state`. */
 void affine_find(const struct fbd_state *state, const struct watcher *watcher, struct affine *f);
 
-/* f and its rate at a state that changes by dy. */
+/* f and its rate at a state with the derivative dy. */
 double affine_value(const struct affine *f, const double *y, const double *dy, double *rate);
 
-/* f over a stretch of the present piece of the course; false where it is not followed there. */
+/* Enclose f over a stretch of the present piece of the trajectory; false where it is not followed. */
 bool affine_enclose(struct affine *f, const struct trajectory *trajectory, const struct stretch *stretch,
                     struct enclosure *out);
 
-/* Where f passes from above to below zero within [low, high] of the present piece, to rounding; NAN where its sign at the
- * ends does not tell that it does, or the course is not that of the method itself. */
+/* The time at which f becomes negative within [low, high] of the present piece, to rounding; NAN if f does
+ * not change sign between the ends, or the trajectory is not that of the method itself. */
 double affine_zero(struct affine *f, const struct trajectory *trajectory, double low, double high);
 
 #endif

@@ -9,10 +9,10 @@
 #include "integrate/switcher.h"
 
 struct mechanism {
-    bool coupled; /* a row takes part in it */
-    double arm;   /* [m] the longest from a joint to what it carries or is coupled by */
-    double speed; /* [m/s] the largest of a link, turning at that arm */
-    double way;   /* [m] the longest that a coordinate has gone since, turning at that arm */
+    bool coupled; /* a constraint row belongs to it */
+    double arm;   /* [m] largest distance from a joint to a carried joint or coupling point */
+    double speed; /* [m/s] largest speed of a link, or angular speed times arm */
+    double way;   /* [m] largest displacement of a coordinate since the join, or rotation times arm */
 };
 
 bool coupled_scales_init(struct coupled_scales *mechanisms, const struct fbd_model *model,
@@ -29,7 +29,7 @@ bool coupled_scales_init(struct coupled_scales *mechanisms, const struct fbd_mod
     return true;
 }
 
-/* Disjoint sets with halved paths (Tarjan and van Leeuwen, Journal of the ACM 31 (1984) 245). */
+/* Disjoint sets with path halving (Tarjan and van Leeuwen, Journal of the ACM 31 (1984) 245). */
 static int find(int *of, int link)
 {
     while (of[link] != link) link = of[link] = of[of[link]];
@@ -41,13 +41,13 @@ static void unite(int *of, int a, int b)
     of[find(of, a)] = find(of, b);
 }
 
-/* Once all are united and `of` names the one that stands for them. */
+/* After all unions, when `of` holds the representatives. */
 static struct mechanism *mechanism_of(const struct coupled_scales *mechanisms, int link)
 {
     return &mechanisms->members[mechanisms->of[link]];
 }
 
-/* The links that a row joins, without the ground. */
+/* Join the links of a row, except the ground. */
 static void join_row(struct coupled_scales *mechanisms, const struct row *row)
 {
     int first = 0;
@@ -107,7 +107,7 @@ static void measure_link(const struct coupled_scales *mechanisms, const struct f
     }
 }
 
-/* The stepper keeps a floor for good. */
+/* The stepper keeps a floor permanently. */
 static void raise_floor(double *given, struct switcher *stepper, size_t i, double floor)
 {
     if (!(floor > given[i])) return;
@@ -125,7 +125,7 @@ static void give_floors(const struct coupled_scales *mechanisms, const struct me
     size_t first = (size_t)joint->coordinate, end = first + (size_t)joint_freedom(joint->kind);
     for (size_t i = first; i < end; i++) {
         double per = coordinates[i].angle ? mechanism->arm : 1;
-        if (!(per > 0)) continue; /* particles on rods turn nothing */
+        if (!(per > 0)) continue; /* particles on rods have no rotation */
         double way = coordinates[i].angle ? fmin(1, mechanism->way / per) : mechanism->way;
         raise_floor(mechanisms->given, stepper, i, share * way);
         raise_floor(mechanisms->given, stepper, n + i, share * mechanism->speed / per);

@@ -27,7 +27,7 @@ static inline double cubic_at(const struct cubic *c, double s)
 /* A zero of a cubic that changes sign from + to - over [0, 1]: Newton kept inside a shrinking bracket. */
 static inline double cubic_zero(const struct cubic *c)
 {
-    enum { most_steps = 8 }; /* where more are needed the cubic is rounding */
+    enum { most_steps = 8 }; /* if more are needed the cubic is round-off */
     double low = 0, high = 1, s = c->c0 / (c->c0 - cubic_at(c, 1));
     for (int i = 0; i < most_steps && high - low > DBL_EPSILON; i++) {
         if (!(s > low && s < high)) s = (low + high) / 2;

@@ -1,15 +1,16 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Enclosures of the shares of switches that are slid on.
+ * Enclosures of the weights of switches in Filippov sliding modes.
  *
- * The surface of a unit is w = g_x x + g_v v with constant g, or with places alone u' = g v. Along the motion
+ * The surface of a unit is w = g_x x + g_v v with constant g, or with positions alone u' = g v. Along the
+ * motion
  *
  *     w' = g_x v + g_v a = c_0 + sum_l C_l d_l = 0,
  *
- * with d_l = s - 1/2 of unit l (of the sign of each slide), because a formula with one slide is (F+ + F-)/2 + d
- * (F+ - F-), and each of these coordinates has an acceleration of its own, its force by its inertia. Where
- * friction holds a coordinate that is at its place, its sum of forces has the place of w' (sliding.h). With
- * one unit d = -c_0/C, else C has to be constant and is eliminated.
+ * with d_l = s - 1/2 of unit l (with the sign of each switch), because a formula with one sliding switch is
+ * (F+ + F-)/2 + d (F+ - F-), and each of these coordinates has an acceleration independent of the others: its
+ * force divided by its inertia. Where friction keeps the coordinate of the surface at rest, its sum of forces
+ * replaces w' (sliding.h). With one unit d = -c_0/C, else C has to be constant and is eliminated.
  */
 #include <string.h>
 
@@ -42,7 +43,7 @@ struct enclosure enclose_branch(const struct enclosure_input *o, const struct fo
     return expr_enclose(formula->expr, o->stretch, o->y, branches);
 }
 
-/* ---- are they known? */
+/* ---- existence */
 
 static bool has_slides(const struct fbd_state *state, const struct formula *formula)
 {
@@ -51,8 +52,8 @@ static bool has_slides(const struct fbd_state *state, const struct formula *form
     return slides > 0;
 }
 
-/* Slides act on a coordinate through terms of its own slot, one in each formula; not through the normal force or
- * the coefficient of its friction. */
+/* Sliding modes act on a coordinate through terms of its own slot, one in each formula; not through the
+ * normal force or the coefficient of its friction. */
 static bool knows_body(const struct fbd_state *state, int body)
 {
     const struct plan *plan = &state->model->plan;
@@ -85,20 +86,20 @@ bool enclosure_has_weights(const struct fbd_state *state)
         if (expr_switch_degree(kink->formula.expr, (size_t)s->slides[j].part, 2 * n) != expr_affine)
             return false;
         for (size_t k = 0; k < count; k++) {
-            if (slots[k] > 2 * n) return false; /* states and places */
+            if (slots[k] > 2 * n) return false; /* user states and positions */
             if (!knows_body(state, model->scene->coordinates[(slots[k] - 1) % n].body)) return false;
         }
     }
     return true;
 }
 
-/* ---- their equations */
+/* ---- equations */
 
 struct equations {
     struct enclosure c[most_enclosed_units], C[most_enclosed_units][most_enclosed_units];
 };
 
-/* The friction of what slips there, without shares. */
+/* The friction force of a slipping pair, without sliding modes. */
 static struct enclosure friction_of(const struct enclosure_input *o, int coordinate)
 {
     const struct plan *plan = &o->state->model->plan;
@@ -114,8 +115,8 @@ static struct enclosure friction_of(const struct enclosure_input *o, int coordin
     return sum;
 }
 
-/* Add `factor` times the force along a coordinate to the equation of a unit: at shares of 1/2, and what each unit's
- * share does. */
+/* Add `factor` times the force along a coordinate to the equation of a unit: the force at weights of 1/2, and
+ * the coefficient of each unit's weight. */
 static void take_force(const struct enclosure_input *o, int coordinate, double factor, struct equations *e,
                        int unit)
 {
@@ -167,7 +168,7 @@ static void write_equation(const struct enclosure_input *o, int unit, struct equ
     }
 }
 
-/* ---- their solution */
+/* ---- solution */
 
 static struct enclosure quotient(struct enclosure f, struct enclosure g)
 {
@@ -189,7 +190,7 @@ static double centre_of(struct interval a)
     return a.low + (a.high - a.low) / 2;
 }
 
-/* C is constant to rounding, which goes with that of the sums; so does that of its inverse. */
+/* C is constant to the rounding of its sums; so is its inverse. */
 static void eliminate(struct enclosure_input *o, const struct equations *e, int units)
 {
     double C[most_enclosed_units * most_enclosed_units], column[most_enclosed_units];

@@ -1,26 +1,26 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "events/interval_roots.h"
 
-/* What one stretch tells of a function, and of all of a group: the last of these. While one is unsure the stretch is
- * halved, whatever others have become at its end: it may have passed zero twice before them. */
+/* Result for one function over a stretch; that of a group is the largest. While one is unsure the stretch is
+ * halved, even if others are negative at its end, as it may have crossed zero twice before them. */
 enum verdict { clear_above, clear_rising, clear_to_rounding, negative, unsure };
 
-/* The rounding of g, where its sign says nothing. */
+/* The round-off level of g, below which its sign is undetermined. */
 static double rounding_of(const struct enclosure *g)
 {
     double width = interval_width(g->middle);
     return width < HUGE_VAL ? 2 * width : 0;
 }
 
-/* At an instant where g is zero to rounding: does it pass through, so steeply that this is over within the
- * rounding of the time? Then its sign as computed is as good as any. */
+/* At an instant where g is zero to rounding: does it cross zero so steeply that it leaves the round-off level
+ * within the rounding of the time? Then the computed sign can be used. */
 static bool passes(const struct enclosure *end, double t)
 {
     const double roundings = 64;
     return -end->rate.high * roundings * DBL_EPSILON * fabs(t) >= rounding_of(end) && end->rate.high < 0;
 }
 
-/* g over a stretch; `end` is g at its end, where that is needed and NULL before. */
+/* Classify g over a stretch; `end` is g at its end if required, else NULL. */
 static enum verdict judge(const struct enclosure *g, const struct stretch *stretch,
                           const struct enclosure *end)
 {
@@ -31,7 +31,7 @@ static enum verdict judge(const struct enclosure *g, const struct stretch *stret
     if (g->value.high < -rounding) return negative;
     if (-g->rate.low * length <= rounding) return clear_to_rounding;
     if (!end) return unsure;
-    /* At the end of a stretch in which g only falls, or of one as short as times can be told apart. */
+    /* At the end of a stretch in which g only falls, or of one as short as the spacing of times. */
     if (end->value.low >= 0) return clear_above;
     bool below = end->value.high < -rounding_of(end) || passes(end, stretch->to);
     return below ? negative : clear_to_rounding;
@@ -99,10 +99,11 @@ enum roots_result roots_search(struct prover *prover, struct root_group *groups,
     for (int k = 0; group->clear < need; k++) {
         if (k == most_stretches || prover->blind > most_blind) return roots_unfinished;
         if (k == few && prover->strict) return roots_unfinished;
-        /* As slow as this, the end will not be reached. */
+        /* At this pace the search will not reach the end. */
         if (k >= many && group->clear - start < (need - start) * k / most_stretches) return roots_unfinished;
         double to = group->clear + width;
-        /* A rest that is about as long goes with it, and no stretch is shorter than the time can tell. */
+        /* A remainder of up to half a stretch is included, and no stretch is shorter than the spacing of
+         * times. */
         if (!(group->clear + 1.5 * width < far)) to = far;
         if (!(to > group->clear)) to = fmin(nextafter(group->clear, HUGE_VAL), far);
         struct stretch stretch = stretch_between(group->clear, to);

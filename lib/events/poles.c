@@ -29,7 +29,7 @@ bool poles_init(struct poles *poles, const struct fbd_model *model, struct arena
     return true;
 }
 
-/* At an instant and along a direction that are extended (world_refs.h). */
+/* At an instant and along a direction, both extended (world_refs.h). */
 static void divisors_at(const struct plan *plan, const struct instant *at, const struct direction *along,
                         double *divisors, double *rates)
 {
@@ -42,7 +42,7 @@ static void divisors_at(const struct plan *plan, const struct instant *at, const
     }
 }
 
-/* Take in divisor k, which falls, of a formula that changes at `change`. */
+/* Record divisor k, which falls, of a formula with the rate `change`. */
 static void follow(struct poles *poles, size_t k, double change)
 {
     const double nearer = 0.9;
@@ -53,7 +53,7 @@ static void follow(struct poles *poles, size_t k, double change)
     poles->part[k] = part;
 }
 
-/* The longest step for divisor k of a formula that changes at `change`. */
+/* The longest step for divisor k of a formula with the rate `change`. */
 static double longest_for(struct poles *poles, size_t k, double change)
 {
     const double share = 0.5;
@@ -89,7 +89,7 @@ double poles_longest_step(struct poles *poles, const struct fbd_state *state, co
 }
 
 /* The least value, relative to the smaller end, of the cubic with values a and b > 0 and slopes da and db at
- * the ends of [0, 1]; by samples, as a bound is enough. */
+ * the ends of [0, 1]; by samples, as an estimate suffices. */
 static double deepest(double a, double da, double b, double db)
 {
     enum { samples = 8 };

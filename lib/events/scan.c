@@ -7,10 +7,10 @@
 
 #include "events/cubic.h"
 
-/* A function that needs more samples of one interval is too fast for it, or noise. Nor are they worth more right-hand
- * sides than a thousand attempts of a step by bsimp at its longest, or two thousand by others: where the inside of a step is
- * walked again for each sample that may be 64 of them, and one interval took minutes in which nobody could interrupt
- * the run. */
+/* Limits of samples and of their work in one interval. A function that needs more is too fast for the
+ * interval, or round-off. The work is that of a thousand attempts of a step by bsimp at its longest, or two
+ * thousand by others: where dense output repeats parts of the step, a sample may cost 64 of them, and an
+ * interval without limit took minutes without a chance to interrupt the run. */
 enum { most_samples = 4096, spare_points = 3 };
 static const unsigned long most_work = 300000;
 
@@ -29,12 +29,13 @@ static int take_counted(void *context, double t, double *values, double *rates)
 bool scan_init(struct scan *scan, size_t count, scan_sampler *sample, void *context, struct arena *memory)
 {
     *scan = (struct scan){.count = count, .sample = sample, .context = context};
-    if (count == 0) return true; /* nothing is looked for */
+    if (count == 0) return true; /* no functions */
     scan->points = ARENA_ARRAY(memory, spare_points, struct scan_point);
     double *next = ARENA_ARRAY(memory, (size_t)2 * spare_points * count, double);
     scan->crossed = ARENA_ARRAY(memory, 6 * count, bool);
     scan->lone = ARENA_ARRAY(memory, count, struct root_group);
-    scan->prover.now = ARENA_ARRAY(memory, 2 * count, struct enclosure); /* a group has no more than all */
+    scan->prover.now =
+        ARENA_ARRAY(memory, 2 * count, struct enclosure); /* enough for a group of all functions */
     scan->prover.waiting = ARENA_ARRAY(memory, count, bool);
     series_init(&scan->series, count, memory);
     if (memory->failed) return false;
@@ -53,7 +54,7 @@ bool scan_init(struct scan *scan, size_t count, scan_sampler *sample, void *cont
     return true;
 }
 
-/* ---- looking */
+/* ---- samples */
 
 static int take_sample(struct scan *scan, struct scan_point *point, double t)
 {
@@ -78,7 +79,7 @@ static bool any_crosses(const struct scan *scan, const struct scan_point *a, con
     return false;
 }
 
-/* ---- the first zero between a (none negative that was not) and b (at least one negative) */
+/* ---- the first zero between a (no function has crossed) and b (at least one is negative) */
 
 /* The estimate of the first zero from the cubics of all functions that cross. */
 static double first_estimate(const struct scan *scan, const struct scan_point *a, const struct scan_point *b)
@@ -105,14 +106,14 @@ static double roundings(const struct scan_point *a, const struct scan_point *b)
     return 2 * DBL_EPSILON * fmax(fabs(a->t), fabs(b->t));
 }
 
-/* Shrink [a, b] until b is within two roundings of the zero, by its cubic at least. The cubics converge to
- * the zero fast but from one side, so once an estimate stops moving the other side is fetched by steps that
- * grow from a rounding; where four steps together gain less than an eighth, one is a bisection, so that
- * nothing is slow. `m` is a spare point. */
+/* Shrink [a, b] until b is within two roundings of the zero. The cubics converge to the zero fast but from
+ * one side, so once an estimate stagnates the other side is moved by steps that grow from a rounding; where
+ * four steps together gain less than an eighth, one is a bisection, which bounds the number of steps. `m` is
+ * a spare point. */
 static int locate(struct scan *scan, struct scan_point *a, struct scan_point *b, struct scan_point *m)
 {
     double reach = roundings(a, b),
-           before = b->t - a->t; /* b may be far away at first, its roundings large */
+           before = b->t - a->t; /* b may be far away at first, with large roundings */
     for (int step = 1; b->t - a->t > roundings(a, b); step++) {
         double t = first_estimate(scan, a, b), width = b->t - a->t;
         if (b->t - t <= roundings(a, b)) break;
@@ -133,16 +134,17 @@ static int locate(struct scan *scan, struct scan_point *a, struct scan_point *b,
     return 1;
 }
 
-/* ---- searching with bounds */
+/* ---- search with bounds */
 
-/* Panels and pieces begin where the last ones ended: what has been seen positive waits no longer. */
+/* Panels and pieces begin where the last ones ended: functions that have been seen positive are no longer
+ * waiting. */
 static void note_seen(struct scan *scan, const struct root_group *group)
 {
     for (size_t k = 0; k < group->count; k++) scan->waits[group->first + k] &= scan->prover.waiting[k];
 }
 
-/* The zero that a group has in its bracket, in scan->t. 0 when samples say that there is none: bounds and
- * samples differ by roundings. */
+/* Locate the zero of a group in its bracket; result in scan->t. 0 if the samples do not change sign: bounds
+ * and samples differ by roundings. */
 static int locate_in_group(struct scan *scan, struct root_group *group)
 {
     struct scan_point *a = &scan->points[0], *b = &scan->points[1];
@@ -152,7 +154,7 @@ static int locate_in_group(struct scan *scan, struct root_group *group)
     for (size_t i = 0; i < scan->count; i++) {
         scan->chosen[i] = i >= group->first && i < group->first + group->count;
         if (scan->chosen[i] && a->values[i] < 0)
-            a->values[i] = 0; /* to rounding, or where the search began */
+            a->values[i] = 0; /* round-off, or the beginning of the search */
     }
     if (!any_crosses(scan, a, b)) return 0;
     status = locate(scan, a, b, &scan->points[2]);
@@ -162,8 +164,8 @@ static int locate_in_group(struct scan *scan, struct root_group *group)
     return status;
 }
 
-/* The same without samples, for what can tell its zeros; not at the very end of the search, where a sample is to say that it has
- * passed. */
+/* The same without samples, for functions with `zero`; not at the very end of the search, where a sample must
+ * show that the function has crossed. */
 static bool tell_in_group(struct scan *scan, const struct root_group *group, double limit)
 {
     const double roundings = 64;
@@ -189,8 +191,8 @@ static void note_found(struct scan *scan, const struct root_group *group, bool t
     scan->told = told;
 }
 
-/* The first zero of a group at or before *limit, which it becomes then: 1, else 0. Bounds that decide nothing
- * leave the group open. */
+/* Search the first zero of a group at or before *limit, and set *limit to it: 1, else 0. If the bounds are
+ * inconclusive the group remains open. */
 static int search_group(struct scan *scan, struct root_group *groups, size_t g, double from, double *limit)
 {
     enum { most_refuted = 8 };
@@ -221,14 +223,14 @@ static int search_group(struct scan *scan, struct root_group *groups, size_t g, 
     return 0;
 }
 
-/* ---- by enclosures */
+/* ---- search by enclosures */
 
 static void leave_to_samples(struct scan *scan, const struct root_group *group, bool sampled)
 {
     for (size_t i = group->first; i < group->first + group->count; i++) scan->sampled[i] = sampled;
 }
 
-/* The functions of a group that has become stuck are as good as their enclosure at an instant there. */
+/* Set the round-off level of the functions of a stuck group to the width of their enclosure at an instant. */
 static void note_rounding(struct scan *scan, size_t g)
 {
     const struct root_group *group = &scan->groups[g];
@@ -240,8 +242,8 @@ static void note_rounding(struct scan *scan, size_t g)
     }
 }
 
-/* Search all open groups. 1 found at *limit, 0 nothing, 2: the search ends at *limit without result. What
- * does not come on at all is left to samples. */
+/* Search all open groups. 1 found at *limit, 0 no zero, 2: the search ends at *limit without result. Groups
+ * that make no progress are sampled instead. */
 static int search_open(struct scan *scan, double from, double *limit, bool strict)
 {
     const double least_share = 1e-3;
@@ -283,8 +285,8 @@ static bool any_open(const struct scan *scan)
     return any;
 }
 
-/* In pieces that the enclosures reach over; for groups that the coarse look has left open. After too many of them
- * the search ends where it is: whoever asked can be stopped there. */
+/* Search piece by piece, with close enclosures, the groups that the coarse search has left open. After too
+ * many pieces the search ends where it is, so that the caller can interrupt the run. */
 static int look_in_pieces(struct scan *scan, double from, double *limit)
 {
     enum { most_pieces = 10000 };
@@ -310,8 +312,7 @@ static int look_in_pieces(struct scan *scan, double from, double *limit)
     return 0;
 }
 
-/* A first look, by bounds that cost little and are wide, decides where functions are far from zero or pass it
- * steeply. */
+/* A first search with cheap, wide bounds decides where functions are far from zero or cross it steeply. */
 static int look_by_enclosures(struct scan *scan, double from, double *limit)
 {
     for (size_t g = 0; g < scan->group_count; g++) {
@@ -333,7 +334,7 @@ static int look_by_enclosures(struct scan *scan, double from, double *limit)
     return closer ? closer : found;
 }
 
-/* ---- by series */
+/* ---- search by series */
 
 static void enclose_series(void *context, size_t i, const struct stretch *stretch, struct enclosure *out)
 {
@@ -341,7 +342,7 @@ static void enclose_series(void *context, size_t i, const struct stretch *stretc
     *out = series_enclose(&scan->series, i, stretch);
 }
 
-/* Look at function i with the samples of the present level; closes it when they suffice. */
+/* Search function i with the samples of the present level; close it if they suffice. */
 static int search_series(struct scan *scan, size_t i, double end, double *limit, bool halved)
 {
     struct root_group *alone = &scan->lone[i];
@@ -359,7 +360,7 @@ static int search_series(struct scan *scan, size_t i, double end, double *limit,
     return status;
 }
 
-/* 0 done, 2 some function is not resolved; *found becomes true with a zero, at *limit. */
+/* Returns 0, or 2 if some function is not resolved; *found becomes true with a zero, at *limit. */
 static int look_at_panel(struct scan *scan, double from, double to, double *limit, bool halved, bool *found)
 {
     bool open = true;
@@ -387,8 +388,8 @@ static bool any_sampled(const struct scan *scan)
     return any;
 }
 
-/* Functions that take all samples and let the search not get on are rounding there, and left out of it. False where
- * there are none. */
+/* Exclude functions that use up all samples without progress: they are round-off there. False if there are
+ * none. */
 static bool leave_out_noise(struct scan *scan)
 {
     bool any = false;
@@ -400,7 +401,7 @@ static bool leave_out_noise(struct scan *scan)
     return any;
 }
 
-/* Where looking by samples is given up. */
+/* Limits at which the search by samples is given up. */
 struct budget {
     long samples;
     unsigned long work;
@@ -417,8 +418,8 @@ static bool is_spent(const struct scan *scan, const struct budget *budget)
     return scan->samples >= budget->samples || (scan->work && scan->work(scan->context) >= budget->work);
 }
 
-/* Panel by panel. A panel whose functions are not resolved is halved; one that cannot be halved any more is
- * passed over: there the functions are rounding. */
+/* Search panel by panel. A panel with unresolved functions is halved; one that cannot be halved further is
+ * skipped, as the functions are round-off there. */
 static int look_by_series(struct scan *scan, double from, double *limit)
 {
     const double least_share = 1e-3;
@@ -443,7 +444,7 @@ static int look_by_series(struct scan *scan, double from, double *limit)
         if (status < 0) return status;
         double half = begin + (end - begin) / 2;
         halved = status == 2 && half - begin > 64 * DBL_EPSILON * fabs(end);
-        /* What cuts panels are bounds of rates, which are the worse the shorter they are. */
+        /* Panels are cut by bounds of rates, which are more pessimistic for short panels. */
         double growth = end < wanted || soon ? 16 : 2;
         soon = soon && !halved;
         length = halved ? half - begin : growth * (end - begin);
@@ -453,9 +454,9 @@ static int look_by_series(struct scan *scan, double from, double *limit)
     return found;
 }
 
-/* ---- both */
+/* ---- both searches */
 
-/* What has been found, and what becomes negative at the same instant. */
+/* Mark the function found, and those that become negative at the same instant. */
 static int mark_crossed(struct scan *scan, double t)
 {
     if (scan->told) return 1;
@@ -465,7 +466,7 @@ static int mark_crossed(struct scan *scan, double t)
     int status = known ? 0 : take_sample(scan, point, t);
     if (status) return status;
     scan->t = t;
-    /* Those that are searched in the other turn may have been negative for long. */
+    /* Functions of the other pass may have been negative before. */
     bool ahead = scan->groups && !scan->follow;
     const struct root_group *group = scan->groups;
     for (size_t i = 0; i < scan->count; i++) {

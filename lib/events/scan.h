@@ -2,15 +2,15 @@
  *
  * Scan: the first instant in an interval at which one of several smooth functions becomes negative.
  *
- * Functions that come with enclosures are searched with proof (interval_roots.h): none of their zeros is missed or
- * invented, however many oscillations an interval has. That is the rule: see watchers_can_enclose. Those
- * along a motion are looked at by wide bounds first, which cost little; what these leave open is searched by
- * close ones.
+ * Functions with enclosures are searched by root exclusion (interval_roots.h): no zero is missed or invented,
+ * however many oscillations an interval has. Most functions are of this kind: see watchers_can_enclose. Those
+ * that depend on the motion are first searched with wide bounds, which cost little; groups that remain open
+ * are searched with close ones.
  *
- * The others, and those whose enclosures are too wide to tell anything (a difference of two things that are
- * the same), are sampled, with their rates, and followed by Chebyshev series (series.h) whose zeros are found
- * likewise: three samples tell of a function that is far from zero, 17 and more of one that is near it.
- * `panel` says over how long a stretch a series may be believed.
+ * The others, and those whose enclosures are too wide (a difference of two equal quantities), are sampled,
+ * with their rates, and represented by Chebyshev series (series.h) whose zeros are found likewise: three
+ * samples suffice for a function far from zero, 17 and more are needed near it. `panel` limits the length
+ * over which a series is reliable.
  */
 #ifndef FBD_EVENTS_SCAN_H
 #define FBD_EVENTS_SCAN_H
@@ -25,18 +25,18 @@
  * scan and is returned. */
 typedef series_sampler scan_sampler;
 
-/* Enclosures are wanted from `from` on: the end up to which they are there, `to` at most; NAN where there are
- * none. `coarse`: wide ones will do, at once over as much as there are. */
+/* Provide enclosures from `from` on; returns the end up to which they are valid, `to` at most, or NAN if
+ * there are none. `coarse`: wide ones suffice, over as long a stretch as possible. */
 typedef double scan_follower(void *context, double from, double to, bool coarse);
 
 /* The end of the first panel of an interval for series, above `from`. */
 typedef double scan_paneller(void *context, double from, double to);
 
-/* Where function i has its zero within [low, high], at whose end it is negative, without samples; NAN where that cannot be
- * told. */
+/* The zero of function i within [low, high], at whose end it is negative, without samples; NAN if not
+ * available. */
 typedef double scan_zero(void *context, size_t i, double low, double high);
 
-/* What samples have cost so far, in right-hand sides: an interval is given up after so much of it, too. */
+/* Cost of all samples so far, in right-hand sides; an interval is also given up at a limit of this cost. */
 typedef unsigned long scan_worker(void *context);
 
 struct scan {
@@ -45,10 +45,9 @@ struct scan {
     void *context;
     bool *crossed; /* count: result, which functions became negative at `t` */
     double t;      /* result: the first instant at which one is negative, within two roundings of its zero */
-    double resolved; /* result: the next interval should not be longer, or much work is in vain; HUGE_VAL when
-                        the functions are smooth over all of this one */
-    double clear;    /* result: no function becomes negative up to here (meant for a return of 2) */
-    long samples;    /* counted */
+    double resolved;           /* result: advisable limit of the next interval; HUGE_VAL if all are smooth */
+    double clear;              /* result: no function becomes negative up to here (meant for a return of 2) */
+    long samples;              /* counted */
     struct scan_point *points; /* two ends of a bracket and a spare one */
 
     /* Set by the caller after scan_init, or left NULL for functions without enclosures. */
@@ -56,24 +55,24 @@ struct scan {
     size_t group_count;
     roots_enclose *enclose;
     scan_zero *zero;       /* or NULL */
-    scan_follower *follow; /* NULL: enclosures are there for all times, and searches may run ahead */
-    double horizon;        /* how far ahead at most */
-    bool aside;            /* this turn: only groups that are searched aside, else only the others */
-    scan_paneller *panel;  /* NULL: any length will do */
-    double soon;           /* how long a first look by samples is to be at most; 0: any length */
+    scan_follower *follow; /* NULL: enclosures exist for all times, and searches may run ahead */
+    double horizon;        /* limit of searches ahead */
+    bool aside;            /* present pass: only groups flagged `aside`, else only the others */
+    scan_paneller *panel;  /* NULL: any length is allowed */
+    double soon;           /* longest first panel of samples; 0: any length */
     scan_worker *work;     /* NULL: samples cost little */
 
     struct prover prover;
     struct series series;
-    struct root_group *lone; /* count: each function by itself, for its series */
+    struct root_group *lone; /* count: each function as a group, for its series */
     const struct root_group *found_in;
-    bool told;              /* it is what `zero` has found, and `crossed` says which */
+    bool told;              /* the result is from `zero`, and `crossed` is set */
     bool located;           /* points[1] is the end of the bracket that was located last */
     bool resumed;           /* between scan_pass_over and scan_start */
     bool *sampled, *chosen; /* count: searched by samples; located at present */
     bool *dipped;           /* count: see scan_pass_over */
     bool *silent;           /* count: see scan_leave_out */
-    bool *waits;            /* count: of these, those that have not been seen positive in this interval */
+    bool *waits;            /* count: of the dipped ones, those not yet seen positive in this interval */
 };
 
 /* With these enclosures; `groups` are in the order of the functions and cover all of them. */
@@ -83,22 +82,21 @@ void scan_use_enclosures(struct scan *scan, struct root_group *groups, size_t co
 /* Made of `memory`; false when that is out. */
 bool scan_init(struct scan *scan, size_t count, scan_sampler *sample, void *context, struct arena *memory);
 
-/* Look at (from, to]. 1: found, see `t` and `crossed`; 0: nothing; 2: given up after too many samples, or too
- * much work for them, see `clear`; negative: what the sampler returned.
- * Functions that start at or below zero are looked at once they have been seen positive, except those that
- * are still negative at the end. */
+/* Search (from, to]. 1: found, see `t` and `crossed`; 0: no zero; 2: given up after too many samples, or too
+ * much work for them, see `clear`; negative: return code of the sampler. Functions that start at or below
+ * zero are searched after they have been seen positive, except those that are still negative at the end. */
 int scan_interval(struct scan *scan, double from, double to);
 
-/* What has crossed dips below zero and does not go on: in intervals from there on it has to be seen positive before it
- * counts again, up to scan_start. */
+/* The functions that crossed only dip below zero: until scan_start each must be seen positive in an interval
+ * that starts there or later before it counts again. */
 void scan_pass_over(struct scan *scan);
 
-/* What has crossed again and again at one place is rounding: it is not looked at, up to scan_start, and the others are.
- * False where it has been left out already. */
+/* A function that crosses repeatedly at one place is round-off: exclude it until scan_start. False if it is
+ * already excluded. */
 bool scan_leave_out(struct scan *scan);
 void scan_start(struct scan *scan);
 
-/* The functions are others now: an interval that begins where the last one ended is sampled there again. */
+/* The functions have changed: an interval that begins where the last one ended is sampled there again. */
 void scan_forget(struct scan *scan);
 
 #endif

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * What a scan is given, and what it remembers between its intervals.
+ * Setup of a scan, and its state between intervals.
  */
 #include <math.h>
 

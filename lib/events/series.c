@@ -17,11 +17,11 @@
 enum { nodes = series_nodes, most = series_most_degree };
 
 static const int degrees[series_levels] = {5, 8, 16};
-static const int counts[series_levels] = {3, 9, 17}; /* of the nodes that a level uses */
+static const int counts[series_levels] = {3, 9, 17}; /* number of nodes of a level */
 static const int strides[series_levels] = {0, 2, 1};
 
-/* The first level looks at the ends and at a node beside the middle, where a wave whose periods fit into the
- * halves of a panel would be the same as at the ends. */
+/* Node k of a level. The first level uses the ends and a node beside the middle: at the middle, a wave whose
+ * periods fit into the halves of a panel would have the same values as at the ends. */
 static int node_of(int level, int k)
 {
     static const int first[] = {0, 6, 16};
@@ -29,7 +29,7 @@ static int node_of(int level, int k)
     return level == 0 ? first[k] : k * strides[level];
 }
 
-/* Where the matrix of a level begins; that after the last is the size of all. */
+/* Offset of the matrix of a level; for the number of levels the size of all. */
 static size_t place_of_matrix(int level)
 {
     size_t place = 0;
@@ -78,7 +78,8 @@ static double wave(int j, double s, double *slope)
     return t;
 }
 
-/* From values and rates at three nodes to the six coefficients: the inverse of what gives those. */
+/* From values and rates at three nodes to the six coefficients: the inverse of the matrix of values and
+ * rates. */
 static void set_rates_matrix(double *matrix)
 {
     enum { n = 6 };
@@ -214,8 +215,8 @@ static double evaluate(int degree, const double *c, double s, double *slope)
     return sum;
 }
 
-/* How far f may be from a series that misses its rates: a wave T_n of that size has slopes up to n^2 at the
- * ends and about n inside. */
+/* Bound of the distance of f from a series with wrong rates: a wave T_n of amplitude 1 has slopes up to n^2
+ * at the ends and about n inside. */
 static double missed(const struct series *series, const double *g, const double *c)
 {
     int d = series->degree;
@@ -233,13 +234,13 @@ static double last_terms(const struct series *series, const double *c)
 {
     int d = series->degree;
     double last = fabs(c[d]) + fabs(c[d - 1]);
-    /* Where two vanish by chance, those before tell. */
+    /* If these two vanish by chance, the two before them count. */
     return fmax(last, (fabs(c[d - 2]) + fabs(c[d - 3])) / 16);
 }
 
-/* A series that has not seen all of f has other rates. Those of a sample are as good as the motion along the
- * step, whose places and speeds agree to the error of the method only; so small differences say nothing, nor
- * do those that stay when the panel is halved. */
+/* Error of a series by its rates: a series that has not resolved f has wrong rates. Sampled rates are only as
+ * accurate as the dense output, whose positions and velocities agree to the error of the method; so small
+ * differences are ignored, and those that do not fall when the panel is halved. */
 static double unseen(struct series *series, size_t i, const double *c, bool halved)
 {
     const double share = 0.02, least_fall = 0.5;
@@ -281,7 +282,8 @@ enum series_state series_fit(struct series *series, size_t i, bool halved)
            share = series->scale[i] > 0 ? tail / series->scale[i] : 0;
     series->doubt[i] = safe * tail + rounding * sum + series->rounding[i];
     bool last = series->level == series_levels - 1;
-    /* The last terms of what is smooth fall by 2^16 from a panel to its half; those that do not are noise. */
+    /* The last terms of a smooth function fall by 2^16 from a panel to its half; those that do not are
+     * round-off. */
     if (last && halved && share > least_fall * series->tail[i])
         series->floor[i] = fmax(series->floor[i], fmin(2 * series->tail[i], most_noise));
     if (last) series->tail[i] = share;

@@ -17,7 +17,7 @@ enum {
     coarse_room = trajectory_coarse_degree + 1
 };
 
-/* In place of the highest power of a component. */
+/* Used instead of a highest power. */
 enum { at_rest = -1, not_followed = -2 };
 
 static const double pi = 3.14159265358979323846;
@@ -141,15 +141,16 @@ static bool all_equal(int degree, const double *sample)
     return true;
 }
 
-/* The Chebyshev series through the samples. Its matrix is symmetric, and sums that go side by side take half of the time. */
+/* The Chebyshev series through the samples. The matrix is symmetric; summing all coefficients side by side is
+ * faster. */
 static void set_series(int width, const double *row, const double *sample, double *restrict series)
 {
     for (int k = 0; k < width; k++, row += width)
         for (int j = 0; j < width; j++) series[j] += row[j] * sample[k];
 }
 
-/* The polynomial of component i in powers of s; returns its size. Terms that are roundings of the samples are
- * left to the doubt: in powers they would be 2^(d-1) times as large. */
+/* Set the polynomial of component i in powers of s; returns its size. Terms below the rounding of the samples
+ * are left to the error bound: in powers they would be 2^(d-1) times as large. */
 static double set_powers_of(struct trajectory *trajectory, size_t i, double *series)
 {
     const double rounding = DBL_EPSILON;
@@ -172,7 +173,7 @@ static double last_terms(const struct trajectory *trajectory, const double *seri
     return fabs(series[trajectory->degree]) + fabs(series[trajectory->degree - 1]);
 }
 
-/* At rest, or moved by rounding alone. */
+/* Is the component at rest? If so, or if it moves by rounding alone, it is a constant. */
 static bool rests(struct trajectory *trajectory, size_t i)
 {
     const double *sample = trajectory->samples + i * room;
@@ -182,8 +183,8 @@ static bool rests(struct trajectory *trajectory, size_t i)
     return trajectory->top[i] == at_rest;
 }
 
-/* Is what the polynomial of component i leaves out too much? Its size is that of the last terms. Those of
- * what is smooth fall by 2^(d-1) from a piece to its half; those that do not are noise. */
+/* Is the truncation error of the polynomial of component i too large? Its size is that of the last terms.
+ * Those of a smooth function fall by 2^(d-1) from a piece to its half; those that do not are round-off. */
 static bool follow(struct trajectory *trajectory, size_t i, double negligible, bool halved)
 {
     const double rounding = 32 * DBL_EPSILON, least_fall = 1.0 / 8;
@@ -223,8 +224,8 @@ int trajectory_set(struct trajectory *trajectory, double from, double to, const 
     return 0;
 }
 
-/* What follows a step of any method closely enough is smooth on the scale of the step, so that terms fall
- * from the third on; should two of them vanish by chance, T_2 tells. */
+/* A motion that a step approximates accurately is smooth on the scale of the step, so that the terms fall
+ * from the third on; if the last two vanish by chance, T_2 counts. */
 int trajectory_set_coarse(struct trajectory *trajectory, double from, double to, const bool *wanted,
                           trajectory_sampler *sample, void *context)
 {
@@ -245,9 +246,10 @@ int trajectory_set_coarse(struct trajectory *trajectory, double from, double to,
     return 0;
 }
 
-/* How far a motion may be off the polynomial of its ends, a quintic in q and a quartic in v. That of an oscillation errs by
- * (w h)^6/46080 of its amplitude, in v by (w h)^5/13500, and bends by (w h)^2/8 or (w h)^3/48 of it, by its phase: even
- * at w h = 4, which no method follows, a quarter of these is four times the error. */
+/* Bound of the distance between a motion and the polynomial of its ends, a quintic in q and a quartic in v.
+ * That of an oscillation errs by (w h)^6/46080 of its amplitude, in v by (w h)^5/13500, and has curvature
+ * terms of (w h)^2/8 or (w h)^3/48 of it, by its phase: even at w h = 4, which no method resolves, a quarter
+ * of these is four times the error. */
 static double doubt_of_ends(int degree, const double *c)
 {
     double bends = fabs(c[1]) / 16;
@@ -274,7 +276,7 @@ bool trajectory_set_powers(struct trajectory *trajectory, double from, double to
         double size = fabs(c[0]) + bends;
         trajectory->extent[i] = size;
         if (bends > 0) top = degree;
-        while (top > 0 && fabs(c[top]) <= DBL_EPSILON * size) top--; /* left to the doubt */
+        while (top > 0 && fabs(c[top]) <= DBL_EPSILON * size) top--; /* left to the error bound */
         trajectory->top[i] = top;
         trajectory->doubt[i] = trajectory->noise[i] + (top == at_rest ? 0 : rounding * size);
         if (rough && top != at_rest) trajectory->doubt[i] += doubt_of_ends(degree, c);
@@ -329,7 +331,7 @@ void trajectory_enclose(struct trajectory *trajectory, const struct stretch *str
             slope += k * fabs(b[k]) * power;
             bend += fabs(b[k]) * power * r;
         }
-        double steep = doubt * trajectory->degree; /* as a difference over the spacing of samples */
+        double steep = doubt * trajectory->degree; /* doubt over the spacing of samples */
         now->value = around(b[0], fabs(b[1]) * r + bend + doubt);
         now->rate = interval_scale(1 / radius, around(b[1], slope + steep));
         now->middle = around(b[0], doubt);

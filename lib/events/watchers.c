@@ -10,7 +10,7 @@
 #include "dynamics/tree.h"
 #include "dynamics/world_refs.h"
 
-/* ---- which functions a plan needs */
+/* ---- the functions that a plan requires */
 
 static void add(struct watcher_set *set, struct watcher watcher)
 {
@@ -31,7 +31,7 @@ static void add_kinks(struct watchers *watchers, const struct plan *plan)
     }
 }
 
-/* Whether the motion slides on a switch is not known ahead. */
+/* For every switch on which sliding is possible; the modes decide later. */
 static void add_shares(struct watchers *watchers, const struct plan *plan)
 {
     for (size_t i = 0; i < plan->kink_count; i++) {
@@ -49,7 +49,7 @@ static bool always_the_same(const struct plan *plan, const struct mode *mode)
            (mode->normal_slot < 0 || plan->slot_constant[mode->normal_slot]);
 }
 
-/* ---- what is watched of each kind of mode */
+/* ---- the watchers of each kind of mode */
 
 static void add_rubbing(struct watchers *watchers, const struct plan *plan, int pair)
 {
@@ -75,7 +75,7 @@ static void add_lift(struct watchers *watchers, const struct plan *plan, int pai
     add(&watchers->moving, (struct watcher){watch_lift, pair, 0, 0});
 }
 
-/* A drive never gives. */
+/* Drives have no watchers. */
 static void (*const add_mode[mode_kinds])(struct watchers *watchers, const struct plan *plan, int pair) = {
     [mode_single] = add_rubbing, [mode_joint] = add_rubbing,     [mode_tangent] = add_rubbing,
     [mode_rope] = add_one_sided, [mode_surface] = add_one_sided, [mode_contact] = add_lift};
@@ -115,7 +115,7 @@ static void add_all(struct watchers *watchers, const struct fbd_model *model)
         add(&watchers->moving, (struct watcher){watch_user, (int)i, 0, 0});
 }
 
-/* Neighbours of the same kind and index. */
+/* Group neighbours of the same kind and index. */
 static bool group_watchers(struct arena *memory, const struct fbd_model *model, struct watcher_set *set)
 {
     set->groups = ARENA_ARRAY(memory, set->count + 1, struct root_group);
@@ -138,8 +138,8 @@ static bool group_watchers(struct arena *memory, const struct fbd_model *model, 
 bool watchers_init(struct watchers *watchers, const struct fbd_model *model, double tolerance, bool multistep,
                    struct arena *memory)
 {
-    /* The errors of a multistep method hang together over many steps: towards a terminal speed msadams was
-     * seen to be off by 160 tolerances inside of its steps, where one-step methods are by 5. */
+    /* The errors of a multistep method are correlated over many steps: near a terminal speed msadams was off
+     * by 160 tolerances inside its steps, one-step methods by 5. */
     const double tolerances = 10, together = 30;
     const struct plan *plan = &model->plan;
     size_t margins = 0;
@@ -170,7 +170,7 @@ bool watchers_init(struct watchers *watchers, const struct fbd_model *model, dou
            group_watchers(memory, model, &watchers->moving);
 }
 
-/* ---- sizes, and what is enclosed */
+/* ---- round-off levels, and the choice of enclosures */
 
 double watchers_contact_slack(const struct fbd_model *model, const struct tree_work *tree,
                               const struct contact *contact)
@@ -178,7 +178,7 @@ double watchers_contact_slack(const struct fbd_model *model, const struct tree_w
     return press_slack(model, tree, contact->body);
 }
 
-/* Below zero where nothing is known. */
+/* Round-off level of a function; below zero if unknown. */
 static double rounding_of(const struct watcher *watcher, const struct fbd_state *state)
 {
     const struct fbd_model *model = state->model;
@@ -203,7 +203,7 @@ void watchers_set_rounding(const struct watcher_set *set, const struct fbd_state
     }
 }
 
-/* `known`: nothing is slid on, or the shares of what is have enclosures. */
+/* `known`: no switch is in a sliding mode, or the weights of all sliding modes have enclosures. */
 static bool is_enclosed(const struct fbd_state *state, const struct watcher *watcher, bool known)
 {
     switch (watcher->kind) {
@@ -220,7 +220,7 @@ static bool is_enclosed(const struct fbd_state *state, const struct watcher *wat
     }
 }
 
-/* What slips does not break away, and what sticks does not stop. */
+/* A slipping pair has no breakaway, and a sticking pair no end of slip. */
 static bool is_idle(const struct fbd_state *state, const struct watcher *watcher)
 {
     if (watcher->kind == watch_slip_stop) return state->slip[watcher->index] == stick;

@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Enclosures of event functions over a stretch of the motion, each as watchers.c has it at an instant.
+ * Enclosures of event functions over a stretch of the motion; watchers_values.c has their values at an
+ * instant.
  *
- * They are there for what is made of expressions: switches, user events, the speed of a pair on its surface,
- * and the forces of a body by itself as far as they are sums of expressions, affine terms and weights.
+ * They exist for functions of expressions: switches, user events, the speed of a pair on its surface, and the
+ * forces on a body without joints or couplings if they are sums of expressions, affine terms and weights.
  */
 #include <float.h>
 
@@ -109,7 +110,7 @@ static bool stays_zero(const struct enclosure_input *o, const struct formula *mu
     return f.value.low == 0 && f.value.high == 0;
 }
 
-/* Friction that is idle throughout (friction_is_idle) has none. */
+/* Slip velocity of a pair. Friction that is idle throughout (friction_is_idle) has no event. */
 static struct enclosure slip_stop(const struct enclosure_input *o, int pair)
 {
     const struct fbd_model *model = o->state->model;
@@ -130,7 +131,7 @@ struct enclosure enclose_normal_force(const struct enclosure_input *o, int pair)
     return enclosure_scale(-o->state->pull[pair], sum);
 }
 
-/* max(f, g): the rate is one of both, or lies between. */
+/* max(f, g): the rate is that of one of them, or between both. */
 static struct enclosure larger_of(struct enclosure f, struct enclosure g)
 {
     if (f.value.low >= g.value.high) return f;
@@ -140,7 +141,7 @@ static struct enclosure larger_of(struct enclosure f, struct enclosure g)
                               {fmax(f.middle.low, g.middle.low), fmax(f.middle.high, g.middle.high)}};
 }
 
-/* What is left to both ends, which share the limit and the force that is held. */
+/* Distances to both friction limits, which share the limit and the friction force. */
 static void enclose_stick_limits(const struct enclosure_input *o, const struct watcher *watchers,
                                  size_t count, struct enclosure *out)
 {
@@ -153,7 +154,7 @@ static void enclose_stick_limits(const struct enclosure_input *o, const struct w
     struct enclosure moving = enclosure_multiply(enclose_formula(o, &mode->mu_k), press);
     struct enclosure limit = larger_of(enclose_centred(o, at_rest), enclose_centred(o, moving));
     struct enclosure push = enclose_slot(o, mode->body, mode->hold_slot);
-    /* The room for rounding that friction_rounding gives. */
+    /* The same tolerance as by friction_rounding. */
     double rounding = 8 * DBL_EPSILON * (interval_size(push.value) + interval_size(limit.value));
     for (size_t i = 0; i < count; i++) {
         struct enclosure f = enclosure_add(limit, enclosure_scale(watchers[i].end == 0 ? 1 : -1, push));
@@ -176,7 +177,8 @@ bool watchers_can_enclose(const struct fbd_model *model, const struct watcher *w
     const struct mode *mode = &plan->modes[watcher->index];
     if (mode->coupling >= 0) return false;
     if (watcher->kind == watch_slip_stop) return true;
-    bool known = watcher->kind != watch_stick_limit || !mode->surface_speed.expr; /* its second rate */
+    bool known = watcher->kind != watch_stick_limit ||
+                 !mode->surface_speed.expr; /* it would need the second derivative of the surface speed */
     return known && mode->kind == mode_single && enclosure_is_known(model, mode->body);
 }
 
@@ -209,7 +211,7 @@ static struct enclosure enclose_user(const struct watchers *watchers, int index,
     return enclose_centred(o, enclosure_add(enclosure_scale(armed, difference), band));
 }
 
-/* s of the upper branch, or what is left to 1. */
+/* The weight s of the upper branch, or 1 - s. */
 static struct enclosure enclose_share(const struct enclosure_input *o, const struct watcher *watcher)
 {
     const struct fbd_state *state = o->state;
@@ -248,7 +250,7 @@ static struct enclosure enclose_one(const struct watchers *watchers, const struc
     return enclosure_everything();
 }
 
-/* Are forces, and with them shares, in functions of this kind? */
+/* Do functions of this kind contain forces, and with them weights of sliding modes? */
 static bool asks_shares(enum watcher_kind kind)
 {
     return kind == watch_share || kind == watch_contact || kind == watch_stick_limit ||
@@ -271,7 +273,7 @@ void watchers_enclose(const struct watchers *watchers, const struct watcher_set 
         for (size_t i = 0; i < those->count; i++) out[i] = enclose_one(watchers, &first[i], &input);
 }
 
-/* ---- what they read */
+/* ---- the components that they read */
 
 static void mark_formula(const struct formula *formula, bool *used)
 {
@@ -308,7 +310,7 @@ static void mark_friction(const struct plan *plan, const struct watcher *watcher
     mark_body(plan, mode->body, used);
 }
 
-/* What the switch of a slide watches, and the forces on the bodies whose coordinates these are. */
+/* Mark the variables of a sliding mode's switch, and the forces on the bodies of these coordinates. */
 static void mark_share(const struct fbd_model *model, const struct formula *formula, bool *used)
 {
     const int *slots;

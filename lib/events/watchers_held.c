@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Switches that a stick, or a stop, holds at zero.
+ * Switches that sticking, or a stop, keeps at zero.
  *
- * A law may say abs(v - s) with s the velocity of the surface. While the body sticks there this is zero
- * throughout and no function that passes zero: its sign is rounding. So is that of v at a stop. Whether it is so
- * is asked of the function itself: at states taken at random among those that stick as this one does, what is not
- * zero throughout is zero with probability nought (the test of identities by J. T. Schwartz, J. ACM 27 (1980) 701).
+ * A law may contain abs(v - s) with s the velocity of the surface. While the body sticks there, the argument
+ * is zero throughout and its sign is round-off; the same holds for v at a stop. Such arguments are found by
+ * evaluation: at random states that satisfy the same sticking conditions, a function that is not identically
+ * zero is zero with probability 0 (the test of identities by J. T. Schwartz, J. ACM 27 (1980) 701).
  */
 #include <math.h>
 #include <string.h>
@@ -13,7 +13,7 @@
 #include "dynamics/world_refs.h"
 #include "events/watchers.h"
 
-/* Numbers between -1 and 1 that follow no rule of a scene: multiples of the golden section. */
+/* Numbers between -1 and 1 unrelated to those of a scene: multiples of the golden section. */
 static double next_number(unsigned *count)
 {
     const double golden = 0.61803398874989484820;
@@ -21,7 +21,7 @@ static double next_number(unsigned *count)
     return 2 * modf(++*count * golden, &whole) - 1;
 }
 
-/* The coordinate that friction holds, or with `stops` a stop; -1 for none. What rolls has none of its own. */
+/* The coordinate that friction, or with `stops` a stop, keeps constant; -1 for none. A rolling body has none. */
 static int held_by(const struct fbd_state *state, size_t pair, bool *stops)
 {
     const struct mode *mode = &state->model->plan.modes[pair];
@@ -35,13 +35,14 @@ static int held_by(const struct fbd_state *state, size_t pair, bool *stops)
     return *stops ? tree->links[meeting->shape[0].link].coordinate : -1;
 }
 
-/* Another number, however large this one is. */
+/* A different number of the same order or of order 1. */
 static double other_than(double x, unsigned *count)
 {
     return x + (1 + fabs(x)) * next_number(count);
 }
 
-/* Another time and another state, with what sticks on its surface, and what rests at a stop there. */
+/* A random time and state in which sticking bodies have the velocity of their surfaces, and bodies at a stop
+ * rest there. */
 static double move_away(const struct fbd_state *state, unsigned *count, double *y)
 {
     const struct plan *plan = &state->model->plan;
@@ -59,7 +60,7 @@ static double move_away(const struct fbd_state *state, unsigned *count, double *
     return t;
 }
 
-/* Add to `zeros` for each switch of the kink that is zero at (t, y). */
+/* Add 1 to `zeros` for each switch of the kink that is zero at (t, y). */
 static void count_zeros(const struct watchers *watchers, const struct fbd_state *state,
                         const struct kink *kink, double t, const double *y, int *zeros)
 {
@@ -77,8 +78,8 @@ static void count_zeros(const struct watchers *watchers, const struct fbd_state 
             }
 }
 
-/* Does it read the motion, and no more than its coordinates where the links of jointed bodies would have to
- * be moved for that? */
+/* Does the kink read the motion, and in a model with joints no positions of links, which would have to be
+ * updated? */
 static bool can_be_asked(const struct fbd_model *model, const struct kink *kink)
 {
     const int *slots;
@@ -94,7 +95,8 @@ static bool any_holds(const struct fbd_state *state)
     return false;
 }
 
-/* Couplings may hold more than is asked for here: what is zero without them is zero with them. */
+/* Couplings, which may keep more switches at zero, are not considered: a switch that is zero without them is
+ * zero with them. */
 void watchers_hold(struct watchers *watchers, const struct fbd_state *state)
 {
     enum { places = 3 };

@@ -16,19 +16,19 @@
 #include "dynamics/world_refs.h"
 #include "events/watchers.h"
 
-/* ---- their values */
+/* ---- values */
 
-/* Where and along what a set is evaluated. */
+/* Instant and direction at which a set is evaluated. */
 struct view {
     struct fbd_state *state;
     struct instant at;
-    double rest; /* of the time */
+    double rest; /* lower part of the time */
     struct direction flow;
     const double *slots, *slots_along; /* without friction */
-    int friction;                      /* the pair that `now` and `along` belong to, -1 for none */
+    int friction;                      /* the pair of `now` and `along`, -1 for none */
     struct friction_values now, along;
     struct arena arena;
-    bool shared, told; /* holds share a load; a watcher has its margin already */
+    bool shared, told; /* the forces of a load are redundant; a watcher has its margin already */
     struct rest_margin margin;
 };
 
@@ -50,8 +50,8 @@ static double user_value(const struct watch *watch, const struct view *view, dou
     return left - right;
 }
 
-/* Closed: the force. Open: what is left to where it closes; just after it has opened that is rounding, and
- * rounding closes nothing. */
+/* Closed: the force. Open: the distance to closing; just after opening that is round-off, which must not
+ * close it. */
 static double one_sided_value(const struct watchers *watchers, const struct watcher *watcher,
                               const struct view *view, double *rate)
 {
@@ -67,7 +67,7 @@ static double one_sided_value(const struct watchers *watchers, const struct watc
     return now.force + now.slack;
 }
 
-/* What rolls or touches has left its surface: nothing rubs. */
+/* Has the rolling or touching body left its surface? Then there is no friction. */
 static bool is_off_its_surface(const struct view *view, const struct mode *mode)
 {
     if (mode->coupling < 0) return false;
@@ -75,7 +75,7 @@ static bool is_off_its_surface(const struct view *view, const struct mode *mode)
     return surface >= 0 && view->at.slip[surface] != stick;
 }
 
-/* While it is closed its normal force. */
+/* The normal force while the contact is closed. */
 static double lift_value(const struct watcher *watcher, const struct view *view, double *rate)
 {
     const struct fbd_model *model = view->state->model;
@@ -88,7 +88,7 @@ static double lift_value(const struct watcher *watcher, const struct view *view,
     return contact_slack(model, mode->coupling) - view->slots[slot];
 }
 
-/* Just after it has opened a gap is rounding, and rounding closes nothing. */
+/* The gap. Just after opening it is round-off, which must not close it. */
 static double gap_value(const struct watchers *watchers, const struct watcher *watcher,
                         const struct view *view, double *rate)
 {
@@ -101,7 +101,8 @@ static double gap_value(const struct watchers *watchers, const struct watcher *w
     return gap.x + deep + meeting_rounding(model, view->state->tree, watcher->index);
 }
 
-/* What still touches at an end, within `near`, is not at its end yet. */
+/* Distance of the contact point to the end of the side; a point within `near` beyond the end is still on the
+ * side. */
 static double edge_value(const struct watcher *watcher, const struct view *view, double *rate)
 {
     const struct fbd_model *model = view->state->model;
@@ -145,35 +146,35 @@ static double friction_value(const struct watchers *watchers, const struct watch
     int side = watcher->end == 0 ? 1 : -1;
     bool kinetic = now->limit_kinetic > now->limit_static; /* as in friction_decide */
     *rate = (kinetic ? d->limit_kinetic : d->limit_static) - side * d->hold;
-    /* A force that only just touches its limit does not break away by a rounding. */
+    /* A force that barely touches its limit must not break away by a rounding. */
     double slack = friction_rounding(now);
     if (mode->coupling >= 0 && model->tree->couplings[mode->coupling].meeting >= 0)
         slack += contact_slack(model, mode->coupling);
     return now->limit - side * now->hold + slack;
 }
 
-/* Does the watcher watch a share of a load that several holds bear? One of them watches for all. */
+/* Does the watcher belong to a set of redundant forces? One watcher stands for all of them. */
 static bool watches_share(const struct watcher *watcher, const struct view *view)
 {
     if (!view->shared) return false;
-    assert(view->margin.contacts && view->margin.of); /* of a load that is shared */
+    assert(view->margin.contacts && view->margin.of); /* of the redundant set */
     if (watcher->kind == watch_contact) return view->margin.contacts[watcher->index];
     bool limit = watcher->kind == watch_stick_limit || watcher->kind == watch_normal_turns ||
                  watcher->kind == watch_lift || watcher->kind == watch_one_sided;
-    bool rubs = watcher->kind == watch_normal_turns; /* while it slips its normal force is what is limited */
+    bool rubs = watcher->kind == watch_normal_turns; /* while it slips its normal force is limited */
     return limit && (view->at.slip[watcher->index] == stick || rubs) && view->margin.of[watcher->index];
 }
 
 static double shared_value(struct view *view, const struct watcher *watcher, double *rate)
 {
     bool turns = watcher->kind == watch_normal_turns && view->at.slip[watcher->index] == stick;
-    bool told = view->told || turns; /* where it turns nothing holds by friction */
+    bool told = view->told || turns; /* where the normal force reverses, no friction acts */
     view->told |= !told;
     *rate = told ? 0 : view->margin.rate;
     return told ? HUGE_VAL : view->margin.value + rest_margin_slack(&view->margin);
 }
 
-/* The slide on the switch of a watcher; NULL when there is none. */
+/* The Filippov sliding mode on the switch of a watcher; NULL when there is none. */
 static const struct slide *slide_of(const struct fbd_state *state, const struct watcher *watcher)
 {
     if (!state_sliding(state)) return NULL;
@@ -199,7 +200,7 @@ static void kink_margins(const struct watchers *watchers, const struct kink *kin
                  formula_branches(&kink->formula, &view->at), margins, rates, rates + 2 * kink->count);
 }
 
-/* Does the function ask for more than the state and its rates of change, in the present modes? */
+/* Does the function depend on more than the state and its derivative, in the present modes? */
 static bool asks_forces(const struct watcher *watcher, const struct fbd_state *state)
 {
     switch (watcher->kind) {
@@ -225,8 +226,8 @@ static bool any_asks_forces(const struct watcher_set *set, const struct fbd_stat
     return false;
 }
 
-/* The rates of change at (t, y) in the present modes; when asked for, also the forces without friction and
- * how they vary. */
+/* Compute the derivatives at (t, y) in the present modes; with `forces` also the forces without friction and
+ * their variations. */
 static void set_flow(struct view *view, bool forces)
 {
     struct fbd_state *state = view->state;
@@ -255,7 +256,8 @@ void watchers_evaluate(const struct watchers *watchers, const struct watcher_set
                        struct fbd_state *state, struct time_dd t, const double *y, double *values,
                        double *rates)
 {
-    /* What stands at its switch, as an integral at its limit, may be short of it by the error of the step that came there. */
+    /* A quantity at rest at its switch, as an integral at its limit, may be short of it by the error of the
+     * step that reached it. */
     const double short_of = 1e-6 / DBL_EPSILON;
     const struct plan *plan = &state->model->plan;
     struct view view = {.state = state,
@@ -342,7 +344,7 @@ static double user_rate(const struct watch *watch, struct fbd_state *state)
     return rate;
 }
 
-/* The speed that what has never moved would have by the force of its friction alone, which it has borne so far. */
+/* The speed that the body of a pair that has never moved would have reached by its friction limit alone. */
 static double speed_to_come(const struct fbd_state *state, int pair)
 {
     const struct fbd_model *model = state->model;
@@ -353,8 +355,9 @@ static double speed_to_come(const struct fbd_state *state, int pair)
     return inertia > 0 ? limit * fabs(state->t) / inertia : 0;
 }
 
-/* Twice the speed by which what slips does not move to its side yet, though it is accelerated to it: what other couplings
- * make of the velocities leaves that. 0 where it moves there, or is too fast for that. `v`: its velocity to its side. */
+/* Twice the speed with which a slipping pair still moves against its slip direction although it accelerates
+ * in that direction: a residue of projecting velocities onto other couplings. 0 if it moves in the slip
+ * direction, or too fast for such a residue. `v`: its velocity in the slip direction. */
 static double short_of_side(const struct fbd_state *state, int pair, double v)
 {
     const double rounding = 1e-9;
@@ -367,8 +370,9 @@ static double short_of_side(const struct fbd_state *state, int pair, double v)
     return -v <= rounding * fastest && to_its_side > 0 ? -2 * v : 0;
 }
 
-/* What breaks away at its limit has no acceleration yet but for rounding, which may be the other way. It is for the first
- * steps alone, as long as they are an instant: what others hold does not move, and sticks again behind them. */
+/* A pair that breaks away at its limit first has an acceleration of round-off, which may have the wrong sign.
+ * The band applies to the first, very short steps only: a body that others block does not move, and sticks
+ * again after them. */
 static void calm_beginning(struct watchers *watchers, const struct fbd_state *state, size_t pair, double step)
 {
     const double band = 1e-13, least = 1e-14, instant = 1e-9;
@@ -383,7 +387,7 @@ static void calm_beginning(struct watchers *watchers, const struct fbd_state *st
     watchers->quiet[pair] = band * *fast;
 }
 
-/* What drives bring to rest smoothly and take on again has a speed of rounding for a while. */
+/* A pair whose driven slip passes smoothly through zero has a speed of round-off for some time. */
 static void calm_driven(struct watchers *watchers, const struct fbd_state *state, double step)
 {
     const double near = 10;
@@ -424,7 +428,7 @@ void watchers_arm(struct watchers *watchers, struct fbd_state *state, double ste
     }
 }
 
-/* It is at zero, thus in its band. */
+/* The difference is zero, thus in its band. */
 void watchers_turn(struct watchers *watchers, int watch)
 {
     watchers->armed[watch] = -watchers->armed[watch];

@@ -16,18 +16,18 @@ enum { most_order = 5, most_points = most_order + 2 };
 struct bdf {
     size_t n;
     const gsl_odeiv2_control *control;
-    int count; /* points that are known */
+    int count; /* number of points */
     double t[most_points];
     double *y[most_points];
     int order;         /* of the last step */
-    int since;         /* accepted steps since it was chosen */
-    int refused;       /* attempts at this step that have failed */
-    bool rising;       /* no step has been refused since the start: the order rises with each */
-    bool tried;        /* there was an attempt ... */
-    double end;        /* ... to here */
-    double matrix_for; /* alpha that lu is for; 0: none */
-    double rate;       /* of its iterations; 1: not known */
-    int age;           /* steps since the Jacobian was made; -1: there is none */
+    int since;         /* accepted steps since the order was chosen */
+    int refused;       /* rejected attempts at this step */
+    bool rising;       /* no rejection since the start: the order rises with each step */
+    bool tried;        /* an attempt was made ... */
+    double end;        /* ... ending at this time */
+    double matrix_for; /* alpha of the decomposition lu; 0: none */
+    double rate;       /* convergence rate of its iterations; 1: unknown */
+    int age;           /* steps since the last Jacobian; -1: none */
     size_t *pivot;
     double *jacobian, *lu, *dfdt;
     double *divided; /* most_points n: divided differences of the points */
@@ -38,7 +38,7 @@ struct bdf {
 static void *bdf_alloc(size_t n)
 {
     enum { vectors = 7 };
-    if (n == 0 || n > 1u << 20) return NULL; /* n^2 numbers are not to be had either */
+    if (n == 0 || n > 1u << 20) return NULL; /* n^2 numbers cannot be allocated either */
     size_t doubles = 2 * n * n + (vectors + 2 * most_points) * n;
     struct bdf *s = calloc(1, sizeof *s + doubles * sizeof(double) + n * sizeof(size_t));
     if (!s) return NULL;
@@ -73,7 +73,7 @@ static int bdf_reset(void *state, size_t n)
     return GSL_SUCCESS;
 }
 
-/* ---- the points */
+/* ---- points */
 
 static void add_point(struct bdf *s, double t, const double *y)
 {
@@ -88,11 +88,11 @@ static void add_point(struct bdf *s, double t, const double *y)
     if (s->count < most_points) s->count++;
 }
 
-/* The step begins at (t, y): is that the end of the last one, or is that one tried again? What has been done
- * to y meanwhile, as a return to constraints, counts. */
+/* Start a step at (t, y): determine whether it follows the last one or repeats it. Changes of y since then,
+ * as by a projection onto constraints, are taken over. */
 static void begin(struct bdf *s, double t, const double *y)
 {
-    const double roundings = 4 * DBL_EPSILON; /* of the sum that the end is */
+    const double roundings = 4 * DBL_EPSILON; /* of the sum that gives the end */
     bool again = s->count > 0 && t == s->t[0];
     bool accepted = s->tried && !again && fabs(t - s->end) <= roundings * fabs(t);
     if (!accepted && !again) bdf_reset(s, s->n);
@@ -129,10 +129,9 @@ static double alpha_of(const struct bdf *s, int order, double t)
     return alpha;
 }
 
-/* ---- the order */
+/* ---- order */
 
-/* What a step of this order to t is expected to err by, in units of what is allowed; it takes order + 2
- * points. */
+/* Expected error of a step of this order to t, relative to the allowed error; requires order + 2 points. */
 static double expected(const struct bdf *s, int order, double t)
 {
     const double *difference = s->divided + (size_t)(order + 1) * s->n;
@@ -142,14 +141,14 @@ static double expected(const struct bdf *s, int order, double t)
     return size;
 }
 
-/* By how much a step might be longer. */
+/* Factor by which a step could be longer. */
 static double reach(const struct bdf *s, int order, double t)
 {
     return pow(expected(s, order, t) + 1e-12, -1.0 / (order + 1));
 }
 
-/* The order that allows the longest step. At the start it rises with each step, as long as that goes well;
- * later not before the differences have settled, and only for a gain that is worth it. */
+/* Choose the order that allows the longest step. At the start it rises with each step until one is rejected;
+ * later only after the differences have settled, and for a sufficient gain. */
 static void choose_order(struct bdf *s, double t)
 {
     const double gain = 1.2;
@@ -172,7 +171,7 @@ static void choose_order(struct bdf *s, double t)
     s->order = best;
 }
 
-/* ---- the step */
+/* ---- step */
 
 /* P and P' at t: Newton's form through y_0 ... y_k, and of order 1 at the start the tangent. */
 static void predict(struct bdf *s, double t, const double *f0)
@@ -217,7 +216,7 @@ static bool decompose(struct bdf *s, double alpha)
     return s->matrix_for > 0;
 }
 
-/* Solve f(t, y) = P' + alpha (y - P) for y = now, from P on. */
+/* Solve f(t, y) = P' + alpha (y - P) for y = now, starting from P. */
 static int solve(struct bdf *s, double t, double alpha, const gsl_odeiv2_system *sys)
 {
     size_t n = s->n;
@@ -233,7 +232,7 @@ static int solve(struct bdf *s, double t, double alpha, const gsl_odeiv2_system 
         for (size_t i = 0; i < n; i++) s->now[i] += s->change[i];
         enum newton_verdict verdict = newton_judge(&newton, size);
         if (verdict == newton_done) {
-            /* What was not looked at is trusted less and less. */
+            /* A rate that was not measured again is increased from step to step. */
             s->rate = newton.count > 1 ? newton.rate : fmin(fmax(2 * s->rate, 1e-4), 1);
             return GSL_SUCCESS;
         }
@@ -241,7 +240,7 @@ static int solve(struct bdf *s, double t, double alpha, const gsl_odeiv2_system 
     }
 }
 
-/* With the Jacobian that is there, if it is not too old; with that of this place when that does not do. */
+/* Solve with the present Jacobian, if it is not too old; with a new one if that fails. */
 static int solve_somehow(struct bdf *s, double t, double alpha, const gsl_odeiv2_system *sys)
 {
     enum { oldest = 20 };
@@ -255,7 +254,7 @@ static int solve_somehow(struct bdf *s, double t, double alpha, const gsl_odeiv2
     return decompose(s, alpha) ? solve(s, t, alpha, sys) : GSL_FAILURE;
 }
 
-/* The error over y - P: of the first step, where P is the tangent, a half (h^2 y''/2 of h^2 y''). */
+/* The error divided by y - P: for the first step, where P is the tangent, one half (h^2 y''/2 of h^2 y''). */
 static double share_of_error(const struct bdf *s, double t, double alpha)
 {
     return s->count == 1 ? 0.5 : 1 / (1 + alpha * (t - s->t[s->order]));

@@ -11,7 +11,7 @@
 
 enum { rows = 7 };
 
-/* Half of each is odd, so that the errors of all oscillate alike where the system is stiff. */
+/* Half of each is odd, so that all errors oscillate alike where the system is stiff. */
 static const int sequence[rows] = {2, 6, 10, 14, 22, 34, 50};
 
 struct bsimp {
@@ -19,14 +19,14 @@ struct bsimp {
     size_t *pivot;
     double *jacobian, *lu;             /* n^2 each */
     double *dfdt, *f0, *f, *y, *delta; /* n each */
-    double *table;                     /* rows n: the row of the extrapolation that was made last */
+    double *table;                     /* rows n: the latest row of the extrapolation */
     double memory[];
 };
 
 static void *bsimp_alloc(size_t n)
 {
     enum { vectors = 5 };
-    if (n == 0 || n > 1u << 20) return NULL; /* n^2 numbers are not to be had either */
+    if (n == 0 || n > 1u << 20) return NULL; /* n^2 numbers cannot be allocated either */
     size_t doubles = 2 * n * n + (vectors + rows) * n;
     struct bsimp *s = calloc(1, sizeof *s + doubles * sizeof(double) + n * sizeof(size_t));
     if (!s) return NULL;
@@ -53,7 +53,7 @@ static bool decompose(struct bsimp *s, double h)
     return lu_decompose(n, s->lu, s->pivot);
 }
 
-/* Add what solves (I - h J) x = h f - delta, `times` times, to delta, which is added to y. */
+/* Solve (I - h J) x = h f - delta, add x `times` times to delta, and delta to y. */
 static void advance(struct bsimp *s, double h, double times)
 {
     size_t n = s->n;
@@ -66,7 +66,7 @@ static void advance(struct bsimp *s, double h, double times)
     }
 }
 
-/* `count` steps over H from y0 and the one that smooths, into s->y. */
+/* `count` steps over H from y0 and the smoothing step, into s->y. */
 static int midpoint(struct bsimp *s, double t, double H, int count, const double *y0,
                     const gsl_odeiv2_system *sys)
 {
@@ -90,9 +90,10 @@ static int midpoint(struct bsimp *s, double t, double H, int count, const double
     return GSL_SUCCESS;
 }
 
-/* Row k of Aitken and Neville's scheme in h^2 begins with s->y; its last two differ by yerr. In a step that is far too
- * long for the scheme they may agree by accident, after rows that do not: so a share of how the row before ended counts
- * as well, about as much as a row gains where steps are as long as they should be, (n_0 / n_k)^2 times some. */
+/* Row k of Aitken and Neville's scheme in h^2 begins with s->y; its last two entries differ by yerr. In a
+ * step that is far too long for the scheme they may agree by accident, after rows that do not: so the error
+ * also contains a part of the result of the row before, about as much as a row gains in steps of suitable
+ * length, a multiple of (n_0 / n_k)^2. */
 static void extrapolate(struct bsimp *s, int k, double *yerr)
 {
     const double share = 0.02;
@@ -135,7 +136,7 @@ static int bsimp_set_driver(void *state, const gsl_odeiv2_driver *driver)
     return GSL_SUCCESS;
 }
 
-/* Nothing is kept from step to step. */
+/* There is no state between steps. */
 static int bsimp_reset(void *state, size_t n)
 {
     (void)state, (void)n;

@@ -2,19 +2,19 @@
  *
  * Derivation. Let theta = (t - t0) / h, s = theta - 1/2, w = theta (1 - theta) = 1/4 - s^2, a dot d/dtheta.
  *
- * Level 0. q is the quintic Q of the end values, in the basis theta, theta (1-theta), theta^2 (1-theta),
- * ..., which gives both ends without cancellation. v = q. / h is written as the cubic Hermite polynomial V
- * of (v, a) plus a multiple of w^2, whose integral is 1/30:
+ * Level 0. q is the quintic Q of the end values, in the basis theta, theta (1-theta), theta^2 (1-theta), ...,
+ * which gives both ends without cancellation. v = q. / h is written as the cubic Hermite polynomial V of (v,
+ * a) plus a multiple of w^2, whose integral is 1/30:
  *     v = V + w^2 P_0,   P_0 = 30 (dq / h - (v0 + v1)/2 - h (a0 - a1)/12).
- * The error is proportional to w^3 in q, so to (w^3). = -6 s w^2 in v: zero at s = 0. The state in the
- * middle is better by one order in v than elsewhere: q, v and so a are good to h^6 there.
+ * The error is proportional to w^3 in q, so to (w^3). = -6 s w^2 in v: zero at s = 0. The state in the middle
+ * is better by one order in v than elsewhere: q, v and so a are good to h^6 there.
  *
- * Adding accelerations. What leaves all end values alone is q = Q + h w^3 (C0 + C1 s + C2 s^2), thus
+ * Adding accelerations. The corrections that leave all end values unchanged are q = Q + h w^3 (C0 + C1 s + C2
+ * s^2), thus
  *     v = V + w^2 (P_0 + M),   M = C1/4 + (C2/2 - 6 C0) s - 7 C1 s^2 - 8 C2 s^3.
- * An acceleration a at s demands v. = h a there, that is
+ * An acceleration a at s requires v. = h a there, that is
  *     g(s) := h a - V.(s) + 4 s w P_0 = -4 s w M + w^2 M..
- * Only P_0 contains the difference of the q, whose rounding error is magnified by 1/h; the C are free of
- * it.
+ * Only P_0 contains the difference of the q, whose rounding error is magnified by 1/h; the C do not.
  *
  * Level 1: a(0) with an error of h^6 gives g(0) = -(6/16) C0, C1 = C2 = 0; q errs by h^7 w^3 s, hence v by
  * h^6 (w^3 s). = h^6 w^2 (w - 6 s^2), which is zero for s = +-sigma, sigma^2 = 1/28, w = 3/14. There v is
@@ -22,13 +22,12 @@
  *
  * Level 2: a(+-sigma) with errors of h^7. With m = C2/2 - 6 C0 and even and odd parts of g,
  *     g_odd = -14 sigma w^2 C1,   g_even = (3/196) m - (3/98) C2.
- * First C2 = 0: the polynomial of degree 7 errs by h^8, and in v by an odd function of s, thus by h^8 in
- * the middle. So a(0) is evaluated again, and now 16 g(0) = m and g_even give C0 and C2: degree 8, q errs
- * by h^9.
+ * First C2 = 0: the polynomial of degree 7 errs by h^8, and in v by an odd function of s, thus by h^8 in the
+ * middle. So a(0) is evaluated again, and now 16 g(0) = m and g_even give C0 and C2: degree 8, q errs by h^9.
  *
- * Other components: x = X + w^2 (B0 + B1 s) with X the cubic of the end values. The middle is of no use
- * here (w^2 has no slope there); slopes at +-sigma give h x. - X. =: g, g_odd = -4 sigma w B0, g_even =
- * (3/196) B1.
+ * Other components: x = X + w^2 (B0 + B1 s) with X the cubic of the end values. The middle is of no use here
+ * (w^2 has no slope there); slopes at +-sigma give h x. - X. =: g, g_odd = -4 sigma w B0, g_even = (3/196)
+ * B1.
  */
 #include "integrate/dense.h"
 
@@ -146,8 +145,8 @@ void dense_set(struct dense *d, int order, struct time_dd t0, const double *y0, 
         if (*owns[i].type == step->type) d->own = &owns[i];
 }
 
-/* Level 0 of a pair. P_0 is dropped where it is no larger than the errors of q make it: in a very
- * short step the cubic is exact enough, and events on v must not see the noise of q divided by h. */
+/* Level 0 of a pair. P_0 is dropped where it is within the errors of q: in a very short step the cubic is
+ * accurate enough, and events on v must not contain the round-off of q divided by h. */
 static void pair_from_ends(struct pair *p, double h, double q0, double v0, double a0, double q1, double v1,
                            double a1, double error)
 {
@@ -296,7 +295,7 @@ static double single_defect(const struct single *x, double h, double slope, doub
     return h * slope - cubic_slope(x->dx, x->s1, x->s2, s);
 }
 
-/* Bring in the acceleration in the middle. Before the even parts at +-sigma are known (level 1), C2 = 0. */
+/* Use the acceleration in the middle. Before the even parts at +-sigma are set (level 1), C2 = 0. */
 static int use_middle(struct dense *d, bool even_known)
 {
     int code = inner_slopes(d, 0, d->plus);
@@ -310,7 +309,7 @@ static int use_middle(struct dense *d, bool even_known)
     return GSL_SUCCESS;
 }
 
-/* Bring in the slopes at +-sigma, in place of what was there. */
+/* Use the slopes at +-sigma in place of the earlier ones. */
 static int use_sigma(struct dense *d)
 {
     int code = inner_slopes(d, -sigma, d->minus);
@@ -336,7 +335,7 @@ static int use_sigma(struct dense *d)
     return GSL_SUCCESS;
 }
 
-/* Pair i as its ends have it. */
+/* Set pair i from its ends. */
 static void set_pair(struct dense *d, size_t i)
 {
     size_t n = d->pairs;

@@ -20,12 +20,12 @@ struct resteps {
     enum belief belief;
     int stride; /* between the points that are used */
     const double *y0, *y1;
-    double share[nodes];    /* of the step: where the points are */
+    double share[nodes];    /* positions of the points in the step */
     double *tail, *scratch; /* n, n */
     double points[];
 };
 
-/* sin^2 keeps the digits of a small share. */
+/* sin^2 preserves the digits of a small share. */
 static double share_of(int k)
 {
     const double pi = 3.14159265358979323846;
@@ -57,7 +57,7 @@ void resteps_set(struct resteps *inside, const double *y0, const double *y1)
     inside->belief = untried;
 }
 
-/* The points that no coarser stride has. */
+/* Sample the points that no coarser stride has. */
 static bool take_points(struct resteps *inside, const struct resteps_source *source, int stride)
 {
     for (int k = stride; k < finest; k += stride) {
@@ -88,8 +88,9 @@ static void set_tail(struct resteps *inside, int stride)
         }
 }
 
-/* The difference that a change of the share by next to nothing makes, as an excess: what the step is rounded
- * by. At tolerances near that it is no smoother, and points of it are as good as any other place. */
+/* Effect of a minimal change of the share, relative to the allowed error: the round-off level of the step. At
+ * tolerances near it the step is not smoother than that, and interpolation between points is as good as any
+ * sample. */
 static double rounding_of(struct resteps *inside, const struct resteps_source *source)
 {
     const double next_to_nothing = 1e-13;

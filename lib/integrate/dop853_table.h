@@ -2,9 +2,9 @@
  *
  * Coefficients of the Dormand-Prince pair 8(5,3) and of its continuous extension of order 7.
  *
- * Numbering is that of the book: stage i is k_i = f(t + c_i h, y + h sum_j a_ij k_j), i = 1 ... 16. Stages
- * 1 to 12 make the step, 13 is f at its end (so the next step starts with it), 14 to 16 serve dense output
- * only. What is not listed is zero.
+ * Numbering is that of the book: stage i is k_i = f(t + c_i h, y + h sum_j a_ij k_j), i = 1 ... 16. Stages 1
+ * to 12 make the step, 13 is f at its end (so the next step starts with it), 14 to 16 serve dense output
+ * only. Coefficients that are not listed are zero.
  *
  * Sources: E. Hairer, S. P. Norsett, G. Wanner, Solving Ordinary Differential Equations I, 2nd edition,
  * Springer 1993, sections II.5, II.6 and II.10, and the numbers of their public program dop853.f with all

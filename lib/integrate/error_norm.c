@@ -16,10 +16,10 @@ struct error_norm {
     struct step_law law;
     double *scale;   /* size: running maximum of |y| and of the floors given */
     double *cap;     /* pairs: 1 rad for angles, no bound for others */
-    double *noise;   /* pairs, then what is no pair: rounding error of a, and of y' */
-    double *floor;   /* pairs: of the rates, as given */
-    double *passing; /* as noise: the share of it that goes with the acceleration, or with y' */
-    double *fastest; /* what is no pair: running maximum of |y'|, */
+    double *noise;   /* pairs, then other components: round-off level of a, and of y' */
+    double *floor;   /* pairs: floors of the rates, as given */
+    double *passing; /* as noise: the part of it that is proportional to a, or to y' */
+    double *fastest; /* components outside the pairs: running maximum of |y'|, */
     double *slopes;  /* and y' in the last accepted state */
     double *before;  /* 3 pairs: q, v and a of the last accepted state, */
     double *earlier; /* and of the one before it */
@@ -36,7 +36,7 @@ static inline double smaller(double a, double b)
     return a < b ? a : b;
 }
 
-/* How far q_i, and any other component, gets in a step of size h. */
+/* Change of q_i, and of any other component, in a step of size h. */
 static inline double motion_of_q(double h, double v, double a)
 {
     return fabs(h * v) + fabs(h * h * a);
@@ -59,11 +59,11 @@ static inline double scale_of_q(const struct error_norm *w, size_t i, double q, 
     return smaller(scale_of(w, i, q, motion), w->cap[i]);
 }
 
-/* What a rate has in the harmonic motion through the state `before` and this one: from a = -w^2 q, which
- * gives 1 / w^2 = |dq / da|, v^2 + a^2 / w^2 at any time, here with the larger v and the mean a. Without bound
- * where a does not change, and for methods of variable order, whose steps carry the errors of those before along:
- * estimates of msadams on a decaying oscillation were low by half with it (tests/unit/test_accuracy.c). Squares of
- * what a pulse has hardly moved underflow. */
+/* Amplitude of a rate in the harmonic motion through the state `before` and this one: a = -w^2 q gives 1 /
+ * w^2 = |dq / da|, and v^2 + a^2 / w^2 is constant, here with the larger v and the mean a. INFINITY where a
+ * does not change, and for methods of variable order, whose steps carry earlier errors along: with it,
+ * estimates of msadams on a decaying oscillation were low by half (tests/unit/test_accuracy.c). Squares may
+ * underflow after a weak pulse. */
 static double amplitude(const struct error_norm *w, const double *before, size_t i, double q, double v,
                         double a)
 {
@@ -80,18 +80,18 @@ static inline double scale_of_v(const struct error_norm *w, size_t i, double sca
     return smaller(scale, larger(swing, larger(w->floor[i], share * scale)));
 }
 
-/* The error that is allowed in y; `hidden` is what is invisible for other reasons than the rounding of y.
- * What y has really moved is at most the size it had and has: the motion by the slope at the end is not
- * believed beyond, as a step that has gone wrong has a huge one there (quadratic drag at its terminal speed,
- * passed over by 1000 s at once, ends with a speed of 1e104 m/s and 1e209 m/s^2). */
+/* The allowed error of y; `hidden` is the part that is invisible for other reasons than the rounding of y.
+ * The true change of y is at most the sum of its old and new sizes. The motion by the slope at the end is
+ * limited to that, since a step that has gone wrong has a huge slope there (quadratic drag at terminal speed
+ * with a step of 1000 s ends with a speed of 1e104 m/s and 1e209 m/s^2). */
 static inline double level(double tolerance, double scale, double y, double motion, double hidden)
 {
     double moved = smaller(motion, scale + fabs(y));
     return larger(larger(tolerance * scale, DBL_EPSILON * (fabs(y) + moved)), hidden);
 }
 
-/* The tolerance in a step of size h of what has gone as far as `way` and as fast as `speed`: less where the step is short
- * beside the time that this takes, as errors of many steps add up. */
+/* The tolerance in a step of size h of a component with the scale `way` and the scale `speed` of its rate:
+ * reduced where the step is short compared with way / speed, as the errors of many steps add up. */
 static double tolerance_by_time(const struct error_norm *w, double way, double speed, double h)
 {
     const double most = 1e3, least = 1e-12;
@@ -105,17 +105,18 @@ static inline double allowed_by_noise(const struct error_norm *w, size_t i, doub
     return 4 * w->noise[i] * fabs(h);
 }
 
-/* What rounding of q_i hides in v_i within a step, and `by_noise` that of the acceleration. */
+/* The error of v_i that rounding of q_i hides within a step, or that of the acceleration, `by_noise`. */
 static inline double hidden_in_v(const struct error_norm *w, size_t i, double h, double q, double by_noise)
 {
     return larger(DBL_EPSILON * smaller(fabs(q), w->cap[i]) / fabs(h), by_noise);
 }
 
-/* An error that rounding of the accelerations explains, `noise`, says nothing of the step size. Counted by a
- * level that goes with h as it does, it would have the step shrink for ever: the law wants ratios below
- * safety^k. Beyond, errors count up to a level of four times the noise, so that a step that has grown out of
- * the noise is not rejected at once. Levels do not underflow: the far end of a bell drives what rests with 1e-300 N.
- * Within the noise of a force of the time an error counts for `at_least` (or its own ratio, if less). */
+/* Raise the ratio by an error, unless the rounding of the accelerations, `noise`, explains it. Such an error
+ * does not depend on the step size as the law assumes: with a level proportional to h, as it is, the step
+ * would shrink without end, because the law requires ratios below safety^k. Larger errors are compared with a
+ * level of at least four times the noise, so that a step that has just grown out of the noise is not rejected
+ * at once. Levels must not underflow: the far tail of a bell curve drives a body at rest with 1e-300 N.
+ * Within the noise of a time-dependent force an error counts as `at_least` (or its own ratio, if less). */
 static inline double raised(double ratio, double error, double error_level, double noise, double at_least)
 {
     bool counts = fabs(error) > noise;
@@ -124,15 +125,17 @@ static inline double raised(double ratio, double error, double error_level, doub
     return larger(ratio, counts ? own : smaller(own, at_least));
 }
 
-/* For no more than lets the step double: one six times as long, out of the noise, errs a million times as much, and of
- * as many tries as a pulse takes the estimate of some is small by chance. */
+/* The least ratio within the round-off level, such that the step at most doubles: a step six times as long,
+ * beyond that level, errs a million times as much, and of the many steps within a pulse some have a small
+ * estimate by chance. */
 static inline double least_in_noise(const struct error_norm *w, size_t i)
 {
     return w->passing[i] > 0 ? w->law.doubles : 0;
 }
 
-/* The noise in a step over which an acceleration goes from a0 to a1: what goes with it is over where that is. A step off the
- * flank of a pulse is not excused by the noise there for all of the time that comes after. */
+/* The round-off level in a step over which an acceleration goes from a0 to a1. The part proportional to the
+ * acceleration falls with it: the level on the flank of a pulse must not excuse a step that ends behind the
+ * pulse. */
 static inline double noise_over(const struct error_norm *w, size_t i, double a0, double a1)
 {
     double noise = w->noise[i], passing = w->passing[i];
@@ -177,8 +180,8 @@ double error_norm_ratio(const gsl_odeiv2_control *control, double h, const doubl
     return probe == 0 ? ratio : INFINITY;
 }
 
-/* ratio^(1/k). Square roots are rounded correctly everywhere, pow is not: the methods that `auto` chooses
- * give the same steps with every mathematics library. They are faster, too. */
+/* ratio^(1/k). Square roots are rounded correctly on every platform, pow is not: so the methods that `auto`
+ * chooses give the same steps with every mathematics library. They are faster, too. */
 static double root_of(double ratio, int k)
 {
     double eighth = k == 8 || k == 11 ? sqrt(sqrt(sqrt(ratio))) : 0;
@@ -262,7 +265,7 @@ bool error_norm_roundoff_counts(const gsl_odeiv2_control *control, double h)
     const double *q = w->before, *v = q + n, *a = v + n;
     for (size_t i = 0; i < n; i++) {
         double allowed = allowed_by_noise(w, i, h), scale = w->scale[n + i];
-        if (!(allowed > w->tolerance * scale_of_v(w, i, scale, 0))) continue; /* by no swing */
+        if (!(allowed > w->tolerance * scale_of_v(w, i, scale, 0))) continue; /* lower bound: no amplitude */
         double swing = amplitude(w, w->earlier, i, q[i], v[i], a[i]);
         if (allowed > w->tolerance * scale_of_v(w, i, scale, swing)) return true;
     }
@@ -301,8 +304,8 @@ void error_norm_settle(gsl_odeiv2_control *control, const struct stepper_state_v
     memcpy(w->earlier, view->before, 3 * bytes);
 }
 
-/* The largest scale among the components of the same group (q, v or x) as `i`: a reference for one that has
- * none. */
+/* The largest scale among the components of the same group (q, v or x) as `i`: a replacement for a scale of
+ * zero. */
 static double scale_of_group(const struct error_norm *w, size_t i)
 {
     size_t n = w->pairs,
@@ -330,11 +333,10 @@ static int control_hadjust(void *state, size_t n, unsigned order, const double y
     return factor > 1 ? GSL_ODEIV_HADJ_INC : GSL_ODEIV_HADJ_NIL;
 }
 
-/* Implicit and multistep methods end their iterations by this level, before there is a new state. They
- * divide by it, so it must not be zero: a component that is zero with all that is known of it takes its
- * group's scale, and in a state where nothing moves at all the number 1 does no harm, as hadjust judges the
- * result.
- */
+/* Implicit and multistep methods end their iterations by this level, before there is a new state. They divide
+ * by it, so it must not be zero: a component whose scale and motion are zero takes the largest scale of its
+ * group. In a state where all scales are zero the number 1 is used, which does no harm, as hadjust checks the
+ * result. */
 static int control_errlevel(void *state, const double y, const double dydt, const double h, const size_t i,
                             double *errlev)
 {
@@ -366,9 +368,8 @@ static int control_set_driver(void *state, const gsl_odeiv2_driver *driver)
     return GSL_SUCCESS;
 }
 
-/* GSL would make the state without knowing the dimension, so only error_norm_alloc makes controls of this
- * type.
- */
+/* GSL would allocate the state before the dimension is set, so only error_norm_alloc makes controls of this
+ * type. */
 static void *control_alloc(void)
 {
     return NULL;
@@ -384,13 +385,11 @@ static const gsl_odeiv2_control_type error_norm_type = {
     .free = free,
 };
 
-/* The numbers of HNW I, II.4 and of dop853.f, with two changes that were measured, in evaluations at equal
- * error. Order 8: where the allowed step changes much within one step, safety 0.9 has a quarter of the
- * steps rejected. 0.7 saves 13 % for dop853 and 10 % for rk8pd (mean over six systems at errors of 1e-4
- * to 1e-10; 0.6 hardly gains more). Multistep methods: a step size that is left alone until it may double
- * takes half the evaluations of one that follows every estimate (pendulum, forced oscillator; msbdf on a
- * stiff oscillator a quarter, on van der Pol's with mu = 20 four fifths). The exception found is msadams on
- * that last one, which is not for it: up to twice as many. */
+/* The numbers of HNW I, II.4 and of dop853.f, with two changes, by measured evaluations at equal error. Order
+ * 8: where the allowed step changes much within one step, safety 0.9 has a quarter of the steps rejected; 0.7
+ * needs fewer evaluations for dop853 and rk8pd, 0.6 hardly fewer. Multistep methods: a step size that stays
+ * constant until it may double takes fewer evaluations than one that follows every estimate; msadams on van
+ * der Pol's oscillator with mu = 20 is an exception. */
 struct step_law step_law_for(int estimate_order)
 {
     struct step_law law = {.safety = 0.9, .shrink = 0.2, .grow = 5, .keep_below = 0};

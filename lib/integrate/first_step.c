@@ -7,7 +7,7 @@
 
 #include "integrate/error_norm.h"
 
-/* a / b where both are known, else no bound. */
+/* a / b where both are positive, else no bound. */
 static double time_of(double a, double b)
 {
     return a > 0 && b > 0 ? a / b : INFINITY;
@@ -58,14 +58,14 @@ static int euler_slopes(struct counted_system *system, double t, const double *y
     return code;
 }
 
-/* tau_2 by an Euler step of *probe, which is shortened as long as slopes change so much within it that the change says
- * nothing of the start: an exponential may be beyond all bounds there. */
+/* tau_2 by an Euler step of *probe, which is shortened while the slopes change so much within it that the
+ * change is unrelated to the start: an exponential may overflow there. */
 static int probe_change(struct counted_system *system, const struct layout *layout, double t, const double *y,
                         const double *f, const double *scale, double *y1, double *f1, double *probe,
                         double *tau)
 {
     enum { attempts = 8 };
-    const double too_long = 1e-4; /* tau_2 of the probe */
+    const double too_long = 1e-4; /* relative to tau_2 */
     for (int k = 0;; k++) {
         int code = euler_slopes(system, t, y, f, probe, y1, f1);
         if (code != GSL_SUCCESS) return code;
@@ -83,7 +83,7 @@ int first_step(struct counted_system *system, const struct layout *layout, const
     double *y1 = work, *f1 = work + size, *scale = work + 2 * size;
     error_norm_scales(control, 0, y, f, scale);
     double tau = time_of_slopes(layout, y, f, scale);
-    /* Bounded below, as a coordinate that is zero but for rounding may still fake a short time. */
+    /* Bounded below, as a coordinate that is zero up to rounding may still give too short a time. */
     double shortest = fmax(1e-9 * h_max, 64 * DBL_EPSILON * fabs(t));
     double probe = fmin(h_max, tau < INFINITY ? fmax(0.01 * tau, shortest) : 1e-3 * h_max);
     double change;

@@ -7,7 +7,7 @@
 
 struct history {
     size_t n;
-    int count, latest; /* points known; index of the latest one in the ring */
+    int count, latest; /* number of points; index of the latest one in the ring */
     double t[history_points];
     double y[]; /* history_points states */
 };

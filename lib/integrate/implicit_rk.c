@@ -13,8 +13,9 @@
 
 enum { most_stages = 2 };
 
-/* z_i = h sum_j a_ij f(t + c_j h, y + z_j), and y1 = y + sum d_i z_i with d = b A^-1: so f is not needed once
- * more, which in a stiff system would magnify what is left of the iteration (Hairer & Wanner II, IV.8). */
+/* z_i = h sum_j a_ij f(t + c_j h, y + z_j), and y1 = y + sum d_i z_i with d = b A^-1: so f is not evaluated
+ * once more, which in a stiff system would magnify the remaining error of the iteration (Hairer & Wanner II,
+ * IV.8). */
 struct table {
     unsigned order, stages;
     double c[most_stages], a[most_stages][most_stages], d[most_stages];
@@ -44,7 +45,7 @@ struct implicit_rk {
 static void *alloc(const struct table *table, size_t n)
 {
     size_t m = table->stages * n;
-    if (n == 0 || n > 1u << 20) return NULL; /* n^2 numbers are not to be had either */
+    if (n == 0 || n > 1u << 20) return NULL; /* n^2 numbers cannot be allocated either */
     size_t doubles = n * n + m * m + 3 * m + 6 * n;
     struct implicit_rk *s = calloc(1, sizeof *s + doubles * sizeof(double) + m * sizeof(size_t));
     if (!s) return NULL;
@@ -104,7 +105,7 @@ static int evaluate(struct implicit_rk *s, double t, double h, const double *y, 
     return status;
 }
 
-/* The Newton correction of all stages, added to z; its size. */
+/* Add the Newton correction of all stages to z; returns its size. */
 static double correct(struct implicit_rk *s, double h, const double *y)
 {
     const struct table *table = s->table;
@@ -175,7 +176,7 @@ static int set_driver(void *state, const gsl_odeiv2_driver *driver)
     return GSL_SUCCESS;
 }
 
-/* Nothing is kept from step to step. */
+/* There is no state between steps. */
 static int reset(void *state, size_t n)
 {
     (void)state, (void)n;

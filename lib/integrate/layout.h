@@ -4,8 +4,8 @@
  *
  * y = [q_0 ... q_(n-1), v_0 ... v_(n-1), x_0 ... x_(m-1)] with q' = v exactly, n = pairs, m = extra. The x
  * are any further states of first order (accumulated work, for instance). A system that is not of this form
- * has pairs = 0. What is known of the structure buys accuracy: dense output of two orders more, and error
- * scales for components that are still zero.
+ * has pairs = 0. The structure is used for accuracy: dense output of two orders more, and error scales for
+ * components that are still zero.
  */
 #ifndef FBD_INTEGRATE_LAYOUT_H
 #define FBD_INTEGRATE_LAYOUT_H
@@ -16,7 +16,7 @@
 struct layout {
     size_t pairs, extra;
     const bool
-        *angle; /* for each pair: q is an angle [rad]; NULL: none is. Read while objects are made only. */
+        *angle; /* for each pair: q is an angle [rad]; NULL: none is. Read only by the alloc functions. */
 };
 
 static inline size_t layout_size(const struct layout *layout)

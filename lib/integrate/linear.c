@@ -26,7 +26,7 @@ struct linear {
     struct powers_piece piece;
     int degree;     /* of that piece; below zero: none */
     double *A;      /* dim x dim */
-    int made;       /* rungs of the ladder for this matrix */
+    int made;       /* doublings computed for this matrix */
     double *ladder; /* for each, dim x dim: Phi and the exponential */
     double memory[];
 };
@@ -38,7 +38,10 @@ static void *linear_alloc(size_t dim)
     size_t numbers = (2 + works + terms + power_room + dim) * dim, matrices = 2 * (size_t)rungs * dim * dim;
     struct linear *s = malloc(sizeof *s + (numbers + matrices) * sizeof(double));
     if (!s) return NULL;
-    *s = (struct linear){.dim = dim, .rho = NAN}; /* of no matrix; most scenes never climb the ladder */
+    *s =
+        (struct linear){.dim = dim,
+                        .rho =
+                            NAN}; /* rho of no matrix; the doublings are not cleared, most scenes need none */
     s->y0 = s->memory;
     s->f0 = s->y0 + dim;
     s->work = s->f0 + dim;
@@ -78,7 +81,7 @@ static int linear_set_driver(void *state, const gsl_odeiv2_driver *driver)
 
 static inline void apply_matrix(size_t dim, const double *matrix, const double *x, double *result)
 {
-    if (dim == 2) { /* one body on a line or a pivot, the most frequent scene */
+    if (dim == 2) { /* one body on a slide or a pivot, the most frequent scene */
         double first = matrix[0] * x[0] + matrix[1] * x[1];
         result[1] = matrix[2] * x[0] + matrix[3] * x[1];
         result[0] = first;
@@ -102,7 +105,7 @@ static void multiply(size_t dim, const double *a, const double *b, double *resul
     }
 }
 
-/* ---- the ladder */
+/* ---- doublings */
 
 static double *phi_of(const struct linear *s, int rung)
 {
@@ -119,7 +122,7 @@ static double height_of(const struct linear *s, int rung)
     return ldexp(lowest_rung / s->rho, rung);
 }
 
-/* sum += term, element by element; is the term nothing beside each of them? */
+/* sum += term, element by element; is every term negligible compared with its sum? */
 static bool add_small(size_t size, const double *term, double *sum)
 {
     const double least = 1e-19;
@@ -131,7 +134,7 @@ static bool add_small(size_t size, const double *term, double *sum)
     return small;
 }
 
-/* Phi by its series, and e^(hA) = 1 + A Phi. The room of the next rung holds the terms. */
+/* Phi by its series, and e^(hA) = 1 + A Phi. The memory of the next doubling holds the terms. */
 static void set_lowest(struct linear *s)
 {
     size_t dim = s->dim, size = dim * dim;
@@ -171,8 +174,8 @@ static void need_rung(struct linear *s, int rung)
 
 /* ---- steps */
 
-/* The terms h^k A^(k-1) f/k! of the series of a step, of which the first, h f, is there: as many as count, `most` at most; the
- * norm of the weights says nothing of what is no longer there after dim - 1 products. Their number. */
+/* The terms h^k A^(k-1) f/k! of the series of a step after the first, h f, which the caller has set: as many
+ * as count, `most` at most. The norm bounds the terms only after dim - 1 products. Returns their number. */
 static int continue_series(const struct linear *s, double h, int most, double *term)
 {
     size_t dim = s->dim;
@@ -192,7 +195,7 @@ static int continue_series(const struct linear *s, double h, int most, double *t
     return used;
 }
 
-/* The same for one body, whose numbers stay in registers. */
+/* The same for two components, which stay in registers. */
 static int continue_series_of_pair(const struct linear *s, double h, int most, double *term)
 {
     const double a = s->A[0], b = s->A[1], c = s->A[2], d = s->A[3], rho = s->rho;
@@ -244,7 +247,7 @@ static void sum_terms(const struct linear *s, double theta, double *y)
     y[i] = s->y0[i] + sum;
 }
 
-/* rise += Phi(h) f for |h| below the lowest rung. */
+/* rise += Phi(h) f for |h| below the shortest doubling. */
 static void climb_rest(const struct linear *s, double h, const double *f, double *term, double *rise)
 {
     const double least = 4e-18;
@@ -260,8 +263,9 @@ static void climb_rest(const struct linear *s, double h, const double *f, double
     }
 }
 
-/* y0 + Phi(h) f0 for a step longer than the series goes: by the powers of two that h is made of, the slope f going
- * along, and what is left by the series. A step of one rung may be shorter by the rounding of the time. */
+/* y0 + Phi(h) f0 for a step beyond the range of the series: split h into the lengths of the doublings,
+ * advancing the slope f over each, and use the series for the remainder. A step of exactly one such length
+ * may be shorter by the rounding of the time. */
 static void leap(struct linear *s, double h, double *y)
 {
     const double rounding = 1e-12;
@@ -295,7 +299,7 @@ void linear_set_matrix(gsl_odeiv2_step *step, const double *A, double rho)
     struct linear *s = step->state;
     size_t size = s->dim * s->dim * sizeof *A;
     s->has_matrix = true;
-    if (rho == s->rho && memcmp(A, s->A, size) == 0) return; /* as before the reset, with its ladder */
+    if (rho == s->rho && memcmp(A, s->A, size) == 0) return; /* as before the reset, with its doublings */
     memcpy(s->A, A, size);
     s->rho = rho;
     s->made = 0;
@@ -329,7 +333,7 @@ static int linear_apply(void *state, size_t dim, double t, double h, double y[],
     s->degree = -1;
     memcpy(s->y0, y, dim * sizeof *y);
     memset(yerr, 0, dim * sizeof *yerr);
-    if (!(h * s->rho < ldexp(lowest_rung, rungs))) return GSL_FAILURE; /* beyond the ladder */
+    if (!(h * s->rho < ldexp(lowest_rung, rungs))) return GSL_FAILURE; /* longer than the longest doubling */
     if (h * s->rho <= series_reach) {
         set_terms(s);
         sum_terms(s, 1, y);
@@ -360,8 +364,8 @@ void linear_dense_eval(const gsl_odeiv2_step *step, double theta, double *y)
         leap(s, theta * s->h, y);
 }
 
-/* The series about the middle m of a piece, where the slope is f0 + A (y(m) - y0). Over half of a step h rho is 1 at most,
- * and what is left out below 1/21! = 2e-20. The degree. */
+/* The series about the middle m of a piece, where the slope is f0 + A (y(m) - y0). Over half of a step h rho
+ * is 1 at most, and the truncation error below 1/21! = 2e-20. Returns the degree. */
 static int expand(const struct linear *s, const struct powers_piece *piece, double *c)
 {
     double *f = s->work;

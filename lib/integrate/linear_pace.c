@@ -79,7 +79,7 @@ static void forget(struct linear_pace *pace, const struct linear_modes *modes)
         if (pace->keys[i].of == modes) pace->keys[i].of = NULL;
 }
 
-/* Analyse pace->jacobian, in place of the matrix that was analysed first. */
+/* Analyse pace->jacobian, in place of the oldest matrix. */
 static struct linear_modes *make_modes(struct linear_pace *pace)
 {
     struct linear_modes *modes = &pace->kept[pace->oldest];
@@ -90,7 +90,7 @@ static struct linear_modes *make_modes(struct linear_pace *pace)
     memcpy(pace->copy, pace->jacobian, size);
     modes->rho = stiffness_rate(dim, modes->A, pace->work);
     gsl_matrix_view matrix = gsl_matrix_view_array(pace->copy, dim, dim);
-    /* Where they are not found, every mode counts as the fastest. */
+    /* If the eigenvalues are not found, every mode counts as the fastest. */
     if (gsl_eigen_nonsymm(&matrix.matrix, modes->eigenvalues, pace->eigen) != GSL_SUCCESS)
         gsl_vector_complex_set_all(modes->eigenvalues, gsl_complex_rect(0, modes->rho));
     return modes;
@@ -109,7 +109,7 @@ void linear_pace_start(struct linear_pace *pace, struct counted_system *system, 
     if (modes) remember(pace, modes);
 }
 
-/* The largest measure of an eigenvalue among the modes that are still there at t. */
+/* The largest measure of an eigenvalue among the modes that have not died out at t. */
 static double fastest(const struct linear_pace *pace, double t, double (*measure)(gsl_complex))
 {
     const double died_out = 40;

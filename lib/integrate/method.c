@@ -9,8 +9,8 @@
 #include "integrate/pair8.h"
 #include "integrate/rodas5p.h"
 
-/* The orders are measured ones (tests/unit/test_stepper.c): GSL's rk2 gives the result of its formula of
- * order 3. So are the limits of stability; rk8pd and dop853 look after their own. */
+/* The orders are measured (tests/unit/test_stepper.c): GSL's rk2 gives the result of its formula of order 3.
+ * So are the limits of stability; rk8pd and dop853 have their own control of stability. */
 static const struct method methods[] = {
     {.name = "rk8pd",
      .description = "explicit Runge-Kutta, Prince-Dormand 8(7)",

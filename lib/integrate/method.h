@@ -9,7 +9,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-/* Beyond so many states the dense algebra of the stiff method costs more than it could save. */
+/* For more states the dense algebra of the stiff method costs more than it could save. */
 enum { method_most_stiff_states = 200 };
 
 struct method {
@@ -17,14 +17,13 @@ struct method {
     const char *description; /* one line without a full stop */
     const gsl_odeiv2_step_type *const *type;
     int order;          /* of the result; the highest one of a method of variable order */
-    int estimate_order; /* its error estimate is O(h^estimate_order); 0: order of the moment + 1 */
-    bool implicit;      /* needs the Jacobian */
-    bool multistep; /* remembers earlier steps: cannot redo part of a step, has to be reset after an event */
-    bool needs_driver; /* asks a driver for its control's error level */
-    double stable;     /* it is stable for h lambda in [-stable, 0]; 0: rk8pd and dop853, which find
-                          out by themselves, and implicit ones */
-    double by_time;    /* as in struct step_law: for methods that lose their order where forces are stiff */
-    bool exact; /* no error: a part of a step is what its dense output says, and no first step is too long */
+    int estimate_order; /* its error estimate is O(h^estimate_order); 0: present order + 1 */
+    bool implicit;      /* requires the Jacobian */
+    bool multistep;     /* uses earlier steps: cannot redo part of a step, must be reset after an event */
+    bool needs_driver;  /* reads the error level of a driver's control */
+    double stable;      /* stable for h lambda in [-stable, 0]; 0: implicit, or estimated (rk8pd, dop853) */
+    double by_time;     /* as in struct step_law: for methods that lose their order where forces are stiff */
+    bool exact;         /* dense output agrees with parts of a step, and a first step may have any length */
 };
 
 /* Method number `index` in the order of preference; NULL beyond the last one. Number 0 is the default. */

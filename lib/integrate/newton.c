@@ -8,7 +8,7 @@
 void newton_levels(const gsl_odeiv2_control *control, size_t n, const double *y, const double *f, double h,
                    double *level)
 {
-    /* GSL declares what it only reads as changeable. */
+    /* GSL declares arguments that it only reads without const. */
     gsl_odeiv2_control *own = (gsl_odeiv2_control *)control;
     for (size_t i = 0; i < n; i++) gsl_odeiv2_control_errlevel(own, y[i], f[i], h, i, &level[i]);
 }
@@ -20,14 +20,14 @@ double newton_size(size_t n, const double *dy, const double *y, const double *le
     for (size_t i = 0; i < n; i++) {
         double beyond = fabs(dy[i]) - roundings * fabs(y[i]);
         if (!(beyond <= 0)) size = fmax(size, beyond / level[i]);
-        if (isnan(beyond)) return INFINITY; /* fmax would pass it over */
+        if (isnan(beyond)) return INFINITY; /* fmax would ignore it */
     }
     return size;
 }
 
-/* What is left after a correction of size s, each being `rate` times the one before, is s rate / (1 - rate):
- * that has to be a hundredth of what is allowed, so that the estimate of the step's error means something.
- * Corrections that are small and do not get smaller are roundings of the slopes. */
+/* The error remaining after a correction of size s, each being `rate` times the one before, is s rate / (1 -
+ * rate): it must be a hundredth of the allowed error, so that the estimate of the step's error is valid.
+ * Corrections that are small and do not decrease are roundings of the slopes. */
 enum newton_verdict newton_judge(struct newton *newton, double size)
 {
     const double share = 0.01, little = 0.1, slow = 0.9;

@@ -25,8 +25,8 @@ struct nystrom {
     double memory[];
 };
 
-/* The stages of one coordinate lie side by side, as the sums over them are what takes time. Entry 0 is
- * unused: stage i of the paper is entry i. */
+/* The stages of one coordinate are adjacent, as the sums over them take most of the time. Entry 0 is unused:
+ * stage i of the paper is entry i. */
 enum { row = nystrom_stages + 1 };
 
 /* Dense output: a has a degree of 10 at most, v one and q two more. */
@@ -195,7 +195,7 @@ static void set_curve(struct nystrom *s, size_t m, const double *a)
     q[0] += s->y0[m];
 }
 
-/* The curve through what the stages have left behind. */
+/* The curve through the accelerations of the stages. */
 static void curve_of_stages(struct nystrom *s)
 {
     for (size_t m = 0; m < s->n; m++) {
@@ -225,7 +225,7 @@ static void curve_of_nodes(struct nystrom *s)
 }
 
 /* P_(i+1) = ahead[i] x P_i - back[i-1] P_(i-1): (2 i + 1)/(i + 1) and (i + 1)/(i + 2). Divisions would take
- * most of the time of a look. */
+ * most of the time of an evaluation. */
 static const double ahead[q_terms] = {1.0,      3.0 / 2,  5.0 / 3,   7.0 / 4,   9.0 / 5,   11.0 / 6, 13.0 / 7,
                                       15.0 / 8, 17.0 / 9, 19.0 / 10, 21.0 / 11, 23.0 / 12, 25.0 / 13};
 static const double back[q_terms] = {1.0 / 2, 2.0 / 3,  3.0 / 4,   4.0 / 5,   5.0 / 6,   6.0 / 7,  7.0 / 8,
@@ -252,7 +252,7 @@ void nystrom_dense_eval(const gsl_odeiv2_step *step, double theta, double *y)
     }
 }
 
-/* The accelerations at the nodes, between the ends on the curve made so far. */
+/* The accelerations at the nodes, with inner positions from the present curve. */
 static int fill_nodes(gsl_odeiv2_step *step, const gsl_odeiv2_system *sys)
 {
     struct nystrom *s = step->state;

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * The sums of a step of the method of nystrom_table.h: for numbers (nystrom.c) and for vectors of them, a number for each
- * lane of a batch, in one order, as sums in another order have other bits. They are written out, in two chains
- * of additions that a processor can work on at the same time: loops over the coefficients take a third more time for the
- * step of a pendulum.
+ * The sums of a step of the method of nystrom_table.h: for scalars (nystrom.c) and for vectors with one lane
+ * for each run of a SIMD batch, in the same order, as another order would change the bits. They are written
+ * out, in two chains of additions that a processor can execute in parallel: measured, loops over the
+ * coefficients are slower.
  *
  * STAGE(i, sum) makes stage i, given the sum over the stages before, whose terms are A(i, j) = a_ij k_j.
  */
@@ -41,7 +41,7 @@
     STAGE(17, (A(17, 1) + A(17, 4) + A(17, 6) + A(17, 8) + A(17, 10) + A(17, 12) + A(17, 14)) +              \
                   (A(17, 3) + A(17, 5) + A(17, 7) + A(17, 9) + A(17, 11) + A(17, 13) + A(17, 15)))
 
-/* sum w_j k_j of b, d and those of order 10. */
+/* sum w_j k_j for the weights b, d and those of order 10. */
 #define NYSTROM_SUM(w, k)                                                                                    \
     (((w)[1] * (k)[1] + (w)[8] * (k)[8] + (w)[10] * (k)[10] + (w)[12] * (k)[12] + (w)[14] * (k)[14] +        \
       (w)[16] * (k)[16]) +                                                                                   \

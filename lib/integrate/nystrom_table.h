@@ -4,11 +4,11 @@
  *
  * Stage i is k_i = a(t + c_i h, q + c_i h v + h^2 sum_j a_ij k_j), i = 1 ... 17; the step is
  *     q1 = q + h v + h^2 sum b_i k_i,   v1 = v + h sum d_i k_i,
- * and the same sums with b_low, d_low have order 10. What is not listed is zero.
+ * and the same sums with b_low, d_low have order 10. Coefficients that are not listed are zero.
  *
  * Source: J. R. Dormand, M. E. A. El-Mikkawy, P. J. Prince, High-order embedded Runge-Kutta-Nystrom formulae,
- * IMA J. Numer. Anal. 7 (1987) 423-430, with the 30 digits that the authors have given.
- * tests/unit/test_nystrom.c checks them: the conditions of the rows and of the sums, measured slopes.
+ * IMA J. Numer. Anal. 7 (1987) 423-430, with the 30 digits given by the authors. tests/unit/test_nystrom.c
+ * checks them: the conditions of the rows and of the sums, measured slopes.
  */
 #ifndef FBD_INTEGRATE_NYSTROM_TABLE_H
 #define FBD_INTEGRATE_NYSTROM_TABLE_H
@@ -188,9 +188,9 @@ static const double nystrom_d_low[nystrom_stages + 1] = {[1] = 1.700870190700699
                                                          [15] = 6.93633866500486770090602920091e-2,
                                                          [16] = 2.0e-2};
 
-/* Dense output, first round: the places theta of the accelerations that the curve is laid through, as the
- * stages that stand there (0: the end of the step), and the matrix that takes the nine accelerations to the
- * coefficients of the Legendre polynomials P_0 ... P_8 of 2 theta - 1: the inverse of P_m(2 theta_r - 1). */
+/* Dense output, first round: the times theta of the interpolated accelerations, the stages at these times (0:
+ * the end of the step), and the matrix that maps the nine accelerations to the coefficients of the Legendre
+ * polynomials P_0 ... P_8 of 2 theta - 1: the inverse of P_m(2 theta_r - 1). */
 enum { nystrom_stage_nodes = 9, nystrom_nodes = 11 };
 
 static const int nystrom_node_stage[nystrom_stage_nodes] = {1, 7, 8, 10, 12, 13, 14, 15, 0};
@@ -224,7 +224,7 @@ static const double nystrom_stage_legendre[nystrom_stage_nodes][nystrom_stage_no
      0.34476047783151809218, -0.63517884663052264461, 0.80253101928658910067, -0.54867186870859308518,
      0.17635496566720331654}};
 
-/* Second round: Lobatto's eleven places, the zeros of x (1 - x) P_10'(2 x - 1), and their matrix. */
+/* Second round: Lobatto's eleven points, the zeros of x (1 - x) P_10'(2 x - 1), and their matrix. */
 static const double nystrom_node[nystrom_nodes] = {
     0.0, 0.032999284795970432834, 0.10775826316842779069, 0.21738233650189749676, 0.35212093220653030428,
     0.5, 0.64787906779346969572,  0.78261766349810250324, 0.89224173683157220931, 0.96700071520402956717,

@@ -15,13 +15,14 @@
 
 enum { dense_terms = 8 };
 
-/* Where the vectors of n numbers lie in the one block of memory. Stage i of the book is vector i, and 13 is the slope at the
- * end; stage 13 of rk8pd, which has no dense output of its own, lies where dop853 has the first stage of that. */
+/* Offsets of the vectors of n numbers in the one block of memory. Stage i of the book is vector i, and 13 is
+ * the slope at the end; stage 13 of rk8pd, which has no dense output of its own, shares the offset of
+ * dop853's first dense stage. */
 enum {
     v_stage_13 = 14,             /* of rk8pd */
     v_start = dop853_stages + 1, /* y0 */
     v_end,                       /* y1 */
-    v_rest,                      /* what y0 has lost by rounding so far */
+    v_rest,                      /* accumulated rounding error of y0 */
     v_rest_end,                  /* ... and y1 */
     v_argument,                  /* argument of the right-hand side */
     v_dense,
@@ -31,26 +32,26 @@ enum {
 struct pair8 {
     size_t n;
     double t, h;        /* start and size of the last step */
-    bool stepped;       /* a step stands in the vectors */
-    bool has_rest;      /* so do the rests of its ends */
-    bool has_end_slope; /* so does the slope at its end */
-    bool prepared;      /* so does the dense output */
+    bool stepped;       /* the vectors hold a step */
+    bool has_rest;      /* ... the rounding errors of its ends */
+    bool has_end_slope; /* ... the slope at its end */
+    bool prepared;      /* ... the dense output */
     double v[];
 };
 
-/* Both pairs have their stages from the same of those before, so their sums are written once. */
+/* The stages of both pairs depend on the same earlier stages, so their sums are written once. */
 struct tableau {
     const double *c;
     const double (*a)[dop853_stages + 1];
-    const double *b, *e; /* weights of the step; of the difference to its companion, */
-    const double *low;   /* and of that to one of lower order, or NULL */
-    bool more;           /* stage 13 is one of the step */
+    const double *b, *e; /* weights of the step; of the difference to the embedded formula, */
+    const double *low;   /* and to one of lower order, or NULL */
+    bool more;           /* stage 13 belongs to the step */
 };
 
 static const struct tableau dop853 = {dop853_c, dop853_a, dop853_a[13], dop853_e5, dop853_e3, false};
 static const struct tableau rk8pd = {rk8pd_c, rk8pd_a, rk8pd_a[14], rk8pd_e7, NULL, true};
 
-/* Of the n numbers that the caller knows to be s->n: see `stages`. */
+/* `n` is s->n, a compile-time constant for small systems: see `make_stages`. */
 INLINE double *vector_of(struct pair8 *s, size_t n, int index)
 {
     return s->v + (size_t)index * n;
@@ -102,7 +103,8 @@ INLINE int evaluate(struct pair8 *s, const struct tableau *tableau, size_t n, in
     return GSL_ODEIV_FN_EVAL(sys, s->t + tableau->c[i] * s->h, argument, vector_of(s, n, i));
 }
 
-/* u = y + h sum a_ij k_j, the argument of stage i of the row `row`; `rest`, where there is one, belongs to y. */
+/* u = y + h sum a_ij k_j, the argument of stage i of the row `row`; `rest`, if not NULL, is the rounding
+ * error of y. */
 INLINE void set_argument(struct pair8 *s, size_t n, const double *row, int i, const double *y,
                          const double *rest)
 {
@@ -125,7 +127,7 @@ INLINE int stage(struct pair8 *s, const struct tableau *tableau, size_t n, int i
     return evaluate(s, tableau, n, i, sys);
 }
 
-/* Stage by stage: a loop takes a tenth more time for the step of a pendulum. */
+/* Unrolled: measured, a loop is slower for small systems. */
 INLINE int stages_2_to_12(struct pair8 *s, const struct tableau *tableau, size_t n, const double *y,
                           const gsl_odeiv2_system *sys)
 {
@@ -142,7 +144,7 @@ INLINE int stages_2_to_12(struct pair8 *s, const struct tableau *tableau, size_t
     return status == GSL_SUCCESS ? stage(s, tableau, n, 12, y, sys) : status;
 }
 
-/* Of rk8pd; its row has no stage 12. */
+/* Stage 13 of rk8pd; its row has no stage 12. */
 INLINE int stage_13(struct pair8 *s, const struct tableau *tableau, size_t n, const double *y,
                     const gsl_odeiv2_system *sys)
 {
@@ -150,7 +152,7 @@ INLINE int stage_13(struct pair8 *s, const struct tableau *tableau, size_t n, co
     return GSL_ODEIV_FN_EVAL(sys, s->t + s->h, vector_of(s, n, v_argument), vector_of(s, n, v_stage_13));
 }
 
-/* The error estimate of dop853 from its two parts. The test is `!= 0`, so that a NaN stays one for the
+/* The error estimate of dop853 from its two parts. The test is `!= 0`, so that a NaN is passed to the
  * control. */
 static inline double estimate(double e5, double e3)
 {
@@ -217,8 +219,8 @@ INLINE int stages(struct pair8 *s, const struct tableau *tableau, size_t n, cons
     return finish(s, tableau, n, y, yerr) ? GSL_SUCCESS : GSL_FAILURE;
 }
 
-/* Scenes of one, two and three coordinates are most, and the shortest: with their number a constant the stages lie at
- * constant places, which saves a third of the instructions of the sums. */
+/* Most scenes have one, two or three coordinates: with their number a compile-time constant the stages are at
+ * constant offsets, which saves instructions. */
 INLINE int make_stages(struct pair8 *s, const struct tableau *tableau, const double *y, double *yerr,
                        const gsl_odeiv2_system *sys)
 {
@@ -230,8 +232,8 @@ INLINE int make_stages(struct pair8 *s, const struct tableau *tableau, const dou
     }
 }
 
-/* Which rest belongs to the y that a step starts from: that of the last start when it is tried again, that of
- * the last end when it goes on; none for a component that someone has changed since. */
+/* Choose the rounding error of the y from which a step starts: that of the last start when it is repeated,
+ * that of the last end when it continues; zero for a component that has been changed since. */
 static void take_rest(struct pair8 *s, double t, const double *y)
 {
     bool again = t == s->t;
@@ -282,7 +284,8 @@ static int rk8pd_apply(void *state, size_t n, double t, double h, double y[], do
     return apply(state, &rk8pd, n, t, h, y, yerr, dydt_in, dydt_out, sys);
 }
 
-/* The stages that dense output alone needs; their arguments have no rest. Every step with something to watch makes them. */
+/* The stages for dense output only; their arguments ignore the rounding errors. They are made in every step
+ * with event functions. */
 INLINE int dense_stages(struct pair8 *s, size_t n, const gsl_odeiv2_system *sys)
 {
     const double *y0 = vector_of(s, n, v_start);
@@ -320,7 +323,7 @@ INLINE int make_dense(struct pair8 *s, size_t n, const gsl_odeiv2_system *sys)
     return status;
 }
 
-/* As make_stages. */
+/* With constant sizes, as make_stages. */
 static int prepare_dense(struct pair8 *s, const gsl_odeiv2_system *sys)
 {
     switch (s->n) {
@@ -364,7 +367,7 @@ int dop853_dense_powers(const gsl_odeiv2_step *step, size_t i, const struct powe
     int degree = 0;
     c[0] = p[7 * n];
     for (size_t m = 6;; m--) {
-        bool falls = m % 2 == 1; /* as dop853_dense_eval has it */
+        bool falls = m % 2 == 1; /* as in dop853_dense_eval */
         degree = falls ? powers_times_rest(degree, c, piece) : powers_times_theta(degree, c, piece);
         c[0] += p[m * n];
         if (m == 0) return degree;
@@ -393,7 +396,7 @@ void pair8_lend(const gsl_odeiv2_step *step, struct stepper_state_view *view)
     for (size_t i = 0; i < s->n; i++) view->rest[i] = s->has_rest && view->last[i] == known[i] ? rest[i] : 0;
 }
 
-/* Of no time: the next step is not one that is tried again. */
+/* With an invalid time: the next step is not a repeated one. */
 void pair8_settle(gsl_odeiv2_step *step, const struct stepper_state_view *view)
 {
     struct pair8 *s = step->state;

@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * The sums over stages of pair8.c, two components at a time and one at a time, in one order. Coefficients are constants where
- * these stand, so that those which are zero leave no trace.
+ * The sums over stages of pair8.c, two components at a time and one at a time, in the same order. The
+ * coefficients are compile-time constants, so that zero ones cost no operation.
  *
- * A wide load waits until what was stored number by number has left the processor's store buffer, and so right-hand sides store: with all stages loaded
- * wide the step of a system of two numbers takes 40 % more time. Only the last stage is that young.
+ * A wide load of numbers that were stored one by one has to wait until they have left the processor's store
+ * buffer, and right-hand sides store one by one: measured, a step of a small system is slower if all stages
+ * are loaded wide. Only the last stage is that recent.
  */
 #ifndef FBD_INTEGRATE_PAIR8_SUMS_H
 #define FBD_INTEGRATE_PAIR8_SUMS_H
@@ -15,14 +16,14 @@
 
 #define INLINE static inline __attribute__((always_inline))
 
-/* As what has just been stored is loaded: number by number, which `volatile` makes compilers do. */
+/* Load two numbers that have just been stored one by one; `volatile` keeps compilers from a wide load. */
 INLINE simd2 load_young(const double *from)
 {
     const volatile double *numbers = from;
     return (simd2){numbers[0], numbers[1]};
 }
 
-/* Stage j of those before stage `count`. */
+/* Load stage j in a sum over the stages before stage `count`. */
 #define LOAD_TWO(j, from) ((j) < count - 1 ? simd2_load(from) : load_young(from))
 #define LOAD_ONE(j, from) (*(from))
 

@@ -5,11 +5,11 @@
  *     q(t + h) = q + h v + h^2 a / 2,   v(t + h) = v + h a,   a = a(t, y) at the start of the step.
  *
  * One step reaches to the next event, whatever the distance; it evaluates nothing, as a is given in dydt_in
- * and is the same at the end. The error estimate is zero. As with nystrom.h, structure.h chooses this for
- * systems y = (q, v) whose accelerations are constant between events, and nobody else does.
+ * and is the same at the end. The error estimate is zero. Like nystrom.h, this method is chosen only by
+ * structure.h, for systems y = (q, v) whose accelerations are constant between events.
  *
  * Event functions along such a motion that are linear in q and v are quadratic or linear in t; the cubics of
- * scan.h follow them exactly, so that their zeros are found at the first attempt.
+ * scan.h represent them exactly, so that their zeros are found at the first attempt.
  */
 #ifndef FBD_INTEGRATE_PARABOLA_H
 #define FBD_INTEGRATE_PARABOLA_H

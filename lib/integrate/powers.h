@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Polynomials of a step's own time theta, which are nested products, as powers of s over a piece of it:
- * theta = middle + radius s, -1 <= s <= 1. c[k] is the coefficient of s^k.
+ * Polynomials in the relative time theta of a step, given as nested products, as powers of s over a piece of
+ * the step: theta = middle + radius s, -1 <= s <= 1. c[k] is the coefficient of s^k.
  */
 #ifndef FBD_INTEGRATE_POWERS_H
 #define FBD_INTEGRATE_POWERS_H
@@ -10,7 +10,7 @@ struct powers_piece {
     double middle, radius;
 };
 
-/* c (a + b s), of a degree by one higher, which is returned. c has room for it. */
+/* c (a + b s); returns the degree, which is one higher. c has room for it. */
 static inline int powers_times(int degree, double *c, double a, double b)
 {
     c[degree + 1] = b * c[degree];

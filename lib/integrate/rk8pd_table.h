@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Coefficients of the pair 8(7) of Prince and Dormand. Stages 1 to 13 make the step, row 14 holds its weights, and 14 is f at
- * its end. What is not listed is zero.
+ * Coefficients of the pair 8(7) of Prince and Dormand. Stages 1 to 13 make the step, row 14 holds its
+ * weights, and 14 is f at its end. Coefficients that are not listed are zero.
  *
- * Source: P. J. Prince, J. R. Dormand, High order embedded Runge-Kutta formulae, J. Comput. Appl. Math. 7 (1981) 67, pair
- * RK8(7)13M, as quotients of whole numbers; GSL's rk8pd has the same. tests/unit/test_pair8.c checks them: the conditions of
- * all 200 trees up to order 8 for the step, of all 85 up to order 7 for its companion.
+ * Source: P. J. Prince, J. R. Dormand, High order embedded Runge-Kutta formulae, J. Comput. Appl. Math. 7
+ * (1981) 67, pair RK8(7)13M, as quotients of integers; GSL's rk8pd has the same. tests/unit/test_pair8.c
+ * checks them: the conditions of all 200 trees up to order 8 for the step, of all 85 up to order 7 for its
+ * embedded formula.
  */
 #ifndef FBD_INTEGRATE_RK8PD_TABLE_H
 #define FBD_INTEGRATE_RK8PD_TABLE_H
@@ -84,7 +85,7 @@ static const double rk8pd_a[15][dop853_stages + 1] = {
             [12] = -528747749.0 / 2220607170.0,
             [13] = 1.0 / 4.0}};
 
-/* Weights of the step less those of its companion of order 7. */
+/* Weights of the step less those of the embedded formula of order 7. */
 static const double rk8pd_e7[dop853_stages + 1] = {
     [1] = 14005451.0 / 335480064.0 - 13451932.0 / 455176623.0,
     [6] = -59238493.0 / 1068277825.0 + 808719846.0 / 976000145.0,

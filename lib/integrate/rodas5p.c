@@ -14,11 +14,11 @@
 
 enum { dense_terms = 3 };
 
-/* Where the vectors of n numbers lie in the one block of memory. u_i of the table is vector i. */
+/* Offsets of the vectors of n numbers in the one block of memory. u_i of the table is vector i. */
 enum {
     v_start = rodas5p_stages + 1, /* y0 */
     v_argument,                   /* g_i; at last y1 */
-    v_linearized,                 /* y that the Jacobian belongs to */
+    v_linearized,                 /* y of the Jacobian */
     v_dfdt,
     v_dense,
     v_count = v_dense + dense_terms
@@ -27,9 +27,9 @@ enum {
 struct rodas5p {
     size_t n;
     double t, h;     /* start and size of the last step */
-    bool stepped;    /* a step stands in the vectors */
-    bool prepared;   /* so does the dense output */
-    bool has_matrix; /* the Jacobian stands for (matrix_t, v_linearized) of this system: */
+    bool stepped;    /* the vectors hold a step */
+    bool prepared;   /* ... its dense output */
+    bool has_matrix; /* the Jacobian is that at (matrix_t, v_linearized) of this system: */
     double matrix_t;
     gsl_odeiv2_system matrix_of;
     double *jacobian; /* n^2 */
@@ -90,7 +90,7 @@ static bool is_linearized(struct rodas5p *s, const double *y, const gsl_odeiv2_s
            of->jacobian == sys->jacobian && memcmp(vector(s, v_linearized), y, s->n * sizeof *y) == 0;
 }
 
-/* Jacobian and df/dt at (t, y), unless they are known from an attempt before. */
+/* Jacobian and df/dt at (t, y), unless computed in an earlier attempt. */
 static int linearize(struct rodas5p *s, const double *y, const gsl_odeiv2_system *sys)
 {
     if (is_linearized(s, y, sys)) return GSL_SUCCESS;
@@ -115,9 +115,8 @@ static int decompose(struct rodas5p *s)
     return lu_decompose(n, s->lu, s->pivot) ? GSL_SUCCESS : GSL_FAILURE;
 }
 
-/* The sum over all stages before i with these coefficients, for component m. In the order of the stages
- * inside of that of the components, as most systems have two or four: a loop over so few takes longer to set
- * up than to run. */
+/* The sum over all stages before i with these coefficients, for component m. The inner loop is over the
+ * stages, as most systems have only two or four components. */
 static inline double combined(const struct rodas5p *s, int i, const double *coefficient, size_t m)
 {
     const double *u = s->v + m;
@@ -126,7 +125,7 @@ static inline double combined(const struct rodas5p *s, int i, const double *coef
     return sum;
 }
 
-/* g_i, into v_argument; there g_(i-1) stands still. */
+/* Set g_i in v_argument, which holds g_(i-1). */
 static void make_argument(struct rodas5p *s, int i, const double *y)
 {
     size_t n = s->n;
@@ -139,7 +138,7 @@ static void make_argument(struct rodas5p *s, int i, const double *y)
     for (size_t m = 0; m < n; m++) g[m] = y[m] + combined(s, i, rodas5p_a[i], m);
 }
 
-/* u_i, in whose place f(t + c_i h, g_i) stands. */
+/* Solve for u_i in the vector that holds f(t + c_i h, g_i). */
 static void solve_stage(struct rodas5p *s, int i)
 {
     size_t n = s->n;

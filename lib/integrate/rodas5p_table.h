@@ -2,12 +2,12 @@
  *
  * Coefficients of the Rosenbrock method Rodas5P and of its continuous extension of order 4.
  *
- * They are those of the form without products by the Jacobian (HNW II, IV.7), in which the solutions u_i, i =
- * 1 ... 8, of
+ * They are those of the form without products by the Jacobian (HNW II, IV.7), in which the unknowns are the
+ * solutions u_i, i = 1 ... 8, of
  *     (I / (gamma h) - J) u_i = f(t + c_i h, g_i) + h d_i df/dt + sum_(j<i) (C_ij / h) u_j,
- *     g_i = y0 + sum_(j<i) a_ij u_j,     y1 = g_8 + u_8
- * are summed up. Indices are those of these formulas. Rows 7 and 8 of a are not listed as g_7 = g_6 + u_6 and
- * g_8 = g_7 + u_7; the method is stiffly accurate, c_6 = c_7 = c_8 = 1. What is not listed is zero.
+ *     g_i = y0 + sum_(j<i) a_ij u_j,     y1 = g_8 + u_8.
+ * Indices are those of these formulas. Rows 7 and 8 of a are not listed as g_7 = g_6 + u_6 and g_8 = g_7 +
+ * u_7; the method is stiffly accurate, c_6 = c_7 = c_8 = 1. Other coefficients that are not listed are zero.
  *
  * Sources: G. Steinebach, Construction of Rosenbrock-Wanner method Rodas5P and numerical benchmarks within
  * the Julia Differential Equations package, BIT Numer. Math. 63 (2023) 27, with the digits of the public

@@ -17,8 +17,8 @@
 #include "integrate/stepper_state.h"
 #include "integrate/stiffness.h"
 
-/* Not by gsl_odeiv2_step_alloc, which calls GSL's error handler when memory is out; the methods that are
- * GSL's own (method.c) still do. */
+/* Not by gsl_odeiv2_step_alloc, which calls GSL's error handler when memory is out; the methods of GSL
+ * (method.c) still do. */
 static gsl_odeiv2_step *step_alloc(const struct method *method, size_t n, const gsl_odeiv2_driver *driver)
 {
     gsl_odeiv2_step *step = malloc(sizeof *step);
@@ -48,12 +48,13 @@ static struct stepper *state_alloc(size_t n)
     return s;
 }
 
-/* Beyond, a Jacobian is not worth looking at for an explicit method. */
+/* Largest dimension for which a Jacobian limits the steps of an explicit method. */
 enum { most_guarded = 200 };
 
-/* Is the inside of its steps made by steps again? That of implicit methods without an interpolant; and of explicit ones where
- * there are others than pairs, of which dense.h says too little for steps as long: at a tolerance of 1e-9 the current of a
- * motor was off by 1e-5 within those of rk8pd, a state that oscillates by 2e-6 within those of rk4. */
+/* Is the dense output of this method made by repeated steps? So it is for implicit methods without an
+ * interpolant, and for explicit ones with components outside the pairs, for which dense.h is too inaccurate
+ * over such long steps: at a tolerance of 1e-9 the current of a motor was off by 1e-5 within steps of rk8pd,
+ * a state that oscillates by 2e-6 within those of rk4. */
 static bool redoes_inside(const struct method *method, const struct layout *layout)
 {
     if (method->implicit) return *method->type != step_rodas5p;
@@ -116,7 +117,7 @@ int stepper_reset(struct stepper *s, struct counted_system *system, struct time_
     s->stable_h = s->rate = 0;
     if (!(room > 0)) return GSL_EINVAL;
     gsl_odeiv2_step_reset(s->step);
-    if (s->redo) gsl_odeiv2_step_reset(s->redo); /* rodas5p remembers a Jacobian */
+    if (s->redo) gsl_odeiv2_step_reset(s->redo); /* rodas5p keeps a Jacobian */
     int code = counted_system_rhs(system, t.t, y, f);
     if (code != GSL_SUCCESS) return code;
     error_norm_update(s->control, y, f);
@@ -128,19 +129,19 @@ int stepper_reset(struct stepper *s, struct counted_system *system, struct time_
         *h = s->h_fixed > 0 ? s->h_fixed : fmin(room, s->h_max);
         return GSL_SUCCESS;
     }
-    int order = s->method->multistep ? 1 : s->method->order; /* at first */
+    int order = s->method->multistep ? 1 : s->method->order; /* initial order */
     return first_step(system, &s->layout, s->control, order, t.t, y, f, fmin(room, s->h_max), s->work, h);
 }
 
 /* A step to be tried. */
 struct plan {
-    double asked;      /* its size before t1 was rounded: what shrinks from retry to retry */
+    double asked;      /* size before t1 was rounded; it shrinks from retry to retry */
     double h;          /* its size */
     struct time_dd t1; /* and end */
-    bool cut;          /* t_limit had a say in it */
+    bool cut;          /* limited by t_limit */
 };
 
-/* Is there room for some doubles only? Steps within a pulse between them end where they have to. */
+/* Does the remaining time span a few doubles only? Steps within a pulse of that length end between doubles. */
 static bool is_between_doubles(struct time_dd t, double room)
 {
     const double roundings = 64;
@@ -156,22 +157,22 @@ static struct plan plan_step(const struct stepper *s, struct time_dd t, double h
     if (half) h = room / 2;
     if (is_between_doubles(t, room)) return (struct plan){h, h, time_dd_after(t, h), half};
     struct time_dd t1 = time_dd_at(t.t + h);
-    /* The size that t1 really has, so that t and the stages agree. A multistep method would rather see a
-     * constant step. */
+    /* The size that corresponds to the rounded t1, so that t and the stages agree. Multistep methods keep a
+     * constant step instead. */
     return (struct plan){h, s->method->multistep ? h : time_dd_since(t1, t), t1, half};
 }
 
-/* Has a step become so short that no time passes? Where there is next to no room, or t = 0, there are always
- * shorter ones. */
+/* Is the step so short that t does not change? If the remaining time spans a few doubles, or t = 0, shorter
+ * steps always exist; then compare with the remaining time. */
 static bool is_nothing(const struct plan *plan, struct time_dd t, double room)
 {
     return (!is_between_doubles(t, room) && t.t + plan->h == t.t) || !(plan->h > 1e-30 * room);
 }
 
-/* What became of an attempt. */
+/* Result of an attempt. */
 struct outcome {
     bool accepted;
-    enum rejection why; /* if not */
+    enum rejection why; /* reason of a rejection */
     double factor;      /* for the next step size */
 };
 
@@ -183,18 +184,17 @@ static struct outcome judge_failure(const struct stepper *s, const struct counte
     return (struct outcome){false, rejected_not_finite, 0.25};
 }
 
-/* Near the limit of its stability, h |lambda| = 5 or 6, a step of rk8pd or dop853 may end well by luck while its
- * inside is off by many times the tolerance. Measured where a motion settles down (terminal speed, drag, an
- * overdamped spring) and tolerances of 1e-4 to 1e-12: without this the dense output errs by up to 460
- * tolerances and is up to 220 times worse than the ends; held to 4, it errs by at most 24, in as many steps,
- * of which fewer are rejected, and the ends are 3 to 50 times better. Oscillations that are followed have h w
- * < 2. */
+/* Limit the step by stability. Near the limit, h |lambda| = 5 or 6, a step of rk8pd or dop853 may by chance
+ * end accurately while its dense output is off by many times the tolerance. Measured where a motion settles
+ * down (terminal speed, drag, an overdamped spring) and tolerances of 1e-4 to 1e-12: without this the dense
+ * output errs by up to 460 tolerances; with a limit of 4 by at most 24, in as many steps, with fewer
+ * rejections and more accurate ends. Oscillations that are followed have h w < 2. */
 static struct outcome keep_stable(struct stepper *s, double h, const double *y, struct outcome outcome)
 {
     const double most = 5, goal = 4, kept = 0.9;
     const double *dy, *df;
     if (!outcome.accepted || s->h_fixed > 0 || !pair8_differences(s->step, &dy, &df)) return outcome;
-    /* The differences show the fastest rate now more and now less. */
+    /* The rate estimated from the differences varies from step to step. */
     s->rate = fmax(error_norm_rate(s->control, y, dy, df), kept * s->rate);
     double h_rate = h * s->rate;
     if (h_rate > most) return (struct outcome){false, rejected_error, fmax(goal / h_rate, 0.1)};
@@ -202,10 +202,10 @@ static struct outcome keep_stable(struct stepper *s, double h, const double *y, 
     return outcome;
 }
 
-/* The methods of GSL have no such differences, and their estimates vanish by accident beyond the limit: rk4
- * at a tolerance of 1e-6 passed a terminal speed with twice the step that is stable and was off by 3700
- * tolerances. So the Jacobian tells, where a step is longer than all since it was last asked, or some steps
- * later. */
+/* The same for GSL's methods, which have no such differences and whose estimates may vanish by accident
+ * beyond the limit: rk4 at a tolerance of 1e-6 passed a terminal speed with twice the stable step and was off
+ * by 3700 tolerances. So the limit is taken from the Jacobian, which is evaluated when a step is longer than
+ * the last limit, and every 16 steps. */
 static struct outcome guard_stability(struct stepper *s, struct counted_system *system, double h, double t,
                                       const double *y, struct outcome outcome)
 {
@@ -283,7 +283,8 @@ static enum stepper_status give_up(const struct stepper *s, double *y, double *f
     return status;
 }
 
-/* What the right-hand side said is not covered up by what comes of it: steps of roundings are not solvable. */
+/* Count a rejection. An error of the right-hand side remains the reason, even if later retries fail
+ * otherwise: with steps near round-off the implicit equations cannot be solved. */
 static void count_rejection(struct stepper *s, enum rejection why, bool again)
 {
     bool telling = s->counts.last == rejected_rhs || s->counts.last == rejected_not_finite;
@@ -291,8 +292,8 @@ static void count_rejection(struct stepper *s, enum rejection why, bool again)
     if (!again || !telling || why == rejected_rhs || why == rejected_not_finite) s->counts.last = why;
 }
 
-/* To a limit between doubles, by the terms that count in so short a time. Methods that measure their steps by
- * differences of times see none there. */
+/* Step to a limit between doubles, by the terms of first and second order. A multistep method computes its
+ * step from differences of times, which are zero there. */
 static enum stepper_status step_between(struct stepper *s, struct counted_system *system, struct time_dd *t,
                                         double *y, double *f, struct time_dd t_limit)
 {

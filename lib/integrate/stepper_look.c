@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * The inside of the last step: its interpolant where the method has one, else the step made again in part.
+ * Dense output of the last step: its interpolant where the method has one, else the step repeated in part.
  */
 #include <gsl/gsl_errno.h>
 #include <string.h>
@@ -20,10 +20,11 @@ static int redo(struct stepper *s, double h, double *y, double *f)
     return gsl_odeiv2_step_apply(s->redo, s->t0.t, h, y, s->yerr, s->f0, f, &s->system->gsl);
 }
 
-/* A part of a step need not be what the whole was: the table of bsimp may agree at the end of a step that is far too
- * long for it, and nowhere inside. So it is held to the error of a step of its own. Methods with the same few stages
- * for every step err less in a shorter one, while their estimates see a stiff layer that is none of theirs; unless
- * the part ends where a pulse begins, of which the whole has seen nothing: then it is far off. */
+/* Repeat a part of a step and check its error. A part may be wrong where the whole was accepted: the table of
+ * bsimp may agree at the end of a step that is far too long for it, and nowhere inside, so its error must be
+ * at most 1. Methods with a fixed number of stages err less in a shorter step, while their estimates include
+ * stiff layers that do not affect them; their limit is 100, which is exceeded where the part ends at the
+ * start of a pulse that the whole step has skipped. */
 static bool redo_well(struct stepper *s, double h, double *y, double *f)
 {
     if (redo(s, h, y, f) != GSL_SUCCESS || !all_finite(s->n, y, f)) return false;
@@ -69,7 +70,7 @@ static bool is_end(const struct stepper *s, struct time_dd t)
     return time_dd_equal(t, s->t0) || time_dd_equal(t, s->t1);
 }
 
-/* What the method itself says of the inside. */
+/* Dense output of the method itself. */
 static int own_dense(struct stepper *s, struct time_dd t, double *y)
 {
     if (!(s->method->implicit || s->inside) || is_end(s, t)) return dense_eval(s->dense, t, y);
@@ -89,7 +90,8 @@ static int own_dense(struct stepper *s, struct time_dd t, double *y)
     return GSL_SUCCESS;
 }
 
-/* Is there a last step, and t within? A double next to an end of it may lie a rest outside. */
+/* Is there a last step, and t within? A double next to an end may be outside by less than its spacing; it is
+ * set to the end. */
 static bool find_within(const struct stepper *s, struct time_dd *t)
 {
     if (!s->stepped || !(t->t >= s->t0.t && t->t <= s->t1.t)) return false;
@@ -98,14 +100,14 @@ static bool find_within(const struct stepper *s, struct time_dd *t)
     return true;
 }
 
-/* An implicit method may succeed in a step and fail in a part of it; then the ends alone have to do, as a
- * step that is accepted has an inside. */
+/* An implicit method may succeed in a step and fail in a part of it; then only the ends are used, as an
+ * accepted step must have dense output. */
 int stepper_dense(struct stepper *s, struct time_dd t, double *y)
 {
     if (!find_within(s, &t)) return GSL_EINVAL;
     int last_code = s->system->last_code;
     if (own_dense(s, t, y) != GSL_SUCCESS) dense_eval_plain(s->dense, t, y);
-    s->system->last_code = last_code; /* no reason for what may fail later */
+    s->system->last_code = last_code; /* not a reason of later failures */
     return GSL_SUCCESS;
 }
 
@@ -125,7 +127,7 @@ int stepper_powers(struct stepper *s, struct time_dd from, struct time_dd to, si
 }
 
 /* A step of the linear method is two radians of the fastest oscillation: the Bessel function J_14(1) of its
- * Chebyshev series is 7e-16. Implicit methods know their states as their equations are solved. */
+ * Chebyshev series is 7e-16. States of implicit methods are as accurate as the solution of their equations. */
 int stepper_degree(const struct stepper *s, double *negligible)
 {
     const gsl_odeiv2_step_type *type = s->step->type;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * What a stepper is made of, for the two files that it is written in: stepper.c makes steps, stepper_look.c looks into
- * the last one.
+ * State of a stepper, shared by stepper.c, which makes steps, and stepper_look.c, which evaluates the last
+ * one.
  */
 #ifndef FBD_INTEGRATE_STEPPER_STATE_H
 #define FBD_INTEGRATE_STEPPER_STATE_H
@@ -19,18 +19,18 @@ struct stepper {
     double h_max, h_fixed;
     gsl_odeiv2_control *control;
     gsl_odeiv2_step *step;
-    gsl_odeiv2_step *redo;    /* of the same type, for parts of steps: the other one keeps its dense output */
-    gsl_odeiv2_driver driver; /* GSL's steppers ask it for its control only */
-    struct dense *dense;      /* of explicit methods and msadams */
-    struct history *history;  /* of msbdf, else NULL */
-    struct resteps *inside; /* of methods without an interpolant that is as good as their steps, else NULL */
+    gsl_odeiv2_step *redo;     /* of the same type, for parts of steps, as `step` keeps its dense output */
+    gsl_odeiv2_driver driver;  /* GSL's steppers only read its control */
+    struct dense *dense;       /* of explicit methods and msadams */
+    struct history *history;   /* of msbdf, else NULL */
+    struct resteps *inside;    /* of methods without an interpolant as accurate as their steps, else NULL */
     struct substeps *substeps; /* of one-step methods, else NULL */
     struct stepper_counts counts;
-    double *jacobian; /* n n + 3 n, for the limit of stability; NULL where that is not looked after */
-    double stable_h;  /* the largest step within that limit, when last looked after */
-    int since;        /* accepted steps since */
-    double rate;      /* fastest rate that rk8pd or dop853 has seen lately */
-    bool stepped;     /* a last step stands in the following */
+    double *jacobian; /* n n + 3 n, for the limit of stability; NULL: no such limit */
+    double stable_h;  /* the largest stable step by the last Jacobian */
+    int since;        /* accepted steps since that Jacobian */
+    double rate;      /* fastest rate that rk8pd or dop853 has detected lately */
+    bool stepped;     /* the following members hold a last step */
     struct counted_system *system;
     struct time_dd t0, t1;
     double *y0, *f0, *y1, *f1;

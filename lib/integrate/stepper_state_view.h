@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Lent: what a switcher goes by from one step to the next, in the hands of somebody who makes steps in its place
- * (lib/batch), and what has become of it. Of systems of few coordinates and their rates, q and v.
+ * The data on which the next step of a switcher depends, for an integrator that makes steps in its place
+ * (lib/batch), and their values after those steps. For systems of few coordinates and rates, q and v.
  */
 #ifndef FBD_INTEGRATE_STEPPER_STATE_VIEW_H
 #define FBD_INTEGRATE_STEPPER_STATE_VIEW_H
@@ -16,13 +16,14 @@ struct stepper_state_view {
     /* error_norm.c: of q and of v, and of the pairs */
     double scale[2 * view_most_pairs], cap[view_most_pairs], noise[view_most_pairs], floor[view_most_pairs];
     double tolerance;
-    /* q, v and accelerations that are reached, and those one step before */
+    /* q, v and accelerations of the last accepted state, and of the one before it */
     double last[3 * view_most_pairs], before[3 * view_most_pairs];
-    double rest[2 * view_most_pairs]; /* what q and v have lost by rounding: pair8.h; of other methods 0 */
-    double rate;                      /* the fastest that the method has seen lately */
-    double steps;                     /* most of them, before the stiff method is to be asked */
-    double growth;                    /* stepper_counts */
-    unsigned long accepted, rejected; /* steps, and attempts that erred too much, since it was lent */
+    double rest[2 * view_most_pairs]; /* rounding errors of q and v (pair8.h); of other methods 0 */
+    double rate;                      /* the fastest that the method has detected lately */
+    double steps;  /* largest number of steps before the next attempt of the implicit method */
+    double growth; /* stepper_counts */
+    unsigned long accepted,
+        rejected; /* steps, and attempts with too large an error, since the copy was made */
 };
 
 #endif

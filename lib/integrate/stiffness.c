@@ -6,20 +6,21 @@
 enum { shortest_interval = 8, longest_interval = 64, steps_to_confirm = 3, votes_needed = 2 };
 
 /* A step of rodas5p takes 8 evaluations, a Jacobian and a decomposition, one of rk8pd 13 evaluations: in
- * small systems up to twice the time. So the way to rodas5p asks for more than the way back. Their product is
- * above 1, as otherwise a motion in between could be sent to and fro. */
+ * small systems up to twice the time. So the switch to rodas5p requires more gain than the switch back. The
+ * product of both is above 1; otherwise an intermediate motion could switch back and forth. */
 static const double gain_for_implicit = 1.8, gain_for_explicit = 1.2;
 
-/* Well within the limit of stability, for the steps of the explicit method are longer. */
+/* Well within the limit of stability, as the steps of the explicit method are longer. */
 static const double h_rate_for_explicit = 3;
 
-/* A step without error, that is within rounding, tells the explicit method nothing of longer ones; but where even the
- * fastest rate does little within it they will come, and the implicit method is not needed. Next to a singular position
- * of a mechanism both make short steps, and after it dop853 was asked with steps so short that they had no error,
- * for ever. */
+/* Limit of h_rate when the explicit method's attempt has no error above rounding. Such an attempt does not
+ * predict the error of longer steps; but if even the fastest rate is slow compared with the step, longer
+ * steps will follow and the implicit method is not needed. Near a singular position of a mechanism both
+ * methods make short steps; without this rule the attempts of dop853 behind it were always too short to have
+ * an error. */
 static const double h_rate_without_error = 1;
 
-/* The shortest and the longest wait: an attempt at rodas5p costs as much as so many steps. */
+/* The shortest and the longest wait: an attempt by rodas5p costs as much as so many steps. */
 static int waits(const struct stiffness *s, int steps)
 {
     return s->implicit ? steps : (int)(steps * s->dear);
@@ -44,8 +45,9 @@ void stiffness_forget(struct stiffness *s)
     if (s->wait > s->interval) s->wait = s->interval;
 }
 
-/* Measured with rk8pd, tolerances of 1e-4 to 1e-10: 0.6 to 4 in stiff motion, up to 0.5 below 1e-6 in motions that have
- * to be followed. As the rate is that of what differs between two stages, attempts are not left out for ever. */
+/* h_rate measured with rk8pd, tolerances of 1e-4 to 1e-10: 0.6 to 4 in stiff motion, up to 0.5 below 1e-6 in
+ * motions that have to be followed. The rate is detected only in components that differ between two stages,
+ * so attempts are not put off forever. */
 bool stiffness_due(struct stiffness *s, double h_rate)
 {
     enum { most_waits = 4 };
@@ -66,14 +68,14 @@ double stiffness_stride(const struct stiffness *s)
     return s->implicit ? 1 / s->dear : s->dear;
 }
 
-/* A ratio of zero says nothing: a body at rest or in free flight is without error for every method. */
+/* A ratio of zero is no evidence: for a body at rest or in free flight every method is without error. */
 static bool gains(double ratio, int estimate_order, double gain)
 {
     return ratio > 0 && pow(ratio, -1.0 / estimate_order) > gain;
 }
 
-/* Oscillations that have to be followed have ratios of 3 and more; steps near the limit of stability differ by a factor
- * of two, so that stiff motion may show 6 as well. */
+/* Oscillations that have to be followed have ratios of 3 and more; steps near the limit of stability vary by
+ * a factor of two, so that stiff motion may have a ratio of 6 as well. */
 bool stiffness_doubts(const struct stiffness *s, double ratio, int estimate_order)
 {
     const double most = 32;
@@ -100,9 +102,9 @@ bool stiffness_decide(struct stiffness *s, double ratio, int estimate_order, dou
 }
 
 /* The largest |lambda| of J is at most that of |J|, and this is at most max_i (|J| x)_i / x_i for every x > 0
- * (Collatz, Wielandt), which multiplying components by units does not change. The best x is approached by
- * geometric means of x and |J| x; plain power iteration would go in circles for q' = v, v' = -k q. Every
- * round takes the square root of the distance; the start may be wrong by many powers of ten. */
+ * (Collatz, Wielandt), which does not depend on the units of the components. The best x is approached by
+ * geometric means of x and |J| x; plain power iteration would cycle for q' = v, v' = -k q. Every round takes
+ * the square root of the distance; the start may be wrong by many powers of ten. */
 double stiffness_rate(size_t n, const double *jacobian, double *work)
 {
     enum { rounds = 12 };
@@ -116,7 +118,7 @@ double stiffness_rate(size_t n, const double *jacobian, double *work)
             if (!(image[i] <= rate * x[i])) rate = image[i] / x[i];
         }
         if (!(rate > 0 && rate < INFINITY)) return rate;
-        /* A component that nothing acts on would go to zero. */
+        /* A component with a zero row would go to zero. */
         for (size_t i = 0; i < n; i++) x[i] = sqrt(x[i] * fmax(image[i] / rate, 1e-20 * x[i]));
     }
     return rate;

@@ -66,7 +66,7 @@ static bool add_mark(struct substeps *substeps, double time, const double *y, co
     return true;
 }
 
-/* All parts, or as many as can be made in so many tries. */
+/* Make all parts, or those that the limit of attempts permits. */
 static int make(struct substeps *substeps, const struct substeps_source *source, double whole,
                 const double *y0, const double *f0)
 {
@@ -88,7 +88,7 @@ static int make(struct substeps *substeps, const struct substeps_source *source,
     return GSL_SUCCESS;
 }
 
-/* From a mark by so many parts to the time `to`. */
+/* Integrate from a mark to the time `to` in so many parts. */
 static bool reach(struct substeps *substeps, const struct substeps_source *source, size_t mark, int parts,
                   double to, double *y, double *f)
 {
@@ -114,7 +114,7 @@ int substeps_to(struct substeps *substeps, const struct substeps_source *source,
     if (to > substeps->times[substeps->count - 1]) return GSL_EFAILED;
     while (last + 1 < substeps->count && substeps->times[last + 1] <= to) last++;
     for (int parts = 1; parts <= most_parts;
-         parts *= 2) /* where a longer one was good a shorter one need not be */
+         parts *= 2) /* a shorter step may be rejected although a longer one was accepted */
         if (reach(substeps, source, last, parts, to, y, f)) return GSL_SUCCESS;
     return GSL_EFAILED;
 }

@@ -63,24 +63,24 @@ int switcher_reset(struct switcher *s, struct counted_system *system, struct tim
     return stepper_reset(s->steppers[s->now], system, t, y, f, t_limit, h);
 }
 
-/* The fastest rate of the system at the start of the step that the implicit method has just made, for the way
- * back to the explicit one; NAN if it cannot be had. */
+/* The fastest rate of the system at the start of the step that the implicit method has just made, for the
+ * switch back to the explicit one; NAN without a Jacobian. */
 static double last_rate(struct switcher *s)
 {
     const double *jacobian = stepper_jacobian(s->steppers[1]);
     return jacobian ? stiffness_rate(s->n, jacobian, s->rate_work) : NAN;
 }
 
-/* Is the explicit method confined to steps for which the implicit one makes no error at all? Then this says that it
- * could make longer ones. In free flight and at rest the steps of both grow as long as they may. */
+/* Is the explicit method limited to steps for which the implicit one has no error at all? Then the implicit
+ * one could make longer steps. In free flight and at rest the steps of both grow at the maximum rate. */
 static bool is_confined(const struct switcher *s)
 {
     const double freely = 4;
     return s->now == 0 && stepper_get_counts(s->steppers[0])->growth < freely;
 }
 
-/* The error ratio of the other method's attempt at a step of this size from t0; infinite where there is no room for it,
- * as what lies beyond the limit may be another motion. */
+/* The error ratio of the other method's attempt at a step of this size from t0; infinite if it would pass the
+ * limit, as the equations may be different behind it. */
 static double attempt(struct switcher *s, struct counted_system *system, struct time_dd t0,
                       struct time_dd t_limit, double size)
 {
@@ -88,8 +88,7 @@ static double attempt(struct switcher *s, struct counted_system *system, struct 
     return stepper_attempt(s->steppers[!s->now], system, s->steppers[s->now], size);
 }
 
-/* Let the other method try the step that has just been made, and go on with it if it is the better one from
- * here. */
+/* Let the other method attempt the step that has just been made, and switch to it if it is better. */
 static enum stepper_status consider(struct switcher *s, struct counted_system *system, struct time_dd t0,
                                     struct time_dd t, const double *y, double *f, double *h,
                                     struct time_dd t_limit)
@@ -103,20 +102,20 @@ static enum stepper_status consider(struct switcher *s, struct counted_system *s
                      attempt(s, system, t0, t_limit, stiffness_reach * size) / pow(stiffness_reach, order));
     double h_rate = s->now == 1 ? size * last_rate(s) : 0;
     if (!stiffness_decide(&s->stiffness, ratio, order, h_rate)) return stepper_ok;
-    /* The counters of the system, not of the step, take the evaluations; a reset that fails leaves things as
-     * they were. */
+    /* The evaluations are counted by the system, not by the step; a reset that fails leaves the state
+     * unchanged. */
     double first;
     if (stepper_reset(s->steppers[other], system, t, y, f, t_limit, &first) != GSL_SUCCESS) {
         s->stiffness.implicit = s->now == 1;
         return stepper_ok;
     }
     s->now = other;
-    *h = fmax(first, size); /* it could have made this step at least */
+    *h = fmax(first, size); /* it could have made at least this step */
     return stepper_ok;
 }
 
-/* Where the steps of the implicit method shrink to nothing, the explicit one may still make some: rounding in a Jacobian
- * counts for more than in a right-hand side. Nothing has changed if it does not. */
+/* Step with the explicit method where the steps of the implicit one underflow: rounding in a Jacobian may
+ * matter more than in a right-hand side. If it fails too, the state is unchanged. */
 static enum stepper_status step_explicitly(struct switcher *s, struct counted_system *system,
                                            struct time_dd *t, double *y, double *f, double *h,
                                            struct time_dd t_limit)
@@ -191,7 +190,7 @@ static bool agree(const struct stepper_state_view *a, const struct stepper_state
     return same;
 }
 
-/* The other method is told of every step, so it has the same scales and states from the second step on. */
+/* The other method is notified of every step, so it has the same scales and states from the second step on. */
 bool switcher_lend(const struct switcher *s, struct stepper_state_view *view)
 {
     struct stepper_state_view other;

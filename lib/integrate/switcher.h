@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * A stepper that follows stiffness: an explicit and an implicit method that take turns, or one method alone.
+ * A stepper that adapts to stiffness: it switches between an explicit and an implicit method, or uses one
+ * method alone.
  *
- * The interface is that of stepper.h, whose words hold here. Which method makes a step depends on the
- * trajectory only (stiffness.h), never on who looks at it.
+ * The interface is that of stepper.h. The choice of the method depends on the trajectory only (stiffness.h),
+ * never on evaluations of dense output.
  */
 #ifndef FBD_INTEGRATE_SWITCHER_H
 #define FBD_INTEGRATE_SWITCHER_H
@@ -32,7 +33,8 @@ int switcher_partial(struct switcher *switcher, struct time_dd t, double *y, dou
 int switcher_shorten(struct switcher *switcher, struct time_dd t, double *y, double *f);
 int switcher_walk(struct switcher *switcher, struct time_dd t, double *y, double *f);
 
-/* stepper_lend for the explicit method, while it makes the steps, as many as there are before the other one is asked. */
+/* stepper_lend for the explicit method, while it makes the steps; the number of steps is limited by the next
+ * attempt of the implicit one. */
 bool switcher_lend(const struct switcher *switcher, struct stepper_state_view *view);
 void switcher_settle(struct switcher *switcher, const struct stepper_state_view *view);
 
@@ -46,10 +48,10 @@ bool switcher_made_implicitly(const struct switcher *switcher);
 /* Steps that the stiff method has made. */
 unsigned long switcher_stiff_steps(const struct switcher *switcher);
 
-/* linear_set_matrix where that is the method. */
+/* linear_set_matrix if the method is linear. */
 void switcher_set_linear(struct switcher *switcher, const double *A, double rho);
 
-/* See error_norm_set_floor, where a floor that is not positive and finite changes nothing, and
+/* See error_norm_set_floor, where a floor that is not positive and finite has no effect, and
  * error_norm_set_roundoff; for both methods. */
 void switcher_set_floor(struct switcher *switcher, size_t component, double floor);
 void switcher_set_noise(struct switcher *switcher, size_t rate, double noise, double passing);

@@ -11,8 +11,7 @@ static int note(struct counted_system *system, int code, double t)
     return code;
 }
 
-/* The rare case: the sum of the values is not finite. Either one of them is not, or they are so large that
- * their sum is beyond all numbers. */
+/* The rare case: the sum of the values is not finite. Either one of them is not, or their sum overflows. */
 static int search(struct counted_system *system, double t, const double *values, size_t count)
 {
     for (size_t i = 0; i < count; i++) {
@@ -25,7 +24,7 @@ static int search(struct counted_system *system, double t, const double *values,
     return GSL_SUCCESS;
 }
 
-/* One addition for each value, as this stands in the innermost loop of all. */
+/* One addition for each value, as this is in the innermost loop. */
 static inline double sum_of(const double *values, size_t count)
 {
     double sum = 0;

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * A gsl_odeiv2_system that counts its evaluations and lets no NaN or infinity pass.
+ * A gsl_odeiv2_system that counts its evaluations and rejects NaN and infinity.
  *
- * GSL's steppers and controls take a NaN for success (a comparison with NaN is never true), and a Newton
- * iteration fed with one ends in a misleading message. So the wrapper turns a result that is not finite
- * into the return code `system_not_finite`, which every stepper passes on, and remembers where it was.
+ * GSL's steppers and controls treat a NaN as success (a comparison with NaN is never true), and a Newton
+ * iteration with one ends in a misleading message. So the wrapper turns a result that is not finite into the
+ * return code `system_not_finite`, which every stepper passes on, and records its place.
  */
 #ifndef FBD_INTEGRATE_SYSTEM_H
 #define FBD_INTEGRATE_SYSTEM_H
@@ -15,14 +15,14 @@
 enum { system_not_finite = 1024 };
 
 struct counted_system {
-    gsl_odeiv2_system gsl;   /* what a stepper is given; its params point to this object, so do not copy it */
-    gsl_odeiv2_system inner; /* what is wrapped */
+    gsl_odeiv2_system gsl;   /* passed to steppers; its params point to this object, so do not copy it */
+    gsl_odeiv2_system inner; /* the wrapped system */
     unsigned long rhs, jacobians;
     int last_code;       /* of the last evaluation that failed; 0 when none did */
     double last_time;    /* t of that evaluation */
     size_t last_element; /* of the first element that was not finite, if that was the reason: index into dydt,
                             or row times dimension plus column of the Jacobian */
-    double last_value;   /* what that element was */
+    double last_value;   /* value of that element */
 };
 
 /* Wrap `inner`; all counters zero. */

@@ -13,11 +13,11 @@ struct tableau {
     size_t n, width;
     double *T;            /* n rows of width: the columns of all variables, then q */
     size_t *basic;        /* of each row */
-    double *row, *column; /* n each: sizes by which rows and columns are divided */
-    double size;          /* of q */
+    double *row, *column; /* n each: scale factors of rows and columns */
+    double size;          /* largest entry of q */
 };
 
-/* What counts as zero among numbers of size 1. */
+/* Limit below which scaled numbers count as zero. */
 static const double zero = 1e-11;
 
 static double *row_of(const struct tableau *tableau, size_t i)
@@ -31,7 +31,7 @@ static void tableau_free(struct tableau *tableau)
     free(tableau->basic);
 }
 
-/* Divide rows and columns by the roots of their largest entries, in turns (Ruiz 2001). */
+/* Divide rows and columns alternately by the roots of their largest entries (Ruiz 2001). */
 static void equilibrate(struct tableau *tableau, const double *M)
 {
     enum { rounds = 6 };
@@ -104,8 +104,8 @@ static bool is_before(const struct tableau *tableau, size_t i, double a, size_t 
     return difference < 0;
 }
 
-/* The row whose variable gets to zero first as the entering one grows; n for none. z_0 leaves as soon as it
- * may, which ends it. */
+/* The row whose variable first reaches zero as the entering one grows; n for none. z_0 has priority, since
+ * its leaving ends the method. */
 static size_t leaving_row(const struct tableau *tableau, size_t entering)
 {
     size_t best = tableau->n, last = tableau->width - 1;
@@ -128,7 +128,7 @@ static size_t leaving_row(const struct tableau *tableau, size_t entering)
     return best;
 }
 
-/* The row that is farthest below zero, as its cover counts, or n. */
+/* The row that is farthest below zero relative to its cover, or n. */
 static size_t lowest_row(const struct tableau *tableau)
 {
     size_t best = tableau->n, last = tableau->width - 1;
@@ -159,7 +159,7 @@ static enum lcp run(struct tableau *tableau)
     return lcp_lost;
 }
 
-/* A x = b, b becomes x; false when A is singular to rounding. */
+/* Solve A x = b, with x in b; false when A is singular to rounding. */
 static bool solve(size_t n, double *A, size_t *pivot, double *b)
 {
     const double singular = 1e-13;
@@ -174,7 +174,7 @@ static bool solve(size_t n, double *A, size_t *pivot, double *b)
     return regular;
 }
 
-/* The basic solution once more, from the problem itself: pivots have rounded. */
+/* Recompute the basic solution from the original problem, without the rounding of the pivots. */
 static bool polish(const struct tableau *tableau, const double *M, const double *q, double *z, double *w)
 {
     size_t n = tableau->n;

@@ -14,8 +14,8 @@ struct nnls {
     const double *E; /* n columns of m */
     double *u, *z;   /* n */
     double *rest;    /* m: f - E u */
-    double *f, *A;   /* m; m rows of those that are free */
-    bool *positive;  /* n: u is free to be so */
+    double *f, *A;   /* m; m rows of the free columns */
+    bool *positive;  /* n: u may be positive */
     bool no_memory;
 };
 
@@ -39,7 +39,7 @@ static bool nnls_new(struct nnls *problem, size_t m, size_t n, const double *E)
     return true;
 }
 
-/* Least squares over the unknowns that may be positive, the others zero, into z. */
+/* Solve for z: least squares over the unknowns that may be positive, the others zero. */
 static bool nnls_solve_free(struct nnls *problem)
 {
     struct svd svd;
@@ -55,7 +55,7 @@ static bool nnls_solve_free(struct nnls *problem)
     if (made) svd_add_solution(&svd, problem->f, problem->z);
     svd_free(&svd);
     problem->no_memory = !made;
-    for (size_t j = problem->n, k = free; made && j-- > 0;) { /* back to their places, the last first */
+    for (size_t j = problem->n, k = free; made && j-- > 0;) { /* to their original indices, the last first */
         double own = problem->positive[j] ? problem->z[--k] : 0;
         problem->z[j] = own;
     }
@@ -71,7 +71,8 @@ static void nnls_set_rest(struct nnls *problem)
     }
 }
 
-/* The unknown at zero whose growth lessens the rest the most, or n. Large u round the rest. */
+/* The unknown at zero whose increase reduces the residual most, or n. The residual has rounding errors in
+ * proportion to u. */
 static size_t nnls_enter(const struct nnls *problem)
 {
     size_t best = problem->n;
@@ -87,8 +88,7 @@ static size_t nnls_enter(const struct nnls *problem)
     return best;
 }
 
-/* Go from u towards z as far as nothing gets negative, and hold at zero what does; true when z was reached.
- */
+/* Move from u towards z until an unknown becomes zero, and fix it there; true when z was reached. */
 static bool nnls_move(struct nnls *problem)
 {
     double share = 1;

@@ -17,8 +17,8 @@ enum least_distance {
     least_distance_no_memory
 };
 
-/* G is `rows` by `size`, row by row; x takes `size`. Rows should be of one size, and h of the size of 1; an x
- * beyond 1e4 counts as none. Inequalities that leave next to no room should be looked at once more with x. */
+/* G is `rows` by `size`, row by row; x takes `size`. Rows should be scaled to one size, and h to size 1; an x
+ * beyond 1e4 is rejected. If the polyhedron is very thin, the caller should check the inequalities with x. */
 enum least_distance least_distance(size_t rows, size_t size, const double *G, const double *h, double *x);
 
 #endif

@@ -20,7 +20,7 @@ static void swap_rows(size_t n, double *restrict a, double *restrict b)
     }
 }
 
-/* The diagonal holds the reciprocals of the pivots: a division takes several times as long as a product. */
+/* The diagonal holds the reciprocals of the pivots, as a division is slower than a product. */
 bool lu_decompose(size_t n, double *a, size_t *pivot)
 {
     for (size_t k = 0; k < n; k++) {
@@ -39,7 +39,7 @@ bool lu_decompose(size_t n, double *a, size_t *pivot)
     return true;
 }
 
-/* Two equations are what every body with one coordinate has, and loops over them are mostly overhead. */
+/* Every body with one coordinate has two equations; loops over them would be mostly overhead. */
 static inline void solve_two(const double *lu, const size_t *pivot, double *b)
 {
     double first = b[pivot[0]], second = b[1 - pivot[0]] - lu[2] * first;

@@ -37,7 +37,8 @@ static void swap(double *b, size_t i, size_t j)
     b[j] = kept;
 }
 
-/* The largest entry of column k comes first, so that a reflection touches no equation that its column does not. */
+/* Move the largest entry of column k to the diagonal, so that a reflection leaves equations without an entry
+ * in its column unchanged. */
 static void swap_rows(struct qr *qr, size_t k)
 {
     const double *a = column_of(qr, k);
@@ -54,13 +55,14 @@ static void reflect(const struct qr *qr, size_t k, double *b)
     const double *v = column_of(qr, k);
     double sum = b[k];
     for (size_t i = k + 1; i < qr->rows; i++) sum += v[i] * b[i];
-    if (sum == 0) return; /* they have no equation in common */
+    if (sum == 0) return; /* no common equation */
     sum *= qr->share[k];
     b[k] -= sum;
     for (size_t i = k + 1; i < qr->rows; i++) b[i] -= sum * v[i];
 }
 
-/* The reflection that leaves column k nothing below the diagonal; its own square from there on is given. */
+/* Make the reflection that eliminates column k below the diagonal; `square` is the squared norm of the column
+ * from the diagonal on. */
 static void make_reflection(struct qr *qr, size_t k, double square)
 {
     double *a = column_of(qr, k), size = a[k] > 0 ? -sqrt(square) : sqrt(square), first = a[k] - size;
@@ -135,7 +137,8 @@ void qr_free(struct qr *qr)
 
 void qr_add_solution(const struct qr *qr, double *b, double *x)
 {
-    for (size_t k = 0; k < qr->rank; k++) swap(b, k, qr->row[k]); /* as in all columns, the reflections too */
+    for (size_t k = 0; k < qr->rank; k++)
+        swap(b, k, qr->row[k]); /* as in all columns, reflections included */
     for (size_t k = 0; k < qr->rank; k++) reflect(qr, k, b);
     substitute(qr, b);
     for (size_t k = 0; k < qr->rank; k++) x[qr->column[k]] += b[k];

@@ -5,10 +5,10 @@
 #include <math.h>
 #include <stdbool.h>
 
-/* Every half counts against `left`. */
+/* Each half reduces `left` by one. */
 static void add_stretch(const gsl_function *f, double from, double to, int *left, struct quadrature *sum)
 {
-    const double digits = 1e-13; /* the least that a rule says of itself is a tenth of that */
+    const double digits = 1e-13; /* a rule's own error estimate is at least a tenth of this */
     double part, off, magnitude, variation, middle = from + (to - from) / 2;
     gsl_integration_qk21(f, from, to, &part, &off, &magnitude, &variation);
     sum->size = fmax(sum->size, magnitude);
@@ -22,7 +22,7 @@ static void add_stretch(const gsl_function *f, double from, double to, int *left
     add_stretch(f, middle, to, left, sum);
 }
 
-/* Roughly: what errors are measured against. */
+/* A rough integral of |f|, the reference of the errors. */
 static double size_of(const gsl_function *f, const double *ends, int pieces)
 {
     double sum = 0, part, off, magnitude, variation;

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Quadrature from piece to piece: Gauss and Kronrod's 21 points, halved where their error is too large for the size of the
- * whole (at a kink or a jump some fifty times).
+ * Quadrature piece by piece: Gauss and Kronrod's 21 points, halved where their error is too large for the
+ * size of the whole (at a kink or a jump some fifty times).
  *
- * GSL's adaptive rules do the same, but end the program where rounding keeps them from their tolerance, unless it has
- * another error handler; the rule of 21 points asks for none.
+ * GSL's adaptive rules do the same, but call the error handler, which by default ends the program, if
+ * rounding prevents their tolerance; the rule of 21 points does not.
  */
 #ifndef FBD_NUMERIC_QUADRATURE_H
 #define FBD_NUMERIC_QUADRATURE_H
@@ -13,12 +13,12 @@
 
 struct quadrature {
     double integral;
-    double error; /* what the rules say of themselves, summed up */
+    double error; /* sum of the rules' error estimates */
     double size;  /* of the integral of |f| */
 };
 
-/* Over `pieces` stretches from ends[0] to ends[pieces], to some 13 digits of the size of the whole; with at most `halves`
- * divisions in all. NAN where f has no value. */
+/* Integrate over `pieces` stretches from ends[0] to ends[pieces], to some 13 digits of the size of the whole;
+ * with at most `halves` divisions in all. NAN where f has no value. */
 struct quadrature quadrature_over(const gsl_function *f, const double *ends, int pieces, int halves);
 
 #endif

@@ -22,8 +22,8 @@ static void turn(double *a, double *b, size_t n, double c, double s)
     }
 }
 
-/* Make columns p and q orthogonal; false when they are so already, to rounding, or when one is nothing beside
- * the largest. */
+/* Rotate columns p and q to make them orthogonal; false if they are so already, to rounding, or if one is
+ * negligible compared with the largest. */
 static bool rotate(struct svd *svd, size_t p, size_t q, double nothing)
 {
     double *a = svd->U + p * svd->rows, *b = svd->U + q * svd->rows;
@@ -51,7 +51,7 @@ static void swap(double *a, double *b, size_t n)
     }
 }
 
-/* The largest first. */
+/* Sort by decreasing singular values. */
 static void sort(struct svd *svd)
 {
     for (size_t k = 0; k < svd->cols; k++) {
@@ -67,7 +67,7 @@ static void sort(struct svd *svd)
 
 bool svd_decompose(struct svd *svd, size_t rows, size_t cols, const double *a)
 {
-    enum { most_sweeps = 60 }; /* six to ten do */
+    enum { most_sweeps = 60 }; /* six to ten suffice */
     const double zero = 1e-10;
     *svd = (struct svd){.rows = rows, .cols = cols, .U = calloc(cols * (rows + cols + 1) + 1, sizeof *a)};
     if (!svd->U) return false;

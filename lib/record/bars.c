@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The companion's ledger looks at its steps. */
+/* Enter the steps of the companion in its ledger. */
 static bool account(void *context, struct ensemble *ensemble, size_t group)
 {
     struct bars *bars = context;
@@ -47,14 +47,14 @@ void bars_free(struct bars *bars)
     *bars = (struct bars){0};
 }
 
-/* ---- going along */
+/* ---- during the run */
 
 double bars_next(const struct bars *bars)
 {
     return bars->companion->next;
 }
 
-/* The companion goes forward only: what is to be sampled up to t is sampled on the way. */
+/* The companion only goes forward: take all samples up to t on the path. */
 static bool sample_until(struct bars *bars, struct ensemble *main, double t)
 {
     struct companion *companion = bars->companion;
@@ -106,9 +106,10 @@ bool bars_finish(struct bars *bars, struct ensemble *main)
     return companion_come_to_events(companion, main);
 }
 
-/* ---- what the errors are */
+/* ---- errors */
 
-/* Two runs round alike what they compute by the same formulas from nearly the same numbers. */
+/* Two runs make the same rounding errors where they evaluate the same formulas at nearly the same numbers,
+ * hence the term 3 eps. */
 double bars_difference(const struct bars *bars, double main, double other)
 {
     return bars->known ? fabs(main - other) + 3 * DBL_EPSILON * fabs(main) : HUGE_VAL;
@@ -134,7 +135,7 @@ double bars_work(struct bars *bars, size_t index, double work)
 fbd_energy bars_energy(struct bars *bars, const fbd_energy *energy)
 {
     fbd_energy other = ledger_energy(&bars->ledger, bars->state, bars->work);
-    /* The residual of the true motion is 0, so its error is what it is. */
+    /* The residual of the true motion is 0, so the error of the residual is its absolute value. */
     return (fbd_energy){.kinetic = bars_difference(bars, energy->kinetic, other.kinetic),
                         .potential = bars_difference(bars, energy->potential, other.potential),
                         .work = bars_difference(bars, energy->work, other.work),

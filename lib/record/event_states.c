@@ -8,7 +8,7 @@ struct event_state {
     double *y;
 };
 
-/* The place for the state at one more event; NULL when memory is out. */
+/* The entry for the state at one more event; NULL when memory is out. */
 static struct event_state *next_place(struct event_states *kept, const struct ensemble *ensemble,
                                       size_t group)
 {

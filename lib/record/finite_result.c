@@ -3,7 +3,7 @@
 
 #include "dynamics/nonfinite.h"
 
-/* Works that were not wanted are NaN, and energies with them. */
+/* Works that were not requested are NaN, and so are energies. */
 static bool note_work(struct ledger *ledger, const struct fbd_state *state, const double *work,
                       struct nonfinite *found)
 {

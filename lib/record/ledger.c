@@ -16,7 +16,7 @@ static double kinetic(const struct fbd_model *model, const struct instant *at)
     return sum;
 }
 
-/* Forces across the motion do no work, but for those of couplings in an impact. */
+/* Constraint forces perpendicular to the motion do no work, except those of couplings in an impact. */
 static void count_works(struct ledger *ledger)
 {
     const struct fbd_model *model = ledger->model;
@@ -86,7 +86,7 @@ bool ledger_counts(const struct ledger *ledger, const struct group *group)
     return false;
 }
 
-/* By what is kept of a group: its first load. One without loads has nothing that matters. */
+/* Index at which the sums of a group are kept: its first load. A group without loads has no sums that matter. */
 static size_t first_load(const struct ledger *ledger, const struct group *group)
 {
     return group->model->load_count > 0 ? (size_t)group_load(group, 0) : ledger->model->load_count;
@@ -146,7 +146,8 @@ double ledger_explained(struct ledger *ledger, struct fbd_state *state, double t
     if (!ledger->works) return NAN;
     struct rounded rounded = rounded_at(state, ledger->arrows);
     double terms = size + rounded.places;
-    /* What rests at the origin has no size there: a rounding of what forces move in a step, for each step. */
+    /* A body at rest at the origin has coordinates of size 0: add a rounding of the displacement by its
+     * forces, for each step. */
     double nothing = DBL_EPSILON * rounded.ways * at.t * at.t / fmax(steps, 1);
     for (size_t i = 0; i < ledger->model->load_count; i++) {
         if (ledger->counted[i]) continue;
@@ -193,7 +194,7 @@ fbd_energy ledger_energy(struct ledger *ledger, const struct fbd_state *state, c
     fbd_energy energy = {.kinetic = kinetic(model, &at),
                          .initial_kinetic = ledger->initial_kinetic,
                          .initial_potential = ledger->initial_sum};
-    /* Differences load by load: a datum far away does not drown the change in rounding. */
+    /* Differences load by load: a distant datum does not lose the change in rounding. */
     double change = 0;
     for (size_t i = 0; i < model->load_count; i++) {
         if (ledger->counted[i]) {

@@ -5,8 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* An array that has `count` elements of `size` bytes and room for `*room` gets room for one more. NULL when
- * memory is out; the array is as it was then. */
+/* Grow an array of `count` elements of `size` bytes and capacity `*room` for one more. NULL when memory is
+ * out; the array is unchanged then. */
 static void *grown(void *array, size_t count, size_t size, size_t *room)
 {
     if (count < *room) return array;
@@ -17,7 +17,7 @@ static void *grown(void *array, size_t count, size_t size, size_t *room)
     return larger;
 }
 
-/* Until numbers_begin the unit of each head is there, and all names stand in one text. */
+/* Before numbers_begin each head has its unit, and all names are in one text. */
 void numbers_head(struct numbers *numbers, const char *name, const char *unit)
 {
     fbd_column *heads = grown(numbers->heads, numbers->columns, sizeof *heads, &numbers->head_room);

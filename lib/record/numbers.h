@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Numbers: rows of numbers under heads, for programs; what the CSV has, without text.
+ * Rows of numbers under column heads, for programs; the content of the CSV, without text.
  */
 #ifndef FBD_RECORD_NUMBERS_H
 #define FBD_RECORD_NUMBERS_H
@@ -9,22 +9,22 @@
 #include "fbd.h"
 
 struct numbers {
-    struct text names; /* of the heads, each with its zero */
+    struct text names; /* of the heads, each zero-terminated */
     fbd_column *heads;
     size_t columns, head_room;
     double *values;
-    size_t filled, whole, room; /* numbers: all, those of whole rows, that there is room for */
+    size_t filled, whole, room; /* numbers: all, those of complete rows, capacity */
     bool failed;                /* memory ran out */
 };
 
-/* One more column; `name` is copied, `unit` is not. */
+/* Add a column; `name` is copied, `unit` is not. */
 void numbers_head(struct numbers *numbers, const char *name, const char *unit);
 
-/* All heads are there. False when memory is out. */
+/* Call after the last numbers_head. False when memory is out. */
 bool numbers_begin(struct numbers *numbers);
 
-/* The next number of the row; numbers_end_row keeps the row, false when memory is out, numbers_drop_row does not.
- */
+/* Add the next number of the row; numbers_end_row keeps the row, false when memory is out; numbers_drop_row
+ * discards it. */
 void numbers_add(struct numbers *numbers, double value);
 bool numbers_end_row(struct numbers *numbers);
 void numbers_drop_row(struct numbers *numbers);

@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Integrals of powers, by panels: parts of a step, on its dense output.
+ * Integrals of powers over panels. A panel is a part of a step; the power is sampled on the dense output.
  *
- * On a panel a power is p(x) = sum of c_k P_k(x), x in [-1, 1]. Gauss's rule with five points takes c_0, and what the points
- * also give of c_1 to c_4, with a sixth one of c_5, says how fast the series decays; what the rule misses is of degree 10.
- * Where that is too much the panel is halved.
+ * On a panel the power is p(x) = sum of c_k P_k(x), x in [-1, 1]. Gauss's rule with five points gives c_0.
+ * The same points give c_1 to c_4, and a sixth point gives c_5; their decay estimates the error of the rule,
+ * which is of degree 10. Where the error is too large the panel is halved.
  *
- * Checked by waves of force on what sticks on a belt, is driven, or stands between forces that cancel, against closed forms
- * (tests/unit/test_works.c).
+ * Tested with oscillating forces on bodies that stick on a belt, are driven, or stand between cancelling
+ * forces, against closed forms (tests/unit/test_works.c).
  */
 #include "record/powers.h"
 
@@ -18,7 +18,7 @@
 #include "dynamics/mass.h"
 #include "model/tree.h"
 
-/* On the ground what is integrated is listed by the body, and its joint does no work. */
+/* A body on the ground: go through its integrated loads only; its joint does no work. */
 static void add_powers_on_ground(struct ledger *ledger, const struct group *group,
                                  const struct model_body *body, const struct fbd_state *state, double *powers)
 {
@@ -51,22 +51,22 @@ static void add_powers(struct ledger *ledger, const struct group *group, const s
         size_t count = diagram_fill(model, (int)b, &at, state->a, state->slots, ledger->arrows);
         for (size_t i = 0; i < count; i++) {
             int load = group_load(group, ledger->arrows[i].load);
-            /* What acts between two bodies: its power on both. */
+            /* A load between two bodies: the sum of its powers on both. */
             if (load < 0 || !ledger->integrated[load]) continue;
             powers[load] += ledger->arrows[i].power;
         }
     }
 }
 
-/* Gauss-Legendre with five points on [-1, 1]: x = 0, sqrt(5 -+ 2 sqrt(10/7)) / 3 (Abramowitz & Stegun, table 25.4), and one
- * more point, where P_5, which is zero at the five, is largest between them. */
+/* Gauss-Legendre with five points on [-1, 1]: x = 0, sqrt(5 -+ 2 sqrt(10/7)) / 3 (Abramowitz & Stegun, table
+ * 25.4), and a sixth point where |P_5|, which is zero at the five, is largest between them. */
 static const double point[power_points] = {-0.90617984593866396, -0.53846931010568311, 0,
                                            0.53846931010568311,  0.90617984593866396,  0.76505532392946474};
 static const double gauss[power_points] = {0.23692688505618908, 0.47862867049936647, 0.56888888888888889,
                                            0.47862867049936647, 0.23692688505618908, 0};
 
-/* The coefficients of P_1 to P_5 in Legendre's series: by the weights times these polynomials, and by what the sixth point
- * has beside the interpolation of the five. */
+/* The weights that give the Legendre coefficients c_1 to c_5; c_5 follows from the difference between the
+ * sixth sample and the interpolant of the five. */
 static const double legendre[5][power_points] = {
     {-0.32204755229841747, -0.38659027500089127, 0, 0.38659027500089127, 0.32204755229841747, 0},
     {0.43342389699652306, -0.077868341440967534, -0.71111111111111114, -0.077868341440967534,
@@ -83,11 +83,11 @@ struct panel {
     size_t group;
     struct time_dd from;
     double length;
-    bool forces; /* powers need more than coordinates and rates */
+    bool forces; /* powers depend on more than coordinates and rates */
     int points;
-    int halved;    /* so often */
-    double missed; /* what the panel missed that this is a half of: of the mean of its power */
-    double floor;  /* what is rounding of works, where something was missed */
+    int halved;    /* number of halvings so far */
+    double missed; /* error of the panel of which this is a half: of its mean power */
+    double floor;  /* round-off level of its works; set only after an error was found */
 };
 
 /* Without friction, switches and joints a power is a function of coordinates, rates and the time. */
@@ -103,7 +103,8 @@ static bool is_written(const struct model_load *load)
            load->offset_x.expr || load->offset_y.expr || load->couple.expr;
 }
 
-/* Is there an expression, which may do anything within a step? All else goes with the motion. */
+/* Does the model have expressions, which may vary arbitrarily within a step? All other loads vary with the
+ * motion. */
 static bool has_expressions(const struct fbd_model *model)
 {
     bool has = false;
@@ -141,7 +142,7 @@ static double sum_of(const struct ledger *ledger, const double weights[power_poi
     return sum;
 }
 
-/* The mean of the size of a load's power, times two. */
+/* Twice the mean absolute power of a load. */
 static double size_of(const struct ledger *ledger, int load)
 {
     double sum = 0;
@@ -150,9 +151,10 @@ static double size_of(const struct ledger *ledger, int load)
     return sum;
 }
 
-/* What the rule misses of a mean power is the term of degree 10 of its series: by the decay from degrees 1 and 2 to 3, 4 and
- * 5, continued (a nonlinear estimate by null rules: Berntsen and Espelid, ACM TOMS 17, 1991). A wave far shorter than the
- * panel may look smooth at five points by chance, hardly at the sixth, too. */
+/* Error of the rule for a mean power: the term of degree 10 of the series, extrapolated from the decay from
+ * degrees 1 and 2 to degrees 3, 4 and 5 (a nonlinear estimate by null rules: Berntsen and Espelid, ACM TOMS
+ * 17, 1991). A wave far shorter than the panel may look smooth at five points by chance, hardly at the sixth,
+ * too. */
 static double missed(const struct ledger *ledger, int load, int points)
 {
     const double rounding = 1e-12;
@@ -163,15 +165,15 @@ static double missed(const struct ledger *ledger, int load, int points)
     return high > rounding * size_of(ledger, load) ? high * decay * decay * decay : 0;
 }
 
-/* What the rule misses in a panel. */
+/* Errors of the rule in a panel. */
 struct look {
-    double missed, turnover; /* the most of a load; size of all powers, integrated */
-    bool waves;              /* it is no rounding: a share of that load's own power */
+    double missed, turnover; /* largest error of a load; integral of the absolute powers of all loads */
+    bool waves;              /* the error is above the round-off level of its load's power */
 };
 
 static struct look look_at(const struct ledger *ledger, const struct group *group, const struct panel *panel)
 {
-    const double rounding = 1e-6; /* of forces whose system is nearly singular */
+    const double rounding = 1e-6; /* of forces from a nearly singular system */
     struct look look = {0};
     for (size_t i = 0; i < group->model->load_count; i++) {
         int load = group_load(group, (int)i);
@@ -184,7 +186,7 @@ static struct look look_at(const struct ledger *ledger, const struct group *grou
     return look;
 }
 
-/* What rounding within formulas does to the powers of a group, at an instant. */
+/* Round-off level of the powers of a group at an instant, from rounding within formulas. */
 static bool take_roundoff(struct ensemble *ensemble, const struct panel *panel, struct time_dd t,
                           double *roundoff)
 {
@@ -197,7 +199,7 @@ static bool take_roundoff(struct ensemble *ensemble, const struct panel *panel, 
     return true;
 }
 
-/* What of its works is rounding. */
+/* Set the round-off level of the works of a panel. */
 static bool set_floor(struct ledger *ledger, struct ensemble *ensemble, struct panel *panel)
 {
     const double rounding = 1e-14;
@@ -208,14 +210,15 @@ static bool set_floor(struct ledger *ledger, struct ensemble *ensemble, struct p
     }
     struct fbd_state *state = ensemble_look_group(ensemble, panel->group, panel->from, true);
     if (!state) return false;
-    struct rounded rounded = rounded_at(state, ledger->arrows); /* of what rests, too */
+    struct rounded rounded = rounded_at(state, ledger->arrows); /* bodies at rest included */
     panel->floor = rounding * rounded.places + DBL_EPSILON * rounded.ways * panel->length * panel->length +
                    panel->length * roundoff;
     return true;
 }
 
-/* Add the integral of power over a panel; in halves where the motion asks for less points than the powers do: of what sticks
- * on a belt, or is driven, or stands between forces that cancel, the steps know nothing of what these forces are. */
+/* Add the integral of power over a panel. Halve it where the powers vary faster than the motion: the step
+ * size does not depend on the forces on bodies that stick on a belt, are driven, or stand between cancelling
+ * forces. */
 static bool add_panel(struct ledger *ledger, struct ensemble *ensemble, struct panel panel, struct sums *sums)
 {
     enum { most_halved = 12, at_once = 3 };
@@ -247,7 +250,7 @@ static bool add_panel(struct ledger *ledger, struct ensemble *ensemble, struct p
     return true;
 }
 
-/* Thousands of waves within a step: better no works than wrong ones. */
+/* Thousands of waves within a step: set the works to NAN. */
 static void give_up(struct ledger *ledger, const struct group *group, const struct sums *sums)
 {
     ledger->unresolved = true;
@@ -273,6 +276,6 @@ bool powers_integrate(struct ledger *ledger, struct ensemble *ensemble, size_t g
         panel.from = time_dd_after(from, i * length / panels);
         done = add_panel(ledger, ensemble, panel, sums);
     }
-    if (sums->lost > length / 10) give_up(ledger, of, sums); /* not the panels about a corner */
+    if (sums->lost > length / 10) give_up(ledger, of, sums); /* more than the panels around a corner */
     return done;
 }

@@ -7,19 +7,19 @@
 
 #include "record/ledger.h"
 
-/* Powers of a panel are looked at in so many points, the last one only where expressions may vary. */
+/* Sample points of a panel; the sixth one is used only where expressions may vary. */
 enum { gauss_points = 5, power_points };
 
 struct sums {
-    double *work;    /* per load: the integral of its power is added */
-    double lively;   /* the size of a group's energies: what was in motion, */
-    double turnover; /* and the integral of the size of all its powers, which is added to */
-    double lost;     /* length of all panels in which a power was not resolved */
+    double *work;    /* per load: the integral of its power is added here */
+    double lively;   /* largest kinetic energy of the group */
+    double turnover; /* integral of the absolute powers of its loads; is added to */
+    double lost;     /* total length of the panels in which a power was not resolved */
 };
 
-/* Add the integrals over [from, to] of a group's last step, [J] each, to the tolerance of its run or 1e-7, whichever is less, of
- * the size of its energies. NAN where a tenth of that time is not resolved: then ledger->unresolved. False when the state
- * cannot be looked at. */
+/* Add the integrals [J] over [from, to] of a group's last step. Their tolerance is that of the run, between
+ * 1e-12 and 1e-7, relative to the size of its energies. Where more than a tenth of the time is not resolved
+ * they are NAN and ledger->unresolved is set. Returns false if a state cannot be evaluated. */
 bool powers_integrate(struct ledger *ledger, struct ensemble *ensemble, size_t group, struct time_dd from,
                       struct time_dd to, struct sums *sums);
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Result: what a run has come to, and what it took.
+ * Result of a run, and its cost.
  */
 #include "record/result.h"
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Result: its error bars.
+ * Error bars of a result.
  */
 #include <stdlib.h>
 
