@@ -2,20 +2,12 @@
  *
  * The linear complementarity problem: w = M z + q with w >= 0, z >= 0 and w_i z_i = 0 for each i.
  *
-<<<<<<< HEAD
- * Lemke's method (Cottle, Pang and Stone, The Linear Complementarity Problem, section 4.4): a further unknown
- * z_0 with a column of ones makes the start feasible, and pivots on complements of what has just left drive
- * it out. Rows that tie are told apart by the lexicographic rule, so that it cannot cycle: redundant holds,
- * as the feet of a block, always tie. Rows and columns are brought to one size first, which changes neither
- * signs nor what is complementary; so accelerations, forces and moments may stand in one problem.
-=======
- * Lemke's method (Cottle, Pane and Stone, The Linear Complementarity Problem, section 4.4): an additional
+ * Lemke's method (Cottle, Pang and Stone, The Linear Complementarity Problem, section 4.4): an additional
  * unknown z_0 with a column of ones makes the start feasible, and pivots on the complement of the variable
  * that has just left the basis remove it. Ties between rows are broken by the lexicographic rule, so that it
  * cannot cycle: redundant constraints, as the feet of a block, always tie. Rows and columns are scaled first,
  * which changes neither signs nor complementarity; so accelerations, forces and moments may be combined in
  * one problem.
->>>>>>> h-c3
  *
  * It ends in a solution, or in a ray. For a positive semi-definite M, as of constraints without friction, a
  * ray means that there is no solution; with friction it usually does.

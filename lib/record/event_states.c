@@ -52,9 +52,15 @@ bool event_states_note(struct event_states *kept, struct ensemble *ensemble, siz
 
 void event_states_restart(struct event_states *kept, size_t group)
 {
+    size_t count = 0;
     if (kept->seen) kept->seen[group] = 0;
-    for (size_t i = 0; i < kept->count; i++)
-        if (kept->states[i].group == group) kept->states[i].order = SIZE_MAX;
+    for (size_t i = 0; i < kept->count; i++) {
+        if (kept->states[i].group == group)
+            free(kept->states[i].y);
+        else
+            kept->states[count++] = kept->states[i];
+    }
+    kept->count = count;
 }
 
 const double *event_states_find(const struct event_states *kept, const struct run_event *event)
