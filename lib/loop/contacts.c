@@ -321,8 +321,7 @@ static void unstick(struct run *run, double interval)
         const struct mode *mode = &model->plan.modes[pair];
         bool slot = mode->kind == mode_tangent && coupling_is_guide(&tree_of(run)->couplings[mode->coupling]);
         if (!(slot || mode_is_joint_friction(mode)) || run->state->slip[pair] != stick) continue;
-        double v = slip_velocity(model, pair, &at),
-               before = slot ? 0 : fastest[mode->coordinate];
+        double v = slip_velocity(model, pair, &at), before = slot ? 0 : fastest[mode->coordinate];
         if (fabs(v) <= 1e-14 * before) continue;
         if (interval > 0 && fabs(v) * interval <= nobody_sees) continue;
         run->state->slip[pair] = v > 0 ? slip_plus : slip_minus;

@@ -180,7 +180,8 @@ static void a_puck_ends_at_the_peg(void **unused)
     double end = to_its_end(&trial);
     check_that(&checks, "ends early", trial.outcome == FBD_BROKEN);
     check_close(&checks, "when", end, 5, 1e-9);
-    check_that(&checks, "says so", strstr(fbd_simulation_reason(trial.simulation), "has no length left") != NULL);
+    check_that(&checks, "says so",
+               strstr(fbd_simulation_reason(trial.simulation), "has no length left") != NULL);
     trial_close(&trial);
     checks_end(&checks);
 }
