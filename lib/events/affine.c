@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "events/enclosure.h"
+#include "numeric/tolerances.h"
 
 /* ---- affine functions */
 
@@ -108,7 +109,7 @@ double affine_value(const struct affine *f, const double *y, const double *dy, d
         sum += f->terms[i].factor * y[f->terms[i].component];
         *rate += f->terms[i].factor * dy[f->terms[i].component];
     }
-    return f->constant + sum + f->roundings * DBL_EPSILON * (fabs(sum) + f->limit);
+    return f->constant + sum + round_off(f->roundings, fabs(sum) + f->limit);
 }
 
 /* ---- over a piece of the trajectory */
@@ -162,8 +163,8 @@ static void follow(struct affine *f, const struct trajectory *trajectory)
         f->top = -1;
         return;
     }
-    f->slack = f->roundings * DBL_EPSILON * (f->extent + f->limit);
-    f->doubt += roundings * DBL_EPSILON * f->extent;
+    f->slack = round_off(f->roundings, f->extent + f->limit);
+    f->doubt += round_off(roundings, f->extent);
     set_rough(f);
 }
 
@@ -224,7 +225,7 @@ double affine_zero(struct affine *f, const struct trajectory *trajectory, double
             a = s;
         else
             b = s;
-        bool there = f->bend * d * d <= DBL_EPSILON * fabs(slope) || b - a <= DBL_EPSILON;
+        bool there = f->bend * d * d <= round_off(1, fabs(slope)) || b - a <= round_off(1, 1);
         if (there) return f->middle + (s + d) / f->per;
         s = s + d > a && s + d < b ? s + d : a + (b - a) / 2;
     }

@@ -7,6 +7,7 @@
 #include "dynamics/constraint.h"
 #include "dynamics/tree_system.h"
 #include "integrate/switcher.h"
+#include "numeric/tolerances.h"
 
 struct mechanism {
     bool coupled; /* a constraint row belongs to it */
@@ -118,7 +119,7 @@ static void raise_floor(double *given, struct switcher *stepper, size_t i, doubl
 static void give_floors(const struct coupled_scales *mechanisms, const struct mechanism *mechanism,
                         const struct fbd_state *state, int link, struct switcher *stepper)
 {
-    const double share = 1e-3;
+    const double share = least_rate_scale;
     const struct tree_link *joint = &state->model->tree->links[link];
     const struct coordinate *coordinates = state->model->scene->coordinates;
     size_t n = (size_t)state->model->plan.n;

@@ -5,8 +5,9 @@
 #ifndef FBD_EVENTS_CUBIC_H
 #define FBD_EVENTS_CUBIC_H
 
-#include <float.h>
 #include <math.h>
+
+#include "numeric/tolerances.h"
 
 struct cubic {
     double c0, c1, c2, c3;
@@ -29,7 +30,7 @@ static inline double cubic_zero(const struct cubic *c)
 {
     enum { most_steps = 8 }; /* if more are needed the cubic is round-off */
     double low = 0, high = 1, s = c->c0 / (c->c0 - cubic_at(c, 1));
-    for (int i = 0; i < most_steps && high - low > DBL_EPSILON; i++) {
+    for (int i = 0; i < most_steps && high - low > round_off(1, 1); i++) {
         if (!(s > low && s < high)) s = (low + high) / 2;
         double value = cubic_at(c, s), slope = c->c1 + s * (2 * c->c2 + s * 3 * c->c3);
         if (value >= 0)
@@ -37,7 +38,7 @@ static inline double cubic_zero(const struct cubic *c)
         else
             high = s;
         double next = slope != 0 ? s - value / slope : -1;
-        if (fabs(next - s) <= DBL_EPSILON) return s;
+        if (fabs(next - s) <= round_off(1, 1)) return s;
         s = next;
     }
     return s;

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "events/interval_roots.h"
+#include "numeric/tolerances.h"
 
 /* Result for one function over a stretch; that of a group is the largest. While one is unsure the stretch is
  * halved, even if others are negative at its end, as it may have crossed zero twice before them. */
@@ -16,8 +17,7 @@ static double rounding_of(const struct enclosure *g)
  * within the rounding of the time? Then the computed sign can be used. */
 static bool passes(const struct enclosure *end, double t)
 {
-    const double roundings = 64;
-    return -end->rate.high * roundings * DBL_EPSILON * fabs(t) >= rounding_of(end) && end->rate.high < 0;
+    return -end->rate.high * round_off(time_roundings, fabs(t)) >= rounding_of(end) && end->rate.high < 0;
 }
 
 /* Classify g over a stretch; `end` is g at its end if required, else NULL. */
@@ -42,7 +42,7 @@ static bool is_instant(const struct stretch *stretch)
 {
     const double roundings = 4;
     double length = stretch->to - stretch->from;
-    return length <= roundings * DBL_EPSILON * fabs(stretch->to) ||
+    return length <= round_off(roundings, fabs(stretch->to)) ||
            !(stretch->middle > stretch->from && stretch->middle < stretch->to);
 }
 

@@ -5,9 +5,10 @@
 #include <string.h>
 
 #include "dynamics/world_refs.h"
+#include "numeric/tolerances.h"
 
 /* A divisor below this part of its largest size is zero unless there is a pole. */
-static const double negligible = 1e-12;
+static const double negligible = negligible_sum;
 
 bool poles_init(struct poles *poles, const struct fbd_model *model, struct arena *memory)
 {

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "events/scan.h"
 
-#include <float.h>
 #include <math.h>
 #include <string.h>
 
 #include "events/cubic.h"
+#include "numeric/tolerances.h"
 
 /* Limits of samples and of their work in one interval. A function that needs more is too fast for the
  * interval, or round-off. The work is that of a thousand attempts of a step by bsimp at its longest, or two
@@ -103,7 +103,7 @@ static void exchange(struct scan_point *x, struct scan_point *y)
 
 static double roundings(const struct scan_point *a, const struct scan_point *b)
 {
-    return 2 * DBL_EPSILON * fmax(fabs(a->t), fabs(b->t));
+    return round_off(2, fmax(fabs(a->t), fabs(b->t)));
 }
 
 /* Shrink [a, b] until b is within two roundings of the zero. The cubics converge to the zero fast but from
@@ -177,7 +177,7 @@ static bool tell_in_group(struct scan *scan, const struct root_group *group, dou
         first = t;
         which = i;
     }
-    if (!(first < limit - roundings * DBL_EPSILON * fabs(limit))) return false;
+    if (!(first < limit - round_off(roundings, fabs(limit)))) return false;
     memset(scan->crossed, 0, scan->count * sizeof *scan->crossed);
     scan->crossed[which] = true;
     scan->t = first;
@@ -246,7 +246,6 @@ static void note_rounding(struct scan *scan, size_t g)
  * that make no progress are sampled instead. */
 static int search_open(struct scan *scan, double from, double *limit, bool strict)
 {
-    const double least_share = 1e-3;
     int found = 0;
     scan->prover.enclose = scan->enclose;
     scan->prover.context = scan->context;
@@ -259,7 +258,7 @@ static int search_open(struct scan *scan, double from, double *limit, bool stric
         if (status < 0) return status;
         if (status > 0) found = status;
         if (strict || !group->open) continue;
-        if (group->clear - from >= least_share * (*limit - from)) {
+        if (group->clear - from >= least_panel * (*limit - from)) {
             *limit = group->clear;
             found = 2;
             continue;
@@ -422,7 +421,6 @@ static bool is_spent(const struct scan *scan, const struct budget *budget)
  * skipped, as the functions are round-off there. */
 static int look_by_series(struct scan *scan, double from, double *limit)
 {
-    const double least_share = 1e-3;
     double length = *limit - from;
     bool halved = false, found = false, soon = scan->soon > 0 && scan->soon < length;
     if (!any_sampled(scan)) return 0;
@@ -437,13 +435,13 @@ static int look_by_series(struct scan *scan, double from, double *limit)
         if (scan->panel) end = scan->panel(scan->context, begin, end);
         scan->clear = begin;
         if (is_spent(scan, &budget)) {
-            if (begin - from >= least_share * (*limit - from) || !leave_out_noise(scan)) return 2;
+            if (begin - from >= least_panel * (*limit - from) || !leave_out_noise(scan)) return 2;
             budget = budget_from_here(scan);
         }
         int status = look_at_panel(scan, begin, end, limit, halved, &found);
         if (status < 0) return status;
         double half = begin + (end - begin) / 2;
-        halved = status == 2 && half - begin > 64 * DBL_EPSILON * fabs(end);
+        halved = status == 2 && half - begin > round_off(time_roundings, fabs(end));
         /* Panels are cut by bounds of rates, which are more pessimistic for short panels. */
         double growth = end < wanted || soon ? 16 : 2;
         soon = soon && !halved;

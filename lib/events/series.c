@@ -13,6 +13,7 @@
 #include <string.h>
 
 #include "numeric/lu.h"
+#include "numeric/tolerances.h"
 
 enum { nodes = series_nodes, most = series_most_degree };
 
@@ -266,8 +267,7 @@ static bool all_finite(const struct series *series, size_t i, double *size)
 
 enum series_state series_fit(struct series *series, size_t i, bool halved)
 {
-    const double negligible = 1e-13, rounding = 16 * DBL_EPSILON, safe = 2, least_fall = 1.0 / 8,
-                 most_noise = 1e-5;
+    const double negligible = negligible_part, rounding = round_off(16, 1), safe = 2, least_fall = 1.0 / 8;
     const double *f = series->values + i * nodes;
     double *c = series->c + i * nodes, size, sum = 0;
     if (f[0] == HUGE_VAL && f[most] == HUGE_VAL) return series_inactive;
@@ -285,7 +285,7 @@ enum series_state series_fit(struct series *series, size_t i, bool halved)
     /* The last terms of a smooth function fall by 2^16 from a panel to its half; those that do not are
      * round-off. */
     if (last && halved && share > least_fall * series->tail[i])
-        series->floor[i] = fmax(series->floor[i], fmin(2 * series->tail[i], most_noise));
+        series->floor[i] = fmax(series->floor[i], fmin(2 * series->tail[i], most_series_rounding));
     if (last) series->tail[i] = share;
     bool small = tail <= series->rounding[i] || share <= negligible || share <= series->floor[i];
     if (small) return series_followed;

@@ -8,6 +8,7 @@
  *     |p - b_0 - b_1 r x| <= sum_{k>1} |b_k| r^k,   |p' - b_1| <= sum_{k>1} k |b_k| r^(k-1).
  */
 #include "events/trajectory_poly.h"
+#include "numeric/tolerances.h"
 
 #include <string.h>
 
@@ -153,7 +154,7 @@ static void set_series(int width, const double *row, const double *sample, doubl
  * are left to the error bound: in powers they would be 2^(d-1) times as large. */
 static double set_powers_of(struct trajectory *trajectory, size_t i, double *series)
 {
-    const double rounding = DBL_EPSILON;
+    const double rounding = round_off(1, 1);
     int width = trajectory->degree + 1;
     double *c = trajectory->coefficients + i * power_room, size = 0;
     const double *sample = trajectory->samples + i * room, *power = trajectory->grid->power;
@@ -187,7 +188,7 @@ static bool rests(struct trajectory *trajectory, size_t i)
  * Those of a smooth function fall by 2^(d-1) from a piece to its half; those that do not are round-off. */
 static bool follow(struct trajectory *trajectory, size_t i, double negligible, bool halved)
 {
-    const double rounding = 32 * DBL_EPSILON, least_fall = 1.0 / 8;
+    const double rounding = round_off(32, 1), least_fall = 1.0 / 8;
     if (trajectory->top[i] == not_followed || rests(trajectory, i)) return false;
     double series[room] = {0}, size = set_powers_of(trajectory, i, series);
     double tail = negligible == 0 ? 0 : last_terms(trajectory, series);
@@ -229,7 +230,7 @@ int trajectory_set(struct trajectory *trajectory, double from, double to, const 
 int trajectory_set_coarse(struct trajectory *trajectory, double from, double to, const bool *wanted,
                           trajectory_sampler *sample, void *context)
 {
-    const double rounding = 32 * DBL_EPSILON, safe = 2;
+    const double rounding = round_off(32, 1), safe = 2;
     trajectory->from = from;
     trajectory->to = to;
     if (trajectory->count == 0) return 0;
@@ -260,7 +261,7 @@ static double doubt_of_ends(int degree, const double *c)
 bool trajectory_set_powers(struct trajectory *trajectory, double from, double to, const bool *wanted,
                            bool rough, trajectory_powers *powers, void *context)
 {
-    const double rounding = 32 * DBL_EPSILON;
+    const double rounding = round_off(32, 1);
     trajectory->enclosed.from = NAN;
     trajectory->from = from;
     trajectory->to = to;
@@ -276,7 +277,7 @@ bool trajectory_set_powers(struct trajectory *trajectory, double from, double to
         double size = fabs(c[0]) + bends;
         trajectory->extent[i] = size;
         if (bends > 0) top = degree;
-        while (top > 0 && fabs(c[top]) <= DBL_EPSILON * size) top--; /* left to the error bound */
+        while (top > 0 && fabs(c[top]) <= round_off(1, size)) top--; /* left to the error bound */
         trajectory->top[i] = top;
         trajectory->doubt[i] = trajectory->noise[i] + (top == at_rest ? 0 : rounding * size);
         if (rough && top != at_rest) trajectory->doubt[i] += doubt_of_ends(degree, c);

@@ -6,10 +6,10 @@
  * They exist for functions of expressions: switches, user events, the speed of a pair on its surface, and the
  * forces on a body without joints or couplings if they are sums of expressions, affine terms and weights.
  */
-#include <float.h>
 
 #include "dynamics/world_refs.h"
 #include "events/enclosure.h"
+#include "numeric/tolerances.h"
 
 struct enclosure enclose_formula(const struct enclosure_input *o, const struct formula *formula)
 {
@@ -155,7 +155,7 @@ static void enclose_stick_limits(const struct enclosure_input *o, const struct w
     struct enclosure limit = larger_of(enclose_centred(o, at_rest), enclose_centred(o, moving));
     struct enclosure push = enclose_slot(o, mode->body, mode->hold_slot);
     /* The same tolerance as by friction_rounding. */
-    double rounding = 8 * DBL_EPSILON * (interval_size(push.value) + interval_size(limit.value));
+    double rounding = round_off(8, interval_size(push.value) + interval_size(limit.value));
     for (size_t i = 0; i < count; i++) {
         struct enclosure f = enclosure_add(limit, enclosure_scale(watchers[i].end == 0 ? 1 : -1, push));
         f.value.high += rounding;

@@ -3,7 +3,6 @@
  * The values of watchers and their rates along the motion.
  */
 #include <assert.h>
-#include <float.h>
 #include <string.h>
 
 #include "dynamics/constraint.h"
@@ -15,6 +14,7 @@
 #include "dynamics/user_states.h"
 #include "dynamics/world_refs.h"
 #include "events/watchers.h"
+#include "numeric/tolerances.h"
 
 /* ---- values */
 
@@ -258,7 +258,7 @@ void watchers_evaluate(const struct watchers *watchers, const struct watcher_set
 {
     /* A quantity at rest at its switch, as an integral at its limit, may be short of it by the error of the
      * step that reached it. */
-    const double short_of = 1e-6 / DBL_EPSILON;
+    const double short_of = stop_shortfall / round_off(1, 1);
     const struct plan *plan = &state->model->plan;
     struct view view = {.state = state,
                         .at = state_instant_at(state, t.t, y),
@@ -360,7 +360,7 @@ static double speed_to_come(const struct fbd_state *state, int pair)
  * direction, or too fast for such a residue. `v`: its velocity in the slip direction. */
 static double short_of_side(const struct fbd_state *state, int pair, double v)
 {
-    const double rounding = 1e-9;
+    const double rounding = slip_residue;
     const struct instant at = state_instant(state);
     double fastest = 0;
     if (v >= 0) return 0;
@@ -375,7 +375,7 @@ static double short_of_side(const struct fbd_state *state, int pair, double v)
  * again after them. */
 static void calm_beginning(struct watchers *watchers, const struct fbd_state *state, size_t pair, double step)
 {
-    const double band = 1e-13, least = 1e-14, instant = 1e-9;
+    const double band = slip_band, least = least_slip_band, instant = slip_beginning;
     const struct instant at = state_instant(state);
     if (state->slip[pair] == stick || !mode_is_friction(&state->model->plan.modes[pair])) return;
     double along = slip_velocity(state->model, (int)pair, &at), v = fabs(along),

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "integrate/bdf.h"
 
-#include <float.h>
 #include <gsl/gsl_errno.h>
 #include <math.h>
 #include <stdbool.h>
@@ -10,6 +9,7 @@
 
 #include "integrate/newton.h"
 #include "numeric/lu.h"
+#include "numeric/tolerances.h"
 
 enum { most_order = 5, most_points = most_order + 2 };
 
@@ -92,9 +92,9 @@ static void add_point(struct bdf *s, double t, const double *y)
  * as by a projection onto constraints, are taken over. */
 static void begin(struct bdf *s, double t, const double *y)
 {
-    const double roundings = 4 * DBL_EPSILON; /* of the sum that gives the end */
+    const double roundings = 4; /* of the sum that gives the end */
     bool again = s->count > 0 && t == s->t[0];
-    bool accepted = s->tried && !again && fabs(t - s->end) <= roundings * fabs(t);
+    bool accepted = s->tried && !again && fabs(t - s->end) <= round_off(roundings, fabs(t));
     if (!accepted && !again) bdf_reset(s, s->n);
     if (again) {
         memcpy(s->y[0], y, s->n * sizeof *y);
@@ -144,7 +144,7 @@ static double expected(const struct bdf *s, int order, double t)
 /* Factor by which a step could be longer. */
 static double reach(const struct bdf *s, int order, double t)
 {
-    return pow(expected(s, order, t) + 1e-12, -1.0 / (order + 1));
+    return pow(expected(s, order, t) + least_error_ratio, -1.0 / (order + 1));
 }
 
 /* Choose the order that allows the longest step. At the start it rises with each step until one is rejected;
@@ -233,7 +233,7 @@ static int solve(struct bdf *s, double t, double alpha, const gsl_odeiv2_system 
         enum newton_verdict verdict = newton_judge(&newton, size);
         if (verdict == newton_done) {
             /* A rate that was not measured again is increased from step to step. */
-            s->rate = newton.count > 1 ? newton.rate : fmin(fmax(2 * s->rate, 1e-4), 1);
+            s->rate = newton.count > 1 ? newton.rate : fmin(fmax(2 * s->rate, least_newton_rate), 1);
             return GSL_SUCCESS;
         }
         if (verdict == newton_diverges) return GSL_FAILURE;

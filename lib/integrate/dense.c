@@ -31,7 +31,6 @@
  */
 #include "integrate/dense.h"
 
-#include <float.h>
 #include <gsl/gsl_errno.h>
 #include <math.h>
 #include <stdint.h>
@@ -43,6 +42,7 @@
 #include "integrate/nystrom.h"
 #include "integrate/pair8.h"
 #include "integrate/parabola.h"
+#include "numeric/tolerances.h"
 
 /* Coefficients of a pair, in the order of the derivation, and of another component. */
 struct pair {
@@ -158,7 +158,7 @@ static void pair_from_ends(struct pair *p, double h, double q0, double v0, doubl
     p->s1 = h * a0 - p->dv;
     p->s2 = p->dv - h * a1 - p->s1;
     double excess = p->dq / h - (v0 + v1) / 2 - h * (a0 - a1) / 12;
-    double noise = (DBL_EPSILON * (fabs(q0) + fabs(q1)) + 10 * fabs(error)) / fabs(h);
+    double noise = (round_off(1, fabs(q0) + fabs(q1)) + 10 * fabs(error)) / fabs(h);
     p->p0 = fabs(excess) > noise ? 30 * excess : 0;
 }
 

@@ -5,6 +5,7 @@
  * Barycentric Lagrange interpolation, SIAM Review 46 (2004) 501).
  */
 #include "integrate/dense_by_resteps.h"
+#include "numeric/tolerances.h"
 
 #include <math.h>
 #include <stdint.h>
@@ -93,12 +94,11 @@ static void set_tail(struct resteps *inside, int stride)
  * sample. */
 static double rounding_of(struct resteps *inside, const struct resteps_source *source)
 {
-    const double next_to_nothing = 1e-13;
     double *y = inside->scratch;
     memset(inside->tail, 0, inside->n * sizeof *inside->tail);
     for (int k = finest / 8; k < finest; k += finest / 8) {
         const double *point = inside->points + (size_t)k * inside->n;
-        if (!source->sample(source->context, (1 - next_to_nothing) * inside->share[k], y)) return 0;
+        if (!source->sample(source->context, (1 - negligible_part) * inside->share[k], y)) return 0;
         for (size_t i = 0; i < inside->n; i++) inside->tail[i] = fmax(inside->tail[i], fabs(y[i] - point[i]));
     }
     return source->excess(source->context, inside->tail);

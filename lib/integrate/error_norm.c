@@ -9,6 +9,7 @@
 #include <string.h>
 
 #include "base/block_alloc.h"
+#include "numeric/tolerances.h"
 
 struct error_norm {
     size_t pairs, size; /* of the layout: number of q, number of all components */
@@ -76,8 +77,7 @@ static double amplitude(const struct error_norm *w, const double *before, size_t
 
 static inline double scale_of_v(const struct error_norm *w, size_t i, double scale, double swing)
 {
-    const double share = 1e-3;
-    return smaller(scale, larger(swing, larger(w->floor[i], share * scale)));
+    return smaller(scale, larger(swing, larger(w->floor[i], least_rate_scale * scale)));
 }
 
 /* The allowed error of y; `hidden` is the part that is invisible for other reasons than the rounding of y.
@@ -87,14 +87,14 @@ static inline double scale_of_v(const struct error_norm *w, size_t i, double sca
 static inline double level(double tolerance, double scale, double y, double motion, double hidden)
 {
     double moved = smaller(motion, scale + fabs(y));
-    return larger(larger(tolerance * scale, DBL_EPSILON * (fabs(y) + moved)), hidden);
+    return larger(larger(tolerance * scale, round_off(1, fabs(y) + moved)), hidden);
 }
 
 /* The tolerance in a step of size h of a component with the scale `way` and the scale `speed` of its rate:
  * reduced where the step is short compared with way / speed, as the errors of many steps add up. */
 static double tolerance_by_time(const struct error_norm *w, double way, double speed, double h)
 {
-    const double most = 1e3, least = 1e-12;
+    const double most = 1e3, least = least_part_tolerance;
     double part = fabs(h) * speed / (w->law.by_time * way);
     if (!(part > 0 && part < 1)) return w->tolerance;
     return smaller(w->tolerance, larger(w->tolerance * larger(part, 1 / most), least));
@@ -108,7 +108,7 @@ static inline double allowed_by_noise(const struct error_norm *w, size_t i, doub
 /* The error of v_i that rounding of q_i hides within a step, or that of the acceleration, `by_noise`. */
 static inline double hidden_in_v(const struct error_norm *w, size_t i, double h, double q, double by_noise)
 {
-    return larger(DBL_EPSILON * smaller(fabs(q), w->cap[i]) / fabs(h), by_noise);
+    return larger(round_off(1, smaller(fabs(q), w->cap[i])) / fabs(h), by_noise);
 }
 
 /* Raise the ratio by an error, unless the rounding of the accelerations, `noise`, explains it. Such an error

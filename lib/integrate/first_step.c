@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "integrate/first_step.h"
 
-#include <float.h>
 #include <gsl/gsl_errno.h>
 #include <math.h>
 
 #include "integrate/error_norm.h"
+#include "numeric/tolerances.h"
 
 /* a / b where both are positive, else no bound. */
 static double time_of(double a, double b)
@@ -65,13 +65,12 @@ static int probe_change(struct counted_system *system, const struct layout *layo
                         double *tau)
 {
     enum { attempts = 8 };
-    const double too_long = 1e-4; /* relative to tau_2 */
     for (int k = 0;; k++) {
         int code = euler_slopes(system, t, y, f, probe, y1, f1);
         if (code != GSL_SUCCESS) return code;
         *tau = time_of_change(layout, *probe, f, f1, scale);
-        double shorter = fmax(too_long * *probe, 64 * DBL_EPSILON * fabs(t));
-        if (*tau >= too_long * *probe || shorter >= *probe || k == attempts) return GSL_SUCCESS;
+        double shorter = fmax(least_change_time * *probe, round_off(time_roundings, fabs(t)));
+        if (*tau >= least_change_time * *probe || shorter >= *probe || k == attempts) return GSL_SUCCESS;
         *probe = shorter;
     }
 }
@@ -84,8 +83,8 @@ int first_step(struct counted_system *system, const struct layout *layout, const
     error_norm_scales(control, 0, y, f, scale);
     double tau = time_of_slopes(layout, y, f, scale);
     /* Bounded below, as a coordinate that is zero up to rounding may still give too short a time. */
-    double shortest = fmax(1e-9 * h_max, 64 * DBL_EPSILON * fabs(t));
-    double probe = fmin(h_max, tau < INFINITY ? fmax(0.01 * tau, shortest) : 1e-3 * h_max);
+    double shortest = fmax(shortest_probe * h_max, round_off(time_roundings, fabs(t)));
+    double probe = fmin(h_max, tau < INFINITY ? fmax(0.01 * tau, shortest) : usual_probe * h_max);
     double change;
     int code = probe_change(system, layout, t, y, f, scale, y1, f1, &probe, &change);
     if (code != GSL_SUCCESS) return code;

@@ -163,7 +163,7 @@ static int apply(void *state, size_t n, double t, double h, double y[], double y
     if (status != GSL_SUCCESS) return status;
     if (dydt_out) status = GSL_ODEIV_FN_EVAL(sys, t + h, s->halved, dydt_out);
     if (status != GSL_SUCCESS) return status;
-    double share = 4 / (ldexp(1, (int)s->table->order) - 1);
+    double share = 4 / (scalbn(1, (int)s->table->order) - 1);
     for (size_t i = 0; i < n; i++) yerr[i] = share * (s->halved[i] - s->whole[i]);
     memcpy(y, s->halved, n * sizeof *y);
     return GSL_SUCCESS;

@@ -8,12 +8,12 @@
 #include <string.h>
 
 #include "integrate/stiffness.h"
+#include "numeric/tolerances.h"
 
 enum { terms = 26, rungs = 128, works = 4, power_room = linear_most_powers + 1 };
 
-static const double series_reach = 2 + 1e-9; /* of h rho: a step of 2 / rho may be rounded up */
-static const double lowest_rung = 0.125;     /* its h rho */
-static const double least_term = 4e-18;
+static const double series_reach = 2 + rounded_reach; /* of h rho: a step of 2 / rho may be rounded up */
+static const double lowest_rung = 0.125;              /* its h rho */
 
 struct linear {
     size_t dim;
@@ -125,10 +125,9 @@ static double height_of(const struct linear *s, int rung)
 /* sum += term, element by element; is every term negligible compared with its sum? */
 static bool add_small(size_t size, const double *term, double *sum)
 {
-    const double least = 1e-19;
     bool small = true;
     for (size_t i = 0; i < size; i++) {
-        small &= fabs(term[i]) <= least * fabs(sum[i]);
+        small &= fabs(term[i]) <= series_rest * fabs(sum[i]);
         sum[i] += term[i];
     }
     return small;
@@ -184,7 +183,7 @@ static int continue_series(const struct linear *s, double h, int most, double *t
     for (; used < most; used++, term += dim) {
         double factor = h / (used + 1), size = 0;
         bound *= factor * s->rho;
-        if (bound < least_term && (size_t)used >= dim) break;
+        if (bound < series_end && (size_t)used >= dim) break;
         apply_matrix(dim, s->A, term, term + dim);
         for (size_t i = 0; i < dim; i++) {
             term[dim + i] *= factor;
@@ -204,7 +203,7 @@ static int continue_series_of_pair(const struct linear *s, double h, int most, d
     for (; used < most; used++) {
         double factor = h / (used + 1), first = (a * x + b * y) * factor;
         bound *= factor * rho;
-        if (bound < least_term && used >= 2) break;
+        if (bound < series_end && used >= 2) break;
         y = (c * x + d * y) * factor;
         x = first;
         term += 2;
@@ -250,14 +249,13 @@ static void sum_terms(const struct linear *s, double theta, double *y)
 /* rise += Phi(h) f for |h| below the shortest doubling. */
 static void climb_rest(const struct linear *s, double h, const double *f, double *term, double *rise)
 {
-    const double least = 4e-18;
     double *next = term + s->dim, bound = 1;
     for (size_t i = 0; i < s->dim; i++) term[i] = h * f[i];
     for (size_t k = 1; k <= terms; k++) {
         double factor = h / (double)(k + 1);
         for (size_t i = 0; i < s->dim; i++) rise[i] += term[i];
         bound *= fabs(factor) * s->rho;
-        if (bound < least && k >= s->dim) break;
+        if (bound < series_end && k >= s->dim) break;
         apply_matrix(s->dim, s->A, term, next);
         for (size_t i = 0; i < s->dim; i++) term[i] = next[i] * factor;
     }
@@ -268,7 +266,6 @@ static void climb_rest(const struct linear *s, double h, const double *f, double
  * may be shorter by the rounding of the time. */
 static void leap(struct linear *s, double h, double *y)
 {
-    const double rounding = 1e-12;
     size_t dim = s->dim;
     double *f = s->work, *step = f + dim, *rise = step + 2 * dim, rest = h;
     int rung;
@@ -279,7 +276,7 @@ static void leap(struct linear *s, double h, double *y)
     memset(rise, 0, dim * sizeof *rise);
     double height = height_of(s, rung);
     while (rung >= 0) {
-        if (!(rest >= (1 - rounding) * height)) {
+        if (!(rest >= (1 - negligible_sum) * height)) {
             rung--;
             height /= 2;
             continue;

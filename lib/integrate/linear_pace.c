@@ -7,6 +7,7 @@
 
 #include "integrate/linear.h"
 #include "integrate/stiffness.h"
+#include "numeric/tolerances.h"
 
 static bool modes_init(struct linear_modes *modes, size_t dim)
 {
@@ -138,6 +139,6 @@ double linear_pace_step(const struct linear_pace *pace, double t)
     double omega = fastest(pace, t, frequency);
     double longest = fmin(fmax(t - pace->start, 2 / rho), omega > 0 ? 2 / omega : HUGE_VAL);
     int doublings;
-    frexp(longest * rho * (1 + 1e-9), &doublings); /* 2^(doublings - 1) <= longest rho */
-    return ldexp(1 / rho, doublings > 0 ? doublings - 1 : 0);
+    frexp(longest * rho * (1 + rounded_reach), &doublings); /* 2^(doublings - 1) <= longest rho */
+    return scalbn(1 / rho, doublings > 0 ? doublings - 1 : 0);
 }

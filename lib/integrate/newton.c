@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "integrate/newton.h"
+#include "numeric/tolerances.h"
 
-#include <float.h>
 #include <math.h>
 #include <stdbool.h>
 
@@ -15,10 +15,10 @@ void newton_levels(const gsl_odeiv2_control *control, size_t n, const double *y,
 
 double newton_size(size_t n, const double *dy, const double *y, const double *level)
 {
-    const double roundings = 8 * DBL_EPSILON;
+    const double roundings = 8;
     double size = 0;
     for (size_t i = 0; i < n; i++) {
-        double beyond = fabs(dy[i]) - roundings * fabs(y[i]);
+        double beyond = fabs(dy[i]) - round_off(roundings, fabs(y[i]));
         if (!(beyond <= 0)) size = fmax(size, beyond / level[i]);
         if (isnan(beyond)) return INFINITY; /* fmax would ignore it */
     }

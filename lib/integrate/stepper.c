@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "integrate/stepper.h"
 
-#include <float.h>
 #include <gsl/gsl_errno.h>
 #include <math.h>
 #include <stdint.h>
@@ -16,6 +15,7 @@
 #include "integrate/rodas5p.h"
 #include "integrate/stepper_state.h"
 #include "integrate/stiffness.h"
+#include "numeric/tolerances.h"
 
 /* Not by gsl_odeiv2_step_alloc, which calls GSL's error handler when memory is out; the methods of GSL
  * (method.c) still do. */
@@ -144,8 +144,7 @@ struct plan {
 /* Does the remaining time span a few doubles only? Steps within a pulse of that length end between doubles. */
 static bool is_between_doubles(struct time_dd t, double room)
 {
-    const double roundings = 64;
-    return room <= roundings * DBL_EPSILON * fabs(t.t);
+    return room <= round_off(time_roundings, fabs(t.t));
 }
 
 static struct plan plan_step(const struct stepper *s, struct time_dd t, double h, struct time_dd t_limit)
@@ -166,7 +165,7 @@ static struct plan plan_step(const struct stepper *s, struct time_dd t, double h
  * steps always exist; then compare with the remaining time. */
 static bool is_nothing(const struct plan *plan, struct time_dd t, double room)
 {
-    return (!is_between_doubles(t, room) && t.t + plan->h == t.t) || !(plan->h > 1e-30 * room);
+    return (!is_between_doubles(t, room) && t.t + plan->h == t.t) || !(plan->h > least_step * room);
 }
 
 /* Result of an attempt. */

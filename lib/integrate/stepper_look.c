@@ -12,6 +12,7 @@
 #include "integrate/parabola.h"
 #include "integrate/rodas5p.h"
 #include "integrate/stepper_state.h"
+#include "numeric/tolerances.h"
 
 /* A step of size h by the same method from the start of the last one. */
 static int redo(struct stepper *s, double h, double *y, double *f)
@@ -131,13 +132,13 @@ int stepper_powers(struct stepper *s, struct time_dd from, struct time_dd to, si
 int stepper_degree(const struct stepper *s, double *negligible)
 {
     const gsl_odeiv2_step_type *type = s->step->type;
-    *negligible = s->inside || s->history ? 1e-9 : 0;
+    *negligible = s->inside || s->history ? interpolant_rounding : 0;
     if (type == step_parabola) return 2;
     if (type == step_linear) {
         const int most = 14;
         int degree = linear_dense_degree(s->step);
         if (degree >= 1 && degree <= most) return degree;
-        *negligible = 1e-13;
+        *negligible = negligible_part;
         return most;
     }
     if (type == step_nystrom) return 12;

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "integrate/stiffness.h"
+#include "numeric/tolerances.h"
 
 #include <math.h>
 
@@ -119,7 +120,7 @@ double stiffness_rate(size_t n, const double *jacobian, double *work)
         }
         if (!(rate > 0 && rate < INFINITY)) return rate;
         /* A component with a zero row would go to zero. */
-        for (size_t i = 0; i < n; i++) x[i] = sqrt(x[i] * fmax(image[i] / rate, 1e-20 * x[i]));
+        for (size_t i = 0; i < n; i++) x[i] = sqrt(x[i] * fmax(image[i] / rate, least_growth * x[i]));
     }
     return rate;
 }

@@ -12,36 +12,38 @@
 #include "dynamics/user_states.h"
 #include "loop/error_scale_init.h"
 #include "loop/run.h"
+#include "numeric/tolerances.h"
 
 /* A difference of two positions has the round-off of their distance from the origin, with a share of that of long sums. */
 static const double share_of_difference = 1.0 / 64;
 
-/* The largest distance of the ports of a row from the origin. */
-static double distance_of_ports(const struct row *row, const struct tree_state *links)
+/* Relative round-off error of the direction and arms of a row: that of positions, over the length of a rod or rope, else over
+ * the arms on the links. A pin has neither: its directions are those of the world, its arms those of its points. An arm that
+ * is round-off is none. */
+static double turned_by_places(const struct coupling *coupling, const struct row *row,
+                               const struct tree_state *links)
 {
-    double away = 0;
-    for (int k = 0; k < row->port_count; k++)
-        away = fmax(away, vec_norm(vec_add(links[row->ports[k].link].p, row->ports[k].arm)));
-    return away;
-}
-
-/* Relative round-off error of the direction of a rod or rope. Other rows have directions that their links have. */
-static double turned_by_places(const struct row *row, const struct tree_state *links)
-{
-    const struct port *a = &row->ports[0], *b = &row->ports[row->port_count - 1];
-    const double length =
-        vec_norm(vec_sub(vec_add(links[a->link].p, a->arm), vec_add(links[b->link].p, b->arm)));
-    return length > 0 ? share_of_difference * distance_of_ports(row, links) / length : 0;
+    const bool has_length = coupling->law->length;
+    double away = 0, length = 0;
+    struct vec first = {0, 0};
+    for (int k = 0; k < row->port_count; k++) {
+        const struct port *port = &row->ports[k];
+        const struct vec point = vec_add(links[port->link].p, port->arm);
+        if (k == 0) first = point;
+        away = fmax(away, vec_norm(point));
+        if (has_length) length = fmax(length, vec_norm(vec_sub(point, first)));
+        if (port->link > 0) length = fmax(length, vec_norm(port->arm));
+    }
+    const bool is_rounding = length <= round_off(64, away);
+    return coupling->kind == constraint_pin || is_rounding ? 0 : share_of_difference * away / length;
 }
 
 /* The sum of the rotations of the links from the ground to each: an angle in the world is that sum, with its
- * rounding. A force between two links uses the larger one. A contact, roll or slot finds its point from the other link: its
- * arm has the round-off of that position. `turned` has room for all links three times: for the angle of each, for the
- * larger one, and for the distance from the origin times share_of_difference. */
+ * rounding. A force between two links uses the larger one: `turned` has room for all links twice. */
 static void measure_turns(struct run *run, const struct instant *at)
 {
     const struct tree *tree = run->model->tree;
-    double *own = run->roundoff.turned, *sides = own + tree->count, *places = sides + tree->count;
+    double *own = run->roundoff.turned, *sides = own + tree->count;
     /* With projection onto couplings, directions have the rounding of a radian, turned or not: positions have
      * that accuracy relative to the arms that lead to them. */
     own[0] = tree->row_count > 0 ? 1 : 0;
@@ -52,7 +54,6 @@ static void measure_turns(struct run *run, const struct instant *at)
             own[tree->links[i].parent] + (turns ? fabs(run->state->y[body->first + body->count - 1]) : 0);
     }
     memcpy(sides, own, (size_t)tree->count * sizeof *sides);
-    memset(places, 0, (size_t)tree->count * sizeof *places);
     for (int i = 1; i < tree->count; i++) {
         double *parent = &sides[tree->links[i].parent];
         *parent = fmax(*parent, own[i]);
@@ -60,17 +61,13 @@ static void measure_turns(struct run *run, const struct instant *at)
     for (int j = 0; j < tree->row_count; j++) {
         if (!tree_takes_part(tree, at, j)) continue;
         const struct row *row = &at->tree->rows[j];
-        const struct coupling *coupling = &tree->couplings[tree->coupling_of_row[j]];
-        const bool finds_point = !coupling->law->length && coupling->kind != constraint_pin;
-        const double away = finds_point ? share_of_difference * distance_of_ports(row, at->tree->links) : 0;
         double most = 0;
         for (int k = 0; k < row->port_count; k++)
             if (port_turns(&row->ports[k])) most = fmax(most, own[row->ports[k].link]);
-        if (coupling->law->length) most += turned_by_places(row, at->tree->links);
+        most += turned_by_places(&tree->couplings[tree->coupling_of_row[j]], row, at->tree->links);
         for (int k = 0; k < row->port_count; k++) {
-            const int link = row->ports[k].link;
-            sides[link] = fmax(sides[link], most);
-            places[link] = fmax(places[link], away);
+            double *side = &sides[row->ports[k].link];
+            *side = fmax(*side, most);
         }
     }
 }
@@ -125,11 +122,11 @@ static void measure_cancelled(struct run *run, const struct instant *at)
 /* Add the sizes of the terms of the generalized forces of an arrow to `gross`, for a jointed body. A moment
  * is small where the force points at O, and still has the rounding of its products, and of the angle. */
 static void add_jointed(const struct model_body *body, const struct tree_state *link, double angle,
-                        double place, const struct arrow *arrow, double *gross)
+                        const struct arrow *arrow, double *gross)
 {
     struct vec f = arrow->force, arm = vec_sub(arrow->point, link->p);
     double size = vec_norm(f), moment = fabs(arm.x * f.y) + fabs(arm.y * f.x) + fabs(arrow->couple);
-    moment += (angle * vec_norm(arm) + place) * size;
+    moment += angle * size * vec_norm(arm);
     double along = fabs(link->e.x * f.x) + fabs(link->e.y * f.y) + angle * size;
     double across = fabs(link->e.x * f.y) + fabs(link->e.y * f.x) + angle * size;
     if (body->count > 0) gross[0] += body->kind == motion_pivot ? moment : along;
@@ -145,11 +142,10 @@ static void add_gross_forces(struct run *run, int b, const struct instant *at, d
     size_t count = (link > 0 ? diagram_list : diagram_fill)(run->model, b, at, run->state->a,
                                                             run->state->slots, run->work.arrows);
     const struct tree *tree = run->model->tree;
-    double angle = tree && link > 0 ? run->roundoff.turned[tree->count + link] : 0,
-           place = tree && link > 0 ? run->roundoff.turned[2 * tree->count + link] : 0;
+    double angle = tree && link > 0 ? run->roundoff.turned[tree->count + link] : 0;
     for (size_t i = 0; i < count; i++) {
         if (link > 0)
-            add_jointed(body, &at->tree->links[link], angle, place, &run->work.arrows[i], gross);
+            add_jointed(body, &at->tree->links[link], angle, &run->work.arrows[i], gross);
         else
             for (int k = 0; k < body->count; k++) gross[k] += fabs(run->work.arrows[i].share[k]);
     }
@@ -380,7 +376,7 @@ static size_t links_of(const struct fbd_model *model)
 
 size_t roundoff_size(const struct fbd_model *model)
 {
-    return 4 * plan_rates(&model->plan) + 3 * links_of(model) + 2 * model->body_count +
+    return 4 * plan_rates(&model->plan) + 2 * links_of(model) + 2 * model->body_count +
            plan_size(&model->plan);
 }
 
@@ -410,7 +406,7 @@ void roundoff_init(struct run *run, double *memory)
     roundoff->largest = roundoff->accelerations + rates;
     roundoff->formulas = roundoff->largest + rates;
     roundoff->turned = roundoff->formulas + rates;
-    roundoff->cancelled = roundoff->turned + 3 * links_of(run->model);
+    roundoff->cancelled = roundoff->turned + 2 * links_of(run->model);
     roundoff->nothing = roundoff->cancelled + 2 * run->model->body_count;
     roundoff->heeds_time = heeds_time(run->model);
 }

@@ -3,6 +3,7 @@
 
 #include <stdlib.h>
 
+#include "numeric/tolerances.h"
 #include "scene/start_angle.h"
 
 struct formula formula_constant(double value)
@@ -48,9 +49,8 @@ static void set_side(struct model_body *body, const struct scene *scene)
     enum normal_side side = side_up;
     for (size_t i = 0; i < body->source->load_count; i++)
         if (body->source->loads[i].kind == load_normal) side = body->source->loads[i].side;
-    const double upright = 1e-12; /* on a vertical line: the left of +x */
     double up = vec_turn(turn, body->n).y;
-    if (side == side_right || (side == side_up && up < -upright)) body->n = vec_scale(-1, body->n);
+    if (side == side_right || (side == side_up && up < -vertical_line)) body->n = vec_scale(-1, body->n);
 }
 
 static void set_slide(struct model_body *body, const struct scene *scene)

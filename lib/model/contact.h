@@ -13,15 +13,11 @@
 #define FBD_MODEL_CONTACT_H
 
 #include "base/vec.h"
+#include "numeric/tolerances.h"
 
 #include <stdbool.h>
 
 struct fbd_model;
-
-/* Tolerances of touching and of level heights, relative to the size of the scene. A bounce lower than 2e-9
- * ends in rest (loop/zeno_rest.c), so smaller steps cannot be distinguished from contact. */
-#define contact_near  1e-12
-#define contact_level 1e-8
 
 struct contact_shape {
     enum contact_shape_kind {

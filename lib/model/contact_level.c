@@ -7,6 +7,7 @@
 #include "model/contact.h"
 
 #include "model/model.h"
+#include "numeric/tolerances.h"
 
 /* Shapes that are already level, each once. */
 struct levelled {
@@ -95,8 +96,7 @@ static struct vec ray(const struct contact_shape *shape, int k, int step)
 
 static bool is_along(struct vec a, struct vec b, double sense)
 {
-    const double direction = 1e-9;
-    return fabs(vec_cross(a, b)) <= direction && sense * vec_dot(a, b) > 0;
+    return fabs(vec_cross(a, b)) <= nine_digits && sense * vec_dot(a, b) > 0;
 }
 
 /* The sides at corner k of a shape that `other` covers at a corner of its own. A bar covers none. */

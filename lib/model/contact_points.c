@@ -3,6 +3,7 @@
  * Contacts of two points: a normal exists only where both move on one line, by slides along it.
  */
 #include "model/builder.h"
+#include "numeric/tolerances.h"
 
 /* A point relative to a link below its own: its position at the start, the direction in which it moves there
  * (0 while it is at rest) and that of the x axis of its own link. */
@@ -12,8 +13,6 @@ struct seen {
     double rate; /* at the start, along e */
 };
 
-static const double digits = 1e-9;
-
 /* Transform to the link below; false if other joints than slides along one direction are between. */
 static bool climb(const struct fbd_model *model, struct seen *seen)
 {
@@ -21,7 +20,7 @@ static bool climb(const struct fbd_model *model, struct seen *seen)
     if (seen->link == 0 || link->kind != motion_slide) return false;
     struct vec turn = vec_unit(link->along), e = vec_turn(turn, seen->e);
     const struct coordinate *q = &model->scene->coordinates[link->coordinate];
-    if (fabs(vec_cross(link->e, e)) > digits) return false;
+    if (fabs(vec_cross(link->e, e)) > nine_digits) return false;
     double same = vec_dot(link->e, e) < 0 ? -1 : 1;
     seen->link = link->parent;
     seen->point = vec_add(vec_add(link->at, vec_turn(turn, seen->point)), vec_scale(q->initial, link->e));
@@ -47,11 +46,11 @@ bool points_meet_on_line(const struct fbd_model *model, struct meeting *meeting)
     if (!see_both(model, meeting, seen)) return false;
     bool moves = vec_norm(seen[0].e) > 0;
     struct vec e = moves ? seen[0].e : seen[1].e, d = vec_sub(seen[0].point, seen[1].point);
-    if (fabs(vec_cross(seen[0].e, seen[1].e)) > digits || vec_norm(e) == 0) return false;
+    if (fabs(vec_cross(seen[0].e, seen[1].e)) > nine_digits || vec_norm(e) == 0) return false;
     double size = fmax(vec_norm(seen[0].point), vec_norm(seen[1].point)), along = vec_dot(e, d);
-    if (fabs(vec_cross(e, d)) > digits * size) return false;
+    if (fabs(vec_cross(e, d)) > nine_digits * size) return false;
     double other = vec_dot(e, seen[1].e) < 0 ? -1 : 1;
-    bool same_place = fabs(along) <= digits * size, same_rate = seen[0].rate == other * seen[1].rate;
+    bool same_place = fabs(along) <= nine_digits * size, same_rate = seen[0].rate == other * seen[1].rate;
     if (same_place && same_rate) return false;
     struct contact_shape *line = &meeting->shape[1];
     struct vec back = {seen[1].x.x, -seen[1].x.y};

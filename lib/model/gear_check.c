@@ -7,8 +7,7 @@
  *     distance of the axis from the line of the rack = r
  */
 #include "model/builder.h"
-
-static const double digits = 2e-6; /* numbers with six digits in a file count as fitting */
+#include "numeric/tolerances.h"
 
 /* A centre in the frame in which it is at rest; for a body that turns about it, the frame of the body below. */
 struct centre {
@@ -52,7 +51,7 @@ static bool climb(const struct tree *tree, struct seen *seen)
 {
     const struct tree_link *link = &tree->links[seen->link];
     struct vec turn = vec_unit(link->along), e = vec_turn(turn, seen->e);
-    if (link->kind != motion_slide || fabs(vec_cross(link->e, e)) > digits) return false;
+    if (link->kind != motion_slide || fabs(vec_cross(link->e, e)) > six_digits) return false;
     *seen = (struct seen){link->parent, vec_add(link->at, vec_turn(turn, seen->point)), link->e};
     return true;
 }
@@ -67,15 +66,15 @@ static double line_apart(const struct tree *tree, const struct coupling *couplin
     if (wheel->kind != motion_pivot || vec_norm(coupling->end[0].point) > close) return -1;
     while (line.link != axis.link) /* the link below has the smaller number */
         if (!climb(tree, line.link > axis.link ? &line : &axis)) return -1;
-    if (fabs(vec_cross(line.e, axis.e)) > digits) return -1;
+    if (fabs(vec_cross(line.e, axis.e)) > six_digits) return -1;
     return fabs(vec_cross(line.e, vec_sub(axis.point, line.point)));
 }
 
 static void check_rack(struct builder *builder, const struct coupling *coupling)
 {
     const struct fbd_model *model = builder->model;
-    double R = coupling->end[0].radius, apart = line_apart(model->tree, coupling, digits * R);
-    if (apart < 0 || fabs(apart - R) <= digits * R) return;
+    double R = coupling->end[0].radius, apart = line_apart(model->tree, coupling, six_digits * R);
+    if (apart < 0 || fabs(apart - R) <= six_digits * R) return;
     diag_add(builder->errors, FBD_ERROR, "gear-distance", model->scene->constraints[coupling->constraint].at,
              "move the axis or the slide, change `radius`, or name a point of the rack's line, `body.P`",
              "the axis of `%s` is %.6g from the line of `%s`, where its radius is %.6g",
@@ -86,8 +85,8 @@ static void check_gear(struct builder *builder, const struct coupling *coupling)
 {
     const struct fbd_model *model = builder->model;
     double r1 = coupling->end[0].radius, r2 = coupling->end[1].radius, size = r1 + fabs(r2);
-    double apart = axes_apart(model->tree, coupling, digits * size), needed = fabs(r1 + r2);
-    if (apart < 0 || fabs(apart - needed) <= digits * size) return;
+    double apart = axes_apart(model->tree, coupling, six_digits * size), needed = fabs(r1 + r2);
+    if (apart < 0 || fabs(apart - needed) <= six_digits * size) return;
     diag_add(builder->errors, FBD_ERROR, "gear-distance", model->scene->constraints[coupling->constraint].at,
              r2 < 0 ? "move an axis, or change `radii`"
                     : "move an axis, or change `radii`; for a wheel inside a ring give `inside: true`",
@@ -113,7 +112,7 @@ static void check_belt(struct builder *builder, const struct coupling *coupling)
 {
     const struct fbd_model *model = builder->model;
     double size = coupling->end[0].radius + coupling->end[1].radius,
-           apart = axes_apart(model->tree, coupling, digits * size);
+           apart = axes_apart(model->tree, coupling, six_digits * size);
     struct pos at = model->scene->constraints[coupling->constraint].at;
     if (apart >= 0 && coupling->source->tension == 0)
         diag_add(builder->errors, FBD_ERROR, "missing-key", at,

@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "numeric/lcp.h"
 
-#include <float.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "numeric/lu.h"
+#include "numeric/tolerances.h"
 
 /* The rows w - M z - z_0 = q of the basic variables. Variable k < n is w_k, n + k is z_k, 2 n is z_0. */
 struct tableau {
@@ -16,9 +16,6 @@ struct tableau {
     double *row, *column; /* n each: scale factors of rows and columns */
     double size;          /* largest entry of q */
 };
-
-/* Limit below which scaled numbers count as zero. */
-static const double zero = 1e-11;
 
 static double *row_of(const struct tableau *tableau, size_t i)
 {
@@ -99,7 +96,7 @@ static bool is_before(const struct tableau *tableau, size_t i, double a, size_t 
     const double *own = row_of(tableau, i), *other = row_of(tableau, r);
     size_t last = tableau->width - 1;
     double difference = own[last] / a - other[last] / b;
-    for (size_t k = 0; fabs(difference) <= zero * (1 + fabs(other[last] / b)) && k < tableau->n; k++)
+    for (size_t k = 0; fabs(difference) <= lcp_zero * (1 + fabs(other[last] / b)) && k < tableau->n; k++)
         difference = own[k] / a - other[k] / b;
     return difference < 0;
 }
@@ -111,7 +108,7 @@ static size_t leaving_row(const struct tableau *tableau, size_t entering)
     size_t best = tableau->n, last = tableau->width - 1;
     for (size_t i = 0; i < tableau->n; i++) {
         double a = row_of(tableau, i)[entering];
-        if (!(a > zero)) continue;
+        if (!(a > lcp_zero)) continue;
         if (best == tableau->n) {
             best = i;
             continue;
@@ -121,9 +118,9 @@ static size_t leaving_row(const struct tableau *tableau, size_t entering)
     }
     for (size_t i = 0; best < tableau->n && i < tableau->n; i++) {
         const double *row = row_of(tableau, i), *first = row_of(tableau, best);
-        if (tableau->basic[i] != 2 * tableau->n || !(row[entering] > zero)) continue;
+        if (tableau->basic[i] != 2 * tableau->n || !(row[entering] > lcp_zero)) continue;
         double own = row[last] / row[entering], least = first[last] / first[entering];
-        if (own <= least + zero * (1 + fabs(least))) best = i;
+        if (own <= least + lcp_zero * (1 + fabs(least))) best = i;
     }
     return best;
 }
@@ -162,14 +159,13 @@ static enum lcp run(struct tableau *tableau)
 /* Solve A x = b, with x in b; false when A is singular to rounding. */
 static bool solve(size_t n, double *A, size_t *pivot, double *b)
 {
-    const double singular = 1e-13;
     bool regular = lu_decompose(n, A, pivot);
     double least = HUGE_VAL, most = 0;
     for (size_t i = 0; i < n; i++) {
         least = fmin(least, fabs(A[i * n + i]));
         most = fmax(most, fabs(A[i * n + i]));
     }
-    regular = regular && least > singular * most;
+    regular = regular && least > negligible_part * most;
     if (regular) lu_solve(n, A, pivot, b);
     return regular;
 }
@@ -212,13 +208,12 @@ static bool polish(const struct tableau *tableau, const double *M, const double 
 /* Is it a solution, to rounding? */
 static bool fits(const struct tableau *tableau, const double *z, const double *w)
 {
-    const double rounding = 1e-7;
     double most = 1;
     for (size_t i = 0; i < tableau->n; i++)
         most = fmax(most, fabs(z[i]) * tableau->column[i] / tableau->size);
     for (size_t i = 0; i < tableau->n; i++) {
         double least = fmin(z[i] * tableau->column[i], w[i] / tableau->row[i]) / tableau->size;
-        if (!(least >= -rounding * most)) return false;
+        if (!(least >= -lcp_residual * most)) return false;
     }
     return true;
 }

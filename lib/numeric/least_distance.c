@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "numeric/svd.h"
+#include "numeric/tolerances.h"
 
 /* Non-negative least squares (Lawson and Hanson, chapter 23, algorithm NNLS): m equations, n unknowns. */
 struct nnls {
@@ -76,8 +77,8 @@ static void nnls_set_rest(struct nnls *problem)
 static size_t nnls_enter(const struct nnls *problem)
 {
     size_t best = problem->n;
-    double most = 1e-13;
-    for (size_t j = 0; j < problem->n; j++) most += 1e-15 * problem->u[j];
+    double most = negligible_part;
+    for (size_t j = 0; j < problem->n; j++) most += slope_rounding * problem->u[j];
     for (size_t j = 0; j < problem->n; j++) {
         double slope = 0;
         for (size_t i = 0; i < problem->m; i++) slope += problem->E[j * problem->m + i] * problem->rest[i];
@@ -137,7 +138,7 @@ enum least_distance least_distance(size_t rows, size_t size, const double *G, co
         bool ended = nnls_run(&problem);
         /* r = -rest; r_last = -rest_last, and rest_last = |rest|^2 = 1 / (1 + |x|^2) at the minimum. */
         double last = problem.rest[size];
-        found = ended && last > 1e-8 ? least_distance_found : least_distance_empty;
+        found = ended && last > least_distance_end ? least_distance_found : least_distance_empty;
         if (problem.no_memory) found = least_distance_no_memory;
         for (size_t k = 0; k < size && found == least_distance_found; k++) x[k] = -problem.rest[k] / last;
     }

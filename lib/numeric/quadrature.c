@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "numeric/quadrature.h"
+#include "numeric/tolerances.h"
 
 #include <gsl/gsl_integration.h>
 #include <math.h>
@@ -8,7 +9,7 @@
 /* Each half reduces `left` by one. */
 static void add_stretch(const gsl_function *f, double from, double to, int *left, struct quadrature *sum)
 {
-    const double digits = 1e-13; /* a rule's own error estimate is at least a tenth of this */
+    const double digits = negligible_part; /* a rule's own error estimate is at least a tenth of this */
     double part, off, magnitude, variation, middle = from + (to - from) / 2;
     gsl_integration_qk21(f, from, to, &part, &off, &magnitude, &variation);
     sum->size = fmax(sum->size, magnitude);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "numeric/svd.h"
+#include "numeric/tolerances.h"
 
-#include <float.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -33,7 +33,7 @@ static bool rotate(struct svd *svd, size_t p, size_t q, double nothing)
         bb += b[i] * b[i];
         ab += a[i] * b[i];
     }
-    double rounding = DBL_EPSILON * sqrt((double)svd->rows);
+    double rounding = round_off(1, sqrt((double)svd->rows));
     if (aa <= nothing || bb <= nothing || fabs(ab) <= rounding * sqrt(aa * bb)) return false;
     double zeta = (bb - aa) / (2 * ab), t = (zeta >= 0 ? 1 : -1) / (fabs(zeta) + hypot(1, zeta));
     double c = 1 / hypot(1, t), s = c * t;
@@ -68,7 +68,6 @@ static void sort(struct svd *svd)
 bool svd_decompose(struct svd *svd, size_t rows, size_t cols, const double *a)
 {
     enum { most_sweeps = 60 }; /* six to ten suffice */
-    const double zero = 1e-10;
     *svd = (struct svd){.rows = rows, .cols = cols, .U = calloc(cols * (rows + cols + 1) + 1, sizeof *a)};
     if (!svd->U) return false;
     svd->V = svd->U + rows * cols;
@@ -81,7 +80,7 @@ bool svd_decompose(struct svd *svd, size_t rows, size_t cols, const double *a)
         }
         svd->V[j * cols + j] = 1;
     }
-    double nothing = DBL_EPSILON * DBL_EPSILON * size;
+    double nothing = round_off(1, round_off(1, size));
     bool turned = true;
     for (int sweep = 0; turned && sweep < most_sweeps; sweep++) {
         turned = false;
@@ -90,7 +89,7 @@ bool svd_decompose(struct svd *svd, size_t rows, size_t cols, const double *a)
     }
     for (size_t j = 0; j < cols; j++) svd->S[j] = sqrt(dot(svd->U + j * rows, svd->U + j * rows, rows));
     sort(svd);
-    while (svd->rank < cols && svd->S[svd->rank] > zero * svd->S[0]) svd->rank++;
+    while (svd->rank < cols && svd->S[svd->rank] > singular_value_zero * svd->S[0]) svd->rank++;
     return true;
 }
 

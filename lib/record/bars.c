@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "record/bars.h"
+#include "numeric/tolerances.h"
 
-#include <float.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -112,7 +112,7 @@ bool bars_finish(struct bars *bars, struct ensemble *main)
  * hence the term 3 eps. */
 double bars_difference(const struct bars *bars, double main, double other)
 {
-    return bars->known ? fabs(main - other) + 3 * DBL_EPSILON * fabs(main) : HUGE_VAL;
+    return bars->known ? fabs(main - other) + round_off(3, fabs(main)) : HUGE_VAL;
 }
 
 double bars_component(const struct bars *bars, const struct fbd_state *main, size_t i)

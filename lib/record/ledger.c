@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "record/ledger.h"
 
-#include <float.h>
 #include <math.h>
 #include <stdlib.h>
 
 #include "dynamics/energy.h"
 #include "dynamics/load_rounding.h"
+#include "numeric/tolerances.h"
 #include "record/powers.h"
 
 static double kinetic(const struct fbd_model *model, const struct instant *at)
@@ -148,7 +148,7 @@ double ledger_explained(struct ledger *ledger, struct fbd_state *state, double t
     double terms = size + rounded.places;
     /* A body at rest at the origin has coordinates of size 0: add a rounding of the displacement by its
      * forces, for each step. */
-    double nothing = DBL_EPSILON * rounded.ways * at.t * at.t / fmax(steps, 1);
+    double nothing = round_off(1, rounded.ways) * at.t * at.t / fmax(steps, 1);
     for (size_t i = 0; i < ledger->model->load_count; i++) {
         if (ledger->counted[i]) continue;
         double potential = potential_energy(ledger->model, &ledger->model->loads[i], &at, ledger->scratch);

@@ -11,12 +11,12 @@
  */
 #include "record/powers.h"
 
-#include <float.h>
 #include <math.h>
 
 #include "dynamics/load_rounding.h"
 #include "dynamics/mass.h"
 #include "model/tree.h"
+#include "numeric/tolerances.h"
 
 /* A body on the ground: go through its integrated loads only; its joint does no work. */
 static void add_powers_on_ground(struct ledger *ledger, const struct group *group,
@@ -157,7 +157,7 @@ static double size_of(const struct ledger *ledger, int load)
  * too. */
 static double missed(const struct ledger *ledger, int load, int points)
 {
-    const double rounding = 1e-12;
+    const double rounding = negligible_sum;
     double c[5] = {0};
     for (int k = 0; k < points - 1; k++) c[k] = fabs(sum_of(ledger, legendre[k], load));
     double low = fmax(c[0], c[1]), high = fmax(fmax(c[2], c[3]), c[4]);
@@ -173,7 +173,7 @@ struct look {
 
 static struct look look_at(const struct ledger *ledger, const struct group *group, const struct panel *panel)
 {
-    const double rounding = 1e-6; /* of forces from a nearly singular system */
+    const double rounding = singular_force_rounding;
     struct look look = {0};
     for (size_t i = 0; i < group->model->load_count; i++) {
         int load = group_load(group, (int)i);
@@ -202,7 +202,7 @@ static bool take_roundoff(struct ensemble *ensemble, const struct panel *panel, 
 /* Set the round-off level of the works of a panel. */
 static bool set_floor(struct ledger *ledger, struct ensemble *ensemble, struct panel *panel)
 {
-    const double rounding = 1e-14;
+    const double rounding = power_rounding;
     double roundoff = 0;
     for (int k = 0; k < gauss_points; k++) {
         struct time_dd t = time_dd_after(panel->from, panel->length / 2 * (1 + point[k]));
@@ -211,7 +211,7 @@ static bool set_floor(struct ledger *ledger, struct ensemble *ensemble, struct p
     struct fbd_state *state = ensemble_look_group(ensemble, panel->group, panel->from, true);
     if (!state) return false;
     struct rounded rounded = rounded_at(state, ledger->arrows); /* bodies at rest included */
-    panel->floor = rounding * rounded.places + DBL_EPSILON * rounded.ways * panel->length * panel->length +
+    panel->floor = rounding * rounded.places + round_off(1, rounded.ways) * panel->length * panel->length +
                    panel->length * roundoff;
     return true;
 }
@@ -222,11 +222,11 @@ static bool set_floor(struct ledger *ledger, struct ensemble *ensemble, struct p
 static bool add_panel(struct ledger *ledger, struct ensemble *ensemble, struct panel panel, struct sums *sums)
 {
     enum { most_halved = 12, at_once = 3 };
-    const double share = 0.1, least_tolerance = 1e-12, most_tolerance = 1e-7, progress = 0.25;
+    const double share = 0.1, progress = 0.25;
     const struct group *group = &ensemble->groups[panel.group];
     if (!sample(ledger, ensemble, &panel)) return false;
     struct look look = look_at(ledger, group, &panel);
-    double tolerance = fmin(fmax(group->run->options.tolerance, least_tolerance), most_tolerance);
+    double tolerance = fmin(fmax(group->run->options.tolerance, least_part_tolerance), most_work_tolerance);
     double size = sums->lively + sums->turnover + look.turnover;
     double energy = panel.length * look.missed;
     bool more = energy > share * tolerance * size;

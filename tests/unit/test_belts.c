@@ -103,7 +103,7 @@ static void a_slack_strand_ends_the_run(void **unused)
     check_that(&checks, "ends early", trial.outcome == FBD_BROKEN);
     check_close(&checks, "when", end, asin(7.5 / 40) / 3, 1e-10);
     check_that(&checks, "says so",
-               strstr(fbd_simulation_reason(trial.simulation), "strand of the belt `belt` goes slack") !=
+               strstr(fbd_simulation_reason(trial.simulation), "strand of the belt `belt` becomes slack") !=
                    NULL);
     trial_close(&trial);
     checks_end(&checks);

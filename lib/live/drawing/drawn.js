@@ -27,7 +27,7 @@ function endsOf(entry) {
   return entry.tip ? [minusOf(at, reach), at] : [at, plus(at, reach)];
 }
 
-// An error of an entry that is visible without grading, or "".
+// An error of an entry that is visible without the key, or "".
 function faultOf(entry) {
   const name = fileName(entry);
   const twin = drawing.entries.some((other) => other !== entry && other.body === entry.body && fileName(other) === name);

@@ -1,0 +1,111 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * Tolerances of numeric, integrate, model, events and record: each with its unit, meaning and reason. A number of this kind
+ * elsewhere in these rooms fails a test (tests/tools/check_files). Numbers without a unit are relative to the size that is
+ * named with them.
+ */
+#ifndef FBD_NUMERIC_TOLERANCES_H
+#define FBD_NUMERIC_TOLERANCES_H
+
+#include <float.h>
+
+/* ---- round-off */
+
+/* Round-off of `count` operations on numbers of this size, in the unit of the size. */
+static inline double round_off(double count, double size)
+{
+    return count * DBL_EPSILON * size;
+}
+
+/* Roundings of a time: it is the sum of steps, and a step is placed on it by several operations. */
+static const double time_roundings = 64;
+
+/* Round-off of some hundred operations, relative to the largest number among them. */
+static const double negligible_part = 1e-13;
+
+/* The same of sums of thousands of terms, or with cancellation by a factor of ten. */
+static const double negligible_sum = 1e-12;
+
+/* ---- files */
+
+/* Digits of numbers in a file: directions and positions that agree in nine digits are meant to be equal. */
+static const double nine_digits = 1e-9;
+
+/* Lengths that were given with six digits. */
+static const double six_digits = 2e-6;
+
+/* Sine of the angle to the vertical of a line that counts as vertical: cos(pi/2) and its sums are round-off. */
+static const double vertical_line = 1e-12;
+
+/* ---- contacts, relative to the size of the scene */
+
+/* Shapes touch: the round-off of positions at the other end of the scene, times a thousand operations. */
+static const double contact_near = 1e-12;
+
+/* Level heights. A bounce lower than 2e-9 ends in rest (loop/zeno_rest.c), so that smaller steps cannot be distinguished
+ * from contact. */
+static const double contact_level = 1e-8;
+
+/* ---- linear algebra */
+
+/* Linear complementarity: entries of the scaled tableau that are zero; and the residual of a solution by the matrix itself,
+ * which may lose four more digits by its condition. */
+static const double lcp_zero = 1e-11, lcp_residual = 1e-7;
+
+/* Least distance: round-off of a slope for each unit of a multiplier; and 1 / (1 + |x|^2), below which there is no point x of
+ * a size that forces have. */
+static const double slope_rounding = 1e-15, least_distance_end = 1e-8;
+
+/* Singular values that are zero, relative to the largest: constraints that are redundant but for the digits of a file. */
+static const double singular_value_zero = 1e-10;
+
+/* ---- steps */
+
+/* The least tolerance of parts of a step [relative]: below it an error estimate is round-off. */
+static const double least_part_tolerance = 1e-12;
+
+/* The least scale of a rate, relative to that by which its coordinate moves: for components that rest. */
+static const double least_rate_scale = 1e-3;
+
+/* The first step: a probe in which the slopes change by a time this much shorter is too long; the shortest and the usual
+ * probe, relative to the longest step. */
+static const double least_change_time = 1e-4, shortest_probe = 1e-9, usual_probe = 1e-3;
+
+/* A step below which the end of the run is not reached in any number of steps, relative to the rest of the run. */
+static const double least_step = 1e-30;
+
+/* BDF: the least convergence rate of Newton's iteration that is assumed without a measurement; and a number added to the error
+ * ratio, which may be zero, before its root is taken. */
+static const double least_newton_rate = 1e-4, least_error_ratio = 1e-12;
+
+/* Stiffness: the least growth of a component of the power iteration in one product, so that none becomes zero. */
+static const double least_growth = 1e-20;
+
+/* Linear systems: an excess of h rho by which a step may be longer after rounding; terms of the series of the exponential below
+ * a fraction of a rounding; and terms of sums that are small already. */
+static const double rounded_reach = 1e-9, series_end = 4e-18, series_rest = 1e-19;
+
+/* ---- events */
+
+/* Coefficients of the interpolant of a step that uses several evaluations of it: they have the digits of the error estimate. */
+static const double interpolant_rounding = 1e-9;
+
+/* A panel of a search is not shorter than this, relative to the step: shorter ones are sampled. */
+static const double least_panel = 1e-3;
+
+/* The largest round-off of a series, relative to its values, with which its roots are looked for. */
+static const double most_series_rounding = 1e-5;
+
+/* A quantity at rest at its switch may be short of it by the error of the step that reached it. */
+static const double stop_shortfall = 1e-6;
+
+/* A slip that has just begun: velocities below this part of the fastest are the residue of the stick; the band around zero
+ * within which the function is silent, its least size, and the time that it lasts, relative to the step. */
+static const double slip_residue = 1e-9, slip_band = 1e-13, least_slip_band = 1e-14, slip_beginning = 1e-9;
+
+/* ---- works */
+
+/* Powers: round-off of a value; of forces from a nearly singular system; and the largest tolerance of a quadrature. */
+static const double power_rounding = 1e-14, singular_force_rounding = 1e-6, most_work_tolerance = 1e-7;
+
+#endif
