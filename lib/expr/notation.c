@@ -54,7 +54,8 @@ static size_t heading_length(const char *text)
     const char *at = text;
     for (size_t n = 1; n > 0; at += n) n = WORD_LENGTH(at, senses);
     const size_t sum = WORD_LENGTH(at, sums);
-    for (at += sum; *at == ' '; at++) continue;
+    at += sum;
+    at += strspn(at, " ");
     const size_t letter = sum ? WORD_LENGTH(at, letters) : 0;
     if (letter == 0) return 0;
     at += strcspn(at, "=:+-*/(");

@@ -28,8 +28,7 @@ static bool tells(enum layer_kind kind, const char *line, size_t length)
     static const char *const reasons[] = {"No space left on device", "Permission denied",
                                           "Input/output error", "Too many open files in system"};
     if (kind == layer_memory) return has(line, length, "memory");
-    static const char *const names[] = {"`", "standard output", "the input of gnuplot",
-                                        ".yaml: ", ".csv: "};
+    static const char *const names[] = {"`", "standard output", "the input of gnuplot", ".yaml: ", ".csv: "};
     bool named = false;
     for (size_t i = 0; i < sizeof names / sizeof *names; i++) named |= has(line, length, names[i]);
     for (size_t i = 0; i < sizeof reasons / sizeof *reasons; i++)

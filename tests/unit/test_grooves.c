@@ -268,7 +268,8 @@ static void a_slot_that_rubs_has_an_end(void **unused)
     trial_start(&trial, NULL);
     check_close(&checks, "when", to_its_end(&trial), (v - sqrt(v * v - 2 * mu * g * l)) / (mu * g), 1e-9);
     check_that(&checks, "broken", trial.outcome == FBD_BROKEN);
-    check_that(&checks, "why", strstr(fbd_simulation_reason(trial.simulation), "the end of the slot") != NULL);
+    check_that(&checks, "why",
+               strstr(fbd_simulation_reason(trial.simulation), "the end of the slot") != NULL);
     trial_close(&trial);
     checks_end(&checks);
 }
