@@ -33,14 +33,14 @@ const struct slide *enclose_filippov(const struct fbd_state *state, const struct
     return found;
 }
 
-struct enclosure enclose_branch(const struct enclosure_input *o, const struct formula *formula,
+struct enclosure enclose_branch(const struct enclosure_input *input, const struct formula *formula,
                                 const struct slide *slide, int side)
 {
-    int *branches = o->state->sliding->branches; /* scratch */
+    int *branches = input->state->sliding->branches; /* scratch */
     size_t switches = expr_switches(formula->expr);
-    memcpy(branches, o->state->branch + formula->branch, switches * sizeof *branches);
+    memcpy(branches, input->state->branch + formula->branch, switches * sizeof *branches);
     branches[slide->branch - formula->branch] = side;
-    return expr_enclose(formula->expr, o->stretch, o->y, branches);
+    return expr_enclose(formula->expr, input->stretch, input->y, branches);
 }
 
 /* ---- existence */
@@ -100,16 +100,16 @@ struct equations {
 };
 
 /* The friction force of a slipping pair, without sliding modes. */
-static struct enclosure friction_of(const struct enclosure_input *o, int coordinate)
+static struct enclosure friction_of(const struct enclosure_input *input, int coordinate)
 {
-    const struct plan *plan = &o->state->model->plan;
+    const struct plan *plan = &input->state->model->plan;
     struct enclosure sum = enclosure_point(0);
     for (int pair = 0; pair < (int)plan->mode_count; pair++) {
         const struct mode *mode = &plan->modes[pair];
-        int side = slip_side(o->state->slip[pair]);
+        int side = slip_side(input->state->slip[pair]);
         if (mode->coordinate != coordinate || !mode_is_friction(mode) || side == 0) continue;
         struct enclosure rubs =
-            enclosure_multiply(enclose_formula(o, &mode->mu_k), enclose_normal_force(o, pair));
+            enclosure_multiply(enclose_formula(input, &mode->mu_k), enclose_normal_force(input, pair));
         sum = enclosure_subtract(sum, enclosure_scale(side, rubs));
     }
     return sum;
@@ -117,29 +117,30 @@ static struct enclosure friction_of(const struct enclosure_input *o, int coordin
 
 /* Add `factor` times the force along a coordinate to the equation of a unit: the force at weights of 1/2, and
  * the coefficient of each unit's weight. */
-static void take_force(const struct enclosure_input *o, int coordinate, double factor, struct equations *e,
-                       int unit)
+static void take_force(const struct enclosure_input *input, int coordinate, double factor,
+                       struct equations *e, int unit)
 {
-    const struct fbd_model *model = o->state->model;
+    const struct fbd_model *model = input->state->model;
     int body = model->scene->coordinates[coordinate].body;
     const struct body_terms *terms = &model->plan.bodies[body];
-    struct enclosure force = enclosure_add(enclose_slot(o, body, coordinate), friction_of(o, coordinate));
+    struct enclosure force =
+        enclosure_add(enclose_slot(input, body, coordinate), friction_of(input, coordinate));
     e->c[unit] = enclosure_add(e->c[unit], enclosure_scale(factor, force));
     for (int i = terms->formulas.first; i < terms->formulas.first + terms->formulas.count; i++) {
         const struct formula_term *term = &model->plan.formulas[i];
         int slides;
-        const struct slide *slide = enclose_filippov(o->state, &term->value, &slides);
+        const struct slide *slide = enclose_filippov(input->state, &term->value, &slides);
         if (term->slot != coordinate || !slide) continue;
-        struct enclosure jump = enclosure_subtract(enclose_branch(o, &term->value, slide, 1),
-                                                   enclose_branch(o, &term->value, slide, -1));
+        struct enclosure jump = enclosure_subtract(enclose_branch(input, &term->value, slide, 1),
+                                                   enclose_branch(input, &term->value, slide, -1));
         struct enclosure *C = &e->C[unit][slide->unit];
         *C = enclosure_add(*C, enclosure_scale(factor * slide->sign * term->scale, jump));
     }
 }
 
-static void write_equation(const struct enclosure_input *o, int unit, struct equations *e)
+static void write_equation(const struct enclosure_input *input, int unit, struct equations *e)
 {
-    const struct fbd_state *state = o->state;
+    const struct fbd_state *state = input->state;
     struct sliding *s = state->sliding;
     const struct plan *plan = &state->model->plan;
     size_t n = (size_t)plan->n;
@@ -152,7 +153,7 @@ static void write_equation(const struct enclosure_input *o, int unit, struct equ
         return;
     }
     if (s->held[unit] >= 0) {
-        take_force(o, s->held[unit], 1, e, unit);
+        take_force(input, s->held[unit], 1, e, unit);
         return;
     }
     memset(s->flow, 0, plan_size(plan) * sizeof *s->flow);
@@ -162,9 +163,9 @@ static void write_equation(const struct enclosure_input *o, int unit, struct equ
         s->flow[i] = 0;
         if (slope == 0 || (i >= n && sliding_holder(s, state->model, &at, (int)(i - n)) >= 0)) continue;
         if (i < n)
-            e->c[unit] = enclosure_add(e->c[unit], enclosure_scale(slope, o->y[n + i]));
+            e->c[unit] = enclosure_add(e->c[unit], enclosure_scale(slope, input->y[n + i]));
         else
-            take_force(o, (int)(i - n), slope * plan->inverse_inertia[i - n], e, unit);
+            take_force(input, (int)(i - n), slope * plan->inverse_inertia[i - n], e, unit);
     }
 }
 
@@ -191,35 +192,35 @@ static double centre_of(struct interval a)
 }
 
 /* C is constant to the rounding of its sums; so is its inverse. */
-static void eliminate(struct enclosure_input *o, const struct equations *e, int units)
+static void eliminate(struct enclosure_input *input, const struct equations *e, int units)
 {
     double C[most_enclosed_units * most_enclosed_units], column[most_enclosed_units];
     size_t pivot[most_enclosed_units], size = (size_t)units;
     for (int i = 0; i < units; i++)
         for (int k = 0; k < units; k++) C[i * units + k] = centre_of(e->C[i][k].middle);
     bool solved = is_constant(e, units) && lu_decompose(size, C, pivot);
-    for (int i = 0; i < units; i++) o->shares[i] = solved ? enclosure_point(0) : enclosure_everything();
+    for (int i = 0; i < units; i++) input->shares[i] = solved ? enclosure_point(0) : enclosure_everything();
     for (int k = 0; k < units && solved; k++) {
         memset(column, 0, sizeof column);
         column[k] = -1;
         lu_solve(size, C, pivot, column);
         for (int i = 0; i < units; i++)
-            o->shares[i] = enclosure_add(o->shares[i], enclosure_scale(column[i], e->c[k]));
+            input->shares[i] = enclosure_add(input->shares[i], enclosure_scale(column[i], e->c[k]));
     }
 }
 
-void enclosure_find_weights(struct enclosure_input *o)
+void enclosure_find_weights(struct enclosure_input *input)
 {
-    int units = o->state->sliding->units;
+    int units = input->state->sliding->units;
     struct equations e;
     for (int i = 0; i < units; i++) {
-        o->shares[i] = e.c[i] = enclosure_point(0);
+        input->shares[i] = e.c[i] = enclosure_point(0);
         for (int k = 0; k < units; k++) e.C[i][k] = enclosure_point(0);
     }
-    for (int unit = 0; unit < units; unit++) write_equation(o, unit, &e);
+    for (int unit = 0; unit < units; unit++) write_equation(input, unit, &e);
     if (units == 1)
-        o->shares[0] = quotient(enclosure_negate(e.c[0]), e.C[0][0]);
+        input->shares[0] = quotient(enclosure_negate(e.c[0]), e.C[0][0]);
     else
-        eliminate(o, &e, units);
-    for (int i = 0; i < units; i++) o->shares[i] = enclose_centred(o, o->shares[i]);
+        eliminate(input, &e, units);
+    for (int i = 0; i < units; i++) input->shares[i] = enclose_centred(input, input->shares[i]);
 }

@@ -11,26 +11,27 @@
 #include "events/enclosure.h"
 #include "numeric/tolerances.h"
 
-struct enclosure enclose_formula(const struct enclosure_input *o, const struct formula *formula)
+struct enclosure enclose_formula(const struct enclosure_input *input, const struct formula *formula)
 {
     if (!formula->expr) return enclosure_point(formula->constant);
     int slides;
-    const struct slide *slide = enclose_filippov(o->state, formula, &slides);
+    const struct slide *slide = enclose_filippov(input->state, formula, &slides);
     if (slides > 1) return enclosure_everything();
     if (slide) {
-        struct enclosure high = enclose_branch(o, formula, slide, 1),
-                         low = enclose_branch(o, formula, slide, -1);
-        struct enclosure share = enclosure_scale(slide->sign, o->shares[slide->unit]);
+        struct enclosure high = enclose_branch(input, formula, slide, 1),
+                         low = enclose_branch(input, formula, slide, -1);
+        struct enclosure share = enclosure_scale(slide->sign, input->shares[slide->unit]);
         return enclosure_add(enclosure_scale(0.5, enclosure_add(high, low)),
                              enclosure_multiply(share, enclosure_subtract(high, low)));
     }
-    const int *branch = formula->branch < 0 || !o->state->branch ? NULL : o->state->branch + formula->branch;
-    return expr_enclose(formula->expr, o->stretch, o->y, branch);
+    const int *branch =
+        formula->branch < 0 || !input->state->branch ? NULL : input->state->branch + formula->branch;
+    return expr_enclose(formula->expr, input->stretch, input->y, branch);
 }
 
-struct enclosure enclose_centred(const struct enclosure_input *o, struct enclosure f)
+struct enclosure enclose_centred(const struct enclosure_input *input, struct enclosure f)
 {
-    enclosure_centre(&f, stretch_radius(o->stretch));
+    enclosure_centre(&f, stretch_radius(input->stretch));
     return f;
 }
 
@@ -43,9 +44,9 @@ bool enclosure_is_known(const struct fbd_model *model, int body)
            terms->links.count + terms->drags.count + terms->forces.count == 0 && terms->offset < 0;
 }
 
-static struct enclosure enclose_sine(const struct enclosure_input *o, const struct sine_term *term)
+static struct enclosure enclose_sine(const struct enclosure_input *input, const struct sine_term *term)
 {
-    const struct enclosure *q = &o->y[term->coordinate];
+    const struct enclosure *q = &input->y[term->coordinate];
     struct interval sine = interval_sin(q->value), cosine = interval_cos(q->value);
     struct interval slope = interval_subtract(interval_scale(term->s, cosine), interval_scale(term->c, sine));
     return (struct enclosure){interval_add(interval_scale(term->s, sine), interval_scale(term->c, cosine)),
@@ -60,9 +61,9 @@ static double signed_square(double v)
 }
 
 /* -k |v| v, which falls with the slope -2 k |v|. */
-static struct enclosure enclose_square(const struct enclosure_input *o, const struct square_term *term)
+static struct enclosure enclose_square(const struct enclosure_input *input, const struct square_term *term)
 {
-    const struct enclosure *v = &o->y[o->state->model->plan.n + term->coordinate];
+    const struct enclosure *v = &input->y[input->state->model->plan.n + term->coordinate];
     struct interval size = interval_hypot(v->value, interval_point(0));
     struct enclosure f = {interval_rising(signed_square, v->value, -HUGE_VAL, HUGE_VAL),
                           interval_multiply(interval_scale(2, size), v->rate),
@@ -70,65 +71,65 @@ static struct enclosure enclose_square(const struct enclosure_input *o, const st
     return enclosure_scale(-term->k, f);
 }
 
-static struct enclosure enclose_affine(const struct enclosure_input *o, const struct affine_term *term)
+static struct enclosure enclose_affine(const struct enclosure_input *input, const struct affine_term *term)
 {
-    const struct enclosure *q = &o->y[term->coordinate],
-                           *v = &o->y[o->state->model->plan.n + term->coordinate];
+    const struct enclosure *q = &input->y[term->coordinate],
+                           *v = &input->y[input->state->model->plan.n + term->coordinate];
     struct enclosure f = enclosure_point(term->c0);
     if (term->kq != 0) f = enclosure_subtract(f, enclosure_scale(term->kq, *q));
     if (term->kv != 0) f = enclosure_subtract(f, enclosure_scale(term->kv, *v));
     return f;
 }
 
-struct enclosure enclose_slot(const struct enclosure_input *o, int body, int slot)
+struct enclosure enclose_slot(const struct enclosure_input *input, int body, int slot)
 {
-    const struct plan *plan = &o->state->model->plan;
+    const struct plan *plan = &input->state->model->plan;
     const struct body_terms *terms = &plan->bodies[body];
     struct enclosure sum = enclosure_point(0);
     for (int i = terms->affine.first; i < terms->affine.first + terms->affine.count; i++)
-        if (plan->affine[i].slot == slot) sum = enclosure_add(sum, enclose_affine(o, &plan->affine[i]));
+        if (plan->affine[i].slot == slot) sum = enclosure_add(sum, enclose_affine(input, &plan->affine[i]));
     for (int i = terms->across.first; i < terms->across.first + terms->across.count; i++)
         if (plan->affine[i].slot == slot) sum = enclosure_add(sum, enclosure_point(plan->affine[i].c0));
     for (int i = terms->sine.first; i < terms->sine.first + terms->sine.count; i++)
-        if (plan->sine[i].slot == slot) sum = enclosure_add(sum, enclose_sine(o, &plan->sine[i]));
+        if (plan->sine[i].slot == slot) sum = enclosure_add(sum, enclose_sine(input, &plan->sine[i]));
     for (int i = terms->square.first; i < terms->square.first + terms->square.count; i++)
-        if (plan->square[i].slot == slot) sum = enclosure_add(sum, enclose_square(o, &plan->square[i]));
+        if (plan->square[i].slot == slot) sum = enclosure_add(sum, enclose_square(input, &plan->square[i]));
     for (int i = terms->formulas.first; i < terms->formulas.first + terms->formulas.count; i++) {
         const struct formula_term *term = &plan->formulas[i];
         if (term->slot != slot) continue;
-        struct enclosure value = enclose_formula(o, &term->value);
+        struct enclosure value = enclose_formula(input, &term->value);
         sum = enclosure_add(sum, enclosure_scale(term->scale, value));
     }
-    return enclose_centred(o, sum);
+    return enclose_centred(input, sum);
 }
 
 /* ---- friction */
 
-static bool stays_zero(const struct enclosure_input *o, const struct formula *mu)
+static bool stays_zero(const struct enclosure_input *input, const struct formula *mu)
 {
-    const struct enclosure f = enclose_formula(o, mu);
+    const struct enclosure f = enclose_formula(input, mu);
     return f.value.low == 0 && f.value.high == 0;
 }
 
 /* Slip velocity of a pair. Friction that is idle throughout (friction_is_idle) has no event. */
-static struct enclosure slip_stop(const struct enclosure_input *o, int pair)
+static struct enclosure slip_stop(const struct enclosure_input *input, int pair)
 {
-    const struct fbd_model *model = o->state->model;
+    const struct fbd_model *model = input->state->model;
     const struct mode *mode = &model->plan.modes[pair];
     bool may_idle = mode->mu_s.expr || mode->mu_k.expr;
-    if (may_idle && stays_zero(o, &mode->mu_s) && stays_zero(o, &mode->mu_k))
+    if (may_idle && stays_zero(input, &mode->mu_s) && stays_zero(input, &mode->mu_k))
         return enclosure_point(HUGE_VAL);
-    struct enclosure speed = enclose_formula(o, &mode->surface_speed);
-    struct enclosure slip = enclosure_subtract(o->y[model->plan.n + mode->coordinate], speed);
-    return enclose_centred(o, enclosure_scale(o->state->slip[pair], slip));
+    struct enclosure speed = enclose_formula(input, &mode->surface_speed);
+    struct enclosure slip = enclosure_subtract(input->y[model->plan.n + mode->coordinate], speed);
+    return enclose_centred(input, enclosure_scale(input->state->slip[pair], slip));
 }
 
-struct enclosure enclose_normal_force(const struct enclosure_input *o, int pair)
+struct enclosure enclose_normal_force(const struct enclosure_input *input, int pair)
 {
-    const struct mode *mode = &o->state->model->plan.modes[pair];
+    const struct mode *mode = &input->state->model->plan.modes[pair];
     if (mode->normal_slot < 0) return enclosure_point(1);
-    struct enclosure sum = enclose_slot(o, mode->body, mode->normal_slot);
-    return enclosure_scale(-o->state->pull[pair], sum);
+    struct enclosure sum = enclose_slot(input, mode->body, mode->normal_slot);
+    return enclosure_scale(-input->state->pull[pair], sum);
 }
 
 /* max(f, g): the rate is that of one of them, or between both. */
@@ -142,25 +143,25 @@ static struct enclosure larger_of(struct enclosure f, struct enclosure g)
 }
 
 /* Distances to both friction limits, which share the limit and the friction force. */
-static void enclose_stick_limits(const struct enclosure_input *o, const struct watcher *watchers,
+static void enclose_stick_limits(const struct enclosure_input *input, const struct watcher *watchers,
                                  size_t count, struct enclosure *out)
 {
     int pair = watchers->index;
-    const struct mode *mode = &o->state->model->plan.modes[pair];
+    const struct mode *mode = &input->state->model->plan.modes[pair];
     for (size_t i = 0; i < count; i++) out[i] = enclosure_point(HUGE_VAL);
-    if (o->state->slip[pair] != stick) return;
-    struct enclosure press = larger_of(enclose_normal_force(o, pair), enclosure_point(0));
-    struct enclosure at_rest = enclosure_multiply(enclose_formula(o, &mode->mu_s), press);
-    struct enclosure moving = enclosure_multiply(enclose_formula(o, &mode->mu_k), press);
-    struct enclosure limit = larger_of(enclose_centred(o, at_rest), enclose_centred(o, moving));
-    struct enclosure push = enclose_slot(o, mode->body, mode->hold_slot);
+    if (input->state->slip[pair] != stick) return;
+    struct enclosure press = larger_of(enclose_normal_force(input, pair), enclosure_point(0));
+    struct enclosure at_rest = enclosure_multiply(enclose_formula(input, &mode->mu_s), press);
+    struct enclosure moving = enclosure_multiply(enclose_formula(input, &mode->mu_k), press);
+    struct enclosure limit = larger_of(enclose_centred(input, at_rest), enclose_centred(input, moving));
+    struct enclosure push = enclose_slot(input, mode->body, mode->hold_slot);
     /* The same tolerance as by friction_rounding. */
     double rounding = round_off(8, interval_size(push.value) + interval_size(limit.value));
     for (size_t i = 0; i < count; i++) {
         struct enclosure f = enclosure_add(limit, enclosure_scale(watchers[i].end == 0 ? 1 : -1, push));
         f.value.high += rounding;
         f.middle.high += rounding;
-        out[i] = enclose_centred(o, f);
+        out[i] = enclose_centred(input, f);
     }
 }
 
@@ -183,16 +184,16 @@ bool watchers_can_enclose(const struct fbd_model *model, const struct watcher *w
 }
 
 static void enclose_kink(const struct watchers *watchers, const struct watcher_set *set,
-                         const struct root_group *group, const struct enclosure_input *o,
+                         const struct root_group *group, const struct enclosure_input *input,
                          struct enclosure *out)
 {
     const struct watcher *first = &set->watchers[group->first];
-    const struct kink *kink = &o->state->model->plan.kinks[first->index];
-    const int *branch = o->state->branch + kink->formula.branch;
-    expr_enclose_margins(kink->formula.expr, o->stretch, o->y, branch, watchers->margins);
+    const struct kink *kink = &input->state->model->plan.kinks[first->index];
+    const int *branch = input->state->branch + kink->formula.branch;
+    expr_enclose_margins(kink->formula.expr, input->stretch, input->y, branch, watchers->margins);
     for (size_t i = 0; i < group->count; i++) {
-        bool slid_on =
-            state_sliding(o->state) && o->state->sliding->slide_at[kink->formula.branch + first[i].part] > 0;
+        bool slid_on = state_sliding(input->state) &&
+                       input->state->sliding->slide_at[kink->formula.branch + first[i].part] > 0;
         bool held = watchers->held[kink->formula.branch + first[i].part];
         out[i] =
             slid_on || held ? enclosure_point(HUGE_VAL) : watchers->margins[2 * first[i].part + first[i].end];
@@ -200,46 +201,47 @@ static void enclose_kink(const struct watchers *watchers, const struct watcher_s
 }
 
 static struct enclosure enclose_user(const struct watchers *watchers, int index,
-                                     const struct enclosure_input *o)
+                                     const struct enclosure_input *input)
 {
-    const struct watch *watch = &o->state->model->plan.watches[index];
+    const struct watch *watch = &input->state->model->plan.watches[index];
     int armed = watchers->armed[index];
     if (armed == 0) return enclosure_point(HUGE_VAL);
     struct enclosure difference =
-        enclosure_subtract(enclose_formula(o, &watch->left), enclose_formula(o, &watch->right));
+        enclosure_subtract(enclose_formula(input, &watch->left), enclose_formula(input, &watch->right));
     struct enclosure band = enclosure_point(watchers->band[index]);
-    return enclose_centred(o, enclosure_add(enclosure_scale(armed, difference), band));
+    return enclose_centred(input, enclosure_add(enclosure_scale(armed, difference), band));
 }
 
 /* The weight s of the upper branch, or 1 - s. */
-static struct enclosure enclose_share(const struct enclosure_input *o, const struct watcher *watcher)
+static struct enclosure enclose_share(const struct enclosure_input *input, const struct watcher *watcher)
 {
-    const struct fbd_state *state = o->state;
+    const struct fbd_state *state = input->state;
     int branch = state->model->plan.kinks[watcher->index].formula.branch + watcher->part;
     int index = state_sliding(state) ? state->sliding->slide_at[branch] : 0;
     if (index == 0) return enclosure_point(HUGE_VAL);
     const struct slide *slide = &state->sliding->slides[index - 1];
     struct enclosure share =
-        enclosure_scale(watcher->end == 0 ? slide->sign : -slide->sign, o->shares[slide->unit]);
+        enclosure_scale(watcher->end == 0 ? slide->sign : -slide->sign, input->shares[slide->unit]);
     return enclosure_add(enclosure_point(0.5 + slide->slack), share);
 }
 
 static struct enclosure enclose_one(const struct watchers *watchers, const struct watcher *watcher,
-                                    const struct enclosure_input *o)
+                                    const struct enclosure_input *input)
 {
-    const struct fbd_model *model = o->state->model;
+    const struct fbd_model *model = input->state->model;
     int index = watcher->index;
     switch (watcher->kind) {
-    case watch_user: return enclose_user(watchers, index, o);
+    case watch_user: return enclose_user(watchers, index, input);
     case watch_contact: {
         const struct contact *contact = &model->plan.contacts[index];
         struct enclosure slack = enclosure_point(watchers_contact_slack(model, NULL, contact));
-        return enclose_centred(o, enclosure_subtract(slack, enclose_slot(o, contact->body, contact->slot)));
+        return enclose_centred(input,
+                               enclosure_subtract(slack, enclose_slot(input, contact->body, contact->slot)));
     }
-    case watch_normal_turns: return enclose_normal_force(o, index);
+    case watch_normal_turns: return enclose_normal_force(input, index);
     case watch_slip_stop:
-        return o->state->slip[index] == stick ? enclosure_point(HUGE_VAL) : slip_stop(o, index);
-    case watch_share: return enclose_share(o, watcher);
+        return input->state->slip[index] == stick ? enclosure_point(HUGE_VAL) : slip_stop(input, index);
+    case watch_share: return enclose_share(input, watcher);
     case watch_lift:
     case watch_gap:
     case watch_edge:
