@@ -141,6 +141,12 @@ static bool is_other_point(const struct inquiry *inquiry, const struct suspect *
            is(s->k, 1);
 }
 
+static bool is_superfluous(const struct inquiry *inquiry, const struct suspect *s)
+{
+    (void)inquiry;
+    return (s->kind == suspect_summand && is(s->k, -1)) || (s->kind == suspect_letter && is(s->k, 1));
+}
+
 static bool is_factor(const struct inquiry *inquiry, const struct suspect *s)
 {
     (void)inquiry;
@@ -156,8 +162,8 @@ static bool is_factor_of_term(const struct inquiry *inquiry, const struct suspec
 typedef bool suspect_test(const struct inquiry *inquiry, const struct suspect *suspect);
 
 static suspect_test *const order[] = {
-    is_wrong_sign, is_missing,    is_alike,       is_other_force, is_part_missing,
-    is_other_term, is_wrong_term, is_other_point, is_factor,      is_factor_of_term,
+    is_wrong_sign, is_missing,     is_alike,       is_other_force, is_part_missing,   is_other_term,
+    is_wrong_term, is_other_point, is_superfluous, is_factor,      is_factor_of_term,
 };
 
 static const struct suspect *first_suspect(const struct inquiry *inquiry)

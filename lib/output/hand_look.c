@@ -3,6 +3,7 @@
 
 #include <float.h>
 #include <math.h>
+#include <stdint.h>
 #include <string.h>
 
 #include "dynamics/mass.h"
@@ -180,13 +181,21 @@ double look_coefficient(const struct suspects_look *look, const struct hand_forc
 
 struct votes {
     double of[2 * most_letters];
+    size_t by[2 * most_letters]; /* an arrow, or the inertia */
     size_t count;
 };
 
-static void vote(struct votes *votes, double slope, double coefficient)
+static const size_t inertia_votes = SIZE_MAX;
+
+/* Each arrow has one vote for a factor: a wrong one, written with both components, must not outvote the inertia. */
+static void vote(struct votes *votes, size_t by, double slope, double coefficient)
 {
     const double factor = slope / coefficient;
-    if (slope != 0 && coefficient != 0 && isfinite(factor)) votes->of[votes->count++] = factor;
+    if (slope == 0 || coefficient == 0 || !isfinite(factor)) return;
+    for (size_t i = 0; i < votes->count; i++)
+        if (votes->by[i] == by && fabs(votes->of[i] - factor) <= 1e-6 * fabs(factor)) return;
+    votes->by[votes->count] = by;
+    votes->of[votes->count++] = factor;
 }
 
 /* The most frequent factor, of equally frequent ones the first; 0 without any. */
@@ -221,18 +230,18 @@ static void vote_by_inertia(const struct suspects_look *look, const struct lette
         const struct pose pose = body_pose(body, &look->at);
         const struct vec arm =
             vec_sub(point_motion(body, &pose, inertia.G).p, look->places[equation - equation_moment].p);
-        vote(votes, slope, -(inertia.I_G + inertia.mass * vec_dot(arm, arm)));
-        if (vec_dot(arm, arm) > 0) vote(votes, slope, -inertia.I_G);
+        vote(votes, inertia_votes, slope, -(inertia.I_G + inertia.mass * vec_dot(arm, arm)));
+        if (vec_dot(arm, arm) > 0) vote(votes, inertia_votes, slope, -inertia.I_G);
     }
     const bool x = kind == absolute_ax || (own && !alone && k == 0);
     const bool y = kind == absolute_ay || (own && !alone && k == 1);
     const bool along = own && alone && (body->kind == motion_slide || body->kind == motion_track);
     if ((equation == equation_x && x) || (equation == equation_y && y) ||
         (equation == equation_along && along))
-        vote(votes, slope, -inertia.mass);
+        vote(votes, inertia_votes, slope, -inertia.mass);
     const struct vec e = body_direction(body, &look->at);
-    if (along && equation == equation_x && e.x != 0) vote(votes, slope, -inertia.mass * e.x);
-    if (along && equation == equation_y && e.y != 0) vote(votes, slope, -inertia.mass * e.y);
+    if (along && equation == equation_x && e.x != 0) vote(votes, inertia_votes, slope, -inertia.mass * e.x);
+    if (along && equation == equation_y && e.y != 0) vote(votes, inertia_votes, slope, -inertia.mass * e.y);
 }
 
 static double find_factor(const struct suspects_look *look, int equation, bool arms)
@@ -246,7 +255,7 @@ static double find_factor(const struct suspects_look *look, int equation, bool a
         const struct hand_force *force = look_force(look, &look->letters[n], &sign);
         if (!force || look->slope[n] == 0 || votes.count + 2 > sizeof votes.of / sizeof *votes.of) continue;
         const double value = sign * look->y[look->letters[n].slot];
-        vote(&votes, look->slope[n], sign * look_coefficient(look, force, value, equation));
+        vote(&votes, force->arrow, look->slope[n], sign * look_coefficient(look, force, value, equation));
     }
     return most_votes(&votes);
 }
