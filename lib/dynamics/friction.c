@@ -157,3 +157,11 @@ enum slip friction_decide(const struct friction_values *now, const struct fricti
     if (excess <= 0) return stick;
     return hold < 0 ? slip_plus : slip_minus; /* the sum of the other forces is -hold */
 }
+
+bool friction_takes_impulses(const struct fbd_model *model, const struct mode *mode)
+{
+    const bool guided = mode->kind == mode_tangent
+                            ? coupling_is_guide(&model->tree->couplings[mode->coupling])
+                            : mode->kind == mode_joint && mode->normal_slot >= 0;
+    return guided && friction_rubs(mode);
+}

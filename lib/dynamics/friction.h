@@ -55,6 +55,10 @@ static inline bool friction_rubs(const struct mode *mode)
     return mode->mu_k.expr || mode->mu_k.constant > 0;
 }
 
+/* Is it friction of a guide, a slide or a slot, which has an impulse where an impact loads the guide? That of a bearing is
+ * a moment and has none. */
+bool friction_takes_impulses(const struct fbd_model *model, const struct mode *mode);
+
 /* A coefficient that is identically zero: the force is 0 in each mode, so that no mode is to be decided. It
  * slips, by convention forwards, and has no events. */
 static inline bool friction_is_never(const struct mode *mode)

@@ -133,3 +133,26 @@ void impulse_answers(struct fbd_state *state, const struct impulse_lines *lines,
     work->projecting = false;
     for (int i = 1; i < model->tree->count; i++) work->links[i].locked = false;
 }
+
+static bool is_loaded(const struct impulse_lines *lines, const double *W, const double *B, int i,
+                      const int *loaded)
+{
+    const double rounding = 1e-12; /* of a unit impulse */
+    const int rows = lines->row_count, all = rows + lines->slide_count;
+    if (W[(ptrdiff_t)(rows + i) * (all + 1)] <= 0) return false;
+    for (int j = 0; j < all; j++)
+        if ((j < rows || loaded[j - rows]) && fabs(B[(ptrdiff_t)i * all + j]) > rounding) return true;
+    return false;
+}
+
+int impulse_loaded_slides(const struct impulse_lines *lines, const double *W, const double *B, int *loaded)
+{
+    int before = -1, found = 0;
+    for (int i = 0; i < lines->slide_count; i++) loaded[i] = 0;
+    while (found > before) {
+        before = found;
+        for (int i = 0; i < lines->slide_count; i++)
+            if (!loaded[i] && is_loaded(lines, W, B, i, loaded)) loaded[i] = ++found;
+    }
+    return found;
+}

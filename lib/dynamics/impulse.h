@@ -25,6 +25,10 @@ struct impulse_lines {
 void impulse_answers(struct fbd_state *state, const struct impulse_lines *lines, int *modes, double *W,
                      double *B, double *answers);
 
+/* Find the slides whose guides are loaded by impulses along the rows, or by the friction of such a slide, from the answers:
+ * loaded[slide_count] is 0 for the others, whose friction has no impulse. Returns their number. */
+int impulse_loaded_slides(const struct impulse_lines *lines, const double *W, const double *B, int *loaded);
+
 /* Evaluate links and rows at the state, with its velocities. */
 void impulse_look(struct fbd_state *state);
 

@@ -63,37 +63,18 @@ static void find_slides(struct run *run)
     struct contacts_work *work = &run->contacts;
     work->slide_count = 0;
     for (int pair = 0; pair < (int)plan->mode_count && !work->plastic; pair++) {
-        const struct mode *mode = &plan->modes[pair];
-        bool guided = mode->kind == mode_tangent ? coupling_is_guide(&tree_of(run)->couplings[mode->coupling])
-                                                 : mode->kind == mode_joint && mode->normal_slot >= 0;
-        if (guided && friction_rubs(mode)) work->slides[work->slide_count++] = pair;
+        if (friction_takes_impulses(run->model, &plan->modes[pair])) work->slides[work->slide_count++] = pair;
     }
 }
 
-/* Is the guide of slide i loaded by an impact, or by the friction of a slide that is? */
-static bool is_pressed(const struct contacts_work *work, int rows, int i, const int *pressed)
-{
-    const double rounding = 1e-12; /* of a unit impulse */
-    int all = rows + work->slide_count;
-    if (work->W[(ptrdiff_t)(rows + i) * (all + 1)] <= 0) return false;
-    for (int j = 0; j < all; j++)
-        if ((j < rows || pressed[j - rows]) && fabs(work->B[(ptrdiff_t)i * all + j]) > rounding) return true;
-    return false;
-}
-
-/* Leave out slides whose guides get no impulse: their friction force stays finite. True when there were some. */
+/* Leave out slides whose guides no impulse loads. True when there were some. */
 static bool leave_out_slides(struct contacts_work *work, int rows)
 {
-    int *pressed = work->modes, before = -1, found = 0, kept = 0;
-    for (int i = 0; i < work->slide_count; i++) pressed[i] = 0;
-    while (found > before) {
-        before = found;
-        for (int i = 0; i < work->slide_count; i++)
-            if (!pressed[i] && is_pressed(work, rows, i, pressed)) pressed[i] = ++found;
-    }
+    const struct impulse_lines lines = {rows, work->slide_count, work->rows, work->slides};
+    int *loaded = work->modes, kept = 0;
+    const bool any = impulse_loaded_slides(&lines, work->W, work->B, loaded) < work->slide_count;
     for (int i = 0; i < work->slide_count; i++)
-        if (pressed[i]) work->slides[kept++] = work->slides[i];
-    bool any = kept < work->slide_count;
+        if (loaded[i]) work->slides[kept++] = work->slides[i];
     work->slide_count = kept;
     return any;
 }

@@ -3,9 +3,9 @@
  * Impulses of contacts, ropes and rolling bodies in an impact of a run, and their works.
  *
  * The velocities jump by dv = sum P_j w_j; w_j are those that a unit impulse along row j gives to all bodies through every
- * joint and two-sided coupling (dynamics/impulse.h). The P_j follow by least squares. They are the impulses if they explain
- * all of dv: friction of a guide does not take part here. A quantity that changes along a null vector of the w_j, as the
- * share of each of two points of a face, is not known.
+ * joint and two-sided coupling (dynamics/impulse.h), or along a slide that they load and that has friction. The P_j follow
+ * by least squares, and are the impulses if they explain all of dv. A quantity that changes along a null vector of the w_j,
+ * as the share of each of two points of a face, or of a wall and of friction along one slide, is not known.
  *
  * A diagram whose multipliers are P_j has the impulses in place of the forces. With the mean of the velocities before and
  * after, its powers are the works (Thomson and Tait); of several impulses on a body only their sum is one, since the order
@@ -16,6 +16,7 @@
 
 #include "dynamics/constraint.h"
 #include "dynamics/contact.h"
+#include "dynamics/friction.h"
 #include "dynamics/impulse.h"
 #include "numeric/svd.h"
 #include "output/hand_run_judge.h"
@@ -23,13 +24,13 @@
 struct hand_impact {
     struct hand_run *run;
     const double *before, *after; /* the velocities of all coordinates */
-    int count;
-    int *rows, *modes;
-    double *P;                     /* of each row, */
-    double largest;                /* and the largest of them */
-    double *open;                  /* of each absolute: how much of its value is not determined */
-    double *W, *answers, *columns; /* of impulse_answers; and columns[n x count] */
-    bool explained;                /* they give the jump of all velocities */
+    int row_count, slide_count;
+    int *rows, *slides, *modes;
+    double *P;                         /* of each row and slide, */
+    double largest;                    /* and the largest of them */
+    double *open;                      /* of each absolute: how much of its value is not determined */
+    double *W, *B, *answers, *columns; /* of impulse_answers; and columns[n x count] */
+    bool explained;                    /* they give the jump of all velocities */
 };
 
 /* ---- the rows of what touches, is taut or rolls */
@@ -66,17 +67,38 @@ static void find_rows(struct hand_impact *impact)
     for (int i = 0; i < tree->coupling_count; i++) {
         const struct coupling *coupling = &tree->couplings[i];
         if (!takes_part(run, i)) continue;
-        impact->rows[impact->count++] = coupling->first_row;
-        if (coupling->row_count > 1 && coupling->kind != constraint_rope && coupling->pair >= 0)
-            impact->rows[impact->count++] = coupling->first_row + 1;
+        const bool slips =
+            coupling->meeting < 0 || coupling->pair >= 0; /* contacts without friction have no tangent */
+        impact->rows[impact->row_count++] = coupling->first_row;
+        if (coupling->row_count > 1 && coupling->kind != constraint_rope && slips)
+            impact->rows[impact->row_count++] = coupling->first_row + 1;
     }
+}
+
+/* The answers to the rows, and to the friction of slides that they load. */
+static void find_answers(struct hand_impact *impact)
+{
+    const struct fbd_model *model = impact->run->model;
+    int kept = 0;
+    for (int pair = 0; pair < (int)model->plan.mode_count; pair++)
+        if (friction_takes_impulses(model, &model->plan.modes[pair]))
+            impact->slides[impact->slide_count++] = pair;
+    struct impulse_lines lines = {impact->row_count, impact->slide_count, impact->rows, impact->slides};
+    impulse_answers(impact->run->state, &lines, impact->modes, impact->W, impact->B, impact->answers);
+    if (impulse_loaded_slides(&lines, impact->W, impact->B, impact->modes) < impact->slide_count) {
+        for (int i = 0; i < impact->slide_count; i++)
+            if (impact->modes[i]) impact->slides[kept++] = impact->slides[i];
+        impact->slide_count = lines.slide_count = kept;
+        impulse_answers(impact->run->state, &lines, impact->modes, impact->W, impact->B, impact->answers);
+    }
+    impulse_look(impact->run->state);
 }
 
 /* ---- values */
 
 static bool is_of_row(const struct hand_impact *impact, int coupling)
 {
-    for (int i = 0; i < impact->count; i++)
+    for (int i = 0; i < impact->row_count; i++)
         if (impact->run->model->tree->coupling_of_row[impact->rows[i]] == coupling) return true;
     return false;
 }
@@ -95,7 +117,7 @@ static void set_multipliers(struct hand_impact *impact, const double *P)
 {
     struct tree_work *work = impact->run->state->tree;
     for (int j = 0; j < impact->run->model->tree->row_count; j++) work->rows[j].lambda = 0;
-    for (int i = 0; i < impact->count; i++) work->rows[impact->rows[i]].lambda = P[i];
+    for (int i = 0; i < impact->row_count; i++) work->rows[impact->rows[i]].lambda = P[i];
 }
 
 /* The impulses of a sum with the present multipliers, or their work: NAN where another one has a work on the body. */
@@ -145,7 +167,8 @@ static void set_open(struct hand_impact *impact, const struct svd *svd)
 static bool solve(struct hand_impact *impact)
 {
     const double rounding = 1e-9;
-    const size_t n = (size_t)impact->run->model->plan.n, count = (size_t)impact->count;
+    const size_t n = (size_t)impact->run->model->plan.n,
+                 count = (size_t)impact->row_count + (size_t)impact->slide_count;
     double *jump = impact->answers + count * n, size = 0;
     struct svd svd;
     for (size_t i = 0; i < n; i++) {
@@ -198,18 +221,20 @@ static void add_to(struct hand_impact *impact, size_t k)
 static struct hand_impact *impact_new(struct hand_run *run)
 {
     const struct fbd_model *model = run->model;
-    const size_t n = (size_t)model->plan.n,
-                 rows = 2 * (size_t)(model->tree ? model->tree->coupling_count : 0);
+    const size_t n = (size_t)model->plan.n, slides = model->plan.mode_count,
+                 rows = 2 * (size_t)(model->tree ? model->tree->coupling_count : 0), all = rows + slides;
     struct hand_impact *impact = ARENA_NEW(&run->arena, struct hand_impact);
     if (!impact) return NULL;
     *impact = (struct hand_impact){.run = run,
                                    .rows = ARENA_ARRAY(&run->arena, rows + 1, int),
-                                   .modes = ARENA_ARRAY(&run->arena, model->plan.mode_count + 1, int),
-                                   .P = ARENA_ARRAY(&run->arena, rows + 1, double),
+                                   .slides = ARENA_ARRAY(&run->arena, slides + 1, int),
+                                   .modes = ARENA_ARRAY(&run->arena, slides + 1, int),
+                                   .P = ARENA_ARRAY(&run->arena, all + 1, double),
                                    .open = ARENA_ARRAY(&run->arena, model->absolute_count + 1, double),
-                                   .W = ARENA_ARRAY(&run->arena, rows * rows + 1, double),
-                                   .answers = ARENA_ARRAY(&run->arena, (rows + 1) * n, double),
-                                   .columns = ARENA_ARRAY(&run->arena, rows * n + 1, double)};
+                                   .W = ARENA_ARRAY(&run->arena, all * all + 1, double),
+                                   .B = ARENA_ARRAY(&run->arena, slides * all + 1, double),
+                                   .answers = ARENA_ARRAY(&run->arena, (all + 1) * n, double),
+                                   .columns = ARENA_ARRAY(&run->arena, all * n + 1, double)};
     return run->arena.failed ? NULL : impact;
 }
 
@@ -222,17 +247,14 @@ bool hand_run_add_impact(struct hand_run *run, const double *before, const doubl
     if (!impact) return false;
     impact->before = before;
     impact->after = after;
-    impact->count = 0;
+    impact->row_count = impact->slide_count = 0;
     if (model->tree) {
         for (size_t i = 0; i < n; i++) run->state->y[n + i] = (before[i] + after[i]) / 2;
         find_rows(impact);
     }
-    impact->explained = impact->count > 0;
-    if (impact->count > 0) {
-        double no_slides[1];
-        const struct impulse_lines lines = {.row_count = impact->count, .rows = impact->rows};
-        impulse_answers(run->state, &lines, impact->modes, impact->W, no_slides, impact->answers);
-        impulse_look(run->state);
+    impact->explained = impact->row_count > 0;
+    if (impact->row_count > 0) {
+        find_answers(impact);
         if (!solve(impact)) return false;
         set_multipliers(impact, impact->P);
     }
