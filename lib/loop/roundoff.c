@@ -17,24 +17,35 @@
 /* A difference of two positions has the round-off of their distance from the origin, with a share of that of long sums. */
 static const double share_of_difference = 1.0 / 64;
 
-/* Relative round-off error of the direction and arms of a row: that of positions, over the length of a rod or rope, else over
- * the arms on the links. A pin has neither: its directions are those of the world, its arms those of its points. An arm that
- * is round-off is none. */
-static double turned_by_places(const struct coupling *coupling, const struct row *row,
-                               const struct tree_state *links)
+/* The length over which an error of position turns a body: the arm of a force on it, or its radius of gyration where the arm is
+ * shorter. */
+static double turning_length(const struct model_body *body, struct vec arm)
 {
+    const struct inertia *inertia = &body->inertia;
+    return fmax(vec_norm(arm), inertia->mass > 0 ? sqrt(inertia->I_G / inertia->mass) : 0);
+}
+
+/* Relative round-off error of the direction and arms of a row: that of positions, over the length of a rod or rope, else over
+ * that by which the bodies turn. A pin has neither: its directions are those of the world, its arms those of its points. A
+ * length that is round-off, as the arm of a particle, is none. */
+static double turned_by_places(const struct fbd_model *model, int index, const struct tree_work *work)
+{
+    const struct coupling *coupling = &model->tree->couplings[model->tree->coupling_of_row[index]];
+    const struct row *row = &work->rows[index];
     const bool has_length = coupling->law->length;
     double away = 0, length = 0;
     struct vec first = {0, 0};
     for (int k = 0; k < row->port_count; k++) {
         const struct port *port = &row->ports[k];
-        const struct vec point = vec_add(links[port->link].p, port->arm);
+        const struct vec point = vec_add(work->links[port->link].p, port->arm);
         if (k == 0) first = point;
         away = fmax(away, vec_norm(point));
         if (has_length) length = fmax(length, vec_norm(vec_sub(point, first)));
-        if (port->link > 0) length = fmax(length, vec_norm(port->arm));
+        if (port->link > 0)
+            length =
+                fmax(length, turning_length(&model->bodies[model->tree->links[port->link].body], port->arm));
     }
-    const bool is_rounding = length <= round_off(64, away);
+    const bool is_rounding = length <= round_off(64, away + coupling_extent(coupling));
     return coupling->kind == constraint_pin || is_rounding ? 0 : share_of_difference * away / length;
 }
 
@@ -64,7 +75,7 @@ static void measure_turns(struct run *run, const struct instant *at)
         double most = 0;
         for (int k = 0; k < row->port_count; k++)
             if (port_turns(&row->ports[k])) most = fmax(most, own[row->ports[k].link]);
-        most += turned_by_places(&tree->couplings[tree->coupling_of_row[j]], row, at->tree->links);
+        most += turned_by_places(run->model, j, at->tree);
         for (int k = 0; k < row->port_count; k++) {
             double *side = &sides[row->ports[k].link];
             *side = fmax(*side, most);

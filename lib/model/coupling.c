@@ -27,6 +27,14 @@ static void add_roots(const struct tree *tree, struct coupling *coupling)
     }
 }
 
+double coupling_extent(const struct coupling *coupling)
+{
+    double extent = 0;
+    for (int k = 0; k < coupling->end_count; k++)
+        extent = fmax(extent, vec_norm(coupling->end[k].point) + coupling->end[k].radius);
+    return extent;
+}
+
 static struct coupling *add_coupling(struct fbd_model *model, int index, int from, int to)
 {
     struct tree *tree = model->tree;

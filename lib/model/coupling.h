@@ -64,6 +64,9 @@ const char *coupling_force_name(const struct tree *tree, int row);
 /* Place `k` of constraint `index` of the scene. */
 struct coupling_end coupling_end_of(const struct fbd_model *model, int index, int k);
 
+/* The largest distance of its ends from the origins of their links, of the ground from that of the world [length]. */
+double coupling_extent(const struct coupling *coupling);
+
 /* True if a joint or the length of a rope is a given function of time. */
 bool model_is_driven(const struct fbd_model *model);
 

@@ -90,8 +90,8 @@ static void find_size(const struct fbd_state *state, const struct coupling *coup
 }
 
 /* The length scale of the position of row j: of the trees, the arms of its ports, the length of a rod or
- * rope. Coincident points without these have no size: the scale is their distance from the origin, and for
- * contacts also that of the contact. */
+ * rope. Coincident points without these have no size: the scale is their distance from the origin or from the
+ * ends of the coupling, and for contacts also that of the contact. */
 static double length_of(const struct fbd_state *state, const struct coupling *coupling, int j,
                         const struct size *size)
 {
@@ -102,8 +102,9 @@ static double length_of(const struct fbd_state *state, const struct coupling *co
     if (coupling->law->length)
         length = fmax(length, fabs(state->tree->couplings[coupling - state->model->tree->couplings].zero));
     if (length > 0) return length;
-    return coupling->meeting >= 0 ? fmax(size->place, state->model->tree->meetings[coupling->meeting].reach)
-                                  : size->place;
+    length = fmax(size->place, coupling_extent(coupling));
+    return coupling->meeting >= 0 ? fmax(length, state->model->tree->meetings[coupling->meeting].reach)
+                                  : length;
 }
 
 /* Find the rows with the largest residuals, in position and in velocity. A slack rope may be shorter, but not
@@ -126,7 +127,8 @@ static void find_misses(struct fbd_state *state, struct miss *position, struct m
                        j == coupling->first_row; /* at the start, whatever its mode */
         if (!held && coupling->kind != constraint_rope && !on_line && !rubs) continue;
         find_size(state, coupling, &size);
-        double length = length_of(state, coupling, j, &size), most = digits * length + rounding * size.place;
+        double length = length_of(state, coupling, j, &size),
+               most = digits * length + rounding * fmax(size.place, coupling_extent(coupling));
         note_miss(position, j, held || on_line ? fabs(g.x) : fmax(0, rubs ? -g.x : g.x), most, length);
         if (held) note_miss(velocity, j, fabs(g.x1), digits * size.speed, length);
     }

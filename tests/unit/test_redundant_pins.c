@@ -2,7 +2,7 @@
  *
  * A pin at the pivot of a body says nothing new, and a pin at a point of a free body makes it a pivot: three forms of one
  * pendulum have one motion. The pins may be at the centre of mass, beside the pivot by a rounding, or far from the origin:
- * none of that may weaken the error control. FBD_DRAWS: times as many.
+ * none of that may weaken the error control. Nor may a slot or a floor on which a bead has no arm. FBD_DRAWS: times as many.
  */
 #include <setjmp.h>
 #include <stdarg.h>
@@ -86,8 +86,70 @@ static void forms_of_a_pendulum_move_alike(void **unused)
     checks_end(&checks);
 }
 
+/* ---- beads: the force of a slot or a floor has no arm on them */
+
+enum bead { on_slide, particle_in_slot, disc_in_slot, particle_on_floor, beads };
+
+/* A bead on a line through `far` times its direction, with a spring and a force that pulls it onto the line. */
+static void write_bead(const struct pendulum *p, enum bead bead, char *text)
+{
+    const double along = p->theta / 3, c = cos(along), s = sin(along), far = p->x;
+    char motion[300], coupling[300] = "";
+    if (bead == on_slide)
+        snprintf(motion, sizeof motion, "motion: {slide: {along: %.17g}}, initial: {v: %.17g}", along,
+                 p->omega);
+    else
+        snprintf(motion, sizeof motion, "motion: %s, initial: {x: 0, y: 0, vx: %.17g, vy: %.17g}%s",
+                 bead == disc_in_slot ? "planar" : "particle", p->omega * c, p->omega * s,
+                 bead == disc_in_slot ? ", shape: disk, radius: 0.1" : "");
+    if (bead == particle_on_floor)
+        snprintf(coupling, sizeof coupling, "contacts: [{name: floor, between: [bead, ground.line]}]\n");
+    else if (bead != on_slide)
+        snprintf(coupling, sizeof coupling,
+                 "couplings: [{slot: {name: slot, between: [bead.G, ground.F], along: %.17g}}]\n", along);
+    snprintf(text, text_room,
+             "fbd: 1\nground:\n  points: {F: [%.17g, %.17g]}\n  lines: {line: {through: [%.17g, %.17g], "
+             "along: %.17g}}\n"
+             "bodies:\n  bead:\n    {mass: 2, %s, forces: [{spring: {name: s, stiffness: %.17g, to: [%.17g, "
+             "%.17g], "
+             "free_length: 0.1}},\n     {applied: {name: press, value: 200, angle: %.17g}}]}\n%ssimulate: "
+             "{until: 1.5}\n",
+             far * c, far * s, far * c, far * s, along, motion, p->stiffness, 0.7 * c + 0.2 * s,
+             0.7 * s - 0.2 * c, along - 1.5707963267948966, coupling);
+}
+
+static void beads_on_a_line_move_alike(void **unused)
+{
+    (void)unused;
+    struct checks checks = {0};
+    struct random_numbers numbers = {.state = 2};
+    const char *const names[] = {"slide", "particle in a slot", "disc in a slot", "particle on a floor"};
+    fbd_options options = FBD_OPTIONS_DEFAULT;
+    options.tolerance = 1e-9;
+    for (int draw = 0; draw < draws_of(20); draw++) {
+        const struct pendulum pendulum = draw_pendulum(&numbers);
+        const double c = cos(pendulum.theta / 3), s = sin(pendulum.theta / 3);
+        double speed[beads];
+        for (enum bead bead = on_slide; bead < beads; bead++) {
+            char text[text_room];
+            write_bead(&pendulum, bead, text);
+            struct trial trial = trial_parse(text);
+            trial_run(&trial, &options);
+            speed[bead] = bead == on_slide ? get(&trial, "bead.v")
+                                           : get(&trial, "bead.vx") * c + get(&trial, "bead.vy") * s;
+            trial_close(&trial);
+            const double size = 1 + fabs(pendulum.omega) + sqrt(pendulum.stiffness);
+            check_close(&checks, names[bead], (speed[bead] - speed[on_slide]) / size, 0, 1e-6);
+        }
+    }
+    checks_end(&checks);
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(forms_of_a_pendulum_move_alike)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(forms_of_a_pendulum_move_alike),
+        cmocka_unit_test(beads_on_a_line_move_alike),
+    };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
