@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * fbd_export: what is written of a model or run: texts, JSON, LaTeX, plots, drawings, pages, C programs, models for other
- * simulators. The rules of fbd.h apply.
+ * fbd_export: outputs of a model or run: texts, JSON, LaTeX, plots, drawings, pages, C programs, models for other simulators.
+ * The rules of fbd.h apply.
  */
 #ifndef FBD_EXPORT_H
 #define FBD_EXPORT_H

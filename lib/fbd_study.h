@@ -204,7 +204,7 @@ typedef enum fbd_sweep_end {
 FBD_API fbd_sweep_end fbd_sweep_run(const fbd_sweep *sweep, const fbd_sweep_work *work,
                                     fbd_sweep_counts *counts);
 
-/* ---------------------------------------------------------------- what accuracy costs */
+/* ---------------------------------------------------------------- cost of accuracy */
 
 typedef struct fbd_cost_options {
     size_t size;   /* sizeof(fbd_cost_options), or 0 */
@@ -297,7 +297,7 @@ FBD_API char *fbd_cost_csv(const fbd_cost *cost);
 FBD_API char *fbd_cost_json(const fbd_cost *cost);
 FBD_API char *fbd_cost_svg(const fbd_cost *cost);
 
-/* ---------------------------------------------------------------- what each effect costs */
+/* ---------------------------------------------------------------- cost of each effect */
 
 /* The scene with one effect left out, compared with the complete scene. */
 typedef struct fbd_effect {

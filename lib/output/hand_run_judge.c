@@ -201,7 +201,7 @@ static void say_no_impact(const struct judge *judge, struct text *text)
     size_t count = 0;
     text_printf(text, "  not checked: no impact of the run is called `%s`", judge->hand->impact);
     for (size_t i = 0; i < ensemble->event_count && count < sizeof said / sizeof *said; i++) {
-        if (ensemble->events[i].kind != FBD_EVENT_IMPACT) continue;
+        if (!run_event_is_impact(&ensemble->events[i])) continue;
         const char *name = event_name(judge->run->model, &ensemble->events[i]);
         size_t k = 0;
         while (k < count && strcmp(said[k], name) != 0) k++;

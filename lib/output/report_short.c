@@ -168,8 +168,10 @@ static void consider(struct large list[static few_forces], struct large one)
     size_t place = 0;
     while (place < few_forces && list[place].size > one.size * (1 + rounding)) place++;
     if (place == few_forces || one.size == 0) return;
-    const struct vec sum = vec_add(list[place].force, one.force);
-    if (hypot(sum.x, sum.y) <= rounding * one.size) return;
+    for (size_t k = place; k < few_forces && list[k].size >= one.size * (1 - rounding); k++) {
+        const struct vec sum = vec_add(list[k].force, one.force);
+        if (hypot(sum.x, sum.y) <= rounding * one.size) return;
+    }
     memmove(&list[place + 1], &list[place], (few_forces - 1 - place) * sizeof *list);
     list[place] = one;
 }

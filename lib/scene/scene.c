@@ -37,14 +37,15 @@ static void start_gravity(struct reader *reader)
     reader->gravity_progress = !pair ? done : pair->value->kind == node_null ? failed : untouched;
 }
 
+static const double language_version = 1;
+
 static void check_version(struct reader *reader, const struct scene_keys *keys)
 {
-    const double version = 1;
     const struct pair *pair = node_find(reader->root, "fbd");
     if (!pair)
         diag_add(reader->errors, FBD_WARNING, "missing-version", reader->root->at,
                  "start the file with `fbd: 1`", "the file does not give the version of its language");
-    else if (keys->version != 0 && keys->version != version)
+    else if (keys->version != language_version)
         diag_add(reader->errors, FBD_ERROR, "unsupported-version", pair->value->at, "write `fbd: 1`",
                  "this program reads version 1 of the model language, not %s",
                  value_found(reader, pair->value));
@@ -54,6 +55,7 @@ static bool read_top(struct reader *reader, struct scene_keys *keys)
 {
     struct scene *scene = reader->scene;
     const struct pair *ground = node_find(reader->root, "ground");
+    keys->version = language_version; /* stays where the value cannot be read */
     bool fine = fields_read(reader, &scene_group, reader->root, reader->root->at, &reader->constants, keys);
     check_version(reader, keys);
     scene->title = keys->title ? keys->title : "";

@@ -69,9 +69,9 @@ function arrowTo(point, dx, dy, colour) {
 }
 
 function arrowColour(arrow) {
-  const what = arrow.name.split(".").pop(); // the reaction on another body is called body.normal
-  if (what.startsWith("friction")) return view.colour.friction;
-  if (arrow.reaction || what === "normal") return view.colour.reaction;
+  const part = arrow.name.split(".").pop(); // the reaction on another body is called body.normal
+  if (part.startsWith("friction")) return view.colour.friction;
+  if (arrow.reaction || part === "normal") return view.colour.reaction;
   if (arrow.name === "gravity") return view.colour.gravity;
   return view.colour.applied;
 }
