@@ -79,13 +79,13 @@ static void find_rows(struct hand_impact *impact)
 static void find_answers(struct hand_impact *impact)
 {
     const struct fbd_model *model = impact->run->model;
-    int kept = 0;
     for (int pair = 0; pair < (int)model->plan.mode_count; pair++)
         if (friction_takes_impulses(model, &model->plan.modes[pair]))
             impact->slides[impact->slide_count++] = pair;
     struct impulse_lines lines = {impact->row_count, impact->slide_count, impact->rows, impact->slides};
     impulse_answers(impact->run->state, &lines, impact->modes, impact->W, impact->B, impact->answers);
     if (impulse_loaded_slides(&lines, impact->W, impact->B, impact->modes) < impact->slide_count) {
+        int kept = 0;
         for (int i = 0; i < impact->slide_count; i++)
             if (impact->modes[i]) impact->slides[kept++] = impact->slides[i];
         impact->slide_count = lines.slide_count = kept;

@@ -81,6 +81,14 @@ class Scene:
         except Exception:  # an expression
             return None
 
+    def mass_name(self, b, mass):
+        """By the number of the body; by m alone where it is the only one, or where a parameter of that name is another mass."""
+        if len(self.bodies) == 1:
+            return "m"
+        number = self.bodies.index(b) + 1
+        given = [p for p in (f"m_{number}", f"m{number}") if p in self.file.get("parameters", {})]
+        return "m" if given and self.number(given[0], "kg") != mass else f"m_{number}"
+
     def kind(self, b):
         motion = self.file["bodies"][b].get("motion", "")
         return motion if isinstance(motion, str) else next(iter(motion))
@@ -579,7 +587,7 @@ def judge_state(scene, model):
             continue
         assert wanted, f"{b}.{coordinate} says what other lines say"
         index = f"{scene.bodies.index(b) + 1}" if len(scene.bodies) > 1 else ""
-        inertia = e["inertia"]["name"] + index if turns else "m" + (index and f"_{index}")
+        inertia = e["inertia"]["name"] + index if turns else scene.mass_name(b, e["inertia"]["value"])
         whole = " + ".join(t["symbol"] for t in e["terms"] if t["symbol"]).replace("+ -", "- ")
         names = ["omega_dot", "angle_ddot"] if e["acceleration"]["name"] == "alpha" else [e["acceleration"]["name"]]
         assert e["symbols"] in [f"{inertia} {a} = {whole or 0}" for a in names], f"{e['symbols']!r} for {whole!r}"
