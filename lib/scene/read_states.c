@@ -170,11 +170,6 @@ static bool know_dimension(struct reader *reader, size_t index, struct pos at)
 
 /* ---- symbols */
 
-bool own_states_name(const struct reader *reader, const char *name)
-{
-    return reader->scene->own_count > 0 && strncmp(name, "states.", strlen("states.")) == 0;
-}
-
 struct symbol own_state_symbol(const struct names *names, const char *name, struct pos at)
 {
     struct reader *reader = names->reader;
