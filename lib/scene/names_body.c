@@ -7,7 +7,7 @@
 
 #include "expr/glyph.h"
 #include "scene/reader.h"
-#include "scene/scalar.h"
+#include "document/scalar.h"
 
 #include <stdlib.h>
 #include <string.h>
