@@ -8,13 +8,13 @@
 
 #include "base/api_check.h"
 #include "base/file.h"
+#include "base/hash.h"
 #include "base/text.h"
 #include "dynamics/diagram.h"
 #include "fbd_grade.h"
 #include "grade/grade.h"
 #include "output/hand_forces.h"
 #include "study/draws.h"
-#include "study/hash.h"
 
 /* ---- values of a student */
 
