@@ -6,10 +6,10 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/hash.h"
 #include "fbd_grade.h"
 #include "grade/grade.h"
 #include "study/draws.h"
-#include "study/hash.h"
 
 /* ---- values of a student */
 

@@ -11,6 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/hash.h"
 #include "document/node_edit.h"
 #include "dynamics/project.h"
 #include "fbd_grade.h"
@@ -18,7 +19,6 @@
 #include "output/hand_forces.h"
 #include "output/random_state.h"
 #include "scene/law.h"
-#include "study/hash.h"
 
 enum { sums = 3 }; /* of a body: forces along x and y, moments about the origin */
 

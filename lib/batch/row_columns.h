@@ -15,13 +15,13 @@
  * and in groups: `final` (t, all coordinates and rates), `times` (time of the first occurrence of each event
  * of the file), `energy` (all four).
  */
-#ifndef FBD_STUDY_COLUMNS_H
-#define FBD_STUDY_COLUMNS_H
+#ifndef FBD_BATCH_ROW_COLUMNS_H
+#define FBD_BATCH_ROW_COLUMNS_H
 
 #include "base/text.h"
+#include "batch/extremes.h"
 #include "output/world.h"
 #include "record/ledger.h"
-#include "study/extremes.h"
 
 struct column {
     const char *title; /* as in the header, with its unit */

@@ -3,8 +3,8 @@
  * Hash: 64 bits to distinguish texts. FNV-1a (Fowler, Noll & Vo; RFC 9923); no protection against deliberate
  * collisions.
  */
-#ifndef FBD_STUDY_HASH_H
-#define FBD_STUDY_HASH_H
+#ifndef FBD_BASE_HASH_H
+#define FBD_BASE_HASH_H
 
 #include <stddef.h>
 #include <stdint.h>

@@ -2,12 +2,11 @@
  *
  * One run of a sweep, and its row.
  */
+#include "batch/row.h"
 #include "base/format.h"
 #include "base/utf8.h"
-#include "fbd_study.h"
 #include "loop/options.h"
 #include "record/finite_result.h"
-#include "study/sweep.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -15,23 +14,23 @@
 
 /* ---- the maker */
 
-bool row_maker_init(struct row_maker *maker, const struct fbd_sweep *sweep)
+bool row_maker_init(struct row_maker *maker, const struct rows *table)
 {
-    size_t varying = sweep->axes.member_count, count = varying + sweep->fixed_count;
+    size_t varying = table->source.count, count = varying + table->fixed_count;
     *maker =
-        (struct row_maker){.sweep = sweep,
+        (struct row_maker){.table = table,
                            .overrides = calloc(count + 1, sizeof *maker->overrides),
                            .starts = calloc(varying + 1, sizeof *maker->starts),
-                           .extremes = calloc(sweep->columns.extreme_count + 1, sizeof *maker->extremes)};
+                           .extremes = calloc(table->columns.extreme_count + 1, sizeof *maker->extremes)};
     if (!maker->overrides || !maker->starts || !maker->extremes) return false;
     for (size_t i = 0; i < varying; i++)
-        maker->overrides[i] = (struct override){.name = sweep->axes.members[i].name, .varies = true};
-    for (size_t i = varying; i < count; i++) maker->overrides[i] = sweep->fixed[i - varying];
-    for (size_t i = 0; i < sweep->columns.extreme_count; i++) maker->extremes[i] = sweep->columns.extremes[i];
+        maker->overrides[i] = (struct override){.name = table->source.parameters[i].name, .varies = true};
+    for (size_t i = varying; i < count; i++) maker->overrides[i] = table->fixed[i - varying];
+    for (size_t i = 0; i < table->columns.extreme_count; i++) maker->extremes[i] = table->columns.extremes[i];
     return true;
 }
 
-void row_maker_free(struct row_maker *maker)
+void row_maker_end(struct row_maker *maker)
 {
     free(maker->overrides);
     free(maker->starts);
@@ -40,19 +39,38 @@ void row_maker_free(struct row_maker *maker)
     patch_free(maker->patch);
 }
 
+struct row_maker *row_maker_new(const struct rows *rows, fbd_stop *stop, void *stop_context)
+{
+    struct row_maker *maker = calloc(1, sizeof *maker);
+    if (!maker) return NULL;
+    bool made = row_maker_init(maker, rows);
+    maker->stop = stop;
+    maker->stop_context = stop_context;
+    if (made) return maker;
+    row_maker_free(maker);
+    return NULL;
+}
+
+void row_maker_free(struct row_maker *maker)
+{
+    if (!maker) return;
+    row_maker_end(maker);
+    free(maker);
+}
+
 bool row_maker_set(struct row_maker *maker, uint64_t run)
 {
-    const struct axes *axes = &maker->sweep->axes;
+    const struct rows_source *source = &maker->table->source;
     struct text *values = &maker->values;
     values->length = 0;
-    for (size_t i = 0; i < axes->member_count; i++) {
-        const struct member *member = &axes->members[i];
+    for (size_t i = 0; i < source->count; i++) {
+        const char *unit = source->parameters[i].unit;
         maker->starts[i] = values->length;
-        axes_value(axes, member, run, values);
-        if (member->unit[0]) text_add(values, " ");
-        text_add_bytes(values, member->unit, strlen(member->unit) + 1); /* with its terminating zero */
+        source->value(source->context, i, run, values);
+        if (unit[0]) text_add(values, " ");
+        text_add_bytes(values, unit, strlen(unit) + 1); /* with its terminating zero */
     }
-    for (size_t i = 0; i < axes->member_count && !values->failed; i++)
+    for (size_t i = 0; i < source->count && !values->failed; i++)
         maker->overrides[i].value = values->data + maker->starts[i];
     return !values->failed;
 }
@@ -77,11 +95,10 @@ static void put_field(struct text *text, const char *field)
     if (quoted) text_add(text, "\"");
 }
 
-static void put_start(struct row_maker *maker, uint64_t run, struct text *text)
+static void put_start(const struct row_maker *maker, uint64_t run, struct text *text)
 {
-    const struct axes *axes = &maker->sweep->axes;
     text_exact(text, (double)(run + 1));
-    for (size_t i = 0; i < axes->member_count; i++) {
+    for (size_t i = 0; i < maker->table->source.count; i++) {
         const char *value = maker->overrides[i].value;
         text_add(text, ",");
         text_add_bytes(text, value, strcspn(value, " "));
@@ -104,7 +121,7 @@ static void lose(struct text *text)
 /* Append the first error with its position; no error means that memory is out. */
 static void put_wrong(const struct row_maker *maker, fbd_errors *errors, struct text *text)
 {
-    const struct columns *columns = &maker->sweep->columns;
+    const struct columns *columns = &maker->table->columns;
     char reason[600] = "";
     for (size_t i = 0; i < columns->count + 1; i++) text_add(text, ","); /* plus the number of events */
     const fbd_error *note;
@@ -154,7 +171,7 @@ static void account_again(void *context, struct ensemble *run, size_t group)
 static bool carry(struct row_maker *maker, struct ensemble *run, struct ledger *ledger,
                   struct fbd_state *probe)
 {
-    size_t extremes = maker->sweep->columns.extreme_count;
+    size_t extremes = maker->table->columns.extreme_count;
     if (ledger) run->observer = (struct observer){ledger, account, account_again};
     while (run->outcome == FBD_GOING) {
         if (maker->stop && maker->stop(maker->stop_context) != 0) return false;
@@ -200,7 +217,7 @@ static void put_outcome(const struct ensemble *run, struct text *text)
 static enum row_end put_run(struct row_maker *maker, struct ensemble *run, struct ledger *ledger,
                             struct text *text)
 {
-    const struct columns *columns = &maker->sweep->columns;
+    const struct columns *columns = &maker->table->columns;
     bool ended = run->outcome == FBD_DONE || run->outcome == FBD_STOPPED;
     bool known =
         !ended || result_finite(run, ledger, ledger ? ledger->work : NULL) || run->outcome == FBD_FAILED;
@@ -227,14 +244,14 @@ static struct ensemble *start_run(const struct row_maker *maker, const struct fb
                                   fbd_errors *errors)
 {
     struct run_options options;
-    if (!options_choose(model, &maker->sweep->options, &options, errors)) return NULL;
+    if (!options_choose(model, &maker->table->options, &options, errors)) return NULL;
     return ensemble_new(model, &options);
 }
 
 static enum row_end simulate(struct row_maker *maker, struct ensemble *run, struct text *text,
                              fbd_errors *errors)
 {
-    const struct columns *columns = &maker->sweep->columns;
+    const struct columns *columns = &maker->table->columns;
     const struct fbd_model *model = run->model;
     struct ledger ledger = {0};
     struct fbd_state *probe = NULL;
@@ -262,7 +279,7 @@ static enum row_end simulate(struct row_maker *maker, struct ensemble *run, stru
  * likely the same. Returns false when one is not a number, or zero. */
 static bool move_values(const struct row_maker *maker, struct text *moved, size_t *starts)
 {
-    size_t count = maker->sweep->axes.member_count;
+    size_t count = maker->table->source.count;
     for (size_t i = 0; i < count; i++) {
         const double part = 1.0 / 1024;
         char *rest;
@@ -277,14 +294,14 @@ static bool move_values(const struct row_maker *maker, struct text *moved, size_
 
 static struct patch *make_patch(const struct row_maker *maker)
 {
-    const struct fbd_sweep *sweep = maker->sweep;
-    size_t varying = sweep->axes.member_count, count = varying + sweep->fixed_count;
+    const struct rows *table = maker->table;
+    size_t varying = table->source.count, count = varying + table->fixed_count;
     struct text moved = {0};
     size_t *starts = calloc(varying + 1, sizeof *starts);
     const char **beside = calloc(count + 1, sizeof *beside);
     bool fine = starts && beside && move_values(maker, &moved, starts);
     for (size_t i = 0; fine && i < varying; i++) beside[i] = moved.data + starts[i];
-    struct patch *patch = fine ? patch_new(&sweep->document, maker->overrides, count, beside) : NULL;
+    struct patch *patch = fine ? patch_new(&table->document, maker->overrides, count, beside) : NULL;
     text_free(&moved);
     free(starts);
     free(beside);
@@ -311,12 +328,12 @@ static struct scene *patched(struct row_maker *maker)
 
 static struct fbd_model *make_model(struct row_maker *maker, fbd_errors *errors)
 {
-    const struct fbd_sweep *sweep = maker->sweep;
-    size_t count = sweep->axes.member_count + sweep->fixed_count;
+    const struct rows *table = maker->table;
+    size_t count = table->source.count + table->fixed_count;
     struct scene *scene = patched(maker);
-    diag_in_file(errors, sweep->document.file);
-    if (scene) return model_compile_again(scene, sweep->base, errors);
-    scene = scene_make(&sweep->document, maker->overrides, count, errors);
+    diag_in_file(errors, table->document.file);
+    if (scene) return model_compile_again(scene, table->base, errors);
+    scene = scene_make(&table->document, maker->overrides, count, errors);
     return scene ? model_compile(scene, errors) : NULL;
 }
 

@@ -5,28 +5,23 @@
 #include <math.h>
 #include <string.h>
 
+#include "api/simplify.h"
 #include "base/diag.h"
 #include "dynamics/state.h"
-#include "fbd_study.h"
-#include "study/effects.h"
 
 /* ---- entries */
 
-static void add(struct fbd_effects *effects, struct edit edit, const char *name, const char *change)
+static void add(struct fbd_simplifications *list, struct edit edit, const char *name, const char *change)
 {
-    if (effects->count == effects->room || !change) return;
-    edit.model = effects->model;
-    effects->edits[effects->count] = edit;
+    if (list->count == list->room || !change) return;
+    edit.model = list->model;
+    list->edits[list->count] = edit;
     bool whole = edit.kind == edit_linear_scene;
-    effects->effects[effects->count++] =
-        (fbd_effect){.body = whole ? "" : effects->model->bodies[edit.body].name,
-                     .name = name,
-                     .change = change,
-                     .reason = edit.refusal ? edit.refusal : "",
-                     .change_end = NAN,
-                     .change_max = NAN,
-                     .worst = "",
-                     .time = NAN};
+    list->items[list->count++] =
+        (fbd_simplification){.body = whole ? "" : list->model->bodies[edit.body].name,
+                             .name = name,
+                             .change = change,
+                             .reason = edit.refusal ? edit.refusal : ""};
 }
 
 /* ---- loads */
@@ -38,17 +33,17 @@ static const struct load *friction_of(const struct body *body)
     return NULL;
 }
 
-static void add_load(struct fbd_effects *effects, int b, int i)
+static void add_load(struct fbd_simplifications *list, int b, int i)
 {
-    const struct body *body = &effects->model->scene->bodies[b];
+    const struct body *body = &list->model->scene->bodies[b];
     const struct load *load = &body->loads[i], *friction = friction_of(body);
     struct edit edit = {.kind = edit_leave_out, .body = b, .index = i};
     if (load->reaction) return; /* removed with its counterpart */
     if (load->kind == load_normal && friction)
         edit.refusal =
-            arena_printf(&effects->arena, "`%s` needs it: no other force presses the surfaces together",
+            arena_printf(&list->arena, "`%s` needs it: no other force presses the surfaces together",
                          friction->name);
-    add(effects, edit, load->name, "left out");
+    add(list, edit, load->name, "left out");
 }
 
 static bool same_constant(const struct value *a, const struct value *b)
@@ -59,41 +54,41 @@ static bool same_constant(const struct value *a, const struct value *b)
                        expr_value(a->expr) == expr_value(b->expr));
 }
 
-static void add_friction(struct fbd_effects *effects, int b, int i)
+static void add_friction(struct fbd_simplifications *list, int b, int i)
 {
-    const struct load *load = &effects->model->scene->bodies[b].loads[i];
+    const struct load *load = &list->model->scene->bodies[b].loads[i];
     if (!same_constant(&load->mu_s, &load->mu_k))
-        add(effects, (struct edit){.kind = edit_static, .body = b, .index = i}, load->name,
+        add(list, (struct edit){.kind = edit_static, .body = b, .index = i}, load->name,
             load->kind == load_friction ? "static as kinetic: mu_s = mu_k"
                                         : "static limit as the kinetic one");
     if (load->surface_speed.expr)
-        add(effects, (struct edit){.kind = edit_surface, .body = b, .index = i}, load->name,
+        add(list, (struct edit){.kind = edit_surface, .body = b, .index = i}, load->name,
             "the surface at rest");
 }
 
 /* ---- equilibria */
 
-static const double *copy_of(struct fbd_effects *effects, const double *numbers, size_t count)
+static const double *copy_of(struct fbd_simplifications *list, const double *numbers, size_t count)
 {
-    double *copy = ARENA_ARRAY(&effects->arena, count + 1, double);
+    double *copy = ARENA_ARRAY(&list->arena, count + 1, double);
     if (copy) memcpy(copy, numbers, count * sizeof *copy);
     return copy;
 }
 
 /* The equilibrium near the start, or (`at_rest`) the one where the scene comes to rest; NULLs when there is
  * none, or friction permits a range of equilibria. Returns false when memory is out. */
-static bool find_equilibrium(struct fbd_effects *effects, bool at_rest, struct equilibrium *about)
+static bool find_equilibrium(struct fbd_simplifications *list, bool at_rest, struct equilibrium *about)
 {
     fbd_errors *errors = fbd_errors_new();
-    fbd_state *state = fbd_state_new(effects->model);
+    fbd_state *state = fbd_state_new(list->model);
     bool found = errors && state && (!at_rest || fbd_find_equilibrium(state, errors));
     fbd_linearization *linear = found ? fbd_linearize(state, errors) : NULL;
-    size_t size = 2 * fbd_model_coordinate_count(effects->model);
+    size_t size = 2 * fbd_model_coordinate_count(list->model);
     *about = (struct equilibrium){NULL, NULL};
     if (linear && fbd_linearization_size(linear) == size)
-        *about = (struct equilibrium){copy_of(effects, state->y, size),
-                                      copy_of(effects, fbd_linearization_matrix(linear), size * size)};
-    bool done = errors && state && !errors->out_of_memory && !effects->arena.failed;
+        *about = (struct equilibrium){copy_of(list, state->y, size),
+                                      copy_of(list, fbd_linearization_matrix(linear), size * size)};
+    bool done = errors && state && !errors->out_of_memory && !list->arena.failed;
     fbd_linearization_free(linear);
     fbd_state_free(state);
     fbd_errors_free(errors);
@@ -112,9 +107,9 @@ static bool stands_alone(const struct scene *scene, int b)
 
 /* Linearise gravity on a pivot about the angle at which G is below the axis, modulo full turns the one
  * nearest to the start. */
-static void add_linear_gravity(struct fbd_effects *effects, int b, int i)
+static void add_linear_gravity(struct fbd_simplifications *list, int b, int i)
 {
-    const struct fbd_model *model = effects->model;
+    const struct fbd_model *model = list->model;
     const struct model_body *body = &model->bodies[b];
     struct vec g = model->scene->gravity;
     double size = body->inertia.mass * vec_norm(g) * body->L, turn = 2 * acos(-1);
@@ -123,55 +118,53 @@ static void add_linear_gravity(struct fbd_effects *effects, int b, int i)
            start = model->scene->coordinates[body->first].initial;
     hangs += turn * round((start - hangs) / turn);
     if (fabs(hangs) < 1e-12) hangs = 0;
-    const char *change = hangs == 0
-                             ? "linear: sin(theta) -> theta"
-                             : arena_printf(&effects->arena, "linear: sin -> angle from %.4g rad", hangs);
-    add(effects,
+    const char *change = hangs == 0 ? "linear: sin(theta) -> theta"
+                                    : arena_printf(&list->arena, "linear: sin -> angle from %.4g rad", hangs);
+    add(list,
         (struct edit){.kind = edit_linear_gravity, .body = b, .index = i, .value = size, .value2 = hangs},
         body->source->loads[i].name, change);
 }
 
 /* The largest speed of the body in the run; for a pivot, of the point where the drag acts. */
-static double largest_speed(const struct fbd_effects *effects, const struct model_body *body,
+static double largest_speed(const struct fbd_simplifications *list, const struct model_body *body,
                             struct vec point)
 {
-    const struct track *track = &effects->track;
+    const fbd_motion *motion = &list->motion;
     double most = 0;
-    for (size_t k = 0; k < track->reached; k++) {
-        const double *v = track->y + k * track->size + body->first_rate;
+    for (size_t k = 0; k < motion->count; k++) {
+        const double *v = motion->values + k * list->size + body->first_rate;
         bool plane = body->kind == motion_particle || body->kind == motion_planar;
         most = fmax(most, plane ? hypot(v[0], v[1]) : fabs(v[0]));
     }
     return body->kind == motion_pivot ? most * vec_norm(vec_sub(point, body->pin)) : most;
 }
 
-static void add_linear_drag(struct fbd_effects *effects, int b, int i)
+static void add_linear_drag(struct fbd_simplifications *list, int b, int i)
 {
-    const struct model_body *body = &effects->model->bodies[b];
+    const struct model_body *body = &list->model->bodies[b];
     const struct load *load = &body->source->loads[i];
     if (load->quadratic == 0 || load_has_wind(load)) return;
-    double speed = largest_speed(effects, body, effects->model->loads[body->first_load + i].point);
-    fbd_coordinate coordinate = fbd_model_coordinate(effects->model, (size_t)body->first);
+    double speed = largest_speed(list, body, list->model->loads[body->first_load + i].point);
+    fbd_coordinate coordinate = fbd_model_coordinate(list->model, (size_t)body->first);
     const char *unit = body->kind == motion_pivot ? "" : coordinate.rate_unit;
-    add(effects, (struct edit){.kind = edit_linear_drag, .body = b, .index = i, .value = speed}, load->name,
-        arena_printf(&effects->arena, "linear: |v| v -> %.4g %s v", speed, unit));
+    add(list, (struct edit){.kind = edit_linear_drag, .body = b, .index = i, .value = speed}, load->name,
+        arena_printf(&list->arena, "linear: |v| v -> %.4g %s v", speed, unit));
 }
 
 /* True if a second derivative is nonzero at a sample of the run. */
-static bool is_nonlinear(const struct fbd_effects *effects, const struct expr *expr)
+static bool is_nonlinear(const struct fbd_simplifications *list, const struct expr *expr)
 {
     enum { looks = 12 };
-    const struct track *track = &effects->track;
+    const fbd_motion *motion = &list->motion;
     const int *slots;
     size_t count = expr ? expr_variables(expr, &slots) : 0;
-    for (size_t look = 0; count > 0 && look < looks && track->reached > 0; look++) {
-        size_t k = look * (track->reached - 1) / (looks - 1);
-        const double *y = track->y + k * track->size;
+    for (size_t look = 0; count > 0 && look < looks && motion->count > 0; look++) {
+        size_t k = look * (motion->count - 1) / (looks - 1);
+        const double *y = motion->values + k * list->size;
         for (size_t a = 0; a < count; a++)
             for (size_t c = a; c < count; c++) {
                 double by_a, by_c, both;
-                expr_eval_second(expr, grid_time(&effects->grid, k), y, slots[a], slots[c], NULL, &by_a,
-                                 &by_c, &both);
+                expr_eval_second(expr, motion->t[k], y, slots[a], slots[c], NULL, &by_a, &by_c, &both);
                 if (both != 0) return true;
             }
     }
@@ -180,16 +173,16 @@ static bool is_nonlinear(const struct fbd_effects *effects, const struct expr *e
 
 /* True if a potential is not quadratic, so that its force is not linear: the second derivatives differ along
  * the run. */
-static bool is_beyond_quadratic(const struct fbd_effects *effects, const struct expr *expr)
+static bool is_beyond_quadratic(const struct fbd_simplifications *list, const struct expr *expr)
 {
-    const struct track *track = &effects->track;
+    const fbd_motion *motion = &list->motion;
     const int *slots;
     size_t count = expr ? expr_variables(expr, &slots) : 0;
     for (size_t a = 0; a < count; a++) {
         double first = NAN, by_a, by_c, both;
-        for (size_t k = 0; k < track->reached; k += 1 + track->reached / 12) {
-            expr_eval_second(expr, grid_time(&effects->grid, k), track->y + k * track->size, slots[a],
-                             slots[a], NULL, &by_a, &by_c, &both);
+        for (size_t k = 0; k < motion->count; k += 1 + motion->count / 12) {
+            expr_eval_second(expr, motion->t[k], motion->values + k * list->size, slots[a], slots[a], NULL,
+                             &by_a, &by_c, &both);
             if (isnan(first)) first = both;
             if (fabs(both - first) > 1e-9 * fmax(fabs(both), fabs(first))) return true;
         }
@@ -199,29 +192,29 @@ static bool is_beyond_quadratic(const struct fbd_effects *effects, const struct 
 
 /* True if the expression contains a position in the world, which is no coordinate: the Taylor polynomial does
  * not cover it. */
-static bool reads_places(const struct fbd_effects *effects, const struct expr *expr)
+static bool reads_places(const struct fbd_simplifications *list, const struct expr *expr)
 {
     const int *slots;
     size_t count = expr ? expr_variables(expr, &slots) : 0;
-    return count > 0 && slots[count - 1] > 2 * effects->model->plan.n;
+    return count > 0 && slots[count - 1] > 2 * list->model->plan.n;
 }
 
-static void add_wind(struct fbd_effects *effects, int b, int i)
+static void add_wind(struct fbd_simplifications *list, int b, int i)
 {
-    const struct load *load = &effects->model->scene->bodies[b].loads[i];
+    const struct load *load = &list->model->scene->bodies[b].loads[i];
     if (load_has_wind(load))
-        add(effects, (struct edit){.kind = edit_wind, .body = b, .index = i}, load->name, "in still air");
+        add(list, (struct edit){.kind = edit_wind, .body = b, .index = i}, load->name, "in still air");
 }
 
-static void add_linear_formula(struct fbd_effects *effects, int b, int i, struct equilibrium about)
+static void add_linear_formula(struct fbd_simplifications *list, int b, int i, struct equilibrium about)
 {
-    const struct load *load = &effects->model->scene->bodies[b].loads[i];
+    const struct load *load = &list->model->scene->bodies[b].loads[i];
     const struct expr *all[] = {load->value.expr, load->fx.expr, load->fy.expr, load->potential.expr};
     for (int k = 0; k < 4; k++)
-        if (reads_places(effects, all[k])) return;
+        if (reads_places(list, all[k])) return;
     if (load->toward || load_is_placed(load)) return; /* directions and moments are not linearised */
-    bool nonlinear = is_beyond_quadratic(effects, load->potential.expr), timed = false;
-    for (int k = 0; k < 3; k++) nonlinear = nonlinear || is_nonlinear(effects, all[k]);
+    bool nonlinear = is_beyond_quadratic(list, load->potential.expr), timed = false;
+    for (int k = 0; k < 3; k++) nonlinear = nonlinear || is_nonlinear(list, all[k]);
     for (int k = 0; k < 4; k++) timed = timed || (all[k] && expr_uses_time(all[k]));
     if (!nonlinear) return;
     struct edit edit = {.kind = edit_linear_formula, .body = b, .index = i, .about = about};
@@ -229,7 +222,7 @@ static void add_linear_formula(struct fbd_effects *effects, int b, int i, struct
         edit.refusal = "it depends on time: there is no one linear law in its place";
     else if (!about.at)
         edit.refusal = "there is no equilibrium near the start to take it about";
-    add(effects, edit, load->name, "linear about the equilibrium");
+    add(list, edit, load->name, "linear about the equilibrium");
 }
 
 static bool any_uses_time(const struct scene *scene)
@@ -248,84 +241,84 @@ static bool any_uses_time(const struct scene *scene)
 
 /* Linearise the whole scene. In jointed scenes no single nonlinearity can be removed: every term contains
  * sines of sums of angles. Returns false when memory is out. */
-static bool add_linear_scene(struct fbd_effects *effects)
+static bool add_linear_scene(struct fbd_simplifications *list)
 {
-    const struct scene *scene = effects->model->scene;
+    const struct scene *scene = list->model->scene;
     bool jointed = false;
     for (size_t b = 0; b < scene->body_count; b++)
         jointed = jointed || scene->bodies[b].motion.parent != ground_body;
     if (!jointed) return true;
     struct edit edit = {.kind = edit_linear_scene};
-    if (!find_equilibrium(effects, true, &edit.about)) return false;
-    if (effects->model->tree->coupling_count > 0)
+    if (!find_equilibrium(list, true, &edit.about)) return false;
+    if (list->model->tree->coupling_count > 0)
         edit.refusal = "couplings close loops: its coordinates are not independent";
     else if (any_uses_time(scene))
         edit.refusal = "forces depend on time: there is no place of rest";
     else if (!edit.about.at)
         edit.refusal = "there is no place of rest to take it about";
-    add(effects, edit, "all", "linear about the place of rest");
+    add(list, edit, "all", "linear about the place of rest");
     return true;
 }
 
 /* ---- inertia */
 
-static void add_inertia(struct fbd_effects *effects, int b)
+static void add_inertia(struct fbd_simplifications *list, int b)
 {
-    const struct model_body *body = &effects->model->bodies[b];
+    const struct model_body *body = &list->model->bodies[b];
     const struct body *source = body->source;
     for (size_t p = 0; source->part_count > 1 && p < source->part_count; p++) {
         const char *name = source->parts[p].name ? source->parts[p].name : "part";
-        add(effects, (struct edit){.kind = edit_part, .body = b, .index = (int)p}, name,
+        add(list, (struct edit){.kind = edit_part, .body = b, .index = (int)p}, name,
             source->parts[p].mass < 0 ? "the hole filled" : "its mass left out");
     }
     bool turns = body->kind == motion_pivot || body->kind == motion_planar;
     if (turns && body->inertia.I_G > 0)
-        add(effects, (struct edit){.kind = edit_rotary, .body = b}, "I_G",
+        add(list, (struct edit){.kind = edit_rotary, .body = b}, "I_G",
             body->kind == motion_pivot ? "all its mass in G" : "no moment of inertia about G");
 }
 
 /* ---- couplings: a row of the first body that is not the ground */
 
-static void add_couplings(struct fbd_effects *effects)
+static void add_couplings(struct fbd_simplifications *list)
 {
-    const struct scene *scene = effects->model->scene;
+    const struct scene *scene = list->model->scene;
     for (int i = 0; i < (int)scene->force_coupling_count; i++) {
         const struct force_coupling *coupling = &scene->force_couplings[i];
         int body = coupling->body[coupling->body[0] == ground_body];
-        add(effects, (struct edit){.kind = edit_uncouple, .body = body, .index = i}, coupling->load.name,
+        add(list, (struct edit){.kind = edit_uncouple, .body = body, .index = i}, coupling->load.name,
             "left out");
     }
 }
 
 /* ---- the whole */
 
-bool effects_list(struct fbd_effects *effects)
+bool simplify_list(struct fbd_simplifications *list)
 {
-    const struct scene *scene = effects->model->scene;
+    const struct scene *scene = list->model->scene;
     enum { kinds_of_a_load = 4 };
     size_t room = 2 + scene->force_coupling_count;
     for (size_t b = 0; b < scene->body_count; b++)
         room += kinds_of_a_load * scene->bodies[b].load_count + scene->bodies[b].part_count + 1;
-    effects->effects = ARENA_ARRAY(&effects->arena, room, fbd_effect);
-    effects->edits = ARENA_ARRAY(&effects->arena, room, struct edit);
-    if (effects->arena.failed) return false;
-    effects->room = room;
+    list->items = ARENA_ARRAY(&list->arena, room, fbd_simplification);
+    list->edits = ARENA_ARRAY(&list->arena, room, struct edit);
+    if (list->arena.failed) return false;
+    list->room = room;
     struct equilibrium about;
-    if (!find_equilibrium(effects, false, &about)) return false;
+    if (!find_equilibrium(list, false, &about)) return false;
     for (int b = 0; b < (int)scene->body_count; b++) {
         bool alone = stands_alone(scene, b);
         for (int i = 0; i < (int)scene->bodies[b].load_count; i++) {
             const struct load *load = &scene->bodies[b].loads[i];
             bool rubs = load->kind == load_friction || load->kind == moment_friction;
-            add_load(effects, b, i);
-            if (rubs) add_friction(effects, b, i);
-            add_wind(effects, b, i);
-            if (load->kind == load_gravity && alone) add_linear_gravity(effects, b, i);
-            if (load->kind == load_drag && alone) add_linear_drag(effects, b, i);
-            if (!rubs) add_linear_formula(effects, b, i, about);
+            add_load(list, b, i);
+            if (rubs) add_friction(list, b, i);
+            add_wind(list, b, i);
+            if (load->kind == load_gravity && alone) add_linear_gravity(list, b, i);
+            if (load->kind == load_drag && alone) add_linear_drag(list, b, i);
+            if (!rubs) add_linear_formula(list, b, i, about);
         }
-        add_inertia(effects, b);
+        add_inertia(list, b);
     }
-    add_couplings(effects);
-    return add_linear_scene(effects) && !effects->arena.failed;
+    add_couplings(list);
+    return add_linear_scene(list) && !list->arena.failed;
 }

@@ -4,23 +4,24 @@
  * finished row is kept until those before it are complete, and its lane gets the next one. The rows are
  * bytewise those of row_make.
  */
-#ifndef FBD_STUDY_SWEEP_SIMD_H
-#define FBD_STUDY_SWEEP_SIMD_H
+#ifndef FBD_BATCH_ROWS_SIMD_H
+#define FBD_BATCH_ROWS_SIMD_H
 
-#include "fbd_study.h"
-#include "study/sweep.h"
+#include "batch/rows.h"
 
 /* True if the runs fit into lanes, and no column requires more than their ends. */
-bool sweep_simd_suits(const struct fbd_sweep *sweep);
+bool rows_simd_suits(const struct rows *rows);
 
-struct sweep_simd;
+struct rows_simd;
+
+/* The largest number of lanes. */
+enum { rows_simd_most = 8 };
 
 /* The data of one thread, with at most `lanes` lanes; calls `stop`, unless NULL, every few steps. NULL when
  * memory is out. */
-struct sweep_simd *sweep_simd_new(const struct fbd_sweep *sweep, unsigned lanes, fbd_stop *stop,
-                                  void *stop_context);
-unsigned sweep_simd_lanes(const struct sweep_simd *simd);
-void sweep_simd_free(struct sweep_simd *simd);
+struct rows_simd *rows_simd_new(const struct rows *rows, unsigned lanes, fbd_stop *stop, void *stop_context);
+unsigned rows_simd_lanes(const struct rows_simd *simd);
+void rows_simd_free(struct rows_simd *simd);
 
 /* Rows of one share. */
 struct rows_made {
@@ -29,6 +30,6 @@ struct rows_made {
 };
 
 /* Append the rows of the runs `first` to before `end`, in this order, to `text`. */
-struct rows_made sweep_simd_make(struct sweep_simd *simd, uint64_t first, uint64_t end, struct text *text);
+struct rows_made rows_simd_make(struct rows_simd *simd, uint64_t first, uint64_t end, struct text *text);
 
 #endif

@@ -6,9 +6,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "api/simplify.h"
 #include "base/diag.h"
 #include "base/text.h"
-#include "study/effects.h"
 
 /* ---- Taylor polynomials */
 
@@ -136,7 +136,7 @@ static void linear_gravity(struct load *load, const struct edit *edit)
                           .free_length = edit->value2};
 }
 
-void effect_edit(struct scene *scene, void *context, fbd_errors *errors)
+void simplify_edit(struct scene *scene, void *context, fbd_errors *errors)
 {
     const struct edit *edit = context;
     struct body *body = &scene->bodies[edit->body];
@@ -163,6 +163,6 @@ void effect_edit(struct scene *scene, void *context, fbd_errors *errors)
         replace(&load->fy, edit, 1, scene, errors);
         replace(&load->potential, edit, 2, scene, errors);
         break;
-    case edit_linear_scene: break; /* made by effects_linear_scene */
+    case edit_linear_scene: break; /* made by simplify_linear_scene */
     }
 }

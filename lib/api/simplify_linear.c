@@ -8,10 +8,8 @@
  */
 #include <string.h>
 
+#include "api/simplify.h"
 #include "base/text.h"
-#include "dynamics/state.h"
-#include "fbd_study.h"
-#include "study/effects.h"
 
 static void coefficient(struct text *text, double value)
 {
@@ -38,12 +36,12 @@ static void write_force(struct text *text, size_t n, size_t i, const struct equi
     }
 }
 
-fbd_model *effects_linear_scene(const struct fbd_effects *effects, const struct equilibrium *about,
-                                fbd_errors *errors)
+fbd_model *simplify_linear_scene(const struct fbd_simplifications *list, const struct equilibrium *about,
+                                 fbd_errors *errors)
 {
     struct text text = {0};
-    size_t n = effects->track.size / 2;
-    const double *start = effects->track.y;
+    size_t n = list->model->scene->coordinate_count;
+    const double *start = list->start;
     text_add(&text, "fbd: 1\nbodies:\n");
     for (size_t i = 0; i < n; i++) {
         text_printf(&text, "  q%zu:\n    mass: 1 kg\n    motion: slide\n    initial: {x: ", i);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "study/columns.h"
+#include "batch/row_columns.h"
 
 #include "integrate/switcher.h"
 #include "output/display_units.h"

@@ -1,16 +1,18 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "study/sweep_simd.h"
+#include "batch/rows_simd.h"
 
 #include <stdlib.h>
 
 #include "base/block_alloc.h"
 #include "batch/batch.h"
-#include "fbd_study.h"
+#include "batch/row.h"
+
+_Static_assert((int)rows_simd_most == (int)batch_most_lanes, "a row for each lane");
 
 /* Rows kept at a time: a full share. */
 enum { most_rows = 64 };
 
-/* A row of `sweep_simd_make`. */
+/* A row of `rows_simd_make`. */
 struct kept_row {
     size_t start, length; /* in `pile` */
     enum row_end end;     /* row_stopped: not made */
@@ -25,51 +27,50 @@ struct lane {
     size_t index; /* index of the row in `rows` */
 };
 
-struct sweep_simd {
+struct rows_simd {
     fbd_stop *stop;
     void *stop_context;
     struct batch *batch;
-    struct lane lanes[batch_most_lanes];
+    struct lane lanes[rows_simd_most];
     struct text pile; /* rows, in the order of their completion */
     struct kept_row rows[most_rows];
     uint64_t first; /* run of rows[0] */
     size_t begun, count;
 };
 
-bool sweep_simd_suits(const struct fbd_sweep *sweep)
+bool rows_simd_suits(const struct rows *rows)
 {
-    const struct columns *columns = &sweep->columns;
-    return !columns->ledger && columns->extreme_count == 0 && batch_suits(sweep->base);
+    const struct columns *columns = &rows->columns;
+    return !columns->ledger && columns->extreme_count == 0 && batch_suits(rows->base);
 }
 
-struct sweep_simd *sweep_simd_new(const struct fbd_sweep *sweep, unsigned lanes, fbd_stop *stop,
-                                  void *stop_context)
+struct rows_simd *rows_simd_new(const struct rows *rows, unsigned lanes, fbd_stop *stop, void *stop_context)
 {
-    struct sweep_simd *simd = block_alloc(sizeof *simd);
+    struct rows_simd *simd = block_alloc(sizeof *simd);
     if (!simd) return NULL;
     simd->stop = stop;
     simd->stop_context = stop_context;
     simd->batch = batch_new(lanes);
     bool made = simd->batch != NULL;
     for (unsigned i = 0; made && i < batch_lanes(simd->batch); i++)
-        made = row_maker_init(&simd->lanes[i].maker, sweep);
+        made = row_maker_init(&simd->lanes[i].maker, rows);
     if (made) return simd;
-    sweep_simd_free(simd);
+    rows_simd_free(simd);
     return NULL;
 }
 
-unsigned sweep_simd_lanes(const struct sweep_simd *simd)
+unsigned rows_simd_lanes(const struct rows_simd *simd)
 {
     return batch_lanes(simd->batch);
 }
 
-void sweep_simd_free(struct sweep_simd *simd)
+void rows_simd_free(struct rows_simd *simd)
 {
     if (!simd) return;
-    for (int i = 0; i < batch_most_lanes; i++) {
+    for (int i = 0; i < rows_simd_most; i++) {
         struct lane *lane = &simd->lanes[i];
         row_close(&lane->row);
-        row_maker_free(&lane->maker);
+        row_maker_end(&lane->maker);
         text_free(&lane->text);
     }
     batch_free(simd->batch);
@@ -78,7 +79,7 @@ void sweep_simd_free(struct sweep_simd *simd)
 }
 
 /* Keep the completed row of a lane. */
-static void keep(struct sweep_simd *simd, struct lane *lane, enum row_end end)
+static void keep(struct rows_simd *simd, struct lane *lane, enum row_end end)
 {
     struct kept_row *row = &simd->rows[lane->index];
     *row = (struct kept_row){.start = simd->pile.length, .length = lane->text.length, .end = end};
@@ -89,7 +90,7 @@ static void keep(struct sweep_simd *simd, struct lane *lane, enum row_end end)
 
 /* Advance a run without the batch until it fits into its lane. Returns false if it ends before; its row is
  * then kept. */
-static bool carry(struct sweep_simd *simd, unsigned i)
+static bool carry(struct rows_simd *simd, unsigned i)
 {
     struct lane *lane = &simd->lanes[i];
     struct ensemble *run = lane->row.run;
@@ -102,7 +103,7 @@ static bool carry(struct sweep_simd *simd, unsigned i)
 }
 
 /* Start rows until one is in the lane. */
-static void fill(struct sweep_simd *simd, unsigned i)
+static void fill(struct rows_simd *simd, unsigned i)
 {
     struct lane *lane = &simd->lanes[i];
     for (bool empty = true; empty && simd->begun < simd->count;) {
@@ -116,13 +117,13 @@ static void fill(struct sweep_simd *simd, unsigned i)
     }
 }
 
-static bool is_stopped(const struct sweep_simd *simd)
+static bool is_stopped(const struct rows_simd *simd)
 {
     return simd->stop && simd->stop(simd->stop_context) != 0;
 }
 
 /* Abandon the runs in the lanes. */
-static void empty_lanes(struct sweep_simd *simd)
+static void empty_lanes(struct rows_simd *simd)
 {
     for (unsigned i = 0; i < batch_lanes(simd->batch); i++) {
         if (!simd->lanes[i].row.run) continue;
@@ -131,7 +132,7 @@ static void empty_lanes(struct sweep_simd *simd)
     }
 }
 
-static void make_rows(struct sweep_simd *simd)
+static void make_rows(struct rows_simd *simd)
 {
     for (size_t k = 0; k < simd->count; k++) simd->rows[k] = (struct kept_row){.end = row_stopped};
     simd->begun = simd->pile.length = 0;
@@ -146,7 +147,7 @@ static void make_rows(struct sweep_simd *simd)
 }
 
 /* Append the rows in order, up to the first missing one. */
-static struct rows_made deliver(const struct sweep_simd *simd, struct text *text)
+static struct rows_made deliver(const struct rows_simd *simd, struct text *text)
 {
     struct rows_made rows = {0};
     for (size_t k = 0; k < simd->count && !text->failed; k++) {
@@ -162,7 +163,7 @@ static struct rows_made deliver(const struct sweep_simd *simd, struct text *text
     return rows;
 }
 
-struct rows_made sweep_simd_make(struct sweep_simd *simd, uint64_t first, uint64_t end, struct text *text)
+struct rows_made rows_simd_make(struct rows_simd *simd, uint64_t first, uint64_t end, struct text *text)
 {
     struct rows_made all = {0};
     while (first + all.made < end && !text->failed) {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "study/extremes.h"
+#include "batch/extremes.h"
 
 #include <math.h>
 

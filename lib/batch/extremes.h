@@ -7,8 +7,8 @@
  * (Kiefer 1953). Near an extreme q(t) is flat, so a bracket of 1e-6 of the step leaves an error of 1e-12 of
  * the variation in it, which is below the error of the motion.
  */
-#ifndef FBD_STUDY_EXTREMES_H
-#define FBD_STUDY_EXTREMES_H
+#ifndef FBD_BATCH_EXTREMES_H
+#define FBD_BATCH_EXTREMES_H
 
 #include "loop/ensemble.h"
 #include "output/world.h"
