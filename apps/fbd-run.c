@@ -170,24 +170,19 @@ static bool data_alone(const struct options *options)
     return options->quiet || place_is_stdout(options->svg) || place_is_stdout(options->json);
 }
 
-/* The equations in the requested form. */
-static char *equations_of(const struct options *options, fbd_state *state, bool symbols, bool components)
-{
-    if (options->latex && components) return fbd_equations_latex_components(state);
-    if (options->latex) return fbd_equations_latex(state);
-    if (symbols) return fbd_equations_symbols(state);
-    return components ? fbd_equations_text_components(state) : fbd_equations_text(state);
-}
-
 static enum exit_code show_equations(const struct options *options, fbd_state *state)
 {
     const bool symbols = options->drawing.symbols && !options->svg; /* else for the arrows */
-    const bool components = options->drawing.components || symbols;
+    fbd_equations_options written = {.size = sizeof written,
+                                     .format = options->latex ? FBD_LATEX
+                                               : symbols      ? FBD_SYMBOLS
+                                                              : FBD_TEXT,
+                                     .components = options->drawing.components || symbols};
     enum exit_code code = exit_done;
-    if (!data_alone(options)) code = print(equations_of(options, state, symbols, components), code);
+    if (!data_alone(options)) code = print(fbd_equations_write(state, &written, NULL), code);
+    written.format = FBD_JSON;
     if (code == exit_done && options->json)
-        code = write_text(options->json,
-                          components ? fbd_equations_json_components(state) : fbd_equations_json(state));
+        code = write_text(options->json, fbd_equations_write(state, &written, NULL));
     return code;
 }
 
@@ -298,8 +293,7 @@ static enum exit_code carry_and_write(fbd_simulation *simulation, const struct o
     enum exit_code code = result ? exit_done : refused ? exit_failed : no_memory();
     if (result && !outputs_write(outputs, options, result, errors)) code = exit_failed;
     bool closed = outputs_close(outputs, result && code == exit_done) && outputs_announce(options, code);
-    if (code == exit_done && report)
-        code = print((options->full ? fbd_result_report_full : fbd_result_report)(result), exit_done);
+    if (code == exit_done && report) code = print(fbd_result_report(result, options->full), exit_done);
     if (!closed) code = exit_failed;
     fbd_outcome outcome = result ? fbd_result_outcome(result) : FBD_FAILED;
     if (outcome != FBD_FAILED && outcome != FBD_INTERRUPTED && code == exit_done)

@@ -14,23 +14,28 @@ extern "C" {
 
 /* ---------------------------------------------------------------- equations */
 
-/* The assembled equations, term by term, as text. To be freed with fbd_free, as all texts below; NULL when
- * memory is out. */
-FBD_API char *fbd_equations_text(fbd_state *state);
-FBD_API char *fbd_equations_text_components(fbd_state *state); /* of fbd_assemble_components */
+typedef enum fbd_format {
+    /* the assembled equations, term by term, with the laws of the terms; of bodies cut free also FBD_SYMBOLS */
+    FBD_TEXT,
+    /* of every body cut free in symbols of the scene, reactions included, one equation per line, with the
+     * acceleration of G where it follows from the coordinates */
+    FBD_SYMBOLS,
+    /* for amsmath, each equation in symbols of the scene and with the numbers of the state */
+    FBD_LATEX,
+    FBD_JSON, /* the equations and the free-body diagrams as one object: docs/output.md */
+} fbd_format;
 
-/* The equations of every body cut free in symbols of the scene, reactions included, one per line, with the
- * acceleration of G where it follows from the coordinates. */
-FBD_API char *fbd_equations_symbols(fbd_state *state);
+typedef struct fbd_equations_options {
+    size_t size; /* sizeof(fbd_equations_options), or 0 */
+    fbd_format format;
+    /* cut free every body, as in fbd_assemble_components; false: only joined bodies. Without effect on
+     * FBD_SYMBOLS */
+    bool components;
+} fbd_equations_options;
 
-/* The equations as LaTeX (amsmath), each in symbols of the scene and with the numbers of the state; for
- * joined bodies also those cut free. */
-FBD_API char *fbd_equations_latex(fbd_state *state);
-FBD_API char *fbd_equations_latex_components(fbd_state *state);
-
-/* The equations and the free-body diagrams, as one JSON object. */
-FBD_API char *fbd_equations_json(fbd_state *state);
-FBD_API char *fbd_equations_json_components(fbd_state *state);
+/* Write the assembled equations of a state. To be freed with fbd_free, as all texts below; NULL with a note
+ * in `errors`: `bad-call` for a format that this library does not have, or memory is out. */
+FBD_API char *fbd_equations_write(fbd_state *state, const fbd_equations_options *options, fbd_errors *errors);
 
 /* A description of the plan: effects that are simulated, with their number and why they are conservative or
  * not; effects that are not, and the entries that would add them; the right-hand side, events, structure, the
@@ -40,10 +45,11 @@ FBD_API char *fbd_explain(const fbd_model *model, const fbd_options *options);
 /* ---------------------------------------------------------------- results */
 
 /* The result as text, to be freed with fbd_free; NULL when memory is out. For a scene of more than twelve
- * bodies the report is short: totals, events by their kinds, some of the states, the largest forces;
- * fbd_result_report_full is complete. */
-FBD_API char *fbd_result_report(fbd_result *result);
-FBD_API char *fbd_result_report_full(fbd_result *result);
+ * bodies the report is short, unless `full`: totals, events by their kinds, some of the states, the largest
+ * forces. */
+FBD_API char *fbd_result_report(fbd_result *result, bool full);
+
+/* The result as one JSON object: docs/output.md. */
 FBD_API char *fbd_result_json(fbd_result *result);
 
 /* Plots of a run as a script for gnuplot that carries its data. `columns`: names of the CSV's columns with

@@ -32,7 +32,7 @@ struct choice {
 
 static bool is_shown(const struct record_column *column)
 {
-    return column->kind != record_pose && column->kind != record_term && column->kind != record_arrow;
+    return column->kind != quantity_pose && column->kind != quantity_term && column->kind != quantity_arrow;
 }
 
 static int find_column(const struct record *record, const char *name, size_t length)
@@ -81,9 +81,9 @@ static void choose_usual(struct choice *choice)
 {
     const struct record *record = choice->record;
     for (size_t c = 0; c < record->column_count; c++) {
-        enum record_kind kind = record->columns[c].kind;
+        enum column_quantity kind = record->columns[c].kind;
         bool residual = (int)c == record->energy + 3;
-        if (kind == record_coordinate || kind == record_own || (kind == record_energy && !residual))
+        if (kind == quantity_coordinate || kind == quantity_own || (kind == quantity_energy && !residual))
             choice->columns[choice->count++] = (int)c;
     }
 }
@@ -125,7 +125,7 @@ static struct display display_of_column(const struct choice *choice, size_t inde
 {
     const struct record_column *column = &choice->record->columns[choice->columns[index]];
     const struct display display = {column->name, column->unit, 1};
-    const bool moves = column->kind == record_coordinate || column->kind == record_rate;
+    const bool moves = column->kind == quantity_coordinate || column->kind == quantity_rate;
     return moves ? display_in_degrees(display, choice->degrees) : display;
 }
 
@@ -279,17 +279,17 @@ static const char *axis_title(const struct choice *choice, size_t first, size_t 
     const struct record_column *column = &choice->record->columns[choice->columns[first]];
     if (count == 1) return column->name;
     switch (column->kind) {
-    case record_coordinate: return strcmp(column->unit, "rad") == 0 ? "angle" : "position";
-    case record_rate: return strcmp(column->unit, "rad/s") == 0 ? "angular velocity" : "velocity";
-    case record_acceleration: return "acceleration";
-    case record_force:
+    case quantity_coordinate: return strcmp(column->unit, "rad") == 0 ? "angle" : "position";
+    case quantity_rate: return strcmp(column->unit, "rad/s") == 0 ? "angular velocity" : "velocity";
+    case quantity_acceleration: return "acceleration";
+    case quantity_force:
         return strcmp(column->unit, "N") == 0 || strcmp(column->unit, "lbf") == 0 ? "force" : "moment";
-    case record_work: return "work";
-    case record_energy: return "energy";
-    case record_own: return "state";
-    case record_pose:
-    case record_term:
-    case record_arrow: break;
+    case quantity_work: return "work";
+    case quantity_energy: return "energy";
+    case quantity_own: return "state";
+    case quantity_pose:
+    case quantity_term:
+    case quantity_arrow: break;
     }
     return "";
 }

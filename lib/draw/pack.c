@@ -73,7 +73,7 @@ static bool find_base(const struct pack *pack, size_t c, size_t first, struct pa
         enum packed_kind kind = pack->columns[d].kind;
         bool data = kind == packed_double || kind == packed_float;
         /* positions are not derived from columns of float accuracy */
-        bool precise = record->columns[c].kind <= record_pose && record->columns[c].kind != record_rate;
+        bool precise = record->columns[c].kind <= quantity_pose && record->columns[c].kind != quantity_rate;
         if (!data || (precise && kind == packed_float)) continue;
         if (may_be_affine(record, c, d) && is_affine(record, c, d, packed)) {
             packed->kind = packed_affine;
@@ -95,7 +95,7 @@ static void pack_columns(struct pack *pack)
             packed->kind = packed_constant;
             packed->offset = cell(record, 0, c);
         } else if (!find_base(pack, c, first, packed)) {
-            bool place = column->kind == record_coordinate || column->kind == record_pose;
+            bool place = column->kind == quantity_coordinate || column->kind == quantity_pose;
             bool wide = place || column->least < -FLT_MAX || column->greatest > FLT_MAX;
             packed->kind = wide ? packed_double : packed_float;
             packed->slot = wide ? pack->doubles++ : pack->floats++;

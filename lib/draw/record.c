@@ -302,6 +302,6 @@ void record_free(struct record *record)
     free(record->work);
     free(record->arrows);
     state_free(record->probe);
-    arena_free(&record->arena);
+    run_columns_free(&record->all);
     *record = (struct record){0};
 }

@@ -13,24 +13,12 @@
 #ifndef FBD_DRAW_RECORD_H
 #define FBD_DRAW_RECORD_H
 
+#include "output/run_columns.h"
 #include "record/result.h"
-
-enum record_kind {
-    record_coordinate,
-    record_rate,
-    record_acceleration,
-    record_pose,  /* of a body's frame: x, y, angle */
-    record_force, /* as in the CSV */
-    record_term,  /* of an equation */
-    record_arrow, /* fx, fy; point in the body frame; couple */
-    record_work,
-    record_energy, /* kinetic, potential, work, residual */
-    record_own,    /* user states */
-};
 
 struct record_column {
     const char *name, *unit;
-    enum record_kind kind;
+    enum column_quantity kind;
     int body; /* or -1 */
     bool is_constant;
     double least, greatest;
@@ -60,8 +48,8 @@ struct record_of_body {
 
 struct record {
     const struct fbd_model *model;
-    struct arena arena;
-    struct record_column *columns;
+    struct run_columns all;        /* definitions of the columns */
+    struct record_column *columns; /* their names and ranges */
     size_t column_count;
     struct record_of_body *bodies;
     int energy; /* first of four columns */
@@ -86,7 +74,6 @@ struct record {
     double *values;  /* of one row */
     double *turning; /* rates and accelerations at the start of the step */
     bool costly;     /* a potential energy is a quadrature: evaluated only for stored rows */
-    bool failed;     /* memory ran out */
     const char *odd; /* the first column with a number that is not finite, and its time; or NULL */
     double odd_time;
 };
@@ -109,7 +96,7 @@ void record_free(struct record *record);
 
 /* For record.c: define the columns for a state; and fill `values` from a state, with the work integrals of
  * record->work; without `energies` those columns are NAN. */
-bool record_define(struct record *record, struct fbd_state *start);
-void record_fill(struct record *record, struct fbd_state *state, bool energies);
+bool record_define(struct record *record, const struct fbd_state *start);
+void record_fill(struct record *record, const struct fbd_state *state, bool energies);
 
 #endif

@@ -88,7 +88,7 @@ void solution_reactions(const struct handout *handout, const char *body_name, bo
 void solution_equations(const struct handout *handout)
 {
     fbd_state *state = start_of(handout);
-    char *equations = state ? fbd_equations_text(state) : NULL;
+    char *equations = state ? fbd_equations_write(state, NULL, NULL) : NULL;
     if (!equations) handout->arena->failed = true;
     text_add(handout->text, "#\n");
     for (const char *line = equations; line && *line;) {

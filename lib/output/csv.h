@@ -5,6 +5,7 @@
 #ifndef FBD_OUTPUT_CSV_H
 #define FBD_OUTPUT_CSV_H
 
+#include "output/run_columns.h"
 #include "record/result.h"
 
 struct csv {
@@ -17,11 +18,13 @@ struct csv {
     double near; /* a regular row and an event within this time share a row */
     double last; /* time of the row before */
     long next;   /* index of the next regular row: t = start + next * every */
+    struct run_columns columns;
     struct text line;
     struct arrow *arrows;
-    double *work; /* integrals up to the row */
-    bool odd;     /* the line has a number that is not finite */
-    bool failed;  /* out of memory or error of the writer */
+    double *work;            /* integrals up to the row */
+    double *values, *others; /* of a row, and of the companion with error bars */
+    bool odd;                /* the line has a number that is not finite */
+    bool failed;             /* out of memory or error of the writer */
 };
 
 /* Write the header and the row at the start, the current time of the run. False when memory is out or the

@@ -246,6 +246,11 @@ double fbd_equation_term(const fbd_equation *equation, const char *name)
     return NAN;
 }
 
+struct vec moment_center(const struct model_body *body, const struct instant *at)
+{
+    return body->kind == motion_pivot ? body_pose(body, at).origin : mass_center(body, at);
+}
+
 fbd_arrow public_arrow(const struct arrow *arrow, struct vec about)
 {
     return (fbd_arrow){.name = arrow->name,
@@ -270,8 +275,7 @@ size_t fbd_diagram(fbd_state *state, size_t body, fbd_arrow *arrows, size_t room
     struct arrow *own = calloc(diagram_arrows(model, (int)body), sizeof *own);
     if (!own) return 0;
     size_t count = diagram_fill(model, (int)body, &at, state->a, state->slots, own);
-    struct pose pose = body_pose(b, &at);
-    struct vec about = b->kind == motion_pivot ? pose.origin : point_motion(b, &pose, b->inertia.G).p;
+    const struct vec about = moment_center(b, &at);
     for (size_t i = 0; i < count && i < room; i++) arrows[i] = public_arrow(&own[i], about);
     free(own);
     return count;

@@ -40,10 +40,10 @@ const char *equation_acceleration_name(const struct fbd_model *model, const stru
                                        int part);
 bool equation_has_coordinate(const struct model_body *body);
 
+/* Reference point of moments in diagrams: the axis of a pivot, else the centre of mass. */
+struct vec moment_center(const struct model_body *body, const struct instant *at);
+
 /* An arrow with its moment about a point, for fbd.h. */
 fbd_arrow public_arrow(const struct arrow *arrow, struct vec about);
-
-/* Write the equations, and their context, as text. */
-void equations_write(struct text *text, struct fbd_state *state, bool components);
 
 #endif

@@ -2,12 +2,9 @@
  *
  * The assembled equations and the free-body diagrams of a state as one JSON object (docs/output.md).
  */
-#include <stdlib.h>
-
 #include "dynamics/kinematics.h"
-#include "fbd_export.h"
 #include "output/display_units.h"
-#include "output/kinematic_lines.h"
+#include "output/equations_write.h"
 #include "output/terms.h"
 
 /* A quantity with its name and unit. */
@@ -53,16 +50,30 @@ static void write_states(struct text *text, const struct fbd_state *state)
     text_add(text, "\n  },\n");
 }
 
-/* The state to be written, and the symbols. */
-struct written {
-    struct fbd_state *state;
-    bool components;
-    struct formulas *formulas; /* NULL: without symbols */
-};
-
-static bool has_symbols(const struct written *written, const struct equation *equation)
+static void write_head(struct writer *w)
 {
-    return written->formulas && equation_in_symbols(written->state->model, equation, written->components);
+    struct text *text = w->text;
+    const struct fbd_state *state = w->state;
+    text_add(text, "{\n  ");
+    text_json_words(text, "title", state->model->scene->title, ",\n  ");
+    text_json_words(text, "units", state->model->scene->units == unit_si ? "SI" : "US", ",\n  ");
+    if (state->degrees) text_json_words(text, "angles", "deg", ",\n  ");
+    text_json_member(text, "t", state->t, ",\n");
+    write_coordinates(text, state);
+    write_states(text, state);
+    text_add(text, "  \"equations\": [");
+}
+
+/* ---- equations */
+
+static bool is_included(const struct writer *w, const struct equation *equation)
+{
+    return !equation->cut_free || w->components || equation_in_symbols(w->state->model, equation, false);
+}
+
+static bool has_symbols(const struct writer *w, const struct equation *equation)
+{
+    return w->symbolic && equation_in_symbols(w->state->model, equation, w->components);
 }
 
 /* A text that is NULL when memory is out. */
@@ -72,30 +83,28 @@ static void symbols(struct text *text, const char *key, const char *words, const
     if (words) text_json_words(text, key, words, after);
 }
 
-static void write_term(struct text *text, const struct written *written, const struct equation *equation,
-                       size_t i)
+static void write_term(struct writer *w, const struct equation *equation, size_t i)
 {
-    struct fbd_state *state = written->state;
+    struct text *text = w->text;
     const char *name = equation->public.terms[i].name;
     char remark[term_remark_size];
-    if (!equation_remark(state, equation, i, remark)) text->failed = true;
+    if (!equation_remark(w->state, equation, i, remark)) text->failed = true;
     text_add(text, i ? ",\n       {" : "\n       {");
     text_json_words(text, "name", name, ", ");
-    if (has_symbols(written, equation))
-        symbols(text, "symbol", formula_term(written->formulas, equation, name), ", ");
+    if (has_symbols(w, equation)) symbols(text, "symbol", formula_term(&w->formulas, equation, name), ", ");
     text_json_member(text, "value", equation->public.terms[i].value, remark[0] ? ", " : "}");
     if (remark[0]) text_json_words(text, "remark", remark, "}");
 }
 
-static void write_equation(struct text *text, const struct written *written, const struct equation *equation)
+static void write_equation(struct writer *w, const struct equation *equation)
 {
+    struct text *text = w->text;
     const fbd_equation *e = &equation->public;
-    const char *mode = equation->cut_free ? "" : term_mode(written->state, equation->body);
-    text_add(text, "    {");
+    const char *mode = equation->cut_free ? "" : term_mode(w->state, equation->body);
+    text_add(text, w->written ? ",\n    {" : "\n    {");
     text_json_words(text, "body", e->body, ", ");
     text_json_words(text, "coordinate", e->coordinate, ",\n     ");
-    if (has_symbols(written, equation))
-        symbols(text, "symbols", formula_line(written->formulas, equation), ",\n     ");
+    if (has_symbols(w, equation)) symbols(text, "symbols", formula_line(&w->formulas, equation), ",\n     ");
     quantity(text, "inertia", e->inertia_name, e->inertia, e->inertia_unit);
     text_add(text, ",\n     ");
     quantity(text, "acceleration", e->acceleration_name, e->acceleration, e->acceleration_unit);
@@ -105,51 +114,43 @@ static void write_equation(struct text *text, const struct written *written, con
     text_json_member(text, "residual", e->inertia * e->acceleration - e->sum, ", ");
     if (mode[0]) text_json_words(text, "mode", mode, ", ");
     text_add(text, "\"terms\": [");
-    for (size_t i = 0; i < e->term_count; i++) write_term(text, written, equation, i);
+    for (size_t i = 0; i < e->term_count; i++) write_term(w, equation, i);
     text_add(text, "]}");
 }
 
-static void write_equations(struct text *text, const struct written *written, const fbd_equations *all)
+static void end_equations(struct writer *w)
 {
-    const struct fbd_model *model = written->state->model;
-    bool first = true;
-    text_add(text, "  \"equations\": [");
-    for (size_t i = 0; i < all->count; i++) {
-        const struct equation *equation = &all->equations[i];
-        if (equation->cut_free && !written->components && !equation_in_symbols(model, equation, false))
-            continue;
-        text_add(text, first ? "\n" : ",\n");
-        first = false;
-        write_equation(text, written, equation);
-    }
-    text_add(text, "\n  ],\n");
+    text_add(w->text, "\n  ],\n");
 }
 
-/* For the bodies that are cut free. */
-static void write_kinematics(struct text *text, const struct written *written)
+const struct equations_pass json_equations = {.begin = write_head,
+                                              .includes = is_included,
+                                              .equation = write_equation,
+                                              .end = end_equations};
+
+/* ---- kinematics: absent where no body has such lines */
+
+static void write_kinematics(struct writer *w, int b, const char *const *lines, int count)
 {
-    const struct fbd_model *model = written->state->model;
-    const char *lines[most_kinematic_lines], *before = "  \"kinematics\": {\n    ";
-    for (size_t b = 0; written->formulas && b < model->body_count; b++) {
-        const int count = body_is_cut_free(model, (int)b, written->components)
-                              ? kinematic_lines(written->formulas, (int)b, lines)
-                              : 0;
-        for (int i = 0; i < count; i++) {
-            text->failed |= !lines[i];
-            if (!lines[i]) return;
-            if (i == 0) {
-                text_add(text, before);
-                text_json_key(text, model->bodies[b].name);
-            }
-            text_add(text, i == 0 ? "[" : ", ");
-            text_json_string(text, lines[i]);
-        }
-        if (count == 0) continue;
-        text_add(text, "]");
-        before = ",\n    ";
+    text_add(w->text, w->written ? ",\n    " : "  \"kinematics\": {\n    ");
+    text_json_key(w->text, w->state->model->bodies[b].name);
+    for (int i = 0; i < count; i++) {
+        text_add(w->text, i == 0 ? "[" : ", ");
+        text_json_string(w->text, lines[i]);
     }
-    if (before[0] == ',') text_add(text, "\n  },\n");
+    text_add(w->text, "]");
 }
+
+static void end_kinematics(struct writer *w)
+{
+    if (w->written) text_add(w->text, "\n  },\n");
+}
+
+const struct equations_pass json_kinematics = {.symbolic = true,
+                                               .kinematics = write_kinematics,
+                                               .end = end_kinematics};
+
+/* ---- free-body diagrams */
 
 static void write_arrow(struct text *text, const fbd_arrow *arrow)
 {
@@ -164,75 +165,36 @@ static void write_arrow(struct text *text, const fbd_arrow *arrow)
     text_json_member(text, "power", arrow->power, "}");
 }
 
-static void write_body(struct text *text, struct fbd_state *state, int b, struct arrow *arrows)
+static void begin_forces(struct writer *w)
 {
-    const struct fbd_model *model = state->model;
+    text_add(w->text, "  \"forces\": {");
+    state_ready(w->state);
+}
+
+static void write_forces(struct writer *w, int b)
+{
+    struct text *text = w->text;
+    const struct fbd_model *model = w->state->model;
     const struct model_body *body = &model->bodies[b];
-    struct instant at = state_instant(state);
-    struct pose pose = body_pose(body, &at);
-    struct vec about =
-        body->kind == motion_pivot ? pose.origin : point_motion(body, &pose, body->inertia.G).p;
-    size_t count = diagram_fill(model, b, &at, state->a, state->slots, arrows);
+    const struct instant at = state_instant(w->state);
+    const struct vec about = moment_center(body, &at);
+    struct arrow *arrows = ARENA_ARRAY(&w->all->arena, diagram_arrows(model, b), struct arrow);
+    text->failed |= !arrows;
+    const size_t count = arrows ? diagram_fill(model, b, &at, w->state->a, w->state->slots, arrows) : 0;
+    text_add(text, b ? ",\n    " : "\n    ");
     text_json_key(text, body->name);
     text_add(text, "{");
     for (size_t i = 0; i < count; i++) {
-        fbd_arrow arrow = public_arrow(&arrows[i], about);
+        const fbd_arrow arrow = public_arrow(&arrows[i], about);
         text_add(text, i ? ",\n      " : "\n      ");
         write_arrow(text, &arrow);
     }
     text_add(text, "}");
 }
 
-static void write_forces(struct text *text, struct fbd_state *state, struct arrow *arrows)
+static void end_forces(struct writer *w)
 {
-    text_add(text, "  \"forces\": {");
-    state_ready(state);
-    for (size_t b = 0; b < state->model->body_count; b++) {
-        text_add(text, b ? ",\n    " : "\n    ");
-        write_body(text, state, (int)b, arrows);
-    }
-    text_add(text, "\n  }\n");
+    text_add(w->text, "\n  }\n}\n");
 }
 
-static char *json_of(fbd_state *state, bool components)
-{
-    if (!state) return NULL;
-    struct text text = {0};
-    struct formulas formulas = {0};
-    struct written written = {state, components, NULL};
-    fbd_equations *all = assemble(state, true);
-    struct arrow *arrows = calloc(diagram_most_arrows(state->model), sizeof *arrows);
-    bool done = all && arrows;
-    if (done && equations_cut_free(state->model, true)) {
-        written.formulas = &formulas;
-        done = formulas_begin(&formulas, state);
-    }
-    if (done) {
-        text_add(&text, "{\n  ");
-        text_json_words(&text, "title", state->model->scene->title, ",\n  ");
-        text_json_words(&text, "units", state->model->scene->units == unit_si ? "SI" : "US", ",\n  ");
-        if (state->degrees) text_json_words(&text, "angles", "deg", ",\n  ");
-        text_json_member(&text, "t", state->t, ",\n");
-        write_coordinates(&text, state);
-        write_states(&text, state);
-        write_equations(&text, &written, all);
-        write_kinematics(&text, &written);
-        write_forces(&text, state, arrows);
-        text_add(&text, "}\n");
-    }
-    if (!done || text.failed || formulas.arena.failed) text_free(&text);
-    formulas_end(&formulas);
-    free(arrows);
-    fbd_equations_free(all);
-    return text.data;
-}
-
-char *fbd_equations_json(fbd_state *state)
-{
-    return json_of(state, false);
-}
-
-char *fbd_equations_json_components(fbd_state *state)
-{
-    return json_of(state, true);
-}
+const struct equations_pass json_forces = {.begin = begin_forces, .body = write_forces, .end = end_forces};

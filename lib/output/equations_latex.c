@@ -5,9 +5,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "base/api_check.h"
-#include "fbd_export.h"
-#include "output/kinematic_lines.h"
+#include "output/equations_write.h"
 
 /* N*m, kg*m^2, m/s^2 upright. */
 static void write_unit(struct text *text, const char *unit)
@@ -54,10 +52,23 @@ static void write_numbers(struct text *text, const fbd_equation *e)
     write_unit(text, e->unit);
 }
 
-static void write_equation(struct text *text, struct formulas *formulas, const struct equation *equation)
+static void write_head(struct writer *w)
 {
+    text_add(w->text, "% Equations at t = ");
+    text_number(w->text, w->state->t, 9);
+    text_add(w->text, " s; needs amsmath\n");
+}
+
+static bool in_symbols(const struct writer *w, const struct equation *equation)
+{
+    return equation_in_symbols(w->state->model, equation, w->components);
+}
+
+static void write_equation(struct writer *w, const struct equation *equation)
+{
+    struct text *text = w->text;
     const fbd_equation *e = &equation->public;
-    const char *left = formula_left(formulas, equation), *right = formula_right(formulas, equation);
+    const char *left = formula_left(&w->formulas, equation), *right = formula_right(&w->formulas, equation);
     if (!left || !right) {
         text->failed = true;
         return;
@@ -71,19 +82,13 @@ static void write_equation(struct text *text, struct formulas *formulas, const s
     text_add(text, "\n\\end{align*}\n");
 }
 
-/* For a body cut free, the acceleration of its G. */
-static void write_kinematics(struct text *text, struct formulas *formulas, int b)
+static void write_kinematics(struct writer *w, int b, const char *const *lines, int count)
 {
-    const char *lines[most_kinematic_lines];
-    const int count = kinematic_lines(formulas, b, lines);
+    struct text *text = w->text;
+    text_printf(text, "%% %s: acceleration of G\n\\begin{align*}\n", w->state->model->bodies[b].name);
     for (int i = 0; i < count; i++) {
-        text->failed |= !lines[i];
-        if (!lines[i]) return;
-        if (i == 0)
-            text_printf(text, "%% %s: acceleration of G\n\\begin{align*}\n",
-                        formulas->state->model->bodies[b].name);
         const char *equals = strchr(lines[i], '=');
-        char *left = arena_text(&formulas->arena, lines[i], (size_t)(equals - lines[i]) - 1);
+        char *left = arena_text(&w->formulas.arena, lines[i], (size_t)(equals - lines[i]) - 1);
         if (left) symbol_write_latex(text, left);
         text_add(text, " &= ");
         symbol_write_latex(text, equals + 2);
@@ -91,40 +96,8 @@ static void write_kinematics(struct text *text, struct formulas *formulas, int b
     }
 }
 
-static char *latex_of(fbd_state *state, bool components)
-{
-    if (!state) return NULL;
-    struct text text = {0};
-    struct formulas formulas;
-    fbd_equations *all = assemble(state, true);
-    bool begun = formulas_begin(&formulas, state);
-    if (all && begun) {
-        text_add(&text, "% Equations at t = ");
-        text_number(&text, state->t, 9);
-        text_add(&text, " s; needs amsmath\n");
-        for (size_t i = 0; i < all->count; i++) {
-            const int b = all->equations[i].body;
-            if (equation_in_symbols(state->model, &all->equations[i], components))
-                write_equation(&text, &formulas, &all->equations[i]);
-            const bool last = i + 1 == all->count || all->equations[i + 1].body != b;
-            if (last && body_is_cut_free(state->model, b, components)) write_kinematics(&text, &formulas, b);
-        }
-    } else {
-        text.failed = true;
-    }
-    text.failed |= formulas.arena.failed;
-    formulas_end(&formulas);
-    fbd_equations_free(all);
-    if (text.failed) text_free(&text);
-    return text.data;
-}
-
-char *fbd_equations_latex(fbd_state *state)
-{
-    return latex_of(state, false);
-}
-
-char *fbd_equations_latex_components(fbd_state *state)
-{
-    return latex_of(state, true);
-}
+const struct equations_pass latex_equations = {.symbolic = true,
+                                               .begin = write_head,
+                                               .includes = in_symbols,
+                                               .equation = write_equation,
+                                               .kinematics = write_kinematics};

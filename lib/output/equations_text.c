@@ -1,14 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * The assembled equations as text.
+ * The assembled equations as text: in numbers, and in symbols.
  */
-#include <stdlib.h>
-
 #include "dynamics/friction.h"
-#include "fbd_export.h"
-#include "output/equations.h"
-#include "output/formulas.h"
-#include "output/kinematic_lines.h"
+#include "output/equations_write.h"
 #include "output/laws.h"
 #include "output/terms.h"
 
@@ -54,26 +49,34 @@ static void write_terms(struct text *text, struct fbd_state *state, const struct
     }
 }
 
-static void write_equation(struct text *text, struct fbd_state *state, const struct equation *equation)
+/* Those of the coordinates; cut free only bodies without coordinates, or with components. */
+static bool in_numbers(const struct writer *w, const struct equation *equation)
 {
-    const struct model_body *body = &state->model->bodies[equation->body];
+    return !equation->cut_free || w->components || w->state->model->bodies[equation->body].count == 0;
+}
+
+static void write_equation(struct writer *w, const struct equation *equation)
+{
+    struct text *text = w->text;
+    const struct model_body *body = &w->state->model->bodies[equation->body];
     const fbd_equation *e = &equation->public;
     const char *G = !equation->cut_free && body->kind == motion_planar && equation->part < 2 ? " of G" : "";
     text_printf(text, "  %s.%s: %s %s%s = %s\n", e->body, e->coordinate, e->inertia_name,
                 e->acceleration_name, G, side_of_equation(body, equation));
-    write_terms(text, state, equation);
+    write_terms(text, w->state, equation);
     write_row(text, "sum", e->sum, e->unit, "");
     write_row(text, e->inertia_name, e->inertia, e->inertia_unit, "");
     char name[64];
     snprintf(name, sizeof name, "%s%s", e->acceleration_name, G);
     write_row(text, name, e->acceleration, e->acceleration_unit,
-              equation->cut_free ? "" : term_mode(state, equation->body));
+              equation->cut_free ? "" : term_mode(w->state, equation->body));
     if (equation->cut_free) write_row(text, "residual", e->inertia * e->acceleration - e->sum, e->unit, "");
 }
 
-static void write_body(struct text *text, const struct fbd_state *state, int b)
+static void write_body(struct writer *w, int b)
 {
-    const struct fbd_model *model = state->model;
+    struct text *text = w->text;
+    const struct fbd_model *model = w->state->model;
     const struct model_body *body = &model->bodies[b];
     const struct label *label = &model->labels[body->first + body->count - 1];
     if (body->kind != motion_pivot) return;
@@ -87,8 +90,10 @@ static void write_body(struct text *text, const struct fbd_state *state, int b)
 }
 
 /* Write the rates of the user states. */
-static void write_states(struct text *text, const struct fbd_state *state)
+static void write_states(struct writer *w)
 {
+    struct text *text = w->text;
+    const struct fbd_state *state = w->state;
     const struct fbd_model *model = state->model;
     const int n = model->plan.n;
     if (model->plan.own > 0) text_add(text, "  states, by equations of their own\n");
@@ -101,87 +106,54 @@ static void write_states(struct text *text, const struct fbd_state *state)
     }
 }
 
-static void write_line(struct text *text, const char *line)
+static void write_time(struct writer *w)
 {
-    text->failed |= !line;
-    if (line) text_printf(text, "    %s\n", line);
+    text_add(w->text, "Equations at t = ");
+    text_number(w->text, w->state->t, 9);
+    text_add(w->text, " s\n");
 }
 
-/* Write the equations of body b, and the acceleration of its G. */
-static void write_lines(struct text *text, struct formulas *formulas, const fbd_equations *all, int b,
-                        bool components)
+const struct equations_pass text_numbers = {.begin = write_time,
+                                            .body = write_body,
+                                            .includes = in_numbers,
+                                            .equation = write_equation,
+                                            .end = write_states};
+
+/* ---- in symbols: Newton's and Euler's equations with all reactions, for joined bodies or for all */
+
+static void write_title(struct writer *w)
 {
-    const struct fbd_model *model = formulas->state->model;
-    const char *lines[most_kinematic_lines];
-    text_printf(text, "  %s\n", model->bodies[b].name);
-    for (size_t i = 0; i < all->count; i++)
-        if (all->equations[i].body == b && equation_in_symbols(model, &all->equations[i], components))
-            write_line(text, formula_line(formulas, &all->equations[i]));
-    const int count = kinematic_lines(formulas, b, lines);
-    for (int i = 0; i < count; i++) write_line(text, lines[i]);
+    text_add(w->text, "Cut free, in symbols at this time\n");
 }
 
-/* Write Newton's and Euler's equations with all reactions, for joined bodies or for all, a line each. */
-static void write_cut_free(struct text *text, struct fbd_state *state, bool components)
+static void write_name(struct writer *w, int b)
 {
-    const struct fbd_model *model = state->model;
-    struct formulas formulas;
-    fbd_equations *all = assemble(state, true);
-    if (!formulas_begin(&formulas, state) || !all) text->failed = true;
-    if (!text->failed) text_add(text, "Cut free, in symbols at this time\n");
-    for (size_t b = 0; !text->failed && b < model->body_count; b++)
-        if (body_is_cut_free(model, (int)b, components))
-            write_lines(text, &formulas, all, (int)b, components);
-    text->failed |= formulas.arena.failed;
-    formulas_end(&formulas);
-    fbd_equations_free(all);
+    if (body_is_cut_free(w->state->model, b, w->components))
+        text_printf(w->text, "  %s\n", w->state->model->bodies[b].name);
 }
 
-void equations_write(struct text *text, struct fbd_state *state, bool components)
+static bool in_symbols(const struct writer *w, const struct equation *equation)
 {
-    fbd_equations *all = assemble(state, components);
-    if (!all) {
-        text->failed = true;
-        return;
-    }
-    text_add(text, "Equations at t = ");
-    text_number(text, state->t, 9);
-    text_add(text, " s\n");
-    int last = -1;
-    for (size_t i = 0; i < all->count; i++) {
-        if (all->equations[i].body != last) write_body(text, state, all->equations[i].body);
-        last = all->equations[i].body;
-        write_equation(text, state, &all->equations[i]);
-    }
-    write_states(text, state);
-    fbd_equations_free(all);
-    if (equations_cut_free(state->model, components)) write_cut_free(text, state, components);
+    return body_is_cut_free(w->state->model, equation->body, w->components) &&
+           equation_in_symbols(w->state->model, equation, w->components);
 }
 
-static char *text_of(struct fbd_state *state, bool components)
+static void write_line(struct writer *w, const struct equation *equation)
 {
-    if (!state) return NULL;
-    struct text text = {0};
-    equations_write(&text, state, components);
-    if (text.failed) text_free(&text);
-    return text.data;
+    const char *line = formula_line(&w->formulas, equation);
+    w->text->failed |= !line;
+    if (line) text_printf(w->text, "    %s\n", line);
 }
 
-char *fbd_equations_text(fbd_state *state)
+static void write_kinematics(struct writer *w, int b, const char *const *lines, int count)
 {
-    return text_of(state, false);
+    (void)b;
+    for (int i = 0; i < count; i++) text_printf(w->text, "    %s\n", lines[i]);
 }
 
-char *fbd_equations_text_components(fbd_state *state)
-{
-    return text_of(state, true);
-}
-
-char *fbd_equations_symbols(fbd_state *state)
-{
-    if (!state) return NULL;
-    struct text text = {0};
-    write_cut_free(&text, state, true);
-    if (text.failed) text_free(&text);
-    return text.data;
-}
+const struct equations_pass text_symbols = {.symbolic = true,
+                                            .begin = write_title,
+                                            .body = write_name,
+                                            .includes = in_symbols,
+                                            .equation = write_line,
+                                            .kinematics = write_kinematics};

@@ -220,20 +220,13 @@ static void write_friction(struct text *text, struct fbd_state *state, int body,
     member(text, "margin", isfinite(share) ? share : NAN, true); /* deprecated alias */
 }
 
-/* Reference point of moments: the axis of a pivot, else the centre of mass. */
-static struct vec moment_center(const struct model_body *body, const struct fbd_state *state)
-{
-    struct instant at = state_instant(state);
-    struct pose pose = body_pose(body, &at);
-    return body->kind == motion_pivot ? pose.origin : point_motion(body, &pose, body->inertia.G).p;
-}
-
 /* `other` is the same arrow of the companion; the work is that of load `account`. */
 static void write_force_error(struct text *text, struct bars *bars, const struct model_body *body,
                               const struct arrow *arrow, const struct arrow *other, double moment,
                               int account, double work)
 {
-    double other_moment = arrow_moment(other, moment_center(body, bars->state));
+    const struct instant other_at = state_instant(bars->state);
+    double other_moment = arrow_moment(other, moment_center(body, &other_at));
     text_add(text, ", \"error\": {");
     member(text, "fx", bars_difference(bars, arrow->force.x, other->force.x), false);
     member(text, "fy", bars_difference(bars, arrow->force.y, other->force.y), false);
@@ -250,7 +243,7 @@ static void write_body_forces(struct text *text, fbd_result *result, struct fbd_
     const struct model_body *body = &model->bodies[b];
     struct bars *bars = result->simulation->bars;
     struct instant at = state_instant(state);
-    struct vec about = moment_center(body, state);
+    struct vec about = moment_center(body, &at);
     struct pose pose = body_pose(body, &at);
     size_t count = diagram_fill(model, b, &at, state->a, state->slots, ledger->arrows);
     const struct arrow *others = bars ? bars_diagram(bars, b) : NULL;

@@ -10,7 +10,7 @@
 #include "fbd_export.h"
 #include "output/couplings.h"
 #include "output/display_units.h"
-#include "output/equations.h"
+#include "output/equations_write.h"
 #include "output/report.h"
 #include "output/words.h"
 
@@ -453,7 +453,7 @@ static void write_full(const struct page *page)
     fbd_result *result = page->result;
     const struct ensemble *run = result->simulation->ensemble;
     write_assembled(page, run->model, result->start);
-    equations_write(page->text, result->start, false);
+    equations_put(page->text, result->start, FBD_TEXT, false);
     state_ready(fbd_result_state(result));
     write_events(page);
     report_early_end(page);
@@ -471,7 +471,7 @@ void report_early_end(const struct page *page)
     if (reason[0]) text_printf(page->text, "\nThe run ended early: %s.\n", reason);
 }
 
-static char *report(fbd_result *result, bool full)
+char *fbd_result_report(fbd_result *result, bool full)
 {
     if (!result) return NULL;
     const struct ensemble *run = result->simulation->ensemble;
@@ -486,14 +486,4 @@ static char *report(fbd_result *result, bool full)
         report_short(&page);
     if (text.failed) text_free(&text);
     return text.data;
-}
-
-char *fbd_result_report(fbd_result *result)
-{
-    return report(result, false);
-}
-
-char *fbd_result_report_full(fbd_result *result)
-{
-    return report(result, true);
 }

@@ -132,12 +132,17 @@ double bars_work(struct bars *bars, size_t index, double work)
     return bars_difference(bars, work, ledger_work(&bars->ledger, bars->state, index, bars->work));
 }
 
+/* The residual of the true motion is 0, so its error is its absolute value. */
+double bars_residual(const struct bars *bars, double residual)
+{
+    return bars->known ? fabs(residual) : HUGE_VAL;
+}
+
 fbd_energy bars_energy(struct bars *bars, const fbd_energy *energy)
 {
     fbd_energy other = ledger_energy(&bars->ledger, bars->state, bars->work);
-    /* The residual of the true motion is 0, so the error of the residual is its absolute value. */
     return (fbd_energy){.kinetic = bars_difference(bars, energy->kinetic, other.kinetic),
                         .potential = bars_difference(bars, energy->potential, other.potential),
                         .work = bars_difference(bars, energy->work, other.work),
-                        .residual = bars->known ? fabs(energy->residual) : HUGE_VAL};
+                        .residual = bars_residual(bars, energy->residual)};
 }

@@ -66,6 +66,7 @@ const struct arrow *bars_diagram(struct bars *bars, int b);
 
 /* Of the work of load `index`, `work` being that of the main run. */
 double bars_work(struct bars *bars, size_t index, double work);
+double bars_residual(const struct bars *bars, double residual);
 fbd_energy bars_energy(struct bars *bars, const fbd_energy *energy);
 
 #endif

@@ -268,7 +268,7 @@ class Run(Mapping[str, Column]):
     def report(self, full: bool = False) -> str:
         """The report of ``fbd-run``; of many bodies it is short, unless it is to be full."""
         with self._lock:
-            return taken((lib.fbd_result_report_full if full else lib.fbd_result_report)(self._result))
+            return taken(lib.fbd_result_report(self._result, bool(full)))
 
     def json(self) -> str:
         """The run as one JSON object, as text: that of ``fbd-run --json``."""

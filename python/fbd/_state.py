@@ -40,6 +40,11 @@ def _diagrams(function: Any, handle: Any, model: Any) -> Dict[str, Tuple[Arrow, 
     return {text_at(lib.fbd_model_body_name(model, b)): _fill(function, handle, b) for b in bodies}
 
 
+def _equations_text(state: "State", form: int, components: bool) -> str:
+    options = ffi.new("fbd_equations_options *", {"format": form, "components": bool(components)})
+    return taken(checked(lib.fbd_equations_write, state._handle, options))
+
+
 class Equations(Mapping[str, Equation]):
     """The assembled equations of a state, by coordinate: ``equations["pendulum.theta"].terms["gravity"]``.
 
@@ -49,9 +54,9 @@ class Equations(Mapping[str, Equation]):
     def __init__(self, state: "State", components: bool = False):
         assemble = lib.fbd_assemble_components if components else lib.fbd_assemble
         handle = owned(assemble(state._handle), lib.fbd_equations_free, state._handle)
-        self._text = taken((lib.fbd_equations_text_components if components else lib.fbd_equations_text)(state._handle))
+        self._text = _equations_text(state, lib.FBD_TEXT, components)
         self._svg = taken(checked(lib.fbd_diagram_svg, state._handle, ffi.NULL))
-        self._json = taken((lib.fbd_equations_json_components if components else lib.fbd_equations_json)(state._handle))
+        self._json = _equations_text(state, lib.FBD_JSON, components)
         self._equations: Dict[str, Equation] = {}
         for i in range(lib.fbd_equations_count(handle)):
             struct = lib.fbd_equations_get(handle, i)

@@ -31,11 +31,14 @@ class Recording(ctypes.Structure):
                 ("degrees", ctypes.c_bool)]
 
 
+class EquationsOptions(ctypes.Structure):
+    _fields_ = [("size", ctypes.c_size_t), ("format", ctypes.c_int), ("components", ctypes.c_bool)]
+
+
+TEXT, LATEX, JSON = 0, 2, 3  # fbd_format
 LIBRARY = ctypes.CDLL(str(Path(os.environ["FBD_BUILD_ROOT"]) / "lib" / "libfbd.so"))
 for _name in ("fbd_model_parse", "fbd_state_new", "fbd_simulation_new", "fbd_simulation_run", "fbd_result_state",
-              "fbd_equations_json_components", "fbd_equations_text", "fbd_equations_text_components",
-              "fbd_equations_latex", "fbd_equations_latex_components", "fbd_diagram_svg", "fbd_result_html",
-              "fbd_errors_new", "fbd_emit_c"):
+              "fbd_equations_write", "fbd_diagram_svg", "fbd_result_html", "fbd_errors_new", "fbd_emit_c"):
     getattr(LIBRARY, _name).restype = ctypes.c_void_p
 for _name in ("fbd_state_close", "fbd_state_set", "fbd_has_html", "fbd_model_quantity"):
     getattr(LIBRARY, _name).restype = ctypes.c_bool
@@ -80,14 +83,18 @@ class Model:
             raise Refused(f"{text!r} in {unit}")
         return value.value
 
+    def written(self, form):
+        options = EquationsOptions(ctypes.sizeof(EquationsOptions), form, True)
+        return taken(LIBRARY.fbd_equations_write(self.state, ctypes.byref(options), None))
+
     def equations(self):
-        return json.loads(taken(LIBRARY.fbd_equations_json_components(self.state)))
+        return json.loads(self.written(JSON))
 
     def report(self):
-        return taken(LIBRARY.fbd_equations_text_components(self.state))
+        return self.written(TEXT)
 
     def latex(self):
-        return taken(LIBRARY.fbd_equations_latex_components(self.state))
+        return self.written(LATEX)
 
     def svg(self):
         drawing = Drawing(ctypes.sizeof(Drawing), None, False, False, True, False, False, 0)

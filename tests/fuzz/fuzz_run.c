@@ -180,7 +180,7 @@ static void look_at_end(const struct input *input, fbd_simulation *simulation, f
 /* What is written of a run that came to an end of any kind. */
 static void write_outputs(const struct input *input, fbd_result *result, unsigned which, bool keeps)
 {
-    if (which & 1) claim_text(input, "report", fbd_result_report(result));
+    if (which & 1) claim_text(input, "report", fbd_result_report(result, false));
     if (which & 2) claim_object(input, "JSON", fbd_result_json(result));
     if (keeps && which >> 2 == keeps_plots)
         claim_text(input, "plots", fbd_result_gnuplot(result, "plots.svg", NULL, input->errors));
@@ -235,8 +235,9 @@ static void ask_equations(struct input *input, fbd_state *state)
     fbd_drawing drawing = {.components = fuzz_take(&input->choices, 1)};
     drawing.supports = drawing.symbols = drawing.components;
     if (!fbd_state_close(state, input->errors)) return;
-    claim_text(input, "equations", fbd_equations_text(state));
-    claim_text(input, "LaTeX", fbd_equations_latex(state));
+    claim_text(input, "equations", fbd_equations_write(state, NULL, NULL));
+    claim_text(input, "LaTeX",
+               fbd_equations_write(state, &(fbd_equations_options){.format = FBD_LATEX}, NULL));
     char *svg = fbd_diagram_svg(state, &drawing, input->errors);
     if (svg || fbd_errors_failed_count(input->errors) == 0) claim_drawing(input, "diagram", svg);
     fbd_equations *equations = fbd_assemble(state);

@@ -101,7 +101,7 @@ static void an_interrupted_run_has_not_reached_its_accuracy(void **unused)
     fbd_result *result = fbd_simulation_run(trial.simulation, &recording);
     assert_int_equal(fbd_result_outcome(result), FBD_INTERRUPTED);
     assert_false(fbd_result_accurate(result));
-    char *report = fbd_result_report(result);
+    char *report = fbd_result_report(result, false);
     assert_non_null(strstr(report, "requested accuracy 0.001: NOT known"));
     free(report);
     fbd_result_free(result);
@@ -189,7 +189,7 @@ static void a_search_that_is_interrupted_leaves_the_best_whole_run(void **unused
     assert_int_equal(fbd_result_outcome(searched.result), FBD_DONE);
     assert_false(fbd_result_accurate(searched.result));
     assert_true(isfinite(searched.stats.error_estimate) && searched.stats.error_estimate > 1e-9);
-    char *report = fbd_result_report(searched.result);
+    char *report = fbd_result_report(searched.result, false);
     assert_non_null(strstr(report, ": NOT reached when it was interrupted"));
     free(report);
 

@@ -186,13 +186,11 @@ static void equations(void **context)
     ANSWERS(fbd_equations_find, !fbd_equations_find(all, NULL).body);
     ANSWERS(fbd_equation_term, is_nan(fbd_equation_term(NULL, "spring")));
     ANSWERS(fbd_equation_term, is_nan(fbd_equation_term(&first, NULL)));
-    ANSWERS(fbd_equations_text, !fbd_equations_text(NULL));
-    ANSWERS(fbd_equations_symbols, !fbd_equations_symbols(NULL));
-    ANSWERS(fbd_equations_latex, !fbd_equations_latex(NULL));
-    ANSWERS(fbd_equations_latex_components, !fbd_equations_latex_components(NULL));
-    ANSWERS(fbd_equations_text_components, !fbd_equations_text_components(NULL));
-    ANSWERS(fbd_equations_json, !fbd_equations_json(NULL));
-    ANSWERS(fbd_equations_json_components, !fbd_equations_json_components(NULL));
+    fbd_equations_options written = {.format = (fbd_format)(FBD_JSON + 1)};
+    REFUSES(fbd_equations_write, !fbd_equations_write(NULL, NULL, errors));
+    REFUSES(fbd_equations_write, !fbd_equations_write(state, &written, errors));
+    written = (fbd_equations_options){.size = 1};
+    REFUSES(fbd_equations_write, !fbd_equations_write(state, &written, errors));
     fbd_equations_free(all);
     fbd_state_free(state);
 }
@@ -286,8 +284,7 @@ static void results(void **context)
     ANSWERS(fbd_result_force_errors, fbd_result_force_errors(result, 0, NULL, 3) > 0);
     ANSWERS(fbd_result_accurate, !fbd_result_accurate(NULL));
     ANSWERS(fbd_result_balanced, !fbd_result_balanced(NULL, NULL, NULL));
-    ANSWERS(fbd_result_report, !fbd_result_report(NULL));
-    ANSWERS(fbd_result_report_full, !fbd_result_report_full(NULL));
+    ANSWERS(fbd_result_report, !fbd_result_report(NULL, false));
     ANSWERS(fbd_result_json, !fbd_result_json(NULL));
     REFUSES(fbd_result_gnuplot, !fbd_result_gnuplot(NULL, NULL, NULL, errors));
     ANSWERS(fbd_has_html, fbd_has_html() || true);

@@ -207,7 +207,7 @@ static void report_and_json_say_the_drift(void **unused)
     fbd_options options = FBD_OPTIONS_DEFAULT;
     options.method = "dop853"; /* the 14 steps of rk8pd are not off by any rounding */
     trial_run(&trial, &options);
-    char *report = fbd_result_report(trial.result), *json = fbd_result_json(trial.result);
+    char *report = fbd_result_report(trial.result, false), *json = fbd_result_json(trial.result);
     assert_non_null(report);
     assert_non_null(json);
     assert_non_null(

@@ -304,7 +304,7 @@ static void without_works_the_motion_has_the_same_bits(void **unused)
     assert_true(energy.kinetic == fbd_result_energy(whole.result).kinetic);
     assert_true(isnan(fbd_result_work(bare.result, "block", "friction")));
     assert_true(!isnan(fbd_result_work(whole.result, "block", "friction")));
-    char *report = fbd_result_report(bare.result);
+    char *report = fbd_result_report(bare.result, false);
     assert_non_null(report);
     assert_non_null(strstr(report, "work not integrated"));
     free(report);

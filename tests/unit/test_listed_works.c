@@ -121,7 +121,7 @@ static double kinetic(const struct trial *trial, const char *body, double mass)
 
 static void look_at_texts(struct checks *checks, const struct trial *trial, double want, double allowed)
 {
-    char *json = fbd_result_json(trial->result), *report = fbd_result_report_full(trial->result);
+    char *json = fbd_result_json(trial->result), *report = fbd_result_report(trial->result, true);
     assert_non_null(json);
     assert_non_null(report);
     const char *forces = strstr(json, "\"forces\": {"), *listed = strstr(report, "Forces at the end");

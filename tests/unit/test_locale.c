@@ -77,7 +77,7 @@ static void put_run(struct text *text, const fbd_model *model)
         .every = 0.015625, .ledger = true, .csv = put_rows, .csv_context = text, .keep = true};
     fbd_result *result = fbd_simulation_run(simulation, &recording);
     assert_non_null(result);
-    put(text, "report", fbd_result_report(result));
+    put(text, "report", fbd_result_report(result, false));
     put(text, "json", fbd_result_json(result));
     put(text, "gnuplot", fbd_result_gnuplot(result, "a.pdf", NULL, NULL));
     if (fbd_has_html()) put(text, "html", fbd_result_html(result, NULL));
@@ -91,8 +91,8 @@ static void put_state(struct text *text, const fbd_model *model, const char *nam
     fbd_state *state = fbd_state_new(model);
     assert_true(!name || fbd_state_set_text(state, name, value, NULL));
     const fbd_drawing drawing = {.components = true};
-    put(text, "equations", fbd_equations_text(state));
-    put(text, "latex", fbd_equations_latex(state));
+    put(text, "equations", fbd_equations_write(state, NULL, NULL));
+    put(text, "latex", fbd_equations_write(state, &(fbd_equations_options){.format = FBD_LATEX}, NULL));
     put(text, "svg", fbd_diagram_svg(state, &drawing, NULL));
     fbd_statics *statics = fbd_statics_new(state, NULL);
     if (statics) put(text, "statics", fbd_statics_text(statics));

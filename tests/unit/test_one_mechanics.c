@@ -93,7 +93,8 @@ static bool same_line(const char *a, const char *b)
 static void compare_equations(struct checks *checks, const char *path, struct trial *alone,
                               struct trial *joined)
 {
-    char *ours = fbd_equations_text(alone->state), *theirs = fbd_equations_text(joined->state);
+    char *ours = fbd_equations_write(alone->state, NULL, NULL),
+         *theirs = fbd_equations_write(joined->state, NULL, NULL);
     assert_non_null(ours);
     assert_non_null(theirs);
     const char *b = theirs, *symbols = strstr(ours, "\nCut free");

@@ -80,7 +80,7 @@ static void ask_at_the_start(struct answer *answer, const fbd_model *model, fbd_
     fbd_state *state = fbd_state_new(model);
     if (!state) abort();
     if (fbd_state_close(state, errors)) {
-        append_text(answer, fbd_equations_text(state));
+        append_text(answer, fbd_equations_write(state, NULL, NULL));
         append_text(answer, fbd_diagram_svg(state, NULL, errors));
     }
     fbd_statics *statics = fbd_statics_new(state, errors);
