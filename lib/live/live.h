@@ -8,8 +8,8 @@
 
 #include "base/diag.h"
 #include "base/text.h"
+#include "document/spans.h"
 #include "fbd_view.h"
-#include "scene/spans.h"
 
 /* An entry of the file that lists an effect: a force or moment of a body, a coupling or a contact. */
 struct live_effect {

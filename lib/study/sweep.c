@@ -3,10 +3,10 @@
 
 #include "base/api_check.h"
 #include "base/file.h"
+#include "document/node.h"
 #include "fbd_study.h"
 #include "loop/options.h"
 #include "scene/names.h"
-#include "scene/node.h"
 #include "study/hash.h"
 
 #include <inttypes.h>
