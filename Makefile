@@ -35,6 +35,11 @@ valgrind: $(BUILD)/.tests
 	ninja -C $(BUILD)
 	.ci/test $(BUILD) --no-rebuild --setup valgrind --suite unit --suite hard
 
+# The core alone, and with each satellite and those that it needs, each built by itself and tested; some minutes.
+satellites:
+	.ci/install-packages run test
+	tests/tools/satellites $(BUILD)-satellites
+
 # Every file with which something was once wrong (tests/faults/EXPECTED), and how many claims held.
 faults: $(BUILD)/.tests
 	ninja -C $(BUILD)
@@ -280,5 +285,5 @@ $(BUILD)-count/build.ninja:
 	.ci/install-packages run test lint
 	touch $@
 
-.PHONY: all run mutants generators compare test sanitize tsan valgrind faults cross-check fuzz bench measurements effects instructions error-bars event-bars events late-times implicit tighter methods impacts failures gallery python live live-check site check-format format lint install uninstall dist deb deb-check clean
+.PHONY: all run satellites mutants generators compare test sanitize tsan valgrind faults cross-check fuzz bench measurements effects instructions error-bars event-bars events late-times implicit tighter methods impacts failures gallery python live live-check site check-format format lint install uninstall dist deb deb-check clean
 .SECONDARY:
