@@ -7,6 +7,7 @@
 
 #include "api/record.h"
 #include "base/api_check.h"
+#include "fbd_view.h"
 #include "loop/options.h"
 #include "output/words.h"
 
@@ -182,6 +183,11 @@ fbd_outcome fbd_simulation_advance(fbd_simulation *simulation)
     ensemble_advance(ensemble);
     if (simulation->bars) simulation->bars->behind = true;
     return ensemble->outcome;
+}
+
+fbd_outcome fbd_simulation_outcome(const fbd_simulation *simulation)
+{
+    return simulation ? simulation->ensemble->outcome : FBD_FAILED;
 }
 
 void fbd_simulation_interval(const fbd_simulation *simulation, double *from, double *to)

@@ -3,8 +3,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/number.h"
 #include "expr/glyph.h"
-#include "expr/number.h"
 #include "expr/parser.h"
 
 enum { text_limit = 16384 };
@@ -60,7 +60,7 @@ static bool read_quantity(struct span span, enum unit_system units, struct quant
 static struct operand quantity_operand(const struct quantity *quantity)
 {
     double number = HUGE_VAL;
-    expr_number(quantity->number.text, quantity->number.length, &number);
+    number_read(quantity->number.text, quantity->number.length, &number);
     number *= quantity->read.factor;
     struct operand result =
         build_constant(number, (struct kind){.dim = quantity->read.dim}, quantity->unit.at);

@@ -6,7 +6,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "expr/number.h"
+#include "base/number.h"
 #include "expr/parser.h"
 #include "expr/unit_table.h"
 

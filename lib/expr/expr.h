@@ -136,9 +136,6 @@ size_t expr_summands(const char *text, size_t length, struct summand *summands, 
 /* A constant expression without text. */
 const struct expr *expr_constant(struct arena *arena, double value, struct dim dim);
 
-/* Read a bare YAML 1.2 core number (also .5, 1e3, -2; not inf, nan, 0x, 1_000, 1:30). Locale independent. */
-bool expr_number(const char *text, size_t length, double *value);
-
 /* The name of function `index`, or NULL past the last one. */
 const char *expr_function(size_t index);
 

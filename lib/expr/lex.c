@@ -4,8 +4,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/number.h"
 #include "expr/glyph.h"
-#include "expr/number.h"
 
 static bool is_blank(char c)
 {

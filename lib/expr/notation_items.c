@@ -4,9 +4,9 @@
  */
 #include <string.h>
 
+#include "base/number.h"
 #include "expr/glyph.h"
 #include "expr/notation_work.h"
-#include "expr/number.h"
 #include "expr/parser.h"
 
 struct item *writing_add(struct writing *w, enum item_kind kind, size_t start, size_t end, const char *text)

@@ -3,11 +3,10 @@
  * modelDescription.xml by FMI 3.0.2, sections 2.4 and 4.4.
  */
 #include "fmi/package.h"
-#include "model/model.h"
 
 static void begin(const struct package *package, struct text *xml)
 {
-    const char *title = package->model->scene->title;
+    const char *title = fbd_model_title(package->model);
     text_add(xml, "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<fmiModelDescription fmiVersion=\"3.0\"");
     xml_attribute(xml, "modelName", package->name);
     xml_attribute(xml, "instantiationToken", package->token);
@@ -18,7 +17,7 @@ static void begin(const struct package *package, struct text *xml)
     text_add(xml, ">\n  <CoSimulation");
     xml_attribute(xml, "modelIdentifier", package->name);
     text_add(xml, " canGetAndSetFMUState=\"true\" canSerializeFMUState=\"true\"");
-    if (fmi_has_derivatives(package->model))
+    if (package->has_derivatives)
         text_add(xml, " providesDirectionalDerivatives=\"true\" providesAdjointDerivatives=\"true\"");
     text_add(xml, " canHandleVariableCommunicationStepSize=\"true\" mightReturnEarlyFromDoStep=\"true\""
                   " hasEventMode=\"true\"/>\n");
@@ -36,10 +35,10 @@ static void experiment(const struct package *package, struct text *xml)
     text_add(xml, "/>\n");
 }
 
-static const char *causality(enum fmi_kind kind)
+static const char *causality(enum fmi_causality kind)
 {
     switch (kind) {
-    case fmi_time: return "independent";
+    case fmi_independent: return "independent";
     case fmi_parameter: return "parameter";
     case fmi_calculated: return "calculatedParameter";
     case fmi_input: return "input";
@@ -49,34 +48,31 @@ static const char *causality(enum fmi_kind kind)
 
 static void variable_of(const struct package *package, size_t index, struct text *xml)
 {
-    const struct fmi_variable *variable = &package->variables.list[index];
-    bool parameter = variable->kind == fmi_parameter, calculated = variable->kind == fmi_calculated;
-    struct text says = {0};
-    package_says(package, variable, &says);
+    const fbd_variable *variable = &package->variables[index];
+    enum fmi_causality kind = package_causality(package->model, variable);
+    bool parameter = kind == fmi_parameter, calculated = kind == fmi_calculated;
+    size_t integral = package_integral(variable, index);
     text_add(xml, "    <Float64");
-    xml_attribute(xml, "name", variable->name);
+    xml_variable_name(xml, variable);
     text_printf(xml, " valueReference=\"%zu\"", index);
-    if (!says.failed && says.data) xml_attribute(xml, "description", says.data);
-    xml->failed |= says.failed;
-    text_free(&says);
-    xml_attribute(xml, "causality", causality(variable->kind));
+    xml_description(xml, package, index);
+    xml_attribute(xml, "causality", causality(kind));
     xml_attribute(xml, "variability", parameter || calculated ? "fixed" : "continuous");
     if (parameter) xml_attribute(xml, "initial", "exact");
-    if (calculated || fmi_is_output(variable)) xml_attribute(xml, "initial", "calculated");
+    if (calculated || kind == fmi_output) xml_attribute(xml, "initial", "calculated");
     if (variable->unit[0]) xml_attribute(xml, "unit", variable->unit);
-    if (variable->integral > 0) text_printf(xml, " derivative=\"%u\"", variable->integral);
-    if (parameter || variable->kind == fmi_input)
-        xml_number(xml, "start", package->model->scene->parameters[variable->index].value);
+    if (integral > 0) text_printf(xml, " derivative=\"%zu\"", integral);
+    if (parameter || kind == fmi_input) xml_number(xml, "start", variable->start);
     text_add(xml, "/>\n");
 }
 
 /* Coordinates and rates are states: they do not depend on inputs directly. */
 static void unknown(const struct package *package, const char *element, size_t index, struct text *xml)
 {
-    enum fmi_kind kind = package->variables.list[index].kind;
+    fbd_variable_kind kind = package->variables[index].kind;
     text_printf(xml, "    <%s valueReference=\"%zu\"", element, index);
-    if (kind == fmi_coordinate || kind == fmi_rate) {
-        if (fmi_has_derivatives(package->model))
+    if (kind == FBD_VARIABLE_COORDINATE || kind == FBD_VARIABLE_RATE) {
+        if (package->has_derivatives)
             text_printf(xml, " dependencies=\"%zu\" dependenciesKind=\"constant\"", index);
         else
             text_add(xml, " dependencies=\"\"");
@@ -86,15 +82,17 @@ static void unknown(const struct package *package, const char *element, size_t i
 
 static void structure(const struct package *package, struct text *xml)
 {
-    const struct fmi_variables *variables = &package->variables;
+    const fbd_variable *variables = package->variables;
+    size_t count = package->variable_count;
     text_add(xml, "  <ModelStructure>\n");
-    for (size_t i = 0; i < variables->count; i++)
-        if (fmi_is_output(&variables->list[i])) unknown(package, "Output", i, xml);
-    for (size_t i = 0; i < variables->count; i++)
-        if (variables->list[i].integral > 0 && fmi_has_derivatives(package->model))
+    for (size_t i = 0; i < count; i++)
+        if (package_causality(package->model, &variables[i]) == fmi_output)
+            unknown(package, "Output", i, xml);
+    for (size_t i = 0; i < count; i++)
+        if (package_integral(&variables[i], i) > 0 && package->has_derivatives)
             unknown(package, "ContinuousStateDerivative", i, xml);
-    for (size_t i = 0; i < variables->count; i++)
-        if (fmi_is_output(&variables->list[i]) || variables->list[i].kind == fmi_calculated)
+    for (size_t i = 0; i < count; i++)
+        if (package_is_initial_unknown(package, i))
             text_printf(xml, "    <InitialUnknown valueReference=\"%zu\"/>\n", i);
     text_add(xml, "  </ModelStructure>\n");
 }
@@ -105,7 +103,7 @@ void package_describe(const struct package *package, struct text *xml)
     package_units(package, xml);
     experiment(package, xml);
     text_add(xml, "  <ModelVariables>\n");
-    for (size_t i = 0; i < package->variables.count; i++) variable_of(package, i, xml);
+    for (size_t i = 0; i < package->variable_count; i++) variable_of(package, i, xml);
     text_add(xml, "  </ModelVariables>\n");
     structure(package, xml);
     text_add(xml, "</fmiModelDescription>\n");

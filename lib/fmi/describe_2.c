@@ -4,11 +4,10 @@
  * value references start at 0, as in FMI 3.0.
  */
 #include "fmi/package.h"
-#include "model/model.h"
 
 static void begin(const struct package *package, struct text *xml)
 {
-    const char *title = package->model->scene->title;
+    const char *title = fbd_model_title(package->model);
     text_add(xml, "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<fmiModelDescription fmiVersion=\"2.0\"");
     xml_attribute(xml, "modelName", package->name);
     xml_attribute(xml, "guid", package->token);
@@ -21,7 +20,7 @@ static void begin(const struct package *package, struct text *xml)
     text_add(xml, " canHandleVariableCommunicationStepSize=\"true\""
                   " canNotUseMemoryManagementFunctions=\"true\" canGetAndSetFMUstate=\"true\""
                   " canSerializeFMUstate=\"true\"");
-    if (fmi_has_derivatives(package->model)) text_add(xml, " providesDirectionalDerivative=\"true\"");
+    if (package->has_derivatives) text_add(xml, " providesDirectionalDerivative=\"true\"");
     text_add(xml, "/>\n");
 }
 
@@ -37,10 +36,10 @@ static void experiment(const struct package *package, struct text *xml)
     text_add(xml, "/>\n");
 }
 
-static void causality(const struct fmi_variable *variable, struct text *xml)
+static void causality(enum fmi_causality kind, struct text *xml)
 {
-    switch (variable->kind) {
-    case fmi_time: text_add(xml, " causality=\"independent\" variability=\"continuous\""); break;
+    switch (kind) {
+    case fmi_independent: text_add(xml, " causality=\"independent\" variability=\"continuous\""); break;
     case fmi_parameter:
         text_add(xml, " causality=\"parameter\" variability=\"fixed\" initial=\"exact\"");
         break;
@@ -54,31 +53,28 @@ static void causality(const struct fmi_variable *variable, struct text *xml)
 
 static void variable_of(const struct package *package, size_t index, struct text *xml)
 {
-    const struct fmi_variable *variable = &package->variables.list[index];
-    struct text says = {0};
-    package_says(package, variable, &says);
+    const fbd_variable *variable = &package->variables[index];
+    enum fmi_causality kind = package_causality(package->model, variable);
+    size_t integral = package_integral(variable, index);
     text_add(xml, "    <ScalarVariable");
-    xml_attribute(xml, "name", variable->name);
+    xml_variable_name(xml, variable);
     text_printf(xml, " valueReference=\"%zu\"", index);
-    if (!says.failed && says.data) xml_attribute(xml, "description", says.data);
-    xml->failed |= says.failed;
-    text_free(&says);
-    causality(variable, xml);
+    xml_description(xml, package, index);
+    causality(kind, xml);
     text_add(xml, "><Real");
     if (variable->unit[0]) xml_attribute(xml, "unit", variable->unit);
-    if (variable->kind == fmi_parameter || variable->kind == fmi_input)
-        xml_number(xml, "start", package->model->scene->parameters[variable->index].value);
-    if (variable->integral > 0) text_printf(xml, " derivative=\"%u\"", variable->integral + 1);
+    if (kind == fmi_parameter || kind == fmi_input) xml_number(xml, "start", variable->start);
+    if (integral > 0) text_printf(xml, " derivative=\"%zu\"", integral + 1);
     text_add(xml, "/></ScalarVariable>\n");
 }
 
 /* Coordinates and rates are states: they do not depend on inputs directly. */
 static void unknown(const struct package *package, size_t index, struct text *xml)
 {
-    enum fmi_kind kind = package->variables.list[index].kind;
+    fbd_variable_kind kind = package->variables[index].kind;
     text_printf(xml, "      <Unknown index=\"%zu\"", index + 1);
-    if (kind == fmi_coordinate || kind == fmi_rate) {
-        if (fmi_has_derivatives(package->model))
+    if (kind == FBD_VARIABLE_COORDINATE || kind == FBD_VARIABLE_RATE) {
+        if (package->has_derivatives)
             text_printf(xml, " dependencies=\"%zu\" dependenciesKind=\"constant\"", index + 1);
         else
             text_add(xml, " dependencies=\"\"");
@@ -86,24 +82,23 @@ static void unknown(const struct package *package, size_t index, struct text *xm
     text_add(xml, "/>\n");
 }
 
-static bool is_derivative(const struct fmi_variable *variable)
+static bool is_output(const struct package *package, size_t index)
 {
-    return variable->integral > 0;
+    return package_causality(package->model, &package->variables[index]) == fmi_output;
 }
 
-static bool is_initial_unknown(const struct fmi_variable *variable)
+static bool is_derivative(const struct package *package, size_t index)
 {
-    return fmi_is_output(variable) || variable->kind == fmi_calculated;
+    return package_integral(&package->variables[index], index) > 0;
 }
 
 /* Append a list of the model structure, if it is not empty, with the dependencies of its variables. */
-static void list(const struct package *package, const char *name, bool belongs(const struct fmi_variable *),
-                 bool depends, struct text *xml)
+static void list(const struct package *package, const char *name,
+                 bool belongs(const struct package *, size_t), bool depends, struct text *xml)
 {
-    const struct fmi_variables *variables = &package->variables;
     bool any = false;
-    for (size_t i = 0; i < variables->count; i++) {
-        if (!belongs(&variables->list[i])) continue;
+    for (size_t i = 0; i < package->variable_count; i++) {
+        if (!belongs(package, i)) continue;
         if (!any) text_printf(xml, "    <%s>\n", name);
         any = true;
         if (depends)
@@ -117,9 +112,9 @@ static void list(const struct package *package, const char *name, bool belongs(c
 static void structure(const struct package *package, struct text *xml)
 {
     text_add(xml, "  <ModelStructure>\n");
-    list(package, "Outputs", fmi_is_output, true, xml);
-    if (fmi_has_derivatives(package->model)) list(package, "Derivatives", is_derivative, true, xml);
-    list(package, "InitialUnknowns", is_initial_unknown, false, xml);
+    list(package, "Outputs", is_output, true, xml);
+    if (package->has_derivatives) list(package, "Derivatives", is_derivative, true, xml);
+    list(package, "InitialUnknowns", package_is_initial_unknown, false, xml);
     text_add(xml, "  </ModelStructure>\n");
 }
 
@@ -129,7 +124,7 @@ void package_describe_2(const struct package *package, struct text *xml)
     package_units(package, xml);
     experiment(package, xml);
     text_add(xml, "  <ModelVariables>\n");
-    for (size_t i = 0; i < package->variables.count; i++) variable_of(package, i, xml);
+    for (size_t i = 0; i < package->variable_count; i++) variable_of(package, i, xml);
     text_add(xml, "  </ModelVariables>\n");
     structure(package, xml);
     text_add(xml, "</fmiModelDescription>\n");

@@ -2,18 +2,15 @@
  *
  * Public interface: a model as an FMU.
  */
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "api/record.h"
 #include "base/api_check.h"
 #include "base/file.h"
 #include "fbd_export.h"
 #include "fmi/package.h"
 #include "fmi/zip.h"
-#include "loop/options.h"
-#include "model/model.h"
-#include "rest/start.h"
 
 /* ---- the name */
 
@@ -25,7 +22,7 @@ static bool is_letter(char c)
 /* The name of the file without folder and ending, converted to a C identifier. */
 static void name_package(struct package *package)
 {
-    const char *path = package->options->name ? package->options->name : package->model->scene->file;
+    const char *path = package->options->name ? package->options->name : fbd_model_file(package->model);
     const char *slash = path ? strrchr(path, '/') : NULL, *name = slash ? slash + 1 : path;
     size_t used = 0;
     if (!name || !is_letter(name[0])) package->name[used++] = 'm';
@@ -45,32 +42,33 @@ static void put_number(struct text *text, const char *key, double value)
     text_add(text, "\n");
 }
 
-static bool is_table(const struct scene *scene, const char *name)
+static bool is_table(const fbd_model *model, const char *name)
 {
-    for (size_t i = 0; i < scene->table_count; i++)
-        if (strcmp(scene->tables[i].name, name) == 0) return true;
+    for (size_t i = 0; i < fbd_model_data_file_count(model); i++)
+        if (strcmp(fbd_model_data_file(model, i).table, name) == 0) return true;
     return false;
 }
 
-static void put_settings(struct package *package, const struct run_options *run)
+/* `run` is complete. */
+static void put_settings(struct package *package, const fbd_options *run)
 {
     const fbd_fmu_options *options = package->options;
-    const struct scene *scene = package->model->scene;
+    const fbd_model *model = package->model;
     struct text *text = &package->settings;
     put_number(text, "until", package->until);
     put_number(text, "tolerance", package->tolerance);
     if (run->step > 0) put_number(text, "step", run->step);
-    text_printf(text, "method %s\n", options_method(run));
-    if (!run->structure) text_add(text, "structure no\n");
+    text_printf(text, "method %s\n", run->method);
+    if (run->no_structure) text_add(text, "structure no\n");
     for (size_t i = 0; i < options->setting_count; i++) {
         const fbd_setting *setting = &options->settings[i];
-        if (is_table(scene, setting->name)) continue;
+        if (is_table(model, setting->name)) continue;
         text_printf(text, "set %s ", setting->name);
         for (const char *c = setting->value; *c; c++) text_add_bytes(text, *c == '\n' ? " " : c, 1);
         text_add(text, "\n");
     }
-    for (size_t i = 0; i < scene->table_count; i++)
-        if (scene->tables[i].path) text_printf(text, "table %s\n", scene->tables[i].name);
+    for (size_t i = 0; i < fbd_model_data_file_count(model); i++)
+        text_printf(text, "table %s\n", fbd_model_data_file(model, i).table);
 }
 
 /* ---- files */
@@ -124,15 +122,14 @@ static void add_binary(struct zip *zip, const struct package *package)
     text_free(&name);
 }
 
-static bool add_tables(struct zip *zip, const struct scene *scene, fbd_errors *errors)
+static bool add_tables(struct zip *zip, const fbd_model *model, fbd_errors *errors)
 {
-    for (size_t i = 0; i < scene->table_count; i++) {
-        const struct scene_table *table = &scene->tables[i];
+    for (size_t i = 0; i < fbd_model_data_file_count(model); i++) {
+        const fbd_data_file file = fbd_model_data_file(model, i);
         size_t length;
-        if (!table->path) continue;
-        char *bytes = file_text(table->path, &length, errors);
+        char *bytes = file_text(file.path, &length, errors);
         struct text name = {0};
-        text_printf(&name, "resources/tables/%s", table->name);
+        text_printf(&name, "resources/tables/%s", file.table);
         if (bytes && !name.failed) zip_add(zip, name.data, bytes, length);
         zip->failed |= name.failed;
         text_free(&name);
@@ -146,16 +143,17 @@ static char *pack(const struct package *package, size_t *length, fbd_errors *err
 {
     struct zip zip = {0};
     struct text xml = {0};
-    const struct fbd_model *model = package->model;
+    size_t source_length;
+    const char *source = fbd_model_source(package->model, &source_length);
     if (package->options->version == 2)
         package_describe_2(package, &xml);
     else
         package_describe(package, &xml);
     add_text(&zip, "modelDescription.xml", &xml);
     add_binary(&zip, package);
-    zip_add(&zip, "resources/model.yaml", model->source, model->source_length);
+    zip_add(&zip, "resources/model.yaml", source, source_length);
     zip_add(&zip, "resources/settings", package->settings.data, package->settings.length);
-    bool whole = add_tables(&zip, model->scene, errors);
+    bool whole = add_tables(&zip, package->model, errors);
     zip_add(&zip, "documentation/index.html", page, strlen(page));
     add_licenses(&zip);
     char *bytes = zip_finish(&zip, length);
@@ -166,15 +164,6 @@ static char *pack(const struct package *package, size_t *length, fbd_errors *err
 }
 
 /* ---- checks before the export */
-
-static bool has_start(const struct fbd_model *model, fbd_errors *errors)
-{
-    struct fbd_state *state = state_new(model);
-    if (!state) diag_out_of_memory(errors);
-    bool fine = state && start_check(state, "the start", errors);
-    state_free(state);
-    return fine;
-}
 
 static bool refuse(fbd_errors *errors, const char *hint, const char *message)
 {
@@ -195,24 +184,54 @@ static bool options_fit(const fbd_fmu_options *options, fbd_errors *errors)
     return true;
 }
 
+/* Complete the options as a run from the start does, which also checks the start. Returns false with the notes of
+ * that run. */
+static bool complete(const fbd_model *model, fbd_options *run, fbd_errors *errors)
+{
+    fbd_options file = FBD_OPTIONS_DEFAULT;
+    fbd_simulation *simulation = fbd_simulation_new(model, run, errors);
+    bool fine = simulation && !fbd_simulation_blame(simulation, errors);
+    if (fine && fbd_simulation_outcome(simulation) == FBD_OUT_OF_MEMORY) {
+        diag_out_of_memory(errors);
+        fine = false;
+    }
+    fbd_model_options(model, &file, sizeof file);
+    if (isnan(run->until)) run->until = file.until;
+    if (run->step == 0) run->step = file.step;
+    if (!run->method) run->method = file.method ? file.method : "auto";
+    if (fine) run->tolerance = fbd_simulation_stats(simulation).tolerance;
+    fbd_simulation_free(simulation);
+    return fine;
+}
+
+static bool list_variables(struct package *package, fbd_errors *errors)
+{
+    size_t count = package->variable_count = fbd_model_variable_count(package->model);
+    fbd_state *state = fbd_state_new(package->model);
+    package->variables = calloc(count, sizeof *package->variables);
+    bool made = state && package->variables;
+    for (size_t i = 0; made && i < count; i++) package->variables[i] = fbd_model_variable(package->model, i);
+    package->has_derivatives = made && package_has_derivatives(state);
+    fbd_state_free(state);
+    if (!made) diag_out_of_memory(errors);
+    return made;
+}
+
 static char *make(struct package *package, size_t *length, fbd_errors *errors)
 {
-    struct run_options run;
-    const struct fbd_model *model = package->model;
-    if (!options_fit(package->options, errors) ||
-        !options_choose(model, package->options->run, &run, errors) || !has_start(model, errors))
-        return NULL;
-    bool accurate =
-        model->scene->simulate.accuracy > 0 && package->options->run->tolerance == 0 && run.step == 0;
+    fbd_options run = *package->options->run;
+    if (!options_fit(package->options, errors) || !complete(package->model, &run, errors)) return NULL;
+    size_t source_length;
+    const char *source = fbd_model_source(package->model, &source_length);
     package->until = run.until;
-    package->tolerance = accurate ? accuracy_first_guess(model->scene->simulate.accuracy) : run.tolerance;
+    package->tolerance = run.tolerance;
     name_package(package);
     put_settings(package, &run);
-    bool made = fmi_variables_init(&package->variables, model) && !package->settings.failed;
-    if (!made) diag_out_of_memory(errors);
-    if (made) package_token(model->source, model->source_length, package->settings.data, package->token);
+    if (package->settings.failed) diag_out_of_memory(errors);
+    bool made = !package->settings.failed && list_variables(package, errors);
+    if (made) package_token(source, source_length, package->settings.data, package->token);
     char *bytes = made ? pack(package, length, errors) : NULL;
-    fmi_variables_free(&package->variables);
+    free(package->variables);
     text_free(&package->settings);
     return bytes;
 }

@@ -7,9 +7,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/diag.h"
 #include "base/format.h"
-#include "loop/ensemble.h"
-#include "record/result.h"
 
 const char *const log_category_names[log_categories] = {"logStatusError", "logStatusWarning", "logEvents"};
 
@@ -175,12 +174,6 @@ enum instance_status instance_reset(struct instance *instance)
 
 /* ---- values */
 
-static const struct fmi_variable *variable_of(const struct instance *instance, unsigned reference)
-{
-    const struct fmi_variables *variables = &instance->plant->variables;
-    return reference < variables->count ? &variables->list[reference] : NULL;
-}
-
 enum instance_status instance_get(struct instance *instance, const char *function, const unsigned *references,
                                   size_t count, double *values)
 {
@@ -188,19 +181,21 @@ enum instance_status instance_get(struct instance *instance, const char *functio
     if (count > 0 && (!references || !values))
         return instance_fail(instance, function, "there is no place for values");
     for (size_t i = 0; i < count; i++)
-        if (!variable_of(instance, references[i]))
+        if (references[i] >= plant->variable_count)
             return instance_fail(instance, function, "there is no such variable");
     if (count > 0 && !plant_update(plant)) return instance_fail(instance, function, plant->reason);
-    for (size_t i = 0; i < count; i++) values[i] = plant_get(plant, variable_of(instance, references[i]));
+    for (size_t i = 0; i < count; i++) values[i] = plant_get(plant, references[i]);
     return instance_ok;
 }
 
-static const char *why_not_set(const struct instance *instance, const struct fmi_variable *variable,
-                               double value)
+static const char *why_not_set(const struct instance *instance, unsigned reference, double value)
 {
-    bool parameter = variable && variable->kind == fmi_parameter;
-    if (!variable) return "there is no such variable";
-    if (!parameter && variable->kind != fmi_input) return "only parameters and inputs can be set";
+    const fbd_model *model = instance->plant->first;
+    const fbd_variable variable = fbd_model_variable(model, reference);
+    if (!variable.name) return "there is no such variable";
+    enum fmi_causality kind = package_causality(model, &variable);
+    bool parameter = kind == fmi_parameter;
+    if (!parameter && kind != fmi_input) return "only parameters and inputs can be set";
     if (parameter && !(instance->phase & (phase_instantiated | phase_initialization)))
         return "parameters are fixed once the motion has begun";
     return isfinite(value) ? NULL : "the value is not finite";
@@ -212,11 +207,12 @@ enum instance_status instance_set(struct instance *instance, const char *functio
     if (count > 0 && (!references || !values))
         return instance_fail(instance, function, "there are no values");
     for (size_t i = 0; i < count; i++) {
-        const char *why = why_not_set(instance, variable_of(instance, references[i]), values[i]);
+        const char *why = why_not_set(instance, references[i], values[i]);
         if (why) return instance_fail(instance, function, why);
     }
     for (size_t i = 0; i < count; i++)
-        plant_set(instance->plant, variable_of(instance, references[i])->index, values[i]);
+        plant_set(instance->plant, fbd_model_variable(instance->plant->first, references[i]).index,
+                  values[i]);
     return instance_ok;
 }
 
@@ -246,7 +242,7 @@ static void log_step_events(const struct instance *instance, double from)
     fbd_simulation *simulation = instance->plant->simulation;
     size_t count = fbd_simulation_event_count(simulation), first = count;
     if (!instance->logs[log_events]) return;
-    while (first > 0 && simulation->ensemble->events[first - 1].t > from) first--;
+    while (first > 0 && fbd_simulation_event(simulation, first - 1).t > from) first--;
     for (size_t i = first; i < count; i++) {
         fbd_event event = fbd_simulation_event(simulation, i);
         if (event.t > instance->plant->t) break;

@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "fmi/package.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-#include "expr/expr.h"
+#include "base/number.h"
 
 /* ---- XML */
 
@@ -35,75 +36,139 @@ void xml_number(struct text *xml, const char *name, double value)
 
 /* ---- units */
 
-static void exponent(struct text *xml, const char *base, int twelfths)
+static void exponent(struct text *xml, const char *base, double exponent)
 {
-    if (twelfths != 0) text_printf(xml, " %s=\"%d\"", base, twelfths / dim_unit);
+    if (exponent != 0) text_printf(xml, " %s=\"%d\"", base, (int)exponent);
 }
 
-static bool is_whole(struct dim dim)
+static bool is_whole(const fbd_unit *unit)
 {
-    return dim.mass % dim_unit == 0 && dim.length % dim_unit == 0 && dim.time % dim_unit == 0;
+    return unit->mass == trunc(unit->mass) && unit->length == trunc(unit->length) &&
+           unit->time == trunc(unit->time);
 }
 
 /* The number of radians in the name of a unit, which its dimension does not contain. */
 static int radians(const char *name)
 {
-    return strncmp(name, "rad", 3) == 0 ? dim_unit : strstr(name, "/rad") ? -dim_unit : 0;
+    return strncmp(name, "rad", 3) == 0 ? 1 : strstr(name, "/rad") ? -1 : 0;
 }
 
 static void write_unit(struct text *xml, const char *name)
 {
-    struct unit unit;
+    fbd_unit unit;
     text_add(xml, "    <Unit");
     xml_attribute(xml, "name", name);
-    bool known =
-        unit_parse(name, strlen(name), unit_si, NULL, (struct pos){0, 0}, &unit) && is_whole(unit.dim);
-    if (!known) {
+    if (!fbd_unit_read(NULL, name, strlen(name), &unit) || !is_whole(&unit)) {
         text_add(xml, "/>\n");
         return;
     }
     text_add(xml, "><BaseUnit");
-    exponent(xml, "kg", unit.dim.mass);
-    exponent(xml, "m", unit.dim.length);
-    exponent(xml, "s", unit.dim.time);
+    exponent(xml, "kg", unit.mass);
+    exponent(xml, "m", unit.length);
+    exponent(xml, "s", unit.time);
     exponent(xml, "rad", radians(name));
     if (unit.factor != 1) xml_number(xml, "factor", unit.factor);
     text_add(xml, "/></Unit>\n");
 }
 
-static bool is_first(const struct fmi_variables *variables, size_t index)
+static bool is_first(const struct package *package, size_t index)
 {
     for (size_t i = 0; i < index; i++)
-        if (strcmp(variables->list[i].unit, variables->list[index].unit) == 0) return false;
+        if (strcmp(package->variables[i].unit, package->variables[index].unit) == 0) return false;
     return true;
 }
 
 void package_units(const struct package *package, struct text *xml)
 {
-    const struct fmi_variables *variables = &package->variables;
     text_add(xml, "  <UnitDefinitions>\n");
-    for (size_t i = 0; i < variables->count; i++)
-        if (variables->list[i].unit[0] && is_first(variables, i)) write_unit(xml, variables->list[i].unit);
+    for (size_t i = 0; i < package->variable_count; i++)
+        if (package->variables[i].unit[0] && is_first(package, i))
+            write_unit(xml, package->variables[i].unit);
     text_add(xml, "  </UnitDefinitions>\n");
 }
 
-void package_says(const struct package *package, const struct fmi_variable *variable, struct text *text)
+/* ---- variables */
+
+enum fmi_causality package_causality(const fbd_model *model, const fbd_variable *variable)
 {
-    const struct fmi_variable *list = package->variables.list;
     switch (variable->kind) {
-    case fmi_time: text_add(text, "simulated time"); break;
-    case fmi_parameter: text_add(text, "parameter of the model file"); break;
-    case fmi_calculated: text_add(text, "parameter that the model file defines by others"); break;
-    case fmi_input:
-        text_add(text, variable->description[0] ? variable->description
-                                                : "input: constant between communication points");
-        break;
-    case fmi_coordinate: text_add(text, "coordinate"); break;
-    case fmi_rate:
-    case fmi_acceleration: text_printf(text, "rate of change of %s", list[variable->integral].name); break;
-    case fmi_state: text_add(text, "state of the model file"); break;
-    case fmi_point: text_add(text, "of a point, in the world"); break;
+    case FBD_VARIABLE_TIME: return fmi_independent;
+    case FBD_VARIABLE_PARAMETER:
+        return fbd_model_parameter(model, variable->index).derived ? fmi_calculated : fmi_parameter;
+    case FBD_VARIABLE_INPUT: return fmi_input;
+    default: return fmi_output;
     }
+}
+
+bool package_is_initial_unknown(const struct package *package, size_t index)
+{
+    enum fmi_causality kind = package_causality(package->model, &package->variables[index]);
+    return kind == fmi_output || kind == fmi_calculated;
+}
+
+bool package_has_derivatives(fbd_state *state)
+{
+    const fbd_model *model = fbd_state_model(state);
+    size_t count = fbd_model_variable_count(model);
+    bool has_points = fbd_model_variable(model, count - 1).kind == FBD_VARIABLE_POINT;
+    return !has_points && fbd_state_derivatives(state, NULL, 0, NULL, NULL);
+}
+
+size_t package_integral(const fbd_variable *variable, size_t index)
+{
+    bool derivative = variable->kind == FBD_VARIABLE_RATE || variable->kind == FBD_VARIABLE_ACCELERATION;
+    return derivative ? index - 1 : 0;
+}
+
+static void add_name(struct text *text, const fbd_variable *variable)
+{
+    if (variable->kind == FBD_VARIABLE_TIME)
+        text_add(text, "time");
+    else
+        text_printf(text, "%s%s%s", variable->owner, variable->owner[0] ? "." : "", variable->name);
+}
+
+/* Append an attribute whose value is `text`, which is freed. */
+static void take_attribute(struct text *xml, const char *name, struct text *text)
+{
+    if (!text->failed && text->data) xml_attribute(xml, name, text->data);
+    xml->failed |= text->failed;
+    text_free(text);
+}
+
+void xml_variable_name(struct text *xml, const fbd_variable *variable)
+{
+    struct text name = {0};
+    add_name(&name, variable);
+    take_attribute(xml, "name", &name);
+}
+
+void xml_description(struct text *xml, const struct package *package, size_t index)
+{
+    const fbd_variable *variable = &package->variables[index];
+    struct text text = {0};
+    switch (variable->kind) {
+    case FBD_VARIABLE_TIME: text_add(&text, "simulated time"); break;
+    case FBD_VARIABLE_PARAMETER:
+        text_add(&text, package_causality(package->model, variable) == fmi_calculated
+                            ? "parameter that the model file defines by others"
+                            : "parameter of the model file");
+        break;
+    case FBD_VARIABLE_INPUT: {
+        const char *description = fbd_model_parameter(package->model, variable->index).description;
+        text_add(&text, description[0] ? description : "input: constant between communication points");
+        break;
+    }
+    case FBD_VARIABLE_COORDINATE: text_add(&text, "coordinate"); break;
+    case FBD_VARIABLE_RATE:
+    case FBD_VARIABLE_ACCELERATION:
+        text_add(&text, "rate of change of ");
+        add_name(&text, variable - 1);
+        break;
+    case FBD_VARIABLE_STATE: text_add(&text, "state of the model file"); break;
+    case FBD_VARIABLE_POINT: text_add(&text, "of a point, in the world"); break;
+    }
+    take_attribute(xml, "description", &text);
 }
 
 /* ---- the token */
@@ -132,7 +197,7 @@ void package_token(const char *text, size_t length, const char *settings, char t
 
 static bool take_number(const char *text, double *number)
 {
-    return expr_number(text, strlen(text), number);
+    return number_read(text, strlen(text), number);
 }
 
 static bool take_set(struct package_settings *settings, char *text)

@@ -12,17 +12,29 @@
 
 #include <stdint.h>
 
+#include "base/arena.h"
 #include "base/text.h"
 #include "fbd.h"
 #include "fbd_export.h"
-#include "fmi/variables.h"
+#include "fbd_view.h"
 
 enum { package_name_size = 64, package_token_size = 40 };
 
+/* The value reference of a variable is its index in fbd_model_variable. */
+enum fmi_causality {
+    fmi_independent, /* the time */
+    fmi_parameter,
+    fmi_calculated, /* a parameter defined in the file by others */
+    fmi_input,
+    fmi_output,
+};
+
 struct package {
-    const struct fbd_model *model;
+    const fbd_model *model;
     const fbd_fmu_options *options;
-    struct fmi_variables variables;
+    fbd_variable *variables;
+    size_t variable_count;
+    bool has_derivatives;
     struct text settings;
     char name[package_name_size];   /* an identifier */
     char token[package_token_size]; /* identifies the model and settings */
@@ -63,10 +75,25 @@ extern const size_t license_of_gpl_length, license_of_libyaml_length;
 void xml_attribute(struct text *xml, const char *name, const char *value);
 void xml_number(struct text *xml, const char *name, double value);
 
+enum fmi_causality package_causality(const fbd_model *model, const fbd_variable *variable);
+
+/* True if directional derivatives of all outputs are available: not with points. `state` is any state of the
+ * model. */
+bool package_has_derivatives(fbd_state *state);
+
+/* An output, or a parameter defined by others. */
+bool package_is_initial_unknown(const struct package *package, size_t index);
+
+/* The variable whose derivative by time is variable `index`, or 0. */
+size_t package_integral(const fbd_variable *variable, size_t index);
+
+/* Append the name of a variable, escaped, as an attribute. */
+void xml_variable_name(struct text *xml, const fbd_variable *variable);
+
 /* Append the units of all variables, each once. */
 void package_units(const struct package *package, struct text *xml);
 
-/* Append a short description of a variable: "rate of change of block.x". */
-void package_says(const struct package *package, const struct fmi_variable *variable, struct text *text);
+/* Append a short description of variable `index`: "rate of change of block.x", as an attribute. */
+void xml_description(struct text *xml, const struct package *package, size_t index);
 
 #endif

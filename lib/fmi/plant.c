@@ -5,12 +5,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/diag.h"
 #include "base/file.h"
 #include "base/format.h"
-#include "loop/ensemble.h"
-#include "model/model.h"
-#include "output/equations.h"
-#include "record/result.h"
 
 static bool fail(struct plant *plant, const char *reason)
 {
@@ -41,8 +38,8 @@ static bool fail_by(struct plant *plant, fbd_errors *errors)
 
 static bool is_own(const struct plant *plant, size_t index)
 {
-    const struct parameter *parameter = &plant->first->scene->parameters[index];
-    return !parameter->derived && plant->values[index] != parameter->value;
+    const fbd_parameter parameter = fbd_model_parameter(plant->first, index);
+    return !parameter.derived && plant->values[index] != parameter.value;
 }
 
 /* The settings of the FMU, then the changed values. */
@@ -58,19 +55,19 @@ static fbd_setting *list_settings(const struct plant *plant, struct arena *arena
         format_shortest(number, sizeof number, plant->values[i]);
         const char *text = arena_text(arena, number, strlen(number));
         if (!text) return NULL;
-        list[(*count)++] = (fbd_setting){plant->first->scene->parameters[i].name, text};
+        list[(*count)++] = (fbd_setting){fbd_model_parameter(plant->first, i).name, text};
     }
     return list;
 }
 
 /* Compile the model with the present values. */
-static struct fbd_model *make_model(struct plant *plant)
+static fbd_model *make_model(struct plant *plant)
 {
     struct arena arena = {0};
     size_t count;
     fbd_errors *errors = fbd_errors_new();
     const fbd_setting *settings = errors ? list_settings(plant, &arena, &count) : NULL;
-    struct fbd_model *model = NULL;
+    fbd_model *model = NULL;
     if (settings) model = fbd_model_parse(plant->text, plant->length, plant->path, settings, count, errors);
     if (!settings)
         no_memory(plant);
@@ -128,10 +125,12 @@ static bool open_model(struct plant *plant, fbd_errors *errors)
     plant->first = fbd_model_parse(plant->text, plant->length, plant->path, plant->settings.list,
                                    plant->settings.count, errors);
     if (!plant->first) return false;
-    size_t count = plant->parameter_count = plant->first->scene->parameter_count;
-    plant->values = calloc(2 * count + 1, sizeof *plant->values);
+    size_t count = plant->parameter_count = fbd_model_parameter_count(plant->first);
+    plant->variable_count = fbd_model_variable_count(plant->first);
+    plant->values = calloc(2 * count + plant->variable_count, sizeof *plant->values);
     plant->base.values = plant->values + count;
-    if (!plant->values || !fmi_variables_init(&plant->variables, plant->first)) {
+    plant->shown = plant->base.values + count;
+    if (!plant->values) {
         diag_out_of_memory(errors);
         return false;
     }
@@ -155,6 +154,7 @@ static void drop_run(struct plant *plant)
     fbd_simulation_free(plant->simulation);
     fbd_model_free(plant->model);
     plant->state = NULL;
+    plant->is_shown = false;
     plant->simulation = NULL;
     plant->model = NULL;
 }
@@ -164,7 +164,6 @@ void plant_close(struct plant *plant)
     if (!plant) return;
     drop_run(plant);
     fbd_model_free(plant->first);
-    fmi_variables_free(&plant->variables);
     package_settings_free(&plant->settings);
     free(plant->base.numbers);
     free(plant->values);
@@ -184,7 +183,7 @@ void plant_reset(struct plant *plant)
 {
     drop_run(plant);
     for (size_t i = 0; i < plant->parameter_count; i++)
-        plant->values[i] = plant->first->scene->parameters[i].value;
+        plant->values[i] = fbd_model_parameter(plant->first, i).value;
     take_values(plant);
     plant->base.of_file = true;
     plant->base.until = plant->settings.run.until;
@@ -232,8 +231,7 @@ static fbd_state *state_of_base(struct plant *plant)
     fbd_state *state = fbd_state_new(plant->model);
     bool fine = state != NULL;
     if (fine && plant->base.of_file) {
-        state->t = plant->start;
-        state->settled = false;
+        fbd_state_set(state, "t", plant->start);
     } else if (fine && !fbd_state_unpack(state, plant->base.numbers, plant->base.number_count)) {
         fail(plant,
              "with these inputs the model has another memory: an input that switches `hysteresis`, or a "
@@ -264,7 +262,7 @@ static bool start_simulation(struct plant *plant)
 
 static bool has_failed(const struct plant *plant)
 {
-    fbd_outcome outcome = plant->simulation->ensemble->outcome;
+    fbd_outcome outcome = fbd_simulation_outcome(plant->simulation);
     return outcome != FBD_GOING && outcome != FBD_DONE && outcome != FBD_STOPPED;
 }
 
@@ -283,6 +281,7 @@ static double reached(const struct plant *plant)
 
 static bool look(struct plant *plant, double t)
 {
+    plant->is_shown = false;
     if (!fbd_simulation_state(plant->simulation, t, plant->state))
         return fail(plant, "the state cannot be had: memory is out, or a force is not finite");
     plant->t = t;
@@ -295,7 +294,7 @@ static bool make_run(struct plant *plant)
     drop_run(plant);
     plant->model = make_model(plant);
     if (!plant->model || !start_simulation(plant)) return false;
-    while (reached(plant) < plant->t && plant->simulation->ensemble->outcome == FBD_GOING)
+    while (reached(plant) < plant->t && fbd_simulation_outcome(plant->simulation) == FBD_GOING)
         fbd_simulation_advance(plant->simulation);
     if (reached(plant) < plant->t || (has_failed(plant) && reached(plant) <= plant->t))
         return fail_by_run(plant);
@@ -361,10 +360,9 @@ static bool prolong(struct plant *plant)
 /* The first event after t that the simulation has reached, or NAN. */
 static double next_event(const struct plant *plant)
 {
-    const struct ensemble *ensemble = plant->simulation->ensemble;
-    double next = NAN;
-    for (size_t i = ensemble->event_count; i > 0 && ensemble->events[i - 1].t > plant->t; i--)
-        next = ensemble->events[i - 1].t;
+    double next = NAN, t;
+    size_t i = fbd_simulation_event_count(plant->simulation);
+    for (; i > 0 && (t = fbd_simulation_event(plant->simulation, i - 1).t) > plant->t; i--) next = t;
     return next;
 }
 
@@ -378,7 +376,7 @@ enum plant_step plant_step(struct plant *plant, double target, bool pause)
     if (!plant_update(plant)) return plant_failed;
     for (;;) {
         double to = reached(plant), event = next_event(plant);
-        fbd_outcome outcome = plant->simulation->ensemble->outcome;
+        fbd_outcome outcome = fbd_simulation_outcome(plant->simulation);
         bool happens = event <= target && event <= to;
         if (pause && happens && event < target) return arrive(plant, event, plant_event);
         if (outcome == FBD_STOPPED && to <= target) return arrive(plant, to, plant_stopped);
@@ -390,14 +388,16 @@ enum plant_step plant_step(struct plant *plant, double target, bool pause)
     }
 }
 
-double plant_get(const struct plant *plant, const struct fmi_variable *variable)
+/* A parameter or input has the value that was set; one defined by others has that of the model. */
+double plant_get(struct plant *plant, size_t index)
 {
-    switch (variable->kind) {
-    case fmi_parameter:
-    case fmi_input: return plant->values[variable->index];
-    case fmi_calculated: return plant->model->scene->parameters[variable->index].value;
-    default: return fmi_value(variable, plant->state);
-    }
+    const fbd_variable variable = fbd_model_variable(plant->first, index);
+    if (!variable.name) return NAN;
+    enum fmi_causality kind = package_causality(plant->first, &variable);
+    if (kind == fmi_parameter || kind == fmi_input) return plant->values[variable.index];
+    if (!plant->is_shown) fbd_state_variables(plant->state, plant->shown, plant->variable_count);
+    plant->is_shown = true;
+    return plant->shown[index];
 }
 
 /* ---- saving */

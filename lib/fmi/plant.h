@@ -35,10 +35,10 @@ struct plant {
     char *text, *path, *settings_text;
     size_t length;
     struct package_settings settings;
-    struct fmi_variables variables;
-    struct fbd_model *first; /* by the file and its settings only: source of the variables' names */
-    size_t parameter_count;  /* number of parameters and inputs */
-    double *values;          /* present values */
+    fbd_model *first; /* by the file and its settings only: source of the variables */
+    size_t variable_count;
+    size_t parameter_count; /* number of parameters and inputs */
+    double *values;         /* present values */
     char token[package_token_size];
 
     bool running;       /* it has been initialized */
@@ -46,9 +46,11 @@ struct plant {
     double t;
     double tolerance; /* requested; 0 if not given */
     struct plant_base base;
-    struct fbd_model *model; /* with the values of the base; NULL if not compiled yet */
+    fbd_model *model; /* with the values of the base; NULL if not compiled yet */
     fbd_simulation *simulation;
     fbd_state *state;   /* at t */
+    double *shown;      /* variable_count: values of all variables in the state ... */
+    bool is_shown;      /* ... if they have been computed */
     const char *reason; /* reason of a failure */
     char own_reason[400];
 };
@@ -69,8 +71,8 @@ void plant_begin(struct plant *plant, double start, double stop, double toleranc
 /* Make model, simulation and state consistent with t and the present values. Returns false with a reason. */
 bool plant_update(struct plant *plant);
 
-/* The value of a variable after plant_update. */
-double plant_get(const struct plant *plant, const struct fmi_variable *variable);
+/* The value of a variable after plant_update; NAN past the last one. */
+double plant_get(struct plant *plant, size_t variable);
 
 /* Advance to `target`; with `pause` at most to the first event after t. */
 enum plant_step plant_step(struct plant *plant, double target, bool pause);

@@ -12,13 +12,13 @@
 #include <string.h>
 
 #include "base/hash.h"
+#include "document/node_edit.h"
 #include "dynamics/project.h"
 #include "fbd_grade.h"
 #include "grade/lines.h"
 #include "output/hand_forces.h"
 #include "output/random_state.h"
 #include "scene/law.h"
-#include "scene/node_edit.h"
 
 enum { sums = 3 }; /* of a body: forces along x and y, moments about the origin */
 

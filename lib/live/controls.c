@@ -17,13 +17,14 @@
 #include "base/api_check.h"
 #include "base/diag.h"
 #include "draw/page_json.h"
-#include "expr/unit.h"
 #include "fbd_export.h"
-#include "integrate/method.h"
+#include "fbd_study.h"
 #include "live/live.h"
 
 struct controls {
-    const struct fbd_model *model;
+    const fbd_model *model;
+    const char *source;
+    size_t length; /* of the source */
     const struct spans *spans;
     struct text *text;
     size_t at, units; /* bytes from the start, and the equivalent number of UTF-16 units */
@@ -35,7 +36,7 @@ static size_t units_before(struct controls *controls, size_t at)
 {
     if (at < controls->at) controls->at = controls->units = 0;
     for (; controls->at < at; controls->at++) {
-        unsigned char byte = (unsigned char)controls->model->source[controls->at];
+        unsigned char byte = (unsigned char)controls->source[controls->at];
         if ((byte & 0xC0) != 0x80) controls->units += byte >= 0xF0 ? 2 : 1;
     }
     return controls->units;
@@ -51,8 +52,8 @@ static size_t span_length(struct span span)
 /* True for a number, with or without a unit of the table. */
 static bool is_quantity(struct controls *controls, struct span span, size_t *digits, double *factor)
 {
-    const char *source = controls->model->source + span.from;
-    struct unit unit = {.factor = 1};
+    const char *source = controls->source + span.from;
+    fbd_unit unit;
     size_t length = span_length(span), i = 0;
     char number[40], *end;
     while (i < length && i + 1 < sizeof number && strchr("+-.0123456789eE", source[i])) {
@@ -67,9 +68,7 @@ static bool is_quantity(struct controls *controls, struct span span, size_t *dig
     while (i < length && source[i] == ' ') i++;
     *factor = 1;
     if (i == length) return true;
-    struct pos nowhere = {0, 0};
-    if (!unit_parse(source + i, length - i, controls->model->scene->units, NULL, nowhere, &unit))
-        return false;
+    if (!fbd_unit_read(controls->model, source + i, length - i, &unit)) return false;
     *factor = unit.factor;
     return true;
 }
@@ -106,7 +105,7 @@ static void write_gap(struct controls *controls, size_t from, const char *before
 /* The blanks before the first character of a line; NULL if `at` is not the first one. */
 static char *indent_of(const struct controls *controls, size_t at)
 {
-    const char *source = controls->model->source;
+    const char *source = controls->source;
     size_t start = at;
     while (start > 0 && source[start - 1] == ' ') start--;
     if (start > 0 && source[start - 1] != '\n') return NULL;
@@ -135,8 +134,8 @@ static void write_new_pair(struct controls *controls, int map, const char *key, 
     else if (indent)
         text_printf(&before, "\n%s%s: %s", indent, key, open);
     if (indent) { /* after a comment on that line */
-        const char *end = memchr(controls->model->source + at, '\n', controls->model->source_length - at);
-        at = end ? (size_t)(end - controls->model->source) : controls->model->source_length;
+        const char *end = memchr(controls->source + at, '\n', controls->length - at);
+        at = end ? (size_t)(end - controls->source) : controls->length;
     }
     if (before.data && !before.failed && value.to > name.to)
         write_gap(controls, at, before.data, close);
@@ -159,21 +158,20 @@ static void begin_value(struct controls *controls, const char *name, const char 
 
 static void write_parameters(struct controls *controls)
 {
-    const struct scene *scene = controls->model->scene;
     text_add(controls->text, "\"parameters\":[");
-    for (size_t i = 0; i < scene->parameter_count; i++) {
-        const struct parameter *parameter = &scene->parameters[i];
+    for (size_t i = 0; i < fbd_model_parameter_count(controls->model); i++) {
+        const fbd_parameter parameter = fbd_model_parameter(controls->model, i);
         int map = spans_find(controls->spans, spans_root(controls->spans),
-                             parameter->input ? "inputs" : "parameters");
-        int value = spans_find(controls->spans, map, parameter->name);
+                             parameter.input ? "inputs" : "parameters");
+        int value = spans_find(controls->spans, map, parameter.name);
         if (spans_is_map(controls->spans, value)) value = spans_find(controls->spans, value, "value");
         json_comma(controls->text, i);
-        begin_value(controls, parameter->name, parameter->unit, parameter->value);
-        json_number_member(controls->text, "low", parameter->low);
-        json_number_member(controls->text, "high", parameter->high);
-        json_text_member(controls->text, "description", parameter->description);
-        text_json_flag(controls->text, "input", parameter->input, ",");
-        text_json_flag(controls->text, "derived", parameter->derived, ",");
+        begin_value(controls, parameter.name, parameter.unit, parameter.value);
+        json_number_member(controls->text, "low", parameter.low);
+        json_number_member(controls->text, "high", parameter.high);
+        json_text_member(controls->text, "description", parameter.description);
+        text_json_flag(controls->text, "input", parameter.input, ",");
+        text_json_flag(controls->text, "derived", parameter.derived, ",");
         json_key(controls->text, "written");
         write_place(controls, value);
         text_add(controls->text, "}");
@@ -181,68 +179,60 @@ static void write_parameters(struct controls *controls)
     text_add(controls->text, "],\n");
 }
 
-/* True if initial values may be added that the file does not give. */
-static bool starts_freely(const struct body *body)
-{
-    return !body->assemble && body->motion.kind != motion_track && !body->motion.prescribed.expr;
-}
-
-static void write_start(struct controls *controls, const struct body *body, int map, const char *name)
+/* Write where the file has the initial value of a coordinate or rate, or may have it, for a body with that
+ * mapping. */
+static void write_start(struct controls *controls, const fbd_variable *variable, int map)
 {
     const struct spans *spans = controls->spans;
-    int initial = spans_find(spans, map, "initial"), value = spans_find(spans, initial, name);
-    json_key(controls->text, "written");
+    int initial = spans_find(spans, map, "initial"), value = spans_find(spans, initial, variable->name);
     if (value) {
         write_place(controls, value);
-    } else if (!starts_freely(body)) {
+    } else if (!variable->start_free) {
         text_add(controls->text, "null");
     } else if (initial) {
-        write_new_pair(controls, initial, name, "", "");
+        write_new_pair(controls, initial, variable->name, "", "");
     } else {
         struct text open = {0};
-        text_printf(&open, "{%s: ", name);
+        text_printf(&open, "{%s: ", variable->name);
         write_new_pair(controls, map, "initial", open.data ? open.data : "", "}");
         controls->text->failed |= open.failed;
         text_free(&open);
     }
+}
+
+static void write_initial(struct controls *controls, const fbd_variable *variable)
+{
+    bool state = variable->kind == FBD_VARIABLE_STATE;
+    int owners = spans_find(controls->spans, spans_root(controls->spans), state ? "states" : "bodies");
+    struct text name = {0};
+    text_printf(&name, "%s.%s", variable->owner, variable->name);
+    begin_value(controls, name.data ? name.data : "", strcmp(variable->unit, "1") == 0 ? "" : variable->unit,
+                variable->start);
+    controls->text->failed |= name.failed;
+    text_free(&name);
+    json_key(controls->text, "written");
+    if (state)
+        write_place(controls, spans_find(controls->spans, spans_find(controls->spans, owners, variable->name),
+                                         "initial"));
+    else
+        write_start(controls, variable, spans_find(controls->spans, owners, variable->owner));
     text_add(controls->text, "}");
 }
 
-static void write_coordinates(struct controls *controls, bool *first)
+/* Coordinates and rates, then user states. */
+static void write_initials(struct controls *controls)
 {
-    const struct scene *scene = controls->model->scene;
-    int bodies = spans_find(controls->spans, spans_root(controls->spans), "bodies");
-    for (size_t i = 0; i < scene->coordinate_count; i++) {
-        const struct coordinate *coordinate = &scene->coordinates[i];
-        const struct label *label = &controls->model->labels[i];
-        const struct body *body = &scene->bodies[coordinate->body];
-        int map = spans_find(controls->spans, bodies, body->name);
-        json_comma(controls->text, !*first);
-        *first = false;
-        begin_value(controls, label->name, label->unit, coordinate->initial);
-        write_start(controls, body, map, coordinate->name);
-        json_comma(controls->text, 1);
-        begin_value(controls, label->rate_name, label->rate_unit, coordinate->initial_rate);
-        write_start(controls, body, map, coordinate->rate_name);
+    size_t written = 0;
+    text_add(controls->text, "\"initial\":[");
+    for (size_t i = 0; i < fbd_model_variable_count(controls->model); i++) {
+        const fbd_variable variable = fbd_model_variable(controls->model, i);
+        if (variable.kind != FBD_VARIABLE_COORDINATE && variable.kind != FBD_VARIABLE_RATE &&
+            variable.kind != FBD_VARIABLE_STATE)
+            continue;
+        json_comma(controls->text, written++);
+        write_initial(controls, &variable);
     }
-}
-
-static void write_own_states(struct controls *controls, bool *first)
-{
-    const struct scene *scene = controls->model->scene;
-    int states = spans_find(controls->spans, spans_root(controls->spans), "states");
-    for (size_t i = 0; i < scene->own_count; i++) {
-        const struct own_label *label = &controls->model->own_labels[i];
-        int map = spans_find(controls->spans, states, scene->own[i].name),
-            value = spans_find(controls->spans, map, "initial");
-        json_comma(controls->text, !*first);
-        *first = false;
-        begin_value(controls, label->name, strcmp(label->unit, "1") == 0 ? "" : label->unit,
-                    scene->own[i].initial);
-        json_key(controls->text, "written");
-        write_place(controls, value);
-        text_add(controls->text, "}");
-    }
+    text_add(controls->text, "],\n");
 }
 
 /* ---- the run */
@@ -263,30 +253,28 @@ static void write_of_run(struct controls *controls, const char *key, const char 
 
 static void write_run(struct controls *controls)
 {
-    const struct simulate *simulate = &controls->model->scene->simulate;
-    const struct expr *until = simulate->until.expr;
-    bool constant = until && expr_is_constant(until);
-    write_of_run(controls, "until", "s", constant ? expr_value(until) : NAN);
-    write_of_run(controls, "tolerance", "", simulate->tolerance > 0 ? simulate->tolerance : NAN);
+    fbd_options file;
+    fbd_model_options(controls->model, &file, sizeof file);
+    write_of_run(controls, "until", "s", file.until);
+    write_of_run(controls, "tolerance", "", file.tolerance > 0 ? file.tolerance : NAN);
     write_of_run(controls, "method", "", NAN);
-    json_text_member(controls->text, "chosen", simulate->method ? simulate->method : "auto");
-    text_json_flag(controls->text, "accuracy", simulate->accuracy > 0, ",");
-    text_json_flag(controls->text, "step", simulate->step > 0, ",");
+    json_text_member(controls->text, "chosen", file.method ? file.method : "auto");
+    text_json_flag(controls->text, "accuracy", file.accuracy > 0, ",");
+    text_json_flag(controls->text, "step", file.step > 0, ",");
     text_add(controls->text, "\"methods\":[");
-    for (size_t i = 0; method_at(i); i++) {
+    for (size_t i = 0; i < fbd_method_count(); i++) {
         json_comma(controls->text, i);
-        text_json_string(controls->text, method_at(i)->name);
+        text_json_string(controls->text, fbd_method_get(i).name);
     }
     text_add(controls->text, "],\n");
 }
 
 static void write_effects(struct controls *controls)
 {
-    size_t count = live_effects(controls->model, controls->spans, NULL, 0);
-    struct live_effect *effects = calloc(count + 1, sizeof *effects);
+    size_t count;
+    struct live_effect *effects = live_effects(controls->model, controls->spans, &count);
     controls->text->failed |= !effects;
     text_add(controls->text, "\"effects\":[");
-    if (effects) live_effects(controls->model, controls->spans, effects, count);
     for (size_t i = 0; effects && i < count; i++) {
         int list = spans_find(controls->spans, effects[i].owner, effects[i].key), line, column;
         spans_place(controls->spans, spans_item(controls->spans, list, effects[i].index), &line, &column);
@@ -305,16 +293,14 @@ char *fbd_model_controls(const fbd_model *model, fbd_errors *list)
     struct diag_call call;
     fbd_errors *errors = diag_begin(&call, list);
     struct text text = {0};
-    struct spans *spans = model ? spans_open(model->source, model->source_length) : NULL;
+    size_t length;
+    const char *source = fbd_model_source(model, &length);
+    struct spans *spans = source ? spans_open(source, length) : NULL;
     if (spans) {
-        struct controls controls = {model, spans, &text, 0, 0};
-        bool first = true;
+        struct controls controls = {model, source, length, spans, &text, 0, 0};
         text_add(&text, "{");
         write_parameters(&controls);
-        text_add(&text, "\"initial\":[");
-        write_coordinates(&controls, &first);
-        write_own_states(&controls, &first);
-        text_add(&text, "],\n");
+        write_initials(&controls);
         write_run(&controls);
         write_effects(&controls);
     }

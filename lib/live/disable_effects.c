@@ -227,18 +227,16 @@ static bool choose(const struct leaving *leaving, bool *off, const char *const *
     return all;
 }
 
-static char *write_without(const struct fbd_model *model, const char *const *names, size_t count,
-                           fbd_errors *errors)
+static char *write_without(const fbd_model *model, const char *const *names, size_t count, fbd_errors *errors)
 {
     struct text text = {0};
-    struct spans *spans = spans_open(model->source, model->source_length);
-    size_t room = spans ? live_effects(model, spans, NULL, 0) : 0;
-    struct live_effect *effects = calloc(room + 1, sizeof *effects);
+    size_t length, room = 0;
+    const char *source = fbd_model_source(model, &length);
+    struct spans *spans = spans_open(source, length);
+    struct live_effect *effects = spans ? live_effects(model, spans, &room) : NULL;
     bool *off = calloc(room + 1, sizeof *off), fine = spans && effects && off;
     if (fine) {
-        live_effects(model, spans, effects, room);
-        struct leaving leaving = {
-            spans, effects, off, room, {.text = model->source, .length = model->source_length}};
+        struct leaving leaving = {spans, effects, off, room, {.text = source, .length = length}};
         fine = choose(&leaving, off, names, count, errors);
         if (fine) {
             leave_out(&leaving);
@@ -262,7 +260,7 @@ char *fbd_model_without(const fbd_model *model, const char *const *effects, size
     fbd_errors *errors = diag_begin(&call, list);
     char *text = NULL;
     if (model && api_has_texts(effects, count)) {
-        diag_in_file(errors, model->scene->file);
+        diag_in_file(errors, fbd_model_file(model));
         text = write_without(model, effects, count, errors);
     } else {
         api_refuse(errors, "there is no model, or no name of an effect");

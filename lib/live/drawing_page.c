@@ -131,7 +131,7 @@ static bool make_engine(struct drawing_page *page, fbd_errors *errors)
     text_add(&page->engine, "{");
     add_made(&page->engine, "key", &source);
     add_made(&page->engine, "settings", &settings);
-    return live_add_engine(&page->engine, key->model->scene, errors);
+    return live_add_engine(&page->engine, key->model, errors);
 }
 
 /* ---- the page */

@@ -3,41 +3,30 @@
  * The entries of the text that list an effect. A load or coupling of the scene has the position of its entry,
  * by which its name is found.
  */
+#include <stdlib.h>
 #include <string.h>
 
 #include "live/live.h"
 
 struct listing {
-    const struct fbd_model *model;
     const struct spans *spans;
+    const fbd_entry *entries; /* of the present body, or of the couplings and contacts */
+    size_t entry_count;
     struct live_effect *effects;
-    size_t count, room;
+    size_t count;
 };
 
-static bool is_at(struct pos at, int line, int column)
+static const char *name_at(const struct listing *listing, int line, int column)
 {
-    return at.line == line && at.column == column;
-}
-
-static const char *load_at(const struct body *body, int line, int column)
-{
-    for (size_t i = 0; i < body->load_count; i++)
-        if (!body->loads[i].reaction && is_at(body->loads[i].at, line, column)) return body->loads[i].name;
+    for (size_t i = 0; i < listing->entry_count; i++)
+        if (listing->entries[i].line == line && listing->entries[i].column == column)
+            return listing->entries[i].name;
     return NULL;
 }
 
-static const char *coupling_at(const struct scene *scene, int line, int column)
-{
-    for (size_t i = 0; i < scene->force_coupling_count; i++)
-        if (is_at(scene->force_couplings[i].load.at, line, column))
-            return scene->force_couplings[i].load.name;
-    for (size_t i = 0; i < scene->constraint_count; i++)
-        if (is_at(scene->constraints[i].at, line, column)) return scene->constraints[i].name;
-    return NULL;
-}
-
-/* Add the entries of `body`, or of the file if it is NULL; a position outside the list is that of an alias. */
-static void list_entries(struct listing *listing, const struct body *body, int owner, const char *key)
+/* Add the effects of a list of `body`, or of the file if it is NULL; a position outside the list is that of an
+ * alias. */
+static void list_effects(struct listing *listing, const char *body, int owner, const char *key)
 {
     const struct spans *spans = listing->spans;
     int list = spans_find(spans, owner, key);
@@ -47,30 +36,48 @@ static void list_entries(struct listing *listing, const struct body *body, int o
         int item = spans_item(spans, list, i), line, column;
         struct span span = spans_of(spans, item);
         spans_place(spans, item, &line, &column);
-        const char *name =
-            body ? load_at(body, line, column) : coupling_at(listing->model->scene, line, column);
+        const char *name = name_at(listing, line, column);
         if (!name || span.from < all.from || span.to > all.to) continue;
-        if (listing->count < listing->room)
-            listing->effects[listing->count] =
-                (struct live_effect){body ? body->name : NULL, name, owner, key, i};
-        listing->count++;
+        listing->effects[listing->count++] = (struct live_effect){body, name, owner, key, i};
     }
 }
 
-size_t live_effects(const struct fbd_model *model, const struct spans *spans, struct live_effect *effects,
-                    size_t room)
+/* Entries of the file list each effect once, so there are no more effects than entries. */
+static void list_all(struct listing *listing, const fbd_model *model, size_t entry_count)
 {
-    struct listing listing = {model, spans, effects, 0, room};
-    int root = spans_root(spans), bodies = spans_find(spans, root, "bodies");
-    for (size_t i = 0; i < model->scene->body_count; i++) {
-        const struct body *body = &model->scene->bodies[i];
-        int map = spans_find(spans, bodies, body->name);
-        list_entries(&listing, body, map, "forces");
-        list_entries(&listing, body, map, "moments");
+    const fbd_entry *end = listing->entries + entry_count;
+    int root = spans_root(listing->spans), bodies = spans_find(listing->spans, root, "bodies");
+    for (size_t b = 0; b < fbd_model_body_count(model); b++) {
+        const char *body = fbd_model_body_name(model, b);
+        int map = spans_find(listing->spans, bodies, body);
+        const fbd_entry *next = listing->entries;
+        while (next < end && strcmp(next->body, body) == 0) next++;
+        listing->entry_count = (size_t)(next - listing->entries);
+        list_effects(listing, body, map, "forces");
+        list_effects(listing, body, map, "moments");
+        listing->entries = next;
     }
-    list_entries(&listing, NULL, root, "couplings");
-    list_entries(&listing, NULL, root, "contacts");
-    return listing.count;
+    listing->entry_count = (size_t)(end - listing->entries);
+    list_effects(listing, NULL, root, "couplings");
+    list_effects(listing, NULL, root, "contacts");
+}
+
+struct live_effect *live_effects(const fbd_model *model, const struct spans *spans, size_t *count)
+{
+    size_t entry_count = fbd_model_entries(model, NULL, 0);
+    fbd_entry *entries = calloc(entry_count + 1, sizeof *entries);
+    struct live_effect *effects = calloc(entry_count + 1, sizeof *effects);
+    struct listing listing = {.spans = spans, .entries = entries, .effects = effects};
+    if (entries && effects) {
+        fbd_model_entries(model, entries, entry_count);
+        list_all(&listing, model, entry_count);
+    } else {
+        free(effects);
+        listing.effects = NULL;
+    }
+    free(entries);
+    *count = listing.count;
+    return listing.effects;
 }
 
 bool live_effect_is(const struct live_effect *effect, const char *name)

@@ -6,9 +6,10 @@
 #ifndef FBD_LIVE_LIVE_H
 #define FBD_LIVE_LIVE_H
 
+#include "base/diag.h"
 #include "base/text.h"
-#include "model/model.h"
-#include "scene/spans.h"
+#include "document/spans.h"
+#include "fbd_view.h"
 
 /* An entry of the file that lists an effect: a force or moment of a body, a coupling or a contact. */
 struct live_effect {
@@ -19,9 +20,8 @@ struct live_effect {
     size_t index;    /* in the list */
 };
 
-/* List all entries with a text of their own (not aliases), at most `room` of them; returns their number. */
-size_t live_effects(const struct fbd_model *model, const struct spans *spans, struct live_effect *effects,
-                    size_t room);
+/* List all entries with a text of their own (not aliases), to be freed; NULL when memory is out. */
+struct live_effect *live_effects(const fbd_model *model, const struct spans *spans, size_t *count);
 
 /* True if its name is `name`: "block.friction", or "cable" for a coupling. */
 bool live_effect_is(const struct live_effect *effect, const char *name);
@@ -30,7 +30,7 @@ bool live_effect_is(const struct live_effect *effect, const char *name);
 
 /* Append the last members and the end of the JSON object of such a page: the data files of the scene's
  * tables, and the scripts of the worker. Returns false with notes if a file cannot be read. */
-bool live_add_engine(struct text *text, const struct scene *scene, fbd_errors *errors);
+bool live_add_engine(struct text *text, const fbd_model *model, fbd_errors *errors);
 
 /* Parts of a page, POLICY and LIVE-PARTS: the context of the latter is that object as a struct text. */
 void live_write_policy(struct text *text, const void *context);

@@ -13,7 +13,6 @@
 #include "draw/page_json.h"
 #include "fbd_export.h"
 #include "live/live.h"
-#include "record/result.h"
 
 /* Maximum sizes. The page without its numbers takes some 900 KB, and base 64 makes four bytes of three. */
 enum { most_page_bytes = 2000000, most_script_bytes = 260000 };
@@ -79,12 +78,12 @@ static void add_script(struct text *text, const char *name)
 }
 
 /* Append the data file of a table under its name in the model. */
-static bool add_file(struct text *text, const struct scene *scene, const char *path, size_t index,
+static bool add_file(struct text *text, const char *model_file, const char *path, size_t index,
                      fbd_errors *errors)
 {
-    const char *slash = strrchr(scene->file ? scene->file : "", '/');
-    size_t folder = slash ? (size_t)(slash - scene->file) + 1 : 0, length;
-    const char *name = strncmp(path, scene->file ? scene->file : "", folder) == 0 ? path + folder : path;
+    const char *slash = strrchr(model_file, '/');
+    size_t folder = slash ? (size_t)(slash - model_file) + 1 : 0, length;
+    const char *name = strncmp(path, model_file, folder) == 0 ? path + folder : path;
     char *data = file_text(path, &length, errors);
     json_comma(text, index);
     text_add(text, "[");
@@ -96,14 +95,19 @@ static bool add_file(struct text *text, const struct scene *scene, const char *p
     return data != NULL;
 }
 
-bool live_add_engine(struct text *text, const struct scene *scene, fbd_errors *errors)
+/* "" without one. */
+static const char *file_of(const fbd_model *model)
+{
+    const char *file = fbd_model_file(model);
+    return file ? file : "";
+}
+
+bool live_add_engine(struct text *text, const fbd_model *model, fbd_errors *errors)
 {
     bool done = true;
-    size_t count = 0;
     text_add(text, "\"files\":[");
-    for (size_t i = 0; i < scene->table_count; i++)
-        if (scene->tables[i].path)
-            done = add_file(text, scene, scene->tables[i].path, count++, errors) && done;
+    for (size_t i = 0; i < fbd_model_data_file_count(model); i++)
+        done = add_file(text, file_of(model), fbd_model_data_file(model, i).path, i, errors) && done;
     text_add(text, "],\n");
     add_script(text, "fbd-live.js");
     text_add(text, ",\n");
@@ -130,19 +134,21 @@ static void add_moved(struct text *text, const fbd_live_options *options)
     text_add(text, "\"\":\"\"},\n");
 }
 
-static bool make_parts(struct live_page *page, const struct fbd_model *model, const fbd_live_options *options,
+static bool make_parts(struct live_page *page, const fbd_model *model, const fbd_live_options *options,
                        fbd_errors *errors)
 {
     struct text *text = &page->parts, source = {0};
-    const char *file = model->scene->file ? model->scene->file : "", *slash = strrchr(file, '/');
+    const char *file = file_of(model), *slash = strrchr(file, '/');
     const char *name = slash ? slash + 1 : file;
-    text_add_bytes(&source, model->source, model->source_length);
+    size_t length;
+    const char *written = fbd_model_source(model, &length);
+    text_add_bytes(&source, written, length);
     text_add_bytes(&source, "", 1);
     text_add(text, "{");
     json_text_member(text, "name", *name && *name != '<' ? name : "model.yaml");
     json_text_member(text, "text", source.data ? source.data : "");
     add_moved(text, options);
-    bool done = live_add_engine(text, model->scene, errors);
+    bool done = live_add_engine(text, model, errors);
     if (text->failed || source.failed) diag_out_of_memory(errors);
     done = done && !text->failed && !source.failed;
     text_free(&source);
@@ -159,9 +165,9 @@ static size_t room_for_numbers(const struct live_page *page)
 
 static char *make_page(fbd_result *result, const fbd_live_options *options, fbd_errors *errors)
 {
-    const struct fbd_model *model = result->simulation->ensemble->model;
+    const fbd_model *model = fbd_state_model(fbd_result_state(result));
     struct live_page page = {.wasm = page_asset_find(wasm_name)};
-    diag_in_file(errors, model->scene->file);
+    diag_in_file(errors, fbd_model_file(model));
     if (!page.wasm) {
         diag_add(errors, FBD_ERROR, "no-live", (struct pos){0, 0},
                  "`make live` compiles the library for browsers (Debian's emscripten); then build again",

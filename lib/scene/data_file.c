@@ -7,6 +7,7 @@
 #include <sys/stat.h>
 
 #include "base/file.h"
+#include "base/number.h"
 #include "expr/expr.h"
 #include "expr/glyph.h"
 #include "scene/span.h"
@@ -109,10 +110,10 @@ static bool read_number(char separator, struct span cell, double *value)
 {
     char plain[64];
     const char *comma = separator == ';' || separator == '\t' ? memchr(cell.text, ',', cell.length) : NULL;
-    if (!comma || cell.length > sizeof plain) return expr_number(cell.text, cell.length, value);
+    if (!comma || cell.length > sizeof plain) return number_read(cell.text, cell.length, value);
     memcpy(plain, cell.text, cell.length);
     plain[comma - cell.text] = '.';
-    return expr_number(plain, cell.length, value);
+    return number_read(plain, cell.length, value);
 }
 
 /* A row that contains a number is not a row of headings, even if other cells are malformed. */
@@ -219,7 +220,7 @@ static bool find_column(const struct titles *titles, const char *path, const cha
     }
     struct heading heading = heading_read(wanted, strlen(wanted));
     double place;
-    if (expr_number(heading.name, heading.name_length, &place) && place >= 1 && place <= most_columns &&
+    if (number_read(heading.name, heading.name_length, &place) && place >= 1 && place <= most_columns &&
         place == (double)(size_t)place) {
         *index = (size_t)place - 1;
         return true;

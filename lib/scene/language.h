@@ -10,8 +10,8 @@
 #ifndef FBD_SCENE_LANGUAGE_H
 #define FBD_SCENE_LANGUAGE_H
 
+#include "document/node.h"
 #include "scene/law.h"
-#include "scene/node.h"
 #include "scene/quantity.h"
 #include "scene/scene.h"
 

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "scene/names.h"
 
+#include "document/scalar.h"
 #include "expr/glyph.h"
 #include "scene/reader.h"
-#include "scene/scalar.h"
 
 #include <string.h>
 

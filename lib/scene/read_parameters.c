@@ -4,7 +4,7 @@
  * any order. Definitions being evaluated are chained on the stack; naming one of them again is a circular
  * definition.
  */
-#include "expr/number.h"
+#include "base/number.h"
 #include "scene/reader.h"
 #include "scene/values.h"
 

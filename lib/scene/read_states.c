@@ -5,9 +5,9 @@
  */
 #include <string.h>
 
+#include "document/scalar.h"
 #include "scene/fields.h"
 #include "scene/reader.h"
-#include "scene/scalar.h"
 #include "scene/values.h"
 
 /* ---- names */

@@ -7,6 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/number.h"
 #include "scene/data_file.h"
 #include "scene/fields.h"
 #include "scene/reader.h"
@@ -152,7 +153,7 @@ static bool read_coordinate(struct reader *reader, const struct node *node, int 
     if (expr_is_bare(value.expr)) {
         double plain, factor = labelled ? points->unit[axis].factor : 1;
         *number *= factor;
-        if (factor == 1 || expr_number(node->text, node->length, &plain)) return true;
+        if (factor == 1 || number_read(node->text, node->length, &plain)) return true;
         diag_add(reader->errors, FBD_ERROR, "wrong-dimension", node->at, "give it a unit where it is defined",
                  "`%.40s` has no unit, and `%s` has one here that is not the model's", node->text,
                  axis_names[axis]);

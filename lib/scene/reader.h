@@ -12,10 +12,10 @@
 #ifndef FBD_SCENE_READER_H
 #define FBD_SCENE_READER_H
 
+#include "document/node.h"
 #include "scene/data_file.h"
 #include "scene/language.h"
 #include "scene/names.h"
-#include "scene/node.h"
 #include "scene/programs.h"
 #include "scene/scene.h"
 

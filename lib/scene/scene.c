@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "scene/scene.h"
 
+#include "document/node.h"
 #include "scene/fields.h"
-#include "scene/node.h"
 #include "scene/programs.h"
 #include "scene/reader.h"
 #include "scene/record.h"

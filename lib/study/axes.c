@@ -2,7 +2,7 @@
 #include "study/axes.h"
 
 #include "base/hash.h"
-#include "expr/expr.h"
+#include "base/number.h"
 
 #include <math.h>
 #include <string.h>
@@ -96,7 +96,7 @@ static bool cut(struct slice *rest, char mark, struct slice *first)
 }
 
 /* The length of the leading part that looks like a number. */
-static size_t number_length(struct slice slice)
+static size_t digits_of(struct slice slice)
 {
     size_t i = 0;
     const char *c = slice.text;
@@ -125,8 +125,8 @@ static bool set_unit(const struct vary *vary, struct member *member, struct slic
 /* A number with an optional unit. */
 static bool read_quantity(const struct vary *vary, struct member *member, struct slice slice, double *value)
 {
-    size_t length = number_length(slice);
-    if (!expr_number(slice.text, length, value) || !isfinite(*value))
+    size_t length = digits_of(slice);
+    if (!number_read(slice.text, length, value) || !isfinite(*value))
         return refuse(vary, usual_hint, "a number is missing or is none");
     return set_unit(vary, member, (struct slice){slice.text + length, slice.length - length});
 }
@@ -189,7 +189,7 @@ static bool read_grid(const struct vary *vary, struct member *m, struct slice sl
 /* True for the name of a file: not a number, with a dot or a slash in it. */
 static bool is_file(struct slice slice)
 {
-    bool number = number_length(slice) > 0 && strchr("0123456789+-", slice.text[0]);
+    bool number = digits_of(slice) > 0 && strchr("0123456789+-", slice.text[0]);
     bool mark = memchr(slice.text, '.', slice.length) || memchr(slice.text, '/', slice.length);
     return !number && mark && !memchr(slice.text, '"', slice.length) && slice.length > 1;
 }

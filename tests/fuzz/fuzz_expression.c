@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/number.h"
 #include "claims.h"
 #include "expr/expr.h"
 #include "fuzz.h"
@@ -135,7 +136,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     for (size_t i = 0; i < sizeof wants / sizeof *wants; i++) compile(text, &wants[i], errors);
     claim_notes(errors);
     double value;
-    if (expr_number(text, size, &value)) claim_finite("a number", value);
+    if (number_read(text, size, &value)) claim_finite("a number", value);
     fbd_errors_free(errors);
     free(text);
     return 0;

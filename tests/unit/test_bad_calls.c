@@ -405,7 +405,8 @@ static void no_function_is_forgotten(void **context)
     note("fbd_schema");
     size_t forgotten = 0;
     size_t functions = 0;
-    static const char *const headers[] = {"fbd.h", "fbd_study.h", "fbd_grade.h", "fbd_export.h"};
+    static const char *const headers[] = {"fbd.h", "fbd_study.h", "fbd_grade.h", "fbd_export.h",
+                                          "fbd_view.h"};
     for (size_t i = 0; i < sizeof headers / sizeof *headers; i++) {
         const size_t own = check_header(headers[i], &forgotten);
         assert_true(own > 10);
@@ -422,6 +423,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(errors_and_models),
         cmocka_unit_test(a_model_may_have_no_name),
+        cmocka_unit_test(contents),
         cmocka_unit_test(states),
         cmocka_unit_test(equations),
         cmocka_unit_test(simulations),

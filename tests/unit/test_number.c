@@ -2,6 +2,7 @@
  *
  * Decimal numbers: which texts are numbers, and that they are rounded correctly wherever the program runs.
  */
+#include "base/number.h"
 #include "expr_value.h"
 
 #include <float.h>
@@ -38,7 +39,7 @@ static void numbers_are_rounded_correctly(void **state)
     };
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
         double value = NAN;
-        assert_true(expr_number(rows[i].text, strlen(rows[i].text), &value));
+        assert_true(number_read(rows[i].text, strlen(rows[i].text), &value));
         if (value != rows[i].value) fail_msg("%s: %.17g", rows[i].text, value);
     }
 }
@@ -49,14 +50,14 @@ static void a_digit_beyond_all_that_are_kept_still_decides_a_tie(void **state)
     char text[2000] = "9007199254740993.";
     for (size_t i = strlen(text); i < 1500; i++) text[i] = '0';
     double tie = 0, above = 0;
-    assert_true(expr_number(text, 1500, &tie));
+    assert_true(number_read(text, 1500, &tie));
     text[1500] = '1';
-    assert_true(expr_number(text, 1501, &above));
+    assert_true(number_read(text, 1501, &above));
     text[0] = '1';
     memset(text + 1, '0', 900);
     memcpy(text + 901, "e-900", 6);
     double one = 0;
-    assert_true(expr_number(text, 906, &one));
+    assert_true(number_read(text, 906, &one));
     assert_true(one == 1);
     assert_true(tie == 9007199254740992.0);
     assert_true(above == 9007199254740994.0);
@@ -74,7 +75,7 @@ static void random_doubles_survive_printing_and_reading(void **state)
         memcpy(&value, &bits, sizeof value);
         if (!isfinite(value)) continue;
         snprintf(text, sizeof text, "%.17g", value);
-        if (!expr_number(text, strlen(text), &back) || back != value)
+        if (!number_read(text, strlen(text), &back) || back != value)
             fail_msg("seed %u: %s gave %.17g", seed, text, back);
     }
 }
@@ -92,7 +93,7 @@ static void short_numbers_are_those_of_strtod(void **state)
                  (unsigned long long)(random_bits(&numbers) % 100000000000000000));
         snprintf(text, sizeof text, "%.*s.%.*se%d", length / 2, whole, length - length / 2,
                  whole + length / 2, (int)(bits / 17 % 61) - 30);
-        assert_true(expr_number(text, strlen(text), &back));
+        assert_true(number_read(text, strlen(text), &back));
         if (back != strtod(text, NULL)) fail_msg("%s gave %.17g", text, back);
     }
 }
@@ -104,7 +105,7 @@ static void what_is_no_yaml_number_is_no_number(void **state)
                                  "nan", "1 ", " 1", "1.2.3", "--1", "1,5",   "1e999", "1e+",  "+.e1"};
     for (size_t i = 0; i < sizeof texts / sizeof texts[0]; i++) {
         double value;
-        if (expr_number(texts[i], strlen(texts[i]), &value)) fail_msg("`%s` was read", texts[i]);
+        if (number_read(texts[i], strlen(texts[i]), &value)) fail_msg("`%s` was read", texts[i]);
     }
 }
 

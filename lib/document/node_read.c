@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "scene/node.h"
+#include "document/node.h"
 
 #include "base/utf8.h"
-#include "scene/scalar.h"
-#include "scene/syntax.h"
+#include "document/scalar.h"
+#include "document/syntax.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -6,8 +6,8 @@
  *
  * Values are numbered; 0 is none, and queries of it return none.
  */
-#ifndef FBD_SCENE_SPANS_H
-#define FBD_SCENE_SPANS_H
+#ifndef FBD_DOCUMENT_SPANS_H
+#define FBD_DOCUMENT_SPANS_H
 
 #include <stdbool.h>
 #include <stddef.h>

@@ -2,11 +2,11 @@
  *
  * Syntax: errors of libyaml in terms of model files.
  */
-#ifndef FBD_SCENE_SYNTAX_H
-#define FBD_SCENE_SYNTAX_H
+#ifndef FBD_DOCUMENT_SYNTAX_H
+#define FBD_DOCUMENT_SYNTAX_H
 
 #include "base/diag.h"
-#include "scene/source.h"
+#include "document/source.h"
 
 #include <yaml.h>
 

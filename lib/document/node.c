@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "scene/node.h"
+#include "document/node.h"
 
 #include <string.h>
 

@@ -3,10 +3,10 @@
  * Node edit: copies of the tree of a file with changes. The tree itself stays unchanged; the copy shares all
  * unchanged nodes. NULL when memory is out.
  */
-#ifndef FBD_SCENE_NODE_EDIT_H
-#define FBD_SCENE_NODE_EDIT_H
+#ifndef FBD_DOCUMENT_NODE_EDIT_H
+#define FBD_DOCUMENT_NODE_EDIT_H
 
-#include "scene/node.h"
+#include "document/node.h"
 
 /* A mapping with `value` under `key`, which replaces the old value or is appended; NULL for `value` removes
  * the key. */

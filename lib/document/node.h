@@ -6,12 +6,12 @@
  * that is used by several aliases is one node; `size` counts the nodes of a walk through all uses, and its
  * limit bounds every walk.
  */
-#ifndef FBD_SCENE_NODE_H
-#define FBD_SCENE_NODE_H
+#ifndef FBD_DOCUMENT_NODE_H
+#define FBD_DOCUMENT_NODE_H
 
 #include "base/arena.h"
 #include "base/diag.h"
-#include "scene/source.h"
+#include "document/source.h"
 
 enum {
     node_most_depth = 64,

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "scene/syntax.h"
+#include "document/syntax.h"
 
 #include <string.h>
 
 #include "base/utf8.h"
-#include "scene/scalar.h"
+#include "document/scalar.h"
 
 struct pos syntax_place(yaml_mark_t mark)
 {

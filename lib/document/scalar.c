@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "scene/scalar.h"
+#include "document/scalar.h"
 
 #include <string.h>
 

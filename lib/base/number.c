@@ -1,13 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "expr/number.h"
+#include "base/number.h"
 
 #include <float.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-
-#include "expr/expr.h"
 
 static size_t digits(const char *text, size_t length, size_t from)
 {
@@ -107,7 +105,7 @@ double number_value(const char *text, size_t length)
     return strtod(d.text, NULL);
 }
 
-bool expr_number(const char *text, size_t length, double *value)
+bool number_read(const char *text, size_t length, double *value)
 {
     size_t sign = length > 0 && (text[0] == '-' || text[0] == '+') ? 1 : 0;
     size_t rest = length - sign;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "scene/source.h"
+#include "document/source.h"
 
 #include <string.h>
 

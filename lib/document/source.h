@@ -6,8 +6,8 @@
  * not break them. So the bytes are checked first: valid UTF-8 (a byte order mark is skipped), no control
  * characters but tab and line ends, no exotic line separators, no more than `source_most_bytes`.
  */
-#ifndef FBD_SCENE_SOURCE_H
-#define FBD_SCENE_SOURCE_H
+#ifndef FBD_DOCUMENT_SOURCE_H
+#define FBD_DOCUMENT_SOURCE_H
 
 #include "base/diag.h"
 

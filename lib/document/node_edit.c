@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "scene/node_edit.h"
+#include "document/node_edit.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -5,8 +5,8 @@
  * `no`, `on`, `y` are words, not booleans; `010`, `0x10`, `1:30`, `1_000` are refused as numbers, although
  * YAML 1.1 accepts each of them (and not always with the intended value).
  */
-#ifndef FBD_SCENE_SCALAR_H
-#define FBD_SCENE_SCALAR_H
+#ifndef FBD_DOCUMENT_SCALAR_H
+#define FBD_DOCUMENT_SCALAR_H
 
 #include "base/diag.h"
 
