@@ -5,7 +5,6 @@
  */
 #include <fbd.h>
 #include <fbd_export.h>
-#include <fbd_view.h>
 #include <fbd_grade.h>
 #include <fbd_study.h>
 #include <fbd_view.h>

@@ -7,9 +7,9 @@
 
 #include "base/hash.h"
 #include "batch/row.h"
+#include "document/node.h"
 #include "loop/options.h"
 #include "scene/names.h"
-#include "document/node.h"
 
 /* ---- the varying parameters */
 

@@ -6,7 +6,6 @@
 
 #include "fbd_grade.h"
 #include "fbd_study.h"
-#include "fbd_view.h"
 #include "fbd_workers.h"
 
 /* ---- sweeps */
@@ -142,7 +141,6 @@ void methods_and_simplifications(void **context)
 {
     (void)context;
     double value = 7, derivative = 7;
-    fbd_options options = FBD_OPTIONS_DEFAULT;
     ANSWERS(fbd_method_count, fbd_method_count() > 2);
     ANSWERS(fbd_method_get, !fbd_method_get(past).name);
     ANSWERS(fbd_method_find, !fbd_method_find(NULL).name);
@@ -152,10 +150,6 @@ void methods_and_simplifications(void **context)
     ANSWERS(fbd_model_exact, !fbd_model_exact(model, 0, 0, NULL, &derivative));
     ANSWERS(fbd_model_exact, !fbd_model_exact(model, 0, 0, &value, NULL));
     assert_true(value == 7 && derivative == 7);
-    ANSWERS(fbd_model_file, !fbd_model_file(NULL));
-    ENDURES(fbd_model_options, fbd_model_options(model, NULL, sizeof options));
-    ENDURES(fbd_model_options, fbd_model_options(NULL, &options, sizeof options));
-    assert_true(is_nan(options.until) && options.step == 0);
     simplifications();
 }
 

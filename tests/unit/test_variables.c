@@ -12,6 +12,7 @@
 
 #include "gallery.h"
 
+#include "fbd_study.h"
 #include "fbd_view.h"
 
 #include <math.h>
@@ -179,6 +180,9 @@ static void options_of_the_file_and_methods_are_listed(void **unused)
     assert_true(options.until == 2 && options.tolerance == 1e-9 && options.step == 0 &&
                 options.accuracy == 0);
     assert_string_equal(options.method, "rk8pd");
+    size_t found = 0;
+    for (size_t i = 0; i < fbd_method_count(); i++) found += strcmp(fbd_method_get(i).name, "rk8pd") == 0;
+    assert_int_equal(found, 1);
     trial_start(&trial, NULL);
     assert_int_equal(fbd_simulation_outcome(trial.simulation), FBD_GOING);
     trial_finish(&trial);
