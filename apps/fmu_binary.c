@@ -3,7 +3,7 @@
 
 #include <stdint.h>
 
-extern const char fbd_embedded[]; /* apps/embed */
+extern const char fbd_embedded[]; /* lib/embed */
 extern const uint64_t fbd_embedded_length;
 
 const char *fmu_binary(size_t *length)

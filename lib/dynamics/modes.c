@@ -21,94 +21,10 @@
  */
 #include "dynamics/modes.h"
 
-#include <float.h>
 #include <string.h>
 
 #include "dynamics/constraint.h"
 #include "dynamics/world_refs.h"
-
-double slip_velocity(const struct fbd_model *model, int pair, const struct instant *at)
-{
-    const struct mode *mode = &model->plan.modes[pair];
-    if (mode->coupling >= 0) return coupling_slip_velocity(model, at, mode->coupling);
-    double v = at->y[model->plan.n + mode->coordinate], acceleration;
-    double s = friction_surface_speed(mode, at, &acceleration);
-    return fabs(v - s) <= 4 * DBL_EPSILON * fabs(s) ? 0 : v - s;
-}
-
-double settling_velocity(const struct fbd_state *state, const struct decided *decided, int pair)
-{
-    struct instant at = state_instant(state);
-    if (decided && (state->slip[pair] == stick || state->slip_rests[pair]) &&
-        state->model->plan.modes[pair].kind != mode_single)
-        return 0;
-    return slip_velocity(state->model, pair, &at);
-}
-
-double settling_slack(const struct fbd_state *state, const struct decided *decided, int pair,
-                      const struct friction_values *now, const struct friction_values *rate)
-{
-    double slack = friction_rounding_of_time(now, rate, state->t);
-    bool comes_back = decided && (mode_of(state, pair)->coupling >= 0 || !state->slip_rests[pair]);
-    return comes_back ? fmax(slack, friction_return(now)) : slack;
-}
-
-/* Resolve the branches of a function of time; the rates of the state do not matter. */
-static void resolve_drive(struct fbd_state *state, const struct formula *law)
-{
-    if (!formula_is_constant(law))
-        expr_resolve(law->expr, state_moment(state), state->y, 1, state->y, NULL,
-                     state->branch + law->branch);
-}
-
-void modes_drive(struct fbd_state *state)
-{
-    const struct plan *plan = &state->model->plan;
-    struct instant at = state_instant(state);
-    double acceleration;
-    for (int pair = 0; pair < (int)plan->mode_count; pair++) {
-        const struct mode *mode = &plan->modes[pair];
-        if (mode->kind != mode_drive) continue;
-        resolve_drive(state, &mode->position);
-        state->y[mode->coordinate] = formula_value(&mode->position, &at);
-        state->y[plan->n + mode->coordinate] = friction_surface_speed(mode, &at, &acceleration);
-    }
-    const struct tree *tree = state->model->tree;
-    for (int i = 0; tree && i < tree->coupling_count; i++)
-        if (tree->couplings[i].reels) resolve_drive(state, &tree->couplings[i].reel);
-}
-
-/* Set a number; returns whether it changes. */
-static bool put(double *place, double x)
-{
-    bool other = *place != x;
-    *place = x;
-    return other;
-}
-
-/* Returns whether coordinates or their rates have changed. `settling`: see sliding_project. */
-static bool hold(struct fbd_state *state, bool settling)
-{
-    const struct plan *plan = &state->model->plan;
-    struct instant at = state_instant(state);
-    bool moved = false;
-    double acceleration;
-    for (int pair = 0; pair < (int)plan->mode_count; pair++) {
-        const struct mode *mode = &plan->modes[pair];
-        if (mode->kind == mode_drive)
-            moved |= put(&state->y[mode->coordinate], formula_value(&mode->position, &at));
-        if (state->slip[pair] == stick && mode->coupling < 0)
-            moved |=
-                put(&state->y[plan->n + mode->coordinate], friction_surface_speed(mode, &at, &acceleration));
-    }
-    if (state_sliding(state)) sliding_project(state, settling);
-    return moved;
-}
-
-void modes_hold(struct fbd_state *state)
-{
-    hold(state, false);
-}
 
 /* Give friction that begins to slip at its limit a small acceleration in the slip direction. Its relative
  * acceleration is still rounding, which would choose the branches of expressions in its speed at random. */
@@ -142,17 +58,6 @@ static struct direction flow_of(struct fbd_state *state)
     if (!state->extended) return flow;
     struct instant at = state_instant(state), extended = instant_extend(state->model, &at);
     return direction_extend(state->model, &extended, &flow);
-}
-
-double press_slack(const struct fbd_model *model, const struct tree_work *tree, int b)
-{
-    const struct model_body *body = &model->bodies[b];
-    double size = body->inertia.mass * vec_norm(model->scene->gravity);
-    for (int i = 1; tree && body->place.link > 0 && i < model->tree->count; i++) {
-        size = fmax(size, vec_norm(tree->links[i].F.force));
-        size = fmax(size, vec_norm(model->tree->links[i].force));
-    }
-    return 1e-13 * size;
 }
 
 /* `around`: the passes cycle. A state z at its limit is at rest on the branch beyond, which is not chosen for
@@ -290,7 +195,7 @@ static bool settle(struct fbd_state *state, const struct decided *decided)
         if (plan->mode_count > 0) same = settle_slips(state, decided, &flow) && same;
         if (state->holds.found >= holds_none) return false;
         if (same && (!first || tells_at_once(state))) {
-            if (hold(state, true) || state->tree || state_sliding(state)) state_evaluate(state);
+            if (modes_hold_settling(state) || state->tree || state_sliding(state)) state_evaluate(state);
             return state->holds.found < holds_none;
         }
         first = false;

@@ -58,6 +58,9 @@ double settling_slack(const struct fbd_state *state, const struct decided *decid
 /* Set the rates of sticking coordinates to the exact velocity of their surface. */
 void modes_hold(struct fbd_state *state);
 
+/* The same while modes settle (see sliding_project); returns whether coordinates or their rates have changed. */
+bool modes_hold_settling(struct fbd_state *state);
+
 /* Set prescribed coordinates and their rates to their values at the time of the state. */
 void modes_drive(struct fbd_state *state);
 

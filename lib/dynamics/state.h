@@ -75,6 +75,9 @@ static inline struct direction state_flow(const struct fbd_state *state, double 
     return (struct direction){1, dy};
 }
 
+/* A state of zeros, without modes, for the functions that make states. NULL when memory is out. */
+struct fbd_state *state_allocate(const struct fbd_model *model);
+
 /* A state at the scene's initial values, t = 0, modes not yet settled. NULL when memory is out. */
 struct fbd_state *state_new(const struct fbd_model *model);
 

@@ -7,11 +7,6 @@
 #include "dynamics/friction.h"
 #include "dynamics/mass.h"
 
-size_t extended_size(const struct fbd_model *model)
-{
-    return plan_size(&model->plan) + (model->absolute_count > 0 ? hand_slots + model->absolute_count : 0);
-}
-
 static double choose(enum absolute_kind kind, struct motion_of_point at, double angle, double omega)
 {
     switch (kind) {

@@ -13,7 +13,10 @@
 #include "dynamics/kinematics.h"
 
 /* The length of an extended vector, that of y without references. */
-size_t extended_size(const struct fbd_model *model);
+static inline size_t extended_size(const struct fbd_model *model)
+{
+    return plan_size(&model->plan) + (model->absolute_count > 0 ? hand_slots + model->absolute_count : 0);
+}
 
 /* The instant with its y extended, in at->extended. Moves the links of jointed bodies. */
 struct instant instant_extend(const struct fbd_model *model, const struct instant *at);

@@ -65,7 +65,7 @@ uint64_t package_hash(uint64_t before, const void *bytes, size_t length);
 void package_describe(const struct package *package, struct text *xml);
 void package_describe_2(const struct package *package, struct text *xml);
 
-/* Texts of licences (licenses.c, made by embed). */
+/* Texts of licences (licenses.c, made by lib/embed). */
 extern const unsigned char license_of_gpl[], license_of_libyaml[];
 extern const size_t license_of_gpl_length, license_of_libyaml_length;
 

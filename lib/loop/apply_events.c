@@ -4,7 +4,6 @@
  * are logged.
  */
 #include <float.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "dynamics/constraint.h"
@@ -18,26 +17,6 @@
 #include "loop/switch_event.h"
 #include "loop/zeno_switch.h"
 #include "rest/start.h"
-
-/* ---- the log */
-
-struct run_event *log_event(struct run *run, fbd_event_kind kind, int body, int load, int watch)
-{
-    if (run->log.count == run->log.room) {
-        size_t room = run->log.room ? 2 * run->log.room : 16;
-        struct run_event *events = realloc(run->log.events, room * sizeof *events);
-        if (!events) {
-            run_fail(run, FBD_OUT_OF_MEMORY, "out of memory");
-            return NULL;
-        }
-        run->log.events = events;
-        run->log.room = room;
-    }
-    struct run_event *event = &run->log.events[run->log.count++];
-    *event = (struct run_event){
-        .t = run_time(run), .kind = kind, .body = body, .load = load, .watch = watch, .own = -1};
-    return event;
-}
 
 /* ---- events by kind */
 
@@ -288,17 +267,6 @@ void run_apply_touched(struct run *run, bool at_event)
     }
 }
 
-/* `load` is the load called `name`, or -1: a user event, or an expression in one. */
-static void fail_chatter(struct run *run, int load, bool state, const char *name)
-{
-    run_fail(run, FBD_FAILED,
-             "at t = %.9g events chatter: `%s` changes again and again while hardly any time passes. %s",
-             run_time(run), name,
-             state ? "A rate that jumps against its state leaves it no way on: give it two thresholds, "
-                     "`hysteresis`, or a slope between"
-                   : unsettled_advice(run->model, load));
-}
-
 /* Fail at a switch that was just crossed and whose new branch leads back across it, by more than rounding
  * within a step: the forces on both sides point to the switch. The motion would be a Filippov sliding mode,
  * which no branch describes. */
@@ -332,26 +300,9 @@ static void refuse_sliding(struct run *run, const bool *moving)
             double rounding = sliding_rounding(run->state, kink, watcher->part);
             if (-rate[k] * run->step.longest <= roundings * rounding) continue;
             const char *name = run_kink_name(run, kink);
-            fail_chatter(run, kink->load, kink->own >= 0, name ? name : "an event");
+            run_fail_chatter_of(run, kink->load, kink->own >= 0, name ? name : "an event");
         }
     }
-}
-
-void run_fail_chatter(struct run *run)
-{
-    static const struct run_event nothing = {.load = -1, .watch = -1, .own = -1};
-    const struct run_event *event = run->log.count > 0 ? &run->log.events[run->log.count - 1] : &nothing;
-    const char *name = event->load >= 0    ? run->model->loads[event->load].source->name
-                       : event->watch >= 0 ? run->model->plan.watches[event->watch].source->name
-                       : event->own >= 0   ? run->model->scene->own[event->own].name
-                                           : "an expression";
-    fail_chatter(run, event->load, event->own >= 0, name);
-}
-
-double run_instant(const struct run *run)
-{
-    const double instant = 1e-12, steps = 1e6;
-    return instant * fmax(fabs(run->state->t), fmin(run->options.until, steps * run->step.longest));
 }
 
 /* Fail after too many events at one instant: an undeclared sliding mode, or an infinite sequence. At the

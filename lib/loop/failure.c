@@ -9,6 +9,7 @@
 #include "base/format.h"
 #include "loop/run.h"
 #include "rest/fit.h"
+#include "rest/start.h"
 
 void run_fail(struct run *run, fbd_outcome outcome, const char *format, ...)
 {
@@ -25,6 +26,12 @@ double run_time(const struct run *run)
 {
     const double nothing = 1e-20;
     return fabs(run->state->t) < nothing * run->step.first ? 0 : run->state->t;
+}
+
+double run_instant(const struct run *run)
+{
+    const double instant = 1e-12, steps = 1e6;
+    return instant * fmax(fabs(run->state->t), fmin(run->options.until, steps * run->step.longest));
 }
 
 const char *run_kink_name(const struct run *run, const struct kink *kink)
@@ -171,4 +178,25 @@ void run_fail_progress(struct run *run, double gain)
         "alternate: end the run earlier by an event, or try a larger tolerance or `--method "
         "rodas5p`",
         run_time(run), gain, body_of(run, fastest(run)));
+}
+
+void run_fail_chatter_of(struct run *run, int load, bool state, const char *name)
+{
+    run_fail(run, FBD_FAILED,
+             "at t = %.9g events chatter: `%s` changes again and again while hardly any time passes. %s",
+             run_time(run), name,
+             state ? "A rate that jumps against its state leaves it no way on: give it two thresholds, "
+                     "`hysteresis`, or a slope between"
+                   : unsettled_advice(run->model, load));
+}
+
+void run_fail_chatter(struct run *run)
+{
+    static const struct run_event nothing = {.load = -1, .watch = -1, .own = -1};
+    const struct run_event *event = run->log.count > 0 ? &run->log.events[run->log.count - 1] : &nothing;
+    const char *name = event->load >= 0    ? run->model->loads[event->load].source->name
+                       : event->watch >= 0 ? run->model->plan.watches[event->watch].source->name
+                       : event->own >= 0   ? run->model->scene->own[event->own].name
+                                           : "an expression";
+    run_fail_chatter_of(run, event->load, event->own >= 0, name);
 }

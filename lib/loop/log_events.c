@@ -7,19 +7,6 @@
 
 /* ---- friction and one-sided constraints */
 
-void log_friction(struct run *run, fbd_event_kind kind, int pair)
-{
-    const struct mode *mode = &run->model->plan.modes[pair];
-    struct run_event *event = log_event(run, kind, mode->body, mode->load, -1);
-    if (!event) return;
-    struct instant at = state_instant(run->state);
-    double *slots = run->during->scratch;
-    state_balance_of(run->state, mode->body, slots); /* includes indeterminate forces */
-    struct friction_values values = friction_at(run->model, pair, &at, slots);
-    event->force = values.force;
-    event->limit = values.limit;
-}
-
 /* Modes of a pair before and after. */
 struct change {
     int pair, before, after;
@@ -137,23 +124,6 @@ static void drop_touched(struct run *run, size_t first)
     run->log.count = kept;
 }
 
-/* Set the event of a Filippov sliding mode, with the value of the force. */
-static void set_slide(const struct run *run, const struct kink *kink, fbd_event_kind kind,
-                      struct run_event *event)
-{
-    const struct formula *value = &run->model->loads[kink->load].value;
-    const struct instant at = state_instant(run->state);
-    if (!event) return;
-    event->kind = kind;
-    event->limit = value->expr && value->branch == kink->formula.branch;
-    if (event->limit > 0) event->force = formula_value(value, &at);
-}
-
-void log_filippov(struct run *run, const struct kink *kink, fbd_event_kind kind)
-{
-    set_slide(run, kink, kind, log_event(run, kind, kink->body, kink->load, -1));
-}
-
 /* Log sliding modes by comparison of the modes before and after, too. A switch event of the same instant
  * (from index `first`) is replaced by the begin of a sliding mode. */
 static void note_slides(struct run *run, size_t first)
@@ -178,7 +148,7 @@ static void note_slides(struct run *run, size_t first)
                     event = &run->log.events[i];
             fbd_event_kind kind = after ? FBD_EVENT_SLIDING : FBD_EVENT_SLIDING_ENDS;
             if (event)
-                set_slide(run, kink, kind, event);
+                log_set_filippov(run, kink, kind, event);
             else
                 log_filippov(run, kink, kind);
         }

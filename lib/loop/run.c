@@ -222,12 +222,6 @@ void run_free(struct run *run)
 
 /* ---- one turn of the loop */
 
-void run_evaluate(struct run *run)
-{
-    if (run->stale) state_evaluate_unshared(run->state);
-    run->stale = false;
-}
-
 /* The matrices of a linear system depend on the modes only: branches, slips and pulls, one behind the other;
  * except in a Filippov sliding mode. */
 static void start_linear(struct run *run)

@@ -197,7 +197,11 @@ struct run *run_new(const struct fbd_model *model, const struct run_options *opt
 void run_free(struct run *run);
 
 /* Evaluate forces and accelerations of run->state if they are stale. */
-void run_evaluate(struct run *run);
+static inline void run_evaluate(struct run *run)
+{
+    if (run->stale) state_evaluate_unshared(run->state);
+    run->stale = false;
+}
 
 /* One turn of the loop. */
 fbd_outcome run_advance(struct run *run);
@@ -339,6 +343,10 @@ double run_instant(const struct run *run);
 /* Log an event of a friction pair, with its force and limit. */
 void log_friction(struct run *run, fbd_event_kind kind, int pair);
 
+/* Set an entry of the log to a Filippov sliding mode on a switch, with the value of its force. */
+void log_set_filippov(const struct run *run, const struct kink *kink, fbd_event_kind kind,
+                      struct run_event *event);
+
 /* Log the begin or the end of a Filippov sliding mode on a switch, with the value of its force. */
 void log_filippov(struct run *run, const struct kink *kink, fbd_event_kind kind);
 
@@ -371,6 +379,8 @@ void run_check_progress(struct run *run);
 void run_fail_step(struct run *run, enum stepper_status status);
 void run_fail_pole(struct run *run, const struct pole *pole);
 void run_fail_chatter(struct run *run);
+/* `load` is the load called `name`, or -1: a user event, or an expression in one; `state`: in a user state. */
+void run_fail_chatter_of(struct run *run, int load, bool state, const char *name);
 void run_fail_progress(struct run *run, double gain);
 /* Name of the load or user state of a switch; NULL for a user event. */
 const char *run_kink_name(const struct run *run, const struct kink *kink);

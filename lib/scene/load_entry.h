@@ -45,7 +45,7 @@ static inline bool entry_is_slide(const struct entry *entry)
 /* The point of application: `at`. */
 bool entry_place_read(struct entry *entry);
 
-/* Checks of laws beyond their keys: the column `finish` of their table. */
+/* Checks of laws beyond their keys: the column `finish` of their table (read_laws.c). */
 bool link_finish(struct entry *entry);
 bool normal_finish(struct entry *entry);
 bool friction_finish(struct entry *entry);

@@ -6,6 +6,13 @@
  * stand in any order); the ground; inertia and motion of each body; the numbering of all coordinates; initial
  * values and loads of each body; the run.
  *
+ * The files have an order, in which none refers to a later one: names (names*.c); values and keys (values.c,
+ * fields.c); groups of plain keys (language.c, language_body.c); parameters, tables and states; points and the
+ * ground; each kind of force and coupling (read_laws.c, read_applied.c, read_wheels.c, read_ropes.c, ...); the
+ * tables of these kinds (language_loads.c, language_couplings.c); their lists (read_loads.c, read_couplings.c);
+ * the groups of all (language_scene.c); bodies (read_body.c); the file (scene.c). An exception by data: a name
+ * evaluates the definition that it stands for (struct definition_readers).
+ *
  * A function that reads something returns false after noting an error (or when memory is out), and its caller
  * goes on, so that one run reports all errors of a file.
  */

@@ -1,0 +1,97 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "dynamics/state.h"
+
+#include "base/block_alloc.h"
+#include "dynamics/rest_memo.h"
+#include "dynamics/tree_system.h"
+#include "dynamics/world_refs.h"
+
+#include <float.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static size_t coupling_bytes(const struct fbd_model *model)
+{
+    return (size_t)model->tree->coupling_count * sizeof(struct coupling_state);
+}
+
+static size_t scratch_size(const struct plan *plan)
+{
+    return 2 * (size_t)plan->slots + 3 * (size_t)plan->n + 2 * (size_t)plan->own;
+}
+
+struct fbd_state *state_allocate(const struct fbd_model *model)
+{
+    const struct plan *plan = &model->plan;
+    size_t rates = plan_rates(plan), extended = extended_size(model);
+    size_t extra = model->absolute_count > 0 ? 2 * extended : 0;
+    size_t doubles = extended + rates + (size_t)plan->slots + scratch_size(plan) + extra;
+    size_t ints = 2 * (size_t)plan->branches + 8 * plan->mode_count;
+    size_t tree = model->tree ? sizeof(struct tree_work) + tree_work_size(model) : 0;
+    size_t sliding = plan->slide_count > 0 ? sizeof(struct sliding) + sliding_size(model) : 0;
+    struct fbd_state *state =
+        block_alloc(sizeof *state + tree + sliding + doubles * sizeof(double) + ints * sizeof(int));
+    if (!state) return NULL;
+    state->model = model;
+    char *behind = (char *)(state + 1);
+    if (model->tree) {
+        state->tree = (void *)behind;
+        tree_work_init(state->tree, model, behind + sizeof *state->tree);
+    }
+    if (sliding > 0) {
+        state->sliding = (void *)(behind + tree);
+        sliding_init(state->sliding, model, behind + tree + sizeof *state->sliding);
+    }
+    state->y = (void *)(behind + tree + sliding);
+    state->a = state->y + extended;
+    state->slots = state->a + rates;
+    state->scratch = state->slots + plan->slots;
+    state->extended = extra > 0 ? state->scratch + scratch_size(plan) : NULL;
+    void *behind_doubles = state->scratch + scratch_size(plan) + extra; /* aligned for an int as well */
+    state->branch = behind_doubles;
+    state->slip = state->branch + plan->branches;
+    state->pull = state->slip + plan->mode_count;
+    state->slip_driven = state->pull + plan->mode_count;
+    state->branch_before = state->slip_driven + plan->mode_count;
+    state->slip_before = state->branch_before + plan->branches;
+    state->slip_forced = state->slip_before + plan->mode_count;
+    state->slip_barely = state->slip_forced + plan->mode_count;
+    state->slip_idle = state->slip_barely + plan->mode_count;
+    state->slip_rests = state->slip_idle + plan->mode_count;
+    for (size_t i = 0; i < plan->mode_count; i++) state->pull[i] = 1;
+    return state;
+}
+
+void state_free(struct fbd_state *state)
+{
+    if (state && state->tree) rest_memo_free(state->tree->memo);
+    free(state);
+}
+
+void state_copy(struct fbd_state *to, const struct fbd_state *from)
+{
+    const struct plan *plan = &from->model->plan;
+    size_t modes = (size_t)plan->branches + 3 * plan->mode_count; /* branch, slip, pull and slip_driven */
+    state_set_moment(to, state_moment(from));
+    to->settled = from->settled;
+    to->degrees = from->degrees;
+    memcpy(to->y, from->y, (size_t)(from->scratch - from->y) * sizeof *to->y); /* with a and slots */
+    if (modes > 0) memcpy(to->branch, from->branch, modes * sizeof *to->branch);
+    if (to->sliding) sliding_copy(from->model, to->sliding, from->sliding);
+    if (to->tree && from->model->tree->coupling_count > 0)
+        memcpy(to->tree->couplings, from->tree->couplings, coupling_bytes(from->model));
+}
+
+void state_still(struct fbd_state *state, double duration)
+{
+    size_t n = (size_t)state->model->plan.n;
+    const struct coordinate *coordinates = state->model->scene->coordinates;
+    double size[2] = {0, 1}; /* of lengths, and of angles */
+    for (size_t i = 0; i < n; i++) {
+        double *most = &size[coordinates[i].angle];
+        *most = fmax(*most, fabs(state->y[i]));
+    }
+    for (size_t i = 0; i < n; i++)
+        if (fabs(state->y[n + i]) * duration < DBL_EPSILON * size[coordinates[i].angle]) state->y[n + i] = 0;
+}
