@@ -2,7 +2,7 @@
  *
  * The columns of a record (output/run_columns.h), their places by body and arrow, and the numbers of one row.
  */
-#include "draw/record.h"
+#include "output/run_record.h"
 
 /* ---- places: that of a kind is the place of its first part */
 
