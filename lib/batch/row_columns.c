@@ -2,8 +2,6 @@
 #include "batch/row_columns.h"
 
 #include "integrate/switcher.h"
-#include "output/display_units.h"
-#include "output/words.h"
 #include "record/result.h"
 
 #include <math.h>
@@ -17,7 +15,7 @@ struct list {
     struct arena *arena;
     const struct fbd_model *model;
     fbd_errors *errors;
-    bool degrees;
+    struct run_columns known; /* quantities at the end of a run */
 };
 
 static bool add(struct list *list, struct column column)
@@ -41,44 +39,38 @@ static const char *title(struct list *list, const char *name, const char *unit)
     return arena_printf(list->arena, *unit ? "%s [%s]" : "%s%s", name, unit);
 }
 
-/* ---- coordinates and rates */
+/* ---- quantities of the table of columns */
 
-static bool add_final(struct list *list, int index)
+static bool add_quantity(struct list *list, const struct run_column *quantity)
 {
-    const struct display shown = display_of_component(list->model, (size_t)index, list->degrees);
-    return add(list, (struct column){.title = title(list, shown.name, shown.unit),
-                                     .kind = column_final,
-                                     .index = index,
-                                     .size = shown.size});
+    const enum column_quantity kind = column_quantity(quantity);
+    list->columns->ledger |= kind == quantity_energy || kind == quantity_work;
+    return add(list, (struct column){.title = title(list, quantity->name, quantity->unit),
+                                     .kind = row_quantity,
+                                     .quantity = *quantity});
 }
 
-static bool add_world(struct list *list, const char *name, const struct world_quantity *point)
-{
-    const char *text = arena_printf(list->arena, "%s [%s]", name, world_part_unit(list->model, point->part));
-    return add(list, (struct column){.title = text, .kind = column_world, .point = *point});
-}
-
-/* Of y[index], or of a point if index is negative. */
-static bool add_extreme(struct list *list, int sign, int index, const char *name,
-                        const struct world_quantity *point)
+/* Of a component of y, or of a point; false for others. */
+static bool add_extreme(struct list *list, int sign, const char *name)
 {
     struct columns *columns = list->columns;
-    const struct fbd_model *model = list->model;
-    struct display shown = {name, "", 1};
-    if (index < 0)
-        shown.unit = world_part_unit(model, point->part);
-    else
-        shown = display_of_component(model, (size_t)index, list->degrees);
+    struct run_column quantity;
+    if (!run_columns_find(&list->known, name, &quantity)) return false;
+    const bool point = quantity.kind == column_point;
+    if (!point && !column_is_entry(&quantity)) return false;
     struct extreme *larger = ARENA_ARRAY(list->arena, columns->extreme_count + 1, struct extreme);
     if (!larger) return false;
     if (columns->extreme_count) memcpy(larger, columns->extremes, columns->extreme_count * sizeof *larger);
-    larger[columns->extreme_count] = (struct extreme){.index = index, .point = *point, .sign = sign};
+    larger[columns->extreme_count] =
+        (struct extreme){.index = point ? -1 : quantity.entry,
+                         .point = {quantity.body, quantity.point, (enum world_part)quantity.part},
+                         .sign = sign};
     columns->extremes = larger;
     const char *text =
-        arena_printf(list->arena, "%s(%s) [%s]", sign > 0 ? "max" : "min", shown.name, shown.unit);
+        arena_printf(list->arena, "%s(%s) [%s]", sign > 0 ? "max" : "min", quantity.name, quantity.unit);
     return add(list, (struct column){.title = text,
-                                     .kind = column_extreme,
-                                     .size = shown.size,
+                                     .kind = row_extreme,
+                                     .quantity = quantity,
                                      .index = (int)columns->extreme_count++});
 }
 
@@ -113,61 +105,33 @@ static bool find_event(const struct fbd_model *model, const char *name, struct c
     return column->event >= 0;
 }
 
-static bool add_event(struct list *list, enum column_kind kind, const char *name)
+static bool add_event(struct list *list, enum row_kind kind, const char *name)
 {
     struct column column = {.kind = kind};
     if (!find_event(list->model, name, &column)) return false;
-    column.title = arena_printf(list->arena, kind == column_time ? "time(%s) [s]" : "count(%s)", name);
+    column.title = arena_printf(list->arena, kind == row_time ? "time(%s) [s]" : "count(%s)", name);
     return add(list, column);
-}
-
-/* ---- energies and works */
-
-static const char *const energies[] = {"energy.kinetic", "energy.potential", "energy.work",
-                                       "energy.residual"};
-
-static bool add_energy(struct list *list, int index)
-{
-    list->columns->ledger = true;
-    const char *text = title(list, energies[index], energy_unit(list->model));
-    return add(list, (struct column){.title = text, .kind = column_energy, .index = index});
-}
-
-/* BODY.LOAD.work, which is cut in pieces. */
-static bool add_work(struct list *list, char *name)
-{
-    char *load = strchr(name, '.'), *work = strrchr(name, '.');
-    if (work == load || strcmp(work, ".work") != 0) return false;
-    *load++ = *work = '\0';
-    int index = model_find_load(list->model, name, load);
-    if (index < 0) return false;
-    list->columns->ledger = true;
-    const char *text = arena_printf(list->arena, "%s.%s.work [%s]", name, load, energy_unit(list->model));
-    return add(list, (struct column){.title = text, .kind = column_work, .index = index});
 }
 
 /* ---- names */
 
+/* `final`: time and components; `energy`. */
 static bool add_group(struct list *list, const char *name)
 {
     const struct fbd_model *model = list->model;
+    const bool energy = strcmp(name, "energy") == 0;
     bool fine = true;
-    if (strcmp(name, "final") == 0) {
-        fine = add(list, (struct column){.title = "t [s]", .kind = column_t});
-        for (size_t b = 0; fine && b < model->body_count; b++) {
-            const struct model_body *body = &model->bodies[b];
-            for (int k = 0; k < body->count; k++) fine = fine && add_final(list, body->first + k);
-            for (int k = 0; k < body->count; k++) fine = fine && add_final(list, body->first_rate + k);
-        }
-        for (int i = 0; i < model->plan.own; i++) fine = fine && add_final(list, 2 * model->plan.n + i);
-        return fine;
-    }
     if (strcmp(name, "times") == 0) {
         for (size_t i = 0; i < model->plan.watch_count; i++)
-            fine = fine && add_event(list, column_time, model->plan.watches[i].source->name);
+            fine = fine && add_event(list, row_time, model->plan.watches[i].source->name);
         return fine;
     }
-    for (int i = 0; i < 4 && fine; i++) fine = add_energy(list, i);
+    for (size_t i = 0; i < list->known.count && fine; i++) {
+        const struct run_column *known = &list->known.list[i];
+        const bool wanted =
+            energy ? known->kind == column_energy : known->kind == column_time || column_is_entry(known);
+        if (wanted) fine = add_quantity(list, known);
+    }
     return fine;
 }
 
@@ -184,31 +148,22 @@ static bool cut_call(char *name, char **argument)
 
 static bool add_call(struct list *list, const char *function, const char *argument)
 {
-    struct world_quantity point = {.body = 0};
-    int index = model_find_component(list->model, argument, true);
-    bool known = index >= 0 || world_find(list->model, argument, &point);
-    if (strcmp(function, "min") == 0 && known) return add_extreme(list, -1, index, argument, &point);
-    if (strcmp(function, "max") == 0 && known) return add_extreme(list, 1, index, argument, &point);
-    if (strcmp(function, "time") == 0) return add_event(list, column_time, argument);
-    return strcmp(function, "count") == 0 && add_event(list, column_count, argument);
+    if (strcmp(function, "min") == 0) return add_extreme(list, -1, argument);
+    if (strcmp(function, "max") == 0) return add_extreme(list, 1, argument);
+    if (strcmp(function, "time") == 0) return add_event(list, row_time, argument);
+    return strcmp(function, "count") == 0 && add_event(list, row_count, argument);
 }
 
 static bool add_named(struct list *list, char *name)
 {
     char *argument;
+    struct run_column quantity;
     if (strcmp(name, "final") == 0 || strcmp(name, "times") == 0 || strcmp(name, "energy") == 0)
         return add_group(list, name);
     if (cut_call(name, &argument)) return add_call(list, name, argument);
-    if (strcmp(name, "t") == 0) return add(list, (struct column){.title = "t [s]", .kind = column_t});
-    if (strcmp(name, "steps") == 0) return add(list, (struct column){.title = "steps", .kind = column_steps});
-    if (strcmp(name, "rhs") == 0) return add(list, (struct column){.title = "rhs", .kind = column_rhs});
-    int index = model_find_component(list->model, name, true);
-    struct world_quantity point;
-    if (index >= 0) return add_final(list, index);
-    if (world_find(list->model, name, &point)) return add_world(list, name, &point);
-    for (int i = 0; i < 4; i++)
-        if (strcmp(name, energies[i]) == 0) return add_energy(list, i);
-    return add_work(list, name);
+    if (strcmp(name, "steps") == 0) return add(list, (struct column){.title = "steps", .kind = row_steps});
+    if (strcmp(name, "rhs") == 0) return add(list, (struct column){.title = "rhs", .kind = row_rhs});
+    return run_columns_find(&list->known, name, &quantity) && add_quantity(list, &quantity);
 }
 
 static void note_unknown(struct list *list, const char *name)
@@ -237,7 +192,7 @@ static bool add_list(struct list *list, const char *text)
         memcpy(name, text, length);
         name[length] = '\0';
         memcpy(shown, name, sizeof name);
-        if (add_named(list, name) || list->arena->failed) continue;
+        if (add_named(list, name) || list->arena->failed || list->known.arena.failed) continue;
         note_unknown(list, shown);
         fine = false;
     }
@@ -247,13 +202,16 @@ static bool add_list(struct list *list, const char *text)
 bool columns_read(struct columns *columns, struct arena *arena, const struct fbd_model *model,
                   const char *const *texts, size_t count, bool degrees, fbd_errors *errors)
 {
-    struct list list = {columns, arena, model, errors, degrees};
+    struct list list = {columns, arena, model, errors, {.model = model, .degrees = degrees}};
     bool fine = true;
     *columns = (struct columns){0};
+    if (!run_columns_make(&list.known, column_in_sweep, NULL)) arena->failed = true;
     errors->file = "--output";
     for (size_t i = 0; i < count; i++)
         if (!add_list(&list, texts[i])) fine = false;
     if (count == 0) fine = add_list(&list, "final,times");
+    arena->failed |= list.known.arena.failed;
+    run_columns_free(&list.known);
     if (arena->failed) diag_out_of_memory(errors);
     return fine && !arena->failed;
 }
@@ -279,7 +237,7 @@ static void put_event(const struct column *column, const struct ensemble *run, s
         if (!is_meant(column, &run->events[i])) continue;
         if (count++ == 0) first = run->events[i].t;
     }
-    if (column->kind == column_count)
+    if (column->kind == row_count)
         text_printf(text, "%zu", count);
     else
         put_number(text, first);
@@ -304,39 +262,26 @@ static void put_total(const struct ensemble *run, unsigned long (*count)(const s
     text_printf(text, "%lu", sum);
 }
 
-static void put(const struct column *column, const struct observed *o, struct text *text)
+static void put(const struct column *column, const struct observed *o, struct column_view *view,
+                struct text *text)
 {
-    struct ensemble *run = o->run;
     switch (column->kind) {
-    case column_t: put_number(text, run->t); return;
-    case column_final: put_number(text, ensemble_state(run)->y[column->index] / column->size); return;
-    case column_world: {
-        double values[world_parts];
-        world_values(ensemble_state(run), column->point.body, column->point.point, values);
-        put_number(text, values[column->point.part]);
-        return;
-    }
-    case column_extreme: put_number(text, o->extremes[column->index].value / column->size); return;
-    case column_time:
-    case column_count: put_event(column, run, text); return;
-    case column_energy: {
-        fbd_energy e = ledger_energy(o->ledger, ensemble_state(run), o->ledger->work);
-        const double values[] = {e.kinetic, e.potential, e.work, e.residual};
-        put_number(text, values[column->index]);
-        return;
-    }
-    case column_work:
-        put_number(text, ledger_work(o->ledger, ensemble_state(run), (size_t)column->index, o->ledger->work));
-        return;
-    case column_steps: put_total(run, steps_of, text); return;
-    case column_rhs: put_total(run, rhs_of, text); return;
+    case row_quantity: put_number(text, run_column_value(&column->quantity, view)); return;
+    case row_extreme: put_number(text, o->extremes[column->index].value / column->quantity.size); return;
+    case row_time:
+    case row_count: put_event(column, o->run, text); return;
+    case row_steps: put_total(o->run, steps_of, text); return;
+    case row_rhs: put_total(o->run, rhs_of, text); return;
     }
 }
 
 void columns_put(const struct columns *columns, const struct observed *observed, struct text *text)
 {
+    struct column_view view;
+    column_view_begin(&view, ensemble_state(observed->run), observed->ledger,
+                      observed->ledger ? observed->ledger->work : NULL, NULL);
     for (size_t i = 0; i < columns->count; i++) {
         text_add(text, ",");
-        put(&columns->list[i], observed, text);
+        put(&columns->list[i], observed, &view, text);
     }
 }

@@ -20,26 +20,21 @@
 
 #include "base/text.h"
 #include "batch/extremes.h"
-#include "output/world.h"
+#include "output/run_columns.h"
 #include "record/ledger.h"
 
 struct column {
     const char *title; /* as in the header, with its unit */
-    enum column_kind {
-        column_t,
-        column_final,   /* y[index] */
-        column_world,   /* `point` */
-        column_extreme, /* extremes[index] */
-        column_time,
-        column_count,
-        column_energy, /* index: 0 kinetic, 1 potential, 2 work, 3 residual */
-        column_work,   /* of load `index` */
-        column_steps,
-        column_rhs,
+    enum row_kind {
+        row_quantity, /* of the table of columns, at the end of the run */
+        row_extreme,  /* extremes[index] */
+        row_time,
+        row_count,
+        row_steps,
+        row_rhs,
     } kind;
+    struct run_column quantity; /* for row_extreme its unit */
     int index;
-    double size; /* final, extreme: size of the unit that it is shown in */
-    struct world_quantity point;
     /* time, count: which events; -1 for any */
     int event, body, watch;
 };

@@ -2,8 +2,10 @@
 #include "output/run_columns.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 #include "output/column_table.h"
+#include "output/words.h"
 
 /* ---- lists */
 
@@ -80,6 +82,51 @@ void run_columns_free(struct run_columns *columns)
     *columns = (struct run_columns){0};
 }
 
+static bool find_work(struct run_columns *columns, const char *name, struct run_column *column)
+{
+    const char *load = strchr(name, '.'), *work = strrchr(name, '.');
+    if (!load || work == load || strcmp(work, ".work") != 0) return false;
+    const char *body = arena_text(&columns->arena, name, (size_t)(load - name));
+    load = arena_text(&columns->arena, load + 1, (size_t)(work - load) - 1);
+    if (!body || !load) return false;
+    *column = (struct run_column){.name = name,
+                                  .unit = energy_unit(columns->model),
+                                  .kind = column_work,
+                                  .body = -1,
+                                  .index = -1,
+                                  .entry = model_find_load(columns->model, body, load),
+                                  .size = 1};
+    return column->entry >= 0;
+}
+
+static bool find_point(const struct run_columns *columns, const char *name, struct run_column *column)
+{
+    struct world_quantity found;
+    if (!world_find(columns->model, name, &found)) return false;
+    *column = (struct run_column){.name = name,
+                                  .unit = world_part_unit(columns->model, found.part),
+                                  .kind = column_point,
+                                  .body = found.body,
+                                  .index = -1,
+                                  .part = (int)found.part,
+                                  .entry = -1,
+                                  .size = 1,
+                                  .point = found.point};
+    return true;
+}
+
+bool run_columns_find(struct run_columns *columns, const char *name, struct run_column *column)
+{
+    const int entry = model_find_component(columns->model, name, true);
+    for (size_t i = 0; i < columns->count; i++) {
+        const struct run_column *listed = &columns->list[i];
+        if (strcmp(listed->name, name) != 0 && !(column_is_entry(listed) && listed->entry == entry)) continue;
+        *column = *listed;
+        return true;
+    }
+    return find_point(columns, name, column) || find_work(columns, name, column);
+}
+
 /* ---- rows */
 
 void column_view_begin(struct column_view *view, const struct fbd_state *state, struct ledger *works,
@@ -98,6 +145,11 @@ enum column_quantity column_quantity(const struct run_column *column)
     return column_rows[column->kind].quantity;
 }
 
+bool column_is_entry(const struct run_column *column)
+{
+    return column->kind == column_coordinate || column->kind == column_rate || column->kind == column_state;
+}
+
 bool column_is_of_arrow(const struct run_column *column)
 {
     return column_rows[column->kind].scope == of_arrow;
@@ -107,6 +159,13 @@ void run_columns_values(const struct run_columns *columns, struct column_view *v
 {
     const struct run_column *c = columns->list, *end = c + columns->count;
     for (; c < end; values += c->group, c += c->group) column_rows[c->kind].values(c, c->group, view, values);
+}
+
+double run_column_value(const struct run_column *column, struct column_view *view)
+{
+    double value;
+    column_rows[column->kind].values(column, 1, view, &value);
+    return value;
 }
 
 bool column_has_error(const struct run_column *column)

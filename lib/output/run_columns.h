@@ -95,8 +95,15 @@ void run_columns_free(struct run_columns *columns);
 
 enum column_quantity column_quantity(const struct run_column *column);
 
+/* Is it a coordinate, a rate or a user state: column->entry of y? */
+bool column_is_entry(const struct run_column *column);
+
 /* Does it belong to an arrow: column->index of the diagram of column->body? */
 bool column_is_of_arrow(const struct run_column *column);
+
+/* Find a column by its name: one of the list, a component of y also without its body where the scene has one,
+ * any point of a body (`rod.right.vx`), the work of any load. False if there is none. */
+bool run_columns_find(struct run_columns *columns, const char *name, struct run_column *column);
 
 /* A state at which the columns of a row are evaluated, with results that several of them share. */
 struct column_view {
@@ -116,6 +123,7 @@ void column_view_begin(struct column_view *view, const struct fbd_state *state, 
 
 /* Fill the values of all columns, columns->count of them. */
 void run_columns_values(const struct run_columns *columns, struct column_view *view, double *values);
+double run_column_value(const struct run_column *column, struct column_view *view);
 
 /* Does the column have an error? And the error of its value, `other` being that of the companion. */
 bool column_has_error(const struct run_column *column);
