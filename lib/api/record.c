@@ -8,7 +8,7 @@
 #include <time.h>
 
 #include "base/api_check.h"
-#include "draw/record.h"
+#include "output/run_record.h"
 #include "record/finite_result.h"
 
 /* ---- a run of a simulation */

@@ -9,10 +9,10 @@
 #include "base/api_check.h"
 #include "base/diag.h"
 #include "base/utf8.h"
-#include "draw/record.h"
 #include "dynamics/modes.h"
 #include "fbd_export.h"
 #include "output/display_units.h"
+#include "output/run_record.h"
 #include "output/words.h"
 
 enum { digits = 10, most_events = 200, plot_width = 900, plot_height = 300 };

@@ -6,7 +6,7 @@
 #ifndef FBD_DRAW_PACK_H
 #define FBD_DRAW_PACK_H
 
-#include "draw/record.h"
+#include "output/run_record.h"
 
 struct packed_column {
     enum packed_kind {

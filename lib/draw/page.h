@@ -6,7 +6,7 @@
 #ifndef FBD_DRAW_PAGE_H
 #define FBD_DRAW_PAGE_H
 
-#include "draw/record.h"
+#include "output/run_record.h"
 
 /* A compiled-in file. */
 struct page_asset {

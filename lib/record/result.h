@@ -32,7 +32,7 @@ struct fbd_result {
     struct ledger ledger;
     double ledger_seconds;   /* processor time of its integrals */
     struct fbd_state *start; /* the state at the start */
-    struct record *record;   /* for the page and for plots (draw/record.h), NULL without */
+    struct record *record;   /* for the page and for plots (output/run_record.h), NULL without */
     struct event_states event_states;
     struct numbers numbers; /* the rows as numbers; empty if not requested */
     bool degrees;           /* angles are shown in degrees */

@@ -2,11 +2,11 @@
  *
  * The columns of a record, and the numbers of one row: both in the same order.
  */
-#include "draw/record.h"
 #include "dynamics/mass.h"
 #include "dynamics/tree.h"
 #include "output/equations.h"
 #include "output/force_columns.h"
+#include "output/run_record.h"
 #include "output/words.h"
 
 /* ---- definitions */

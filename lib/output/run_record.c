@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "draw/record.h"
+#include "output/run_record.h"
 
 #include <float.h>
 #include <stdlib.h>

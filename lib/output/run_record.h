@@ -10,8 +10,8 @@
  *
  * A run without a record has no such cost.
  */
-#ifndef FBD_DRAW_RECORD_H
-#define FBD_DRAW_RECORD_H
+#ifndef FBD_OUTPUT_RUN_RECORD_H
+#define FBD_OUTPUT_RUN_RECORD_H
 
 #include "record/result.h"
 
@@ -107,7 +107,7 @@ bool record_is_thinned(const struct record *record);
 
 void record_free(struct record *record);
 
-/* For record.c: define the columns for a state; and fill `values` from a state, with the work integrals of
+/* For run_record.c: define the columns for a state; and fill `values` from a state, with the work integrals of
  * record->work; without `energies` those columns are NAN. */
 bool record_define(struct record *record, struct fbd_state *start);
 void record_fill(struct record *record, struct fbd_state *state, bool energies);
