@@ -9,6 +9,7 @@
 #include "dynamics/mass.h"
 #include "dynamics/modes.h"
 #include "dynamics/project.h"
+#include "fbd_view.h"
 #include "output/display_units.h"
 #include "rest/start.h"
 
@@ -33,6 +34,11 @@ bool fbd_state_copy(fbd_state *to, const fbd_state *from)
     if (!to || !from || to->model != from->model) return false;
     if (to != from) state_copy(to, from);
     return true;
+}
+
+const fbd_model *fbd_state_model(const fbd_state *state)
+{
+    return state ? state->model : NULL;
 }
 
 /* The address of a named quantity, or NULL. */

@@ -315,6 +315,7 @@ static void linearizations_and_derivations(void **context)
     REFUSES(fbd_linearize, !fbd_linearize(NULL, errors));
     ENDURES(fbd_linearization_free, fbd_linearization_free(NULL));
     ANSWERS(fbd_linearization_size, fbd_linearization_size(NULL) == 0);
+    ANSWERS(fbd_linearization_model, !fbd_linearization_model(NULL));
     ANSWERS(fbd_linearization_matrix, !fbd_linearization_matrix(NULL));
     ANSWERS(fbd_linearization_coordinate, fbd_linearization_coordinate(NULL, 0) == (size_t)-1);
     ANSWERS(fbd_linearization_mode, is_nan(fbd_linearization_mode(NULL, 0).re));
@@ -405,7 +406,8 @@ static void no_function_is_forgotten(void **context)
     note("fbd_schema");
     size_t forgotten = 0;
     size_t functions = 0;
-    static const char *const headers[] = {"fbd.h", "fbd_study.h", "fbd_grade.h", "fbd_export.h"};
+    static const char *const headers[] = {"fbd.h", "fbd_study.h", "fbd_grade.h", "fbd_export.h",
+                                          "fbd_view.h"};
     for (size_t i = 0; i < sizeof headers / sizeof *headers; i++) {
         const size_t own = check_header(headers[i], &forgotten);
         assert_true(own > 10);
@@ -422,6 +424,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(errors_and_models),
         cmocka_unit_test(a_model_may_have_no_name),
+        cmocka_unit_test(views),
         cmocka_unit_test(states),
         cmocka_unit_test(equations),
         cmocka_unit_test(simulations),
