@@ -28,8 +28,7 @@ FBD_API const fbd_model *fbd_state_model(const fbd_state *state);
 /* The index of a body that stands for the ground; points of the ground are in the world. */
 #define FBD_GROUND (-1)
 
-/* Units of a model's system: "m", "N", "N*m", "J", "kg", "kg*m^2", or "ft", "lbf", ... Past any failure (a
- * model of NULL) the texts are NULL. */
+/* Units of a model's system: "m", "N", "N*m", "J", "kg", "kg*m^2", or "ft", "lbf", ...; all NULL for NULL. */
 typedef struct fbd_units {
     const char *length, *force, *moment, *energy, *mass, *inertia;
 } fbd_units;
