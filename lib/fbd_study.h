@@ -27,6 +27,9 @@ typedef struct fbd_linearization fbd_linearization;
 FBD_API fbd_linearization *fbd_linearize(fbd_state *state, fbd_errors *errors);
 FBD_API void fbd_linearization_free(fbd_linearization *linearization);
 
+/* The model that was linearized; NULL for NULL. */
+FBD_API const fbd_model *fbd_linearization_model(const fbd_linearization *linearization);
+
 /* The system matrix A of x' = A x, x = (q - q0, v, z - z0) with the independent coordinates q and the user
  * states z, row by row, size x size; size is twice the number of independent coordinates (without couplings:
  * of all coordinates) plus the number of user states. */

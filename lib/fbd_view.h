@@ -106,6 +106,188 @@ FBD_API const fbd_model *fbd_state_model(const fbd_state *state);
  * start is refused. */
 FBD_API fbd_outcome fbd_simulation_outcome(const fbd_simulation *simulation);
 
+/* ---------------------------------------------------------------- drawings: bodies and their shapes */
+
+/* The index of a body that stands for the ground; points of the ground are in the world. */
+#define FBD_GROUND (-1)
+
+/* Units of a model's system: "m", "N", "N*m", "J", "kg", "kg*m^2", or "ft", "lbf", ...; all NULL for NULL. */
+typedef struct fbd_units {
+    const char *length, *force, *moment, *energy, *mass, *inertia;
+} fbd_units;
+
+FBD_API fbd_units fbd_model_units(const fbd_model *model);
+
+typedef enum fbd_motion_kind {
+    FBD_MOTION_SLIDE,    /* along a line, without rotation */
+    FBD_MOTION_PIVOT,    /* about an axis */
+    FBD_MOTION_PARTICLE, /* x and y */
+    FBD_MOTION_PLANAR,   /* x, y and an angle */
+    FBD_MOTION_WELD,     /* fixed on its carrier */
+    FBD_MOTION_TRACK,    /* along a curve */
+} fbd_motion_kind;
+
+/* A body and its joint, on the ground or on the body that carries it. */
+typedef struct fbd_body {
+    const char *name;
+    fbd_motion_kind motion;
+    int carrier;                         /* the body that it moves on, or FBD_GROUND */
+    size_t coordinate, coordinate_count; /* its coordinates: see fbd_model_coordinate */
+    int angle;                           /* the coordinate that is its angle, or -1 */
+    double pin[2];    /* the point of the body in its joint, in its frame: that on the axis of a pivot */
+    double joint[2];  /* the place of the joint, in the frame of the carrier: the axis; where x = 0; ... */
+    double along[2];  /* slide: the direction of +x, in the frame of the carrier, as a unit vector */
+    double normal[2]; /* slide: the direction in which its surface pushes, across `along` */
+    bool surface;     /* slide: on a surface with a normal force; false where it is guided */
+    bool two_sided;   /* and the surface has a second side, above the body */
+} fbd_body;
+
+/* Body `index`; past the last one the name is NULL and the numbers are NAN. */
+FBD_API fbd_body fbd_model_body(const fbd_model *model, size_t index);
+
+typedef enum fbd_shape_kind {
+    FBD_SHAPE_DOT,     /* no size: a point mass, a rod seen from its end */
+    FBD_SHAPE_BAR,     /* slender: from corners[0] to corners[1] */
+    FBD_SHAPE_CIRCLE,  /* centre and radius; inner > 0 for a ring or tube */
+    FBD_SHAPE_POLYGON, /* four corners, counter-clockwise */
+    FBD_SHAPE_UNKNOWN, /* the file gives only a moment of inertia */
+} fbd_shape_kind;
+
+/* A part of a body as it is seen, in the frame of the body. */
+typedef struct fbd_shape {
+    fbd_shape_kind kind;
+    bool hole; /* of negative mass: cut out of the others */
+    double center[2], radius, inner;
+    size_t corner_count; /* 4 of a polygon, 2 of a bar, else 0 */
+    double corners[4][2];
+} fbd_shape;
+
+/* The parts of a body in the order of the file; past the last one the kind is FBD_SHAPE_UNKNOWN and numbers
+ * are NAN. */
+FBD_API size_t fbd_model_shape_count(const fbd_model *model, size_t body);
+FBD_API fbd_shape fbd_model_shape(const fbd_model *model, size_t body, size_t index);
+
+/* A named point of a body, of the file or of its shapes, in its frame. The name is NULL past the last one. */
+typedef struct fbd_named_point {
+    const char *name;
+    double x, y;
+} fbd_named_point;
+
+FBD_API size_t fbd_model_point_count(const fbd_model *model, size_t body);
+FBD_API fbd_named_point fbd_model_point(const fbd_model *model, size_t body, size_t index);
+
+/* The curve of a body with FBD_MOTION_TRACK: its arc length from `start` to `start + length`. Closed curves
+ * continue beyond. NAN for other bodies. */
+typedef struct fbd_track {
+    double start, length;
+    bool closed;
+} fbd_track;
+
+FBD_API fbd_track fbd_model_track(const fbd_model *model, size_t body);
+
+/* A point of a curve in the frame of the carrier: position, unit tangent in the sense of growing s, and
+ * curvature, positive to the left. NAN for bodies without a track. */
+typedef struct fbd_track_place {
+    double x, y, tangent[2], curvature;
+} fbd_track_place;
+
+FBD_API fbd_track_place fbd_model_track_place(const fbd_model *model, size_t body, double s);
+
+/* ---------------------------------------------------------------- drawings: a state */
+
+/* The positions, forces and couplings of a state, computed once; independent of the state from then on, but
+ * not of the model. */
+typedef struct fbd_view fbd_view;
+
+/* NULL with a note in `errors`: `not-finite` where a position or a force is not finite, or memory is out. */
+FBD_API fbd_view *fbd_view_new(fbd_state *state, fbd_errors *errors);
+FBD_API void fbd_view_free(fbd_view *view);
+
+/* Position of a body: its point `pin` is at (x, y) in the world, and a point r of its frame at (x, y) +
+ * R(angle) (r - pin). NAN past the last body. */
+typedef struct fbd_pose {
+    double x, y, angle;
+    double cosine, sine;
+    /* the direction of +x or s of a slide or track in the world, and the direction in which its surface pushes;
+     * (1, 0) and (0, 1) for other bodies */
+    double along[2], normal[2];
+} fbd_pose;
+
+FBD_API fbd_pose fbd_view_pose(const fbd_view *view, size_t body);
+
+/* The mass of a body in the state, its moments of inertia as in fbd_inertia, and the symbol of the mass: "m",
+ * "m_2", or a parameter of the file, and as printed: "m₂". NULL and NAN past the last body. */
+typedef struct fbd_mass {
+    double mass, I_G, I_O;
+    const char *symbol, *printed;
+} fbd_mass;
+
+FBD_API fbd_mass fbd_view_mass(const fbd_view *view, size_t body);
+
+/* A force or moment of a free-body diagram, as fbd_diagram, with its origin and its textbook symbol. Texts
+ * live as long as the view. */
+typedef struct fbd_force {
+    fbd_arrow arrow;
+    /* "gravity", "applied", "spring", "damper", "potential", "friction" or "reaction", of a surface, joint or
+     * coupling; NULL past the last one */
+    const char *kind;
+    int slide;   /* the force is that of the surface under this sliding body, or its opposite; else -1 */
+    bool normal; /* and it is its normal force */
+    const char *symbol;  /* "m g", "N_1", "mu_k N": factors, indices after `_`, Greek letters by name */
+    const char *printed; /* "mg", "N₁", "μₖN" */
+    bool moment;         /* it is a pure moment at all times */
+} fbd_force;
+
+/* The forces of a body, in the order of fbd_diagram. */
+FBD_API size_t fbd_view_force_count(const fbd_view *view, size_t body);
+FBD_API fbd_force fbd_view_force(const fbd_view *view, size_t body, size_t index);
+
+/* A spring or damper between a point of a body and a point of another body or of the ground. */
+typedef struct fbd_spring {
+    const char *name;
+    bool damper;
+    int body, partner; /* or FBD_GROUND */
+    double point[2];   /* in the frame of the body */
+    double anchor[2];  /* in that of the partner; NAN for a wall without a position in the file */
+} fbd_spring;
+
+/* The springs and dampers, those of the bodies first; past the last one the name is NULL. */
+FBD_API size_t fbd_view_spring_count(const fbd_view *view);
+FBD_API fbd_spring fbd_view_spring(const fbd_view *view, size_t index);
+
+/* A coupling or contact: pins, rods, gears, ... A rope has one for each piece between its ends and the pulleys
+ * that move, a contact one for each of its points that can touch at once. Past the last one the texts are NULL.
+ */
+typedef struct fbd_coupling {
+    const char *kind; /* "pin", "rod", "gear", "rack", "roll", "slot", "belt", "rope" or "contact" */
+    const char *name;
+    size_t entry; /* the number in the file of the coupling or contact that it belongs to, from 0 */
+    size_t end_count;
+    double length; /* of a rod, rope or belt at the start; 0 where a drum changes it */
+    bool pulls;    /* rod, rope: the force at a point without a circle is along the line to the next point */
+    bool lined;    /* its forces are along and across a line: of a roll, rack, or contact with a line */
+    double angle;  /* of that line, or of a slot, in the frame of end 1 [rad] */
+    int side;      /* the body is to the left (+1) or to the right (-1) of the line */
+} fbd_coupling;
+
+FBD_API size_t fbd_view_coupling_count(const fbd_view *view);
+FBD_API fbd_coupling fbd_view_coupling(const fbd_view *view, size_t index);
+
+/* An end of a coupling, or a point that a rope passes over. */
+typedef struct fbd_coupling_end {
+    int body;          /* or FBD_GROUND */
+    double point[2];   /* in the frame of the body; the centre of a circle */
+    double radius;     /* of the circle there, else 0 */
+    const char *force; /* the name of its force in the diagram of the body; NULL on the ground */
+    /* where the coupling acts on it, in the world: nowhere for an open contact, at two places where a rope
+     * passes over it */
+    size_t place_count;
+    double places[2][2];
+} fbd_coupling_end;
+
+/* End `end` of a coupling; past the last one its numbers are NAN. */
+FBD_API fbd_coupling_end fbd_view_coupling_end(const fbd_view *view, size_t index, size_t end);
+
 #ifdef __cplusplus
 }
 #endif

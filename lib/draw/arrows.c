@@ -8,9 +8,6 @@
 #include <string.h>
 
 #include "draw/panel.h"
-#include "dynamics/tree.h"
-#include "output/words.h"
-#include "record/result.h"
 
 static const double pi = 3.141592653589793, side_step = 2.4, head_length = 3, head_width = 2.2;
 static const double first_radius = 10, next_radius = 3.6, least_sweep = 0.7;
@@ -20,9 +17,9 @@ static const double least_component = 0.02;
 
 /* ---- selection */
 
-static const char *kind_of(const struct fbd_model *model, const struct arrow *arrow)
+static struct vec force_of(const fbd_force *force)
 {
-    return arrow->load < 0 ? "reaction" : load_law(model->loads[arrow->load].source)->drawing;
+    return (struct vec){force->arrow.fx, force->arrow.fy};
 }
 
 /* True for values at the round-off level of the largest. */
@@ -34,63 +31,55 @@ static bool is_nothing(double value, double largest)
 struct arrow_scale panel_largest(const struct panel *panel)
 {
     struct arrow_scale most = {0, 0};
-    for (size_t i = 0; i < panel->arrow_count; i++) {
-        double force = vec_norm(panel->arrows[i].force), moment = fabs(panel->arrows[i].couple);
+    for (size_t i = 0; i < panel->force_count; i++) {
+        double force = vec_norm(force_of(&panel->forces[i])), moment = fabs(panel->forces[i].arrow.couple);
         if (isfinite(force)) most.force = fmax(most.force, force);
         if (isfinite(moment)) most.moment = fmax(most.moment, moment);
     }
     return most;
 }
 
-double panel_line_of_action(const struct arrow *arrow, struct vec along)
+double panel_line_of_action(const fbd_force *force, struct vec along)
 {
-    double lever = vec_cross(along, arrow->force);
-    return lever != 0 ? arrow->couple / lever : 0;
+    double lever = vec_cross(along, force_of(force));
+    return lever != 0 ? force->arrow.couple / lever : 0;
 }
 
-/* The slide whose surface exerts the force: the body itself, or the body on it; NULL for other forces. */
-static const struct model_body *slide_of(const struct panel *panel, const struct arrow *arrow)
-{
-    const struct model_load *load = arrow->load >= 0 ? &panel->model->loads[arrow->load] : NULL;
-    if (!load || (load->source->kind != load_normal && load->source->kind != load_friction)) return NULL;
-    const struct model_body *slide = &panel->model->bodies[load->body];
-    return slide->kind == motion_slide ? slide : NULL;
-}
-
-static bool has_size(const struct model_body *body)
+static bool has_size(const struct panel *panel, int body)
 {
     struct vec low, high;
-    return outline_size(body->source, &low, &high);
+    return shapes_size(panel->model, (size_t)body, &low, &high);
 }
 
-bool panel_is_shifted(const struct panel *panel, const struct arrow *arrow)
+bool panel_is_shifted(const struct panel *panel, const fbd_force *force)
 {
-    const struct model_body *slide = slide_of(panel, arrow);
-    return slide && has_size(slide) && panel->model->loads[arrow->load].source->kind == load_normal &&
-           !is_nothing(vec_norm(arrow->force), panel->largest.force);
+    return force->normal && has_size(panel, force->slide) &&
+           !is_nothing(vec_norm(force_of(force)), panel->largest.force);
 }
 
 /* The point of a slide's surface where its force acts, for the slide or the body under it. */
-static struct vec place_on_surface(const struct panel *panel, const struct model_body *slide,
-                                   const struct arrow *arrow)
+static struct vec place_on_surface(const struct panel *panel, const fbd_force *force)
 {
-    struct pose pose = body_pose(slide, &panel->at);
-    double side = vec_dot(slide->n, vec_perp(slide->e)) > 0 ? -1 : 1;
-    struct vec e = pose.rotation, down = vec_scale(side, vec_perp(e)), G = slide->inertia.G;
+    const size_t slide = (size_t)force->slide;
+    const fbd_body body = fbd_model_body(panel->model, slide);
+    const fbd_pose pose = fbd_view_pose(panel->view, slide);
+    struct vec e = vec_of(pose.along), down = vec_scale(-1, vec_of(pose.normal));
+    struct vec G = vec_of(fbd_model_inertia(panel->model, slide).G);
     double reach =
-        outline_reach(slide->source, G, (struct vec){vec_dot(down, e), vec_dot(down, vec_perp(e))});
-    double along = panel_is_shifted(panel, arrow) ? panel_line_of_action(arrow, e) : 0;
-    return vec_add(point_motion(slide, &pose, G).p, vec_add(vec_scale(reach, down), vec_scale(along, e)));
+        shapes_reach(panel->model, slide, G, (struct vec){vec_dot(down, e), vec_dot(down, vec_perp(e))});
+    double along = panel_is_shifted(panel, force) ? panel_line_of_action(force, e) : 0;
+    return vec_add(pose_point(&pose, &body, G), vec_add(vec_scale(reach, down), vec_scale(along, e)));
 }
 
 /* The start of the arrow; the forces of a slide's surface start at the point of contact. */
-static struct vec tail_of(const struct panel *panel, const struct arrow *arrow)
+static struct vec tail_of(const struct panel *panel, const fbd_force *force)
 {
-    const struct model_body *slide = slide_of(panel, arrow);
-    if (!slide) return panel_point(panel, arrow->point);
-    if (slide != panel->body && slide == panel->plate.rider) return panel->seat;
-    if (has_size(slide)) return panel_point(panel, place_on_surface(panel, slide, arrow));
-    return panel_point(panel, slide == panel->body ? panel->base : arrow->point);
+    const struct vec point = {force->arrow.x, force->arrow.y};
+    const bool own = force->slide == (int)panel->index;
+    if (force->slide < 0) return panel_point(panel, point);
+    if (!own && force->slide == panel->plate.rider) return panel->seat;
+    if (has_size(panel, force->slide)) return panel_point(panel, place_on_surface(panel, force));
+    return panel_point(panel, own ? panel->base : point);
 }
 
 /* ---- forces */
@@ -126,13 +115,13 @@ static void step_aside(const struct panel *panel, struct panel_arrow *arrow)
 
 const char *panel_symbol(const struct panel *panel, const struct panel_arrow *arrow)
 {
-    return (arrow->radius > 0 ? panel->moments : panel->symbols)[arrow->source - panel->arrows];
+    return arrow->radius > 0 ? panel->moments[arrow->source - panel->forces] : arrow->source->printed;
 }
 
 static const char *label_of(struct panel *panel, const struct panel_arrow *arrow, const char *name,
                             const char *unit)
 {
-    if (panel->symbols && !arrow->component) return panel_symbol(panel, arrow);
+    if (panel->moments && !arrow->component) return panel_symbol(panel, arrow);
     return arena_printf(panel->arena, "%s %.4g %s", name, arrow->value, unit);
 }
 
@@ -146,13 +135,12 @@ static void avoid_arrow(struct panel *panel, const struct panel_arrow *arrow)
     labelling_avoid(&panel->labels, vec_add(back, side), vec_sub(back, side), 12);
 }
 
-static void draw_force(struct panel *panel, const struct arrow *source, struct vec force, const char *name,
+static void draw_force(struct panel *panel, const fbd_force *source, struct vec force, const char *name,
                        const char *suffix)
 {
     double size = vec_norm(force), length = 10 * size / panel->scale.force;
     struct panel_arrow *arrow = &panel->drawn[panel->drawn_count];
     *arrow = (struct panel_arrow){.source = source,
-                                  .kind = kind_of(panel->model, source),
                                   .suffix = suffix,
                                   .component = suffix[0] != '\0',
                                   .small = length < shortest_arrow,
@@ -161,7 +149,7 @@ static void draw_force(struct panel *panel, const struct arrow *source, struct v
     struct vec unit = panel_direction(vec_scale(1 / size, force));
     arrow->head = vec_add(arrow->tail, vec_scale(fmax(length, shortest_arrow), unit));
     step_aside(panel, arrow);
-    const char *text = label_of(panel, arrow, name, force_unit(panel->model));
+    const char *text = label_of(panel, arrow, name, panel->units.force);
     arrow->label = labelling_add(&panel->labels, text, label_size, arrow->head, unit, 1.2);
     avoid_arrow(panel, arrow);
     box_take(&panel->extent, arrow->tail);
@@ -171,20 +159,15 @@ static void draw_force(struct panel *panel, const struct arrow *source, struct v
 
 /* Draw components along the axes of the world; on a slide along and across it; none if one of them nearly
  * equals the force. */
-static void draw_components(struct panel *panel, const struct arrow *source, double largest)
+static void draw_components(struct panel *panel, const fbd_force *source, double largest)
 {
-    bool track = panel->body->kind == motion_track, slide = panel->body->kind == motion_slide || track;
-    struct vec x = slide ? panel->body->e : (struct vec){1, 0},
-               y = slide ? panel->body->n : (struct vec){0, 1};
-    if (track) { /* the directions depend on the position */
-        x = panel->at.tree->links[panel->body->place.link].e;
-        y = tree_normal(panel->model->tree, panel->at.tree, panel->body->place.link);
-    }
-    double along = vec_dot(source->force, x), across = vec_dot(source->force, y);
-    double size = vec_norm(source->force);
+    bool slide = panel->body.motion == FBD_MOTION_SLIDE || panel->body.motion == FBD_MOTION_TRACK;
+    struct vec x = vec_of(panel->pose.along), y = vec_of(panel->pose.normal), force = force_of(source);
+    double along = vec_dot(force, x), across = vec_dot(force, y);
+    double size = vec_norm(force);
     if (is_nothing(size, largest) || fmin(fabs(along), fabs(across)) < least_component * size) return;
-    const char *names[] = {arena_printf(panel->arena, "%s_x", source->name),
-                           arena_printf(panel->arena, slide ? "%s_n" : "%s_y", source->name)};
+    const char *names[] = {arena_printf(panel->arena, "%s_x", source->arrow.name),
+                           arena_printf(panel->arena, slide ? "%s_n" : "%s_y", source->arrow.name)};
     if (!names[0] || !names[1]) return;
     draw_force(panel, source, vec_scale(along, x), names[0], "-x");
     draw_force(panel, source, vec_scale(across, y), names[1], slide ? "-n" : "-y");
@@ -199,23 +182,21 @@ static struct vec arc_point(const struct panel_arrow *arrow, double share)
                    vec_scale(arrow->radius, panel_direction((struct vec){cos(angle), sin(angle)})));
 }
 
-static void draw_moment(struct panel *panel, const struct arrow *source, int index, const char *suffix)
+static void draw_moment(struct panel *panel, const fbd_force *source, int index, const char *suffix)
 {
-    struct vec axis = panel->body->kind == motion_pivot
-                          ? panel->pose.origin
-                          : point_motion(panel->body, &panel->pose, panel->body->inertia.G).p;
-    double sweep = pi / 2 * source->couple / panel->scale.moment;
+    struct vec axis =
+        panel_place(panel, panel->body.motion == FBD_MOTION_PIVOT ? vec_of(panel->body.pin) : panel->G);
+    double sweep = pi / 2 * source->arrow.couple / panel->scale.moment;
     struct panel_arrow *arrow = &panel->drawn[panel->drawn_count];
     *arrow = (struct panel_arrow){.source = source,
-                                  .kind = kind_of(panel->model, source),
                                   .suffix = suffix,
                                   .small = fabs(sweep) < least_sweep,
-                                  .value = fabs(source->couple), /* the arc shows the sign */
+                                  .value = fabs(source->arrow.couple), /* the arc shows the sign */
                                   .tail = panel_point(panel, axis),
                                   .radius = first_radius + next_radius * index,
                                   .start = 0.35 + 1.1 * index};
     arrow->sweep = arrow->small ? copysign(least_sweep, sweep) : sweep;
-    const char *text = label_of(panel, arrow, source->name, printed_unit(moment_unit(panel->model)));
+    const char *text = label_of(panel, arrow, source->arrow.name, printed_unit(panel->units.moment));
     struct vec tip = arc_point(arrow, 1);
     struct vec out = vec_scale(1 / arrow->radius, vec_sub(tip, arrow->tail));
     arrow->label = labelling_add(&panel->labels, text, label_size, tip, out, 1.8);
@@ -233,15 +214,16 @@ void panel_arrows(struct panel *panel)
 {
     enum { most_pieces = 4 }; /* a force, a moment, two components */
     struct arrow_scale most = panel->largest;
-    panel->drawn = ARENA_ARRAY(panel->arena, most_pieces * panel->arrow_count + 1, struct panel_arrow);
+    panel->drawn = ARENA_ARRAY(panel->arena, most_pieces * panel->force_count + 1, struct panel_arrow);
     if (!panel->drawn) return;
     int moments = 0;
-    for (size_t i = 0; i < panel->arrow_count; i++) {
-        const struct arrow *source = &panel->arrows[i];
-        bool force = isfinite(vec_norm(source->force)) && !is_nothing(vec_norm(source->force), most.force);
-        if (force) draw_force(panel, source, source->force, source->name, "");
+    for (size_t i = 0; i < panel->force_count; i++) {
+        const fbd_force *source = &panel->forces[i];
+        bool force =
+            isfinite(vec_norm(force_of(source))) && !is_nothing(vec_norm(force_of(source)), most.force);
+        if (force) draw_force(panel, source, force_of(source), source->arrow.name, "");
         if (force && panel->drawing->components) draw_components(panel, source, most.force);
-        if (isfinite(source->couple) && !is_nothing(source->couple, most.moment) &&
+        if (isfinite(source->arrow.couple) && !is_nothing(source->arrow.couple, most.moment) &&
             !panel_is_shifted(panel, source))
             draw_moment(panel, source, moments++, force ? "-moment" : "");
     }
@@ -282,26 +264,26 @@ static void write_moment(struct text *text, const struct panel_arrow *arrow)
 
 static void write_title(const struct panel *panel, const struct panel_arrow *arrow, struct text *text)
 {
-    const struct arrow *source = arrow->source;
-    text_printf(text, "<title>%s on %s: ", source->name, panel->body->name);
+    const fbd_force *source = arrow->source;
+    text_printf(text, "<title>%s on %s: ", source->arrow.name, panel->body.name);
     if (arrow->radius > 0) {
-        text_number(text, source->couple, 9);
-        text_printf(text, " %s</title>\n", moment_unit(panel->model));
+        text_number(text, source->arrow.couple, 9);
+        text_printf(text, " %s</title>\n", panel->units.moment);
         return;
     }
     text_add(text, "(");
-    text_number(text, source->force.x, 9);
+    text_number(text, source->arrow.fx, 9);
     text_add(text, ", ");
-    text_number(text, source->force.y, 9);
-    text_printf(text, ") %s, ", force_unit(panel->model));
-    text_number(text, vec_norm(source->force), 9);
-    text_printf(text, " %s at ", force_unit(panel->model));
-    text_number(text, atan2(source->force.y, source->force.x) * 180 / pi, 6);
+    text_number(text, source->arrow.fy, 9);
+    text_printf(text, ") %s, ", panel->units.force);
+    text_number(text, vec_norm(force_of(source)), 9);
+    text_printf(text, " %s at ", panel->units.force);
+    text_number(text, atan2(source->arrow.fy, source->arrow.fx) * 180 / pi, 6);
     text_add(text, "° from x; acts at (");
-    text_number(text, source->point.x, 9);
+    text_number(text, source->arrow.x, 9);
     text_add(text, ", ");
-    text_number(text, source->point.y, 9);
-    text_printf(text, ") %s</title>\n", length_unit(panel->model));
+    text_number(text, source->arrow.y, 9);
+    text_printf(text, ") %s</title>\n", panel->units.length);
 }
 
 void panel_write_arrows(const struct panel *panel, struct text *text)
@@ -309,9 +291,9 @@ void panel_write_arrows(const struct panel *panel, struct text *text)
     for (size_t i = 0; i < panel->drawn_count; i++) {
         const struct panel_arrow *arrow = &panel->drawn[i];
         const struct label_place *label = &panel->labels.labels[arrow->label];
-        text_printf(text, "<g class=\"arrow %s%s%s\" id=\"%s-%s%s\">\n", arrow->kind,
-                    arrow->component ? " component" : "", arrow->small ? " small" : "", panel->body->name,
-                    arrow->source->name, arrow->suffix);
+        text_printf(text, "<g class=\"arrow %s%s%s\" id=\"%s-%s%s\">\n", arrow->source->kind,
+                    arrow->component ? " component" : "", arrow->small ? " small" : "", panel->body.name,
+                    arrow->source->arrow.name, arrow->suffix);
         write_title(panel, arrow, text);
         if (arrow->radius > 0)
             write_moment(text, arrow);

@@ -11,13 +11,7 @@
 #include "base/api_check.h"
 #include "base/format.h"
 #include "draw/panel.h"
-#include "dynamics/mass.h"
 #include "fbd_export.h"
-#include "output/equations.h"
-#include "output/symbols.h"
-#include "output/words.h"
-#include "record/result.h"
-#include "rest/start.h"
 
 /* A4 minus the margins of printers; lengths in mm. */
 static const double page_width = 190, page_height = 270;
@@ -38,15 +32,22 @@ double round_up(double value)
 
 const char *printed_unit(const char *unit)
 {
-    if (strcmp(unit, "N*m") == 0) return "N·m";
-    return strcmp(unit, "lbf*ft") == 0 ? "lbf·ft" : unit;
+    static const char *const units[][2] = {{"N*m", "N·m"},
+                                           {"lbf*ft", "lbf·ft"},
+                                           {"kg*m^2", "kg·m²"},
+                                           {"slug*ft^2", "slug·ft²"}};
+    for (size_t i = 0; i < sizeof units / sizeof *units; i++)
+        if (strcmp(unit, units[i][0]) == 0) return units[i][1];
+    return unit;
 }
 
 struct sheet {
     struct arena arena;
     struct fbd_state *state;
     const fbd_drawing *drawing;
-    const struct force_symbol *const *symbols; /* or NULL */
+    const fbd_model *model;
+    fbd_view *view;
+    bool symbols;
     struct panel *panels;
     size_t count;
     struct text text;
@@ -55,38 +56,40 @@ struct sheet {
 
 /* ---- panels */
 
-bool panel_start(struct panel *panel, const struct fbd_state *state, size_t body, const fbd_drawing *drawing,
-                 struct arena *arena)
+bool panel_start(struct panel *panel, const fbd_state *state, const fbd_view *view, size_t body,
+                 const fbd_drawing *drawing, struct arena *arena)
 {
-    const struct fbd_model *model = state->model;
+    const fbd_model *model = fbd_state_model(state);
     *panel = (struct panel){.arena = arena,
                             .model = model,
-                            .body = &model->bodies[body],
-                            .at = state_instant(state),
+                            .state = state,
+                            .view = view,
+                            .index = body,
+                            .body = fbd_model_body(model, body),
+                            .pose = fbd_view_pose(view, body),
+                            .G = vec_of(fbd_model_inertia(model, body).G),
+                            .force_count = fbd_view_force_count(view, body),
+                            .units = fbd_model_units(model),
                             .drawing = drawing,
                             .labels = {.arena = arena},
                             .extent = box_nothing};
-    panel->pose = body_pose(panel->body, &panel->at);
-    panel->arrows = ARENA_ARRAY(arena, diagram_arrows(model, (int)body), struct arrow);
-    if (!panel->arrows) return false;
-    panel->arrow_count = diagram_fill(model, (int)body, &panel->at, state->a, state->slots, panel->arrows);
-    return true;
+    panel->forces = ARENA_ARRAY(arena, panel->force_count + 1, fbd_force);
+    for (size_t i = 0; panel->forces && i < panel->force_count; i++)
+        panel->forces[i] = fbd_view_force(view, body, i);
+    return panel->forces != NULL;
 }
 
 static bool start_panel(struct sheet *sheet, struct panel *panel, size_t body)
 {
-    if (!panel_start(panel, sheet->state, body, sheet->drawing, &sheet->arena)) return false;
+    if (!panel_start(panel, sheet->state, sheet->view, body, sheet->drawing, &sheet->arena)) return false;
     if (!sheet->symbols) return true;
-    const char **printed = ARENA_ARRAY(&sheet->arena, panel->arrow_count + 1, const char *);
-    const char **moments = ARENA_ARRAY(&sheet->arena, panel->arrow_count + 1, const char *);
-    for (size_t i = 0; printed && moments && i < panel->arrow_count; i++) {
-        const struct force_symbol *symbol = &sheet->symbols[body][i];
-        if (!(printed[i] = symbol_printed(symbol_now(symbol), &sheet->arena))) return false;
-        moments[i] = symbol->moment ? printed[i] : arena_printf(&sheet->arena, "M(%s)", printed[i]);
+    const char **moments = ARENA_ARRAY(&sheet->arena, panel->force_count + 1, const char *);
+    for (size_t i = 0; moments && i < panel->force_count; i++) {
+        const fbd_force *force = &panel->forces[i];
+        moments[i] = force->moment ? force->printed : arena_printf(&sheet->arena, "M(%s)", force->printed);
     }
-    panel->symbols = printed;
     panel->moments = moments;
-    return printed && moments;
+    return moments != NULL;
 }
 
 /* Set the scales by the maxima of all bodies, including those not drawn, so that a part of a scene has the
@@ -101,8 +104,9 @@ static void set_scales(struct sheet *sheet, size_t body_count)
         struct arrow_scale most = panel_largest(panel);
         all.force = fmax(all.force, most.force);
         all.moment = fmax(all.moment, most.moment);
-        for (size_t k = 0; k < panel->arrow_count; k++)
-            arm = fmax(arm, vec_norm(vec_sub(panel->arrows[k].point, panel->pose.origin)));
+        for (size_t k = 0; k < panel->force_count; k++)
+            arm = fmax(arm, vec_norm((struct vec){panel->forces[k].arrow.x - panel->pose.x,
+                                                  panel->forces[k].arrow.y - panel->pose.y}));
     }
     double force =
         sheet->drawing->scale > 0 ? sheet->drawing->scale : round_up(10 * all.force / longest_arrow);
@@ -122,12 +126,12 @@ static void note_scales(const struct panel *panel, struct text *notes)
     bool forces = false, moments = false;
     for (size_t i = 0; i < panel->drawn_count; i++)
         (panel->drawn[i].radius > 0 ? (moments = true) : (forces = true));
-    if (forces) text_printf(notes, "forces: 10 mm = %g %s\n", panel->scale.force, force_unit(panel->model));
+    if (forces) text_printf(notes, "forces: 10 mm = %g %s\n", panel->scale.force, panel->units.force);
     if (moments)
         text_printf(notes, "moments: 90° of arc = %g %s\n", panel->scale.moment,
-                    printed_unit(moment_unit(panel->model)));
+                    printed_unit(panel->units.moment));
     if (panel->sized)
-        text_printf(notes, "lengths: 10 mm = %g %s\n", 10 / panel->millimetres, length_unit(panel->model));
+        text_printf(notes, "lengths: 10 mm = %g %s\n", 10 / panel->millimetres, panel->units.length);
     bool small = false;
     for (size_t i = 0; i < panel->drawn_count; i++) small |= panel->drawn[i].small;
     if (small) text_add(notes, "dashed: too small for the scale\n");
@@ -136,11 +140,12 @@ static void note_scales(const struct panel *panel, struct text *notes)
 static void note_zeros(const struct panel *panel, struct text *notes)
 {
     const char *before = "zero here: ";
-    for (size_t i = 0; i < panel->arrow_count; i++) {
+    for (size_t i = 0; i < panel->force_count; i++) {
         bool drawn = false;
-        for (size_t k = 0; k < panel->drawn_count; k++) drawn |= panel->drawn[k].source == &panel->arrows[i];
+        for (size_t k = 0; k < panel->drawn_count; k++) drawn |= panel->drawn[k].source == &panel->forces[i];
         if (drawn) continue;
-        text_printf(notes, "%s%s", before, panel->symbols ? panel->symbols[i] : panel->arrows[i].name);
+        text_printf(notes, "%s%s", before,
+                    panel->moments ? panel->forces[i].printed : panel->forces[i].arrow.name);
         before = ", ";
     }
     if (before[0] == ',') text_add(notes, "\n");
@@ -153,17 +158,17 @@ static void note_answers(const struct panel *panel, struct text *notes)
         const struct panel_arrow *arrow = &panel->drawn[i];
         if (arrow->component) continue;
         const char *symbol = panel_symbol(panel, arrow);
-        const char *unit = arrow->radius > 0 ? moment_unit(panel->model) : force_unit(panel->model);
-        bool named = strcmp(symbol, arrow->source->name) != 0;
+        const char *unit = arrow->radius > 0 ? panel->units.moment : panel->units.force;
+        bool named = strcmp(symbol, arrow->source->arrow.name) != 0;
         text_printf(notes, "%s = %.4g %s%s%s\n", symbol, arrow->value, printed_unit(unit), named ? ", " : "",
-                    named ? arrow->source->name : "");
+                    named ? arrow->source->arrow.name : "");
     }
 }
 
 /* One more line than arrows, so that their number is not revealed. */
 static void note_lines(const struct panel *panel, struct text *notes)
 {
-    for (size_t i = 0; i <= panel->arrow_count; i++) text_add(notes, "_\n");
+    for (size_t i = 0; i <= panel->force_count; i++) text_add(notes, "_\n");
 }
 
 static void write_notes_of(const struct panel *panel, struct text *notes)
@@ -180,21 +185,14 @@ static void write_notes_of(const struct panel *panel, struct text *notes)
 
 static void write_heading(const struct panel *panel, struct text *text, struct vec at)
 {
-    const struct model_body *body = panel->body;
-    const char *mass = panel->model->scene->units == unit_si ? "kg" : "slug";
+    const fbd_mass mass = fbd_view_mass(panel->view, panel->index);
+    const bool pivot = panel->body.motion == FBD_MOTION_PIVOT;
     struct text line = {0};
-    const char *symbol =
-        panel->symbols ? symbol_of_mass(panel->model, (int)(body - panel->model->bodies), panel->arena) : "m";
-    const char *printed = symbol ? symbol_printed(symbol, panel->arena) : NULL;
-    if (!printed) line.failed = true;
-    text_printf(&line, "%s = %.4g %s", printed ? printed : "", body_mass(body, &panel->at), mass);
-    bool turns = body->kind == motion_pivot || body->kind == motion_planar;
-    if (turns)
-        text_printf(&line, ", %s = %.4g %s", body->kind == motion_pivot ? "I_O" : "I_G",
-                    body->kind == motion_pivot ? body_I_O(body, &panel->at)
-                                               : body_inertia(body, &panel->at).I_G,
-                    panel->model->scene->units == unit_si ? "kg·m²" : "slug·ft²");
-    svg_text_at(text, "heading", at, body->name);
+    text_printf(&line, "%s = %.4g %s", panel->moments ? mass.printed : "m", mass.mass, panel->units.mass);
+    if (pivot || panel->body.motion == FBD_MOTION_PLANAR)
+        text_printf(&line, ", %s = %.4g %s", pivot ? "I_O" : "I_G", pivot ? mass.I_O : mass.I_G,
+                    printed_unit(panel->units.inertia));
+    svg_text_at(text, "heading", at, panel->body.name);
     if (line.failed)
         text->failed = true;
     else
@@ -262,7 +260,7 @@ static struct vec panel_size(const struct panel *panel, const struct text *notes
 {
     double wide = panel->extent.high.x - panel->extent.low.x,
            high = panel->extent.high.y - panel->extent.low.y;
-    wide = fmax(wide, fmax(widest_line(notes), svg_text_width(panel->body->name, 5)));
+    wide = fmax(wide, fmax(widest_line(notes), svg_text_width(panel->body.name, 5)));
     return (struct vec){fmax(wide, 50), high + heading_height + height_of(notes) + 3};
 }
 
@@ -286,7 +284,7 @@ static void write_lines(struct text *notes, struct vec at, struct text *text)
 
 static void write_panel(const struct panel *panel, struct text *notes, struct vec corner, struct text *text)
 {
-    text_printf(text, "<g class=\"diagram\" id=\"%s\">\n", panel->body->name);
+    text_printf(text, "<g class=\"diagram\" id=\"%s\">\n", panel->body.name);
     write_heading(panel, text, (struct vec){corner.x, corner.y + 4});
     struct vec shift = {corner.x - panel->extent.low.x, corner.y + heading_height - panel->extent.low.y};
     text_add(text, "<g transform=\"translate(");
@@ -341,14 +339,15 @@ static double fitting_size(const struct sheet *sheet, double top)
 
 static void write_sheet(struct sheet *sheet)
 {
-    const struct fbd_model *model = sheet->state->model;
     struct text *text = &sheet->text;
-    const char *title = model->scene->title[0] ? model->scene->title : "Free-body diagram";
+    const char *given = fbd_model_title(sheet->model), *title = given[0] ? given : "Free-body diagram";
+    double t = 0;
+    fbd_state_get(sheet->state, "t", &t);
     const double top = margin + 14, scale = fitting_size(sheet, top);
     struct vec size = lay_out(sheet, page_width / scale, top, NULL);
     char time[80], description[200];
     const char *what = sheet->drawing->worksheet ? "Free-body diagram, to be drawn," : "Free-body diagram";
-    format_into(time, sizeof time, "%s at t = %.6g s", what, sheet->state->t);
+    format_into(time, sizeof time, "%s at t = %.6g s", what, t);
     snprintf(description, sizeof description,
              sheet->drawing->worksheet
                  ? "%s: each body cut free"
@@ -371,7 +370,7 @@ static const char *body_without_scale(const struct sheet *sheet)
         const struct panel *panel = &sheet->panels[i];
         bool odd = sheet->text.odd || panel->under.odd || sheet->notes[i].odd;
         odd |= !isfinite(panel->scale.force) || !isfinite(panel->scale.moment);
-        if (odd || !isfinite(10 / panel->millimetres)) return panel->body->name;
+        if (odd || !isfinite(10 / panel->millimetres)) return panel->body.name;
     }
     return NULL;
 }
@@ -379,18 +378,17 @@ static const char *body_without_scale(const struct sheet *sheet)
 /* Start the panels of all bodies for the scales, and move the requested ones to the front of `panels`. */
 static bool make_panels(struct sheet *sheet)
 {
-    const struct fbd_model *model = sheet->state->model;
     const fbd_drawing *drawing = sheet->drawing;
-    sheet->panels = ARENA_ARRAY(&sheet->arena, model->body_count, struct panel);
-    sheet->notes = ARENA_ARRAY(&sheet->arena, model->body_count, struct text);
-    bool symbols = drawing->symbols || drawing->solution;
-    if (symbols) sheet->symbols = symbols_of_forces(sheet->state, &sheet->arena);
-    if (!sheet->panels || !sheet->notes || (symbols && !sheet->symbols)) return false;
-    for (size_t b = 0; b < model->body_count; b++)
+    const size_t count = fbd_model_body_count(sheet->model);
+    sheet->panels = ARENA_ARRAY(&sheet->arena, count, struct panel);
+    sheet->notes = ARENA_ARRAY(&sheet->arena, count, struct text);
+    sheet->symbols = drawing->symbols || drawing->solution;
+    if (!sheet->panels || !sheet->notes) return false;
+    for (size_t b = 0; b < count; b++)
         if (!start_panel(sheet, &sheet->panels[b], b)) return false;
-    set_scales(sheet, model->body_count);
-    for (size_t b = 0; b < model->body_count; b++)
-        if (!drawing->body || strcmp(model->bodies[b].name, drawing->body) == 0)
+    set_scales(sheet, count);
+    for (size_t b = 0; b < count; b++)
+        if (!drawing->body || strcmp(sheet->panels[b].body.name, drawing->body) == 0)
             sheet->panels[sheet->count++] = sheet->panels[b];
     for (size_t i = 0; i < sheet->count; i++) {
         panel_draw(&sheet->panels[i]);
@@ -399,39 +397,33 @@ static bool make_panels(struct sheet *sheet)
     return !sheet->arena.failed;
 }
 
-static bool body_is_there(const struct fbd_model *model, const char *name, fbd_errors *errors)
+static bool body_is_there(const fbd_model *model, const char *name, fbd_errors *errors)
 {
-    const char **names = calloc(model->body_count + 1, sizeof *names);
+    const size_t count = fbd_model_body_count(model);
+    const char **names = calloc(count + 1, sizeof *names);
     bool found = false;
-    for (size_t b = 0; b < model->body_count; b++) {
-        found |= strcmp(model->bodies[b].name, name) == 0;
-        if (names) names[b] = model->bodies[b].name;
+    for (size_t b = 0; b < count; b++) {
+        found |= strcmp(fbd_model_body_name(model, b), name) == 0;
+        if (names) names[b] = fbd_model_body_name(model, b);
     }
     if (!found && names)
         diag_add(errors, FBD_ERROR, "unknown-body", (struct pos){0, 0},
-                 diag_nearest(errors, name, names, model->body_count), "there is no body `%s`", name);
+                 diag_nearest(errors, name, names, count), "there is no body `%s`", name);
     else if (!found)
         diag_out_of_memory(errors);
     free(names);
     return found;
 }
 
-/* Check that all numbers are finite, as a scale requires. */
-static bool is_finite(const struct fbd_state *state, fbd_errors *errors)
-{
-    struct lack lack = {0};
-    if (start_finite(state, &lack)) return true;
-    lack_note(&lack, errors);
-    return false;
-}
-
 static char *make_svg(fbd_state *state, const fbd_drawing *drawing, fbd_errors *errors)
 {
-    struct sheet sheet = {.state = state, .drawing = drawing};
-    diag_in_file(errors, state->model->scene->file);
-    if (drawing->body && !body_is_there(state->model, drawing->body, errors)) return NULL;
-    state_ready(state);
-    if (!is_finite(state, errors)) return NULL;
+    struct sheet sheet = {.model = fbd_state_model(state), .state = state, .drawing = drawing};
+    double t = 0;
+    fbd_state_get(state, "t", &t);
+    diag_in_file(errors, fbd_model_file(sheet.model));
+    if (drawing->body && !body_is_there(sheet.model, drawing->body, errors)) return NULL;
+    sheet.view = fbd_view_new(state, errors);
+    if (!sheet.view) return NULL;
     bool done = make_panels(&sheet);
     if (done) write_sheet(&sheet);
     const char *odd = done ? body_without_scale(&sheet) : NULL;
@@ -441,11 +433,12 @@ static char *make_svg(fbd_state *state, const fbd_drawing *drawing, fbd_errors *
         text_free(&sheet.notes[i]);
     }
     arena_free(&sheet.arena);
+    fbd_view_free(sheet.view);
     if (odd && !sheet.text.failed) {
         diag_add(errors, FBD_ERROR, "not-finite", (struct pos){0, 0}, NULL,
                  "the diagram of `%s` cannot be drawn at t = %.9g: a length or a force is too large or too "
                  "small for any scale",
-                 odd, state->t);
+                 odd, t);
         text_free(&sheet.text);
         return NULL;
     }

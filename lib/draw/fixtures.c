@@ -5,8 +5,6 @@
 #include <string.h>
 
 #include "draw/panel.h"
-#include "dynamics/tree.h"
-#include "record/result.h"
 
 static const double pi = 3.141592653589793, body_size = 54, surface_half = 34, free_half = 20,
                     hatch_step = 2.4;
@@ -34,38 +32,20 @@ void panel_note(struct panel *panel, const char *string, struct vec anchor, stru
 
 /* ---- scale */
 
-static struct vec world_of(const struct panel *panel, struct vec point)
-{
-    return point_motion(panel->body, &panel->pose, point).p;
-}
-
-/* Direction of +x of a slide in the world, and the normal of its surface, which turn with the body that
- * carries it. */
-static struct vec along_of(const struct panel *panel)
-{
-    return panel->pose.rotation;
-}
-
-static struct vec normal_of(const struct panel *panel)
-{
-    const struct model_body *body = panel->body;
-    double side = vec_dot(body->n, vec_perp(body->e)) > 0 ? 1 : -1;
-    return vec_scale(side, vec_perp(panel->pose.rotation));
-}
-
 static bool on_ground(const struct panel *panel)
 {
-    return panel->body->parent == ground_body;
+    return panel->body.carrier == FBD_GROUND;
 }
 
 /* The corners of a wedge of conventional size: its slope is that of the body sliding on it, its base is on
  * its own surface. */
 static void wedge_corners(struct panel *panel, struct vec corners[static 4])
 {
-    const struct model_body *rider = panel->plate.rider;
+    const fbd_body rider = fbd_model_body(panel->model, (size_t)panel->plate.rider);
     const double half = 19, over = 6;
-    struct vec turn = panel->pose.rotation, e = vec_turn(turn, rider->e), n = vec_turn(turn, rider->n);
-    struct vec G = panel_point(panel, world_of(panel, panel->body->inertia.G));
+    struct vec turn = {panel->pose.cosine, panel->pose.sine}, e = vec_turn(turn, vec_of(rider.along)),
+               n = vec_turn(turn, vec_of(rider.normal));
+    struct vec G = panel_point(panel, panel_place(panel, panel->G));
     if (e.x < 0) e = vec_scale(-1, e);
     panel->seat = vec_add(G, panel_direction(vec_scale(over, n)));
     struct vec way = panel_direction(vec_scale(half, e)), left = vec_sub(panel->seat, way),
@@ -80,28 +60,27 @@ static void wedge_corners(struct panel *panel, struct vec corners[static 4])
 /* Set the base from the distance between the centre of mass and the surface. */
 static void set_base(struct panel *panel)
 {
-    const struct model_body *body = panel->body;
-    struct vec G = body->inertia.G, down = vec_scale(-1, normal_of(panel));
-    struct vec in_body = {vec_dot(down, panel->pose.rotation), vec_dot(down, vec_perp(panel->pose.rotation))};
-    double reach =
-        panel->sized ? outline_reach(body->source, G, in_body) : block_half_height / panel->millimetres;
-    if (panel->plate.rider) {
+    struct vec G = panel->G, e = vec_of(panel->pose.along), down = vec_scale(-1, vec_of(panel->pose.normal));
+    struct vec in_body = {vec_dot(down, e), vec_dot(down, vec_perp(e))};
+    double reach = panel->sized ? shapes_reach(panel->model, panel->index, G, in_body)
+                                : block_half_height / panel->millimetres;
+    if (panel->plate.rider >= 0) {
         struct vec corners[4];
         wedge_corners(panel, corners);
-        reach = (corners[2].y - panel_point(panel, world_of(panel, G)).y) / panel->millimetres;
+        reach = (corners[2].y - panel_point(panel, panel_place(panel, G)).y) / panel->millimetres;
     }
-    panel->base = vec_add(world_of(panel, G), vec_scale(reach, down));
+    panel->base = vec_add(panel_place(panel, G), vec_scale(reach, down));
 }
 
 void panel_set_scale(struct panel *panel)
 {
-    const struct model_body *body = panel->body;
-    struct vec low, high, G = body->inertia.G;
-    panel->sized = outline_size(body->source, &low, &high);
+    const struct vec G = panel->G, pin = vec_of(panel->body.pin);
+    struct vec low, high;
+    panel->sized = shapes_size(panel->model, panel->index, &low, &high);
     if (!panel->sized) low = high = G;
     low = (struct vec){fmin(low.x, G.x), fmin(low.y, G.y)};
     high = (struct vec){fmax(high.x, G.x), fmax(high.y, G.y)};
-    panel->plate = plate_of(panel->model, (int)(body - panel->model->bodies));
+    panel->plate = plate_of(panel->model, panel->view, panel->index);
     const struct plate *plate = &panel->plate;
     for (size_t i = 0; i < plate->count; i++) {
         low = (struct vec){fmin(low.x, plate->points[i].x), fmin(low.y, plate->points[i].y)};
@@ -113,54 +92,54 @@ void panel_set_scale(struct panel *panel)
         high = (struct vec){fmax(high.x, plate->hub.x + plate->wheel),
                             fmax(high.y, plate->hub.y + plate->wheel)};
     }
-    if (body->kind == motion_pivot) {
-        low = (struct vec){fmin(low.x, body->pin.x), fmin(low.y, body->pin.y)};
-        high = (struct vec){fmax(high.x, body->pin.x), fmax(high.y, body->pin.y)};
+    if (panel->body.motion == FBD_MOTION_PIVOT) {
+        low = (struct vec){fmin(low.x, pin.x), fmin(low.y, pin.y)};
+        high = (struct vec){fmax(high.x, pin.x), fmax(high.y, pin.y)};
     }
     double size = vec_norm(vec_sub(high, low));
-    panel->middle = world_of(panel, vec_scale(0.5, vec_add(low, high)));
+    panel->middle = panel_place(panel, vec_scale(0.5, vec_add(low, high)));
     panel->millimetres = size > 0 ? 10 / round_up(10 * size / body_size) : 1;
     panel->sized = panel->sized || size > 0;
-    if (body->kind == motion_slide) set_base(panel);
+    if (panel->body.motion == FBD_MOTION_SLIDE) set_base(panel);
 }
 
 /* ---- the body */
 
-static void draw_part(struct panel *panel, const struct outline_part *part)
+static void draw_part(struct panel *panel, const fbd_shape *part)
 {
     struct text *text = &panel->under;
-    struct vec center = panel_point(panel, world_of(panel, part->center)), corners[4];
+    struct vec center = panel_point(panel, panel_place(panel, vec_of(part->center))), corners[4];
     const char *css = part->hole ? "hole" : "body";
+    for (size_t i = 0; i < part->corner_count; i++)
+        corners[i] = panel_point(panel, panel_place(panel, vec_of(part->corners[i])));
     switch (part->kind) {
-    case outline_dot: svg_circle(text, "mass", center, dot_radius); break;
-    case outline_circle:
+    case FBD_SHAPE_DOT: svg_circle(text, "mass", center, dot_radius); break;
+    case FBD_SHAPE_CIRCLE:
         svg_circle(text, css, center, part->radius * panel->millimetres);
         if (part->inner > 0) svg_circle(text, "hole", center, part->inner * panel->millimetres);
         break;
-    case outline_bar:
-        for (int i = 0; i < 2; i++) corners[i] = panel_point(panel, world_of(panel, part->corner[i]));
+    case FBD_SHAPE_BAR:
         svg_line(text, "bar", corners[0], corners[1]);
         svg_line(text, "bar-inside", corners[0], corners[1]);
         labelling_avoid(&panel->labels, corners[0], corners[1], 3);
         break;
-    case outline_polygon:
-        for (int i = 0; i < 4; i++) corners[i] = panel_point(panel, world_of(panel, part->corner[i]));
+    case FBD_SHAPE_POLYGON:
         svg_polygon(text, css, corners, 4);
         for (int i = 0; i < 4; i++) labelling_avoid(&panel->labels, corners[i], corners[(i + 1) % 4], 9);
         break;
-    case outline_unknown: break;
+    case FBD_SHAPE_UNKNOWN: break;
     }
 }
 
-static void take_part(struct panel *panel, const struct outline_part *part)
+static void take_part(struct panel *panel, const fbd_shape *part)
 {
-    double reach = part->kind == outline_circle ? part->radius * panel->millimetres : dot_radius;
-    struct vec center = panel_point(panel, world_of(panel, part->center));
+    double reach = part->kind == FBD_SHAPE_CIRCLE ? part->radius * panel->millimetres : dot_radius;
+    struct vec center = panel_point(panel, panel_place(panel, vec_of(part->center)));
     box_take(&panel->extent, (struct vec){center.x - reach, center.y - reach});
     box_take(&panel->extent, (struct vec){center.x + reach, center.y + reach});
-    for (int i = 0; i < (part->kind == outline_polygon ? 4 : part->kind == outline_bar ? 2 : 0); i++)
-        box_take(&panel->extent, panel_point(panel, world_of(panel, part->corner[i])));
-    if (part->kind != outline_circle) return;
+    for (size_t i = 0; i < part->corner_count; i++)
+        box_take(&panel->extent, panel_point(panel, panel_place(panel, vec_of(part->corners[i]))));
+    if (part->kind != FBD_SHAPE_CIRCLE) return;
     enum { sides = 16 };
     for (int i = 0; i < sides; i++) {
         struct vec from = vec_unit(2 * pi * i / sides), to = vec_unit(2 * pi * (i + 1) / sides);
@@ -184,50 +163,54 @@ static void draw_plate(struct panel *panel)
 {
     const struct plate *plate = &panel->plate;
     if (plate->wheel > 0) {
-        struct outline_part disc = {.kind = outline_circle, .center = plate->hub, .radius = plate->wheel};
+        fbd_shape disc = {.kind = FBD_SHAPE_CIRCLE,
+                          .center = {plate->hub.x, plate->hub.y},
+                          .radius = plate->wheel};
         draw_part(panel, &disc);
         take_part(panel, &disc);
-        struct vec hub = panel_point(panel, world_of(panel, plate->hub)),
-                   spoke = panel_direction(panel->pose.rotation);
+        struct vec hub = panel_point(panel, panel_place(panel, plate->hub)),
+                   spoke = panel_direction((struct vec){panel->pose.cosine, panel->pose.sine});
         svg_line(&panel->under, "thread", hub,
                  vec_add(hub, vec_scale(plate->wheel * panel->millimetres, spoke)));
     } else if (plate->count == 2) {
-        struct outline_part bar = {.kind = outline_bar, .corner = {plate->points[0], plate->points[1]}};
+        fbd_shape bar = {.kind = FBD_SHAPE_BAR,
+                         .corner_count = 2,
+                         .corners = {{plate->points[0].x, plate->points[0].y},
+                                     {plate->points[1].x, plate->points[1].y}}};
         draw_part(panel, &bar);
         take_part(panel, &bar);
     } else if (plate->count > 2) {
         struct vec corners[most_plate_points];
         for (size_t i = 0; i < plate->count; i++)
-            corners[i] = panel_point(panel, world_of(panel, plate->points[i]));
+            corners[i] = panel_point(panel, panel_place(panel, plate->points[i]));
         edge(panel, corners, plate->count);
     }
     for (size_t i = 0; i < plate->count; i++)
-        svg_circle(&panel->under, "hole", panel_point(panel, world_of(panel, plate->points[i])), 1.1);
+        svg_circle(&panel->under, "hole", panel_point(panel, panel_place(panel, plate->points[i])), 1.1);
 }
 
 /* Draw a body without a size: a block on a slide, a disc elsewhere. */
 static void draw_sizeless(struct panel *panel)
 {
-    const struct model_body *body = panel->body;
-    struct vec G = panel_point(panel, world_of(panel, body->inertia.G));
+    struct vec G = panel_point(panel, panel_place(panel, panel->G));
     if (panel->plate.wheel > 0 || panel->plate.count > 1) {
         draw_plate(panel);
         return;
     }
-    if (panel->plate.rider) {
+    if (panel->plate.rider >= 0) {
         struct vec corners[4];
         wedge_corners(panel, corners);
         edge(panel, corners, 4);
         return;
     }
-    if (body->kind == motion_pivot) return; /* the bearing shows its position */
-    if (body->kind != motion_slide) {
-        bool point = body->kind == motion_particle || body->kind == motion_track;
+    if (panel->body.motion == FBD_MOTION_PIVOT) return; /* the bearing shows its position */
+    if (panel->body.motion != FBD_MOTION_SLIDE) {
+        bool point = panel->body.motion == FBD_MOTION_PARTICLE || panel->body.motion == FBD_MOTION_TRACK;
         svg_circle(&panel->under, point ? "mass" : "body", G, point ? dot_radius : 8);
         return;
     }
-    struct vec along = vec_scale(block_half_width, panel_direction(along_of(panel))),
-               up = vec_scale(block_half_height, panel_direction(normal_of(panel)));
+    struct vec along = vec_scale(block_half_width, panel_direction(vec_of(panel->pose.along))),
+               up = vec_scale(block_half_height, panel_direction(vec_of(panel->pose.normal)));
     struct vec corners[] = {vec_add(G, vec_add(along, up)), vec_add(G, vec_sub(up, along)),
                             vec_sub(G, vec_add(along, up)), vec_add(G, vec_sub(along, up))};
     edge(panel, corners, 4);
@@ -237,7 +220,7 @@ static void draw_sizeless(struct panel *panel)
 static void draw_center(struct panel *panel)
 {
     const double r = 1.5;
-    struct vec G = panel_point(panel, world_of(panel, panel->body->inertia.G));
+    struct vec G = panel_point(panel, panel_place(panel, panel->G));
     svg_circle(&panel->under, "center", G, r);
     text_add(&panel->under, "<path class=\"center-dark\" d=\"M");
     svg_point(&panel->under, G);
@@ -250,21 +233,22 @@ static void draw_center(struct panel *panel)
 
 void panel_body(struct panel *panel)
 {
-    const struct body *source = panel->body->source;
-    text_printf(&panel->under, "<g class=\"outline\" id=\"%s-outline\">\n", panel->body->name);
-    if (panel->body->kind == motion_pivot) { /* threads from the axis to the parts */
-        struct vec axis = panel_point(panel, panel->pose.origin);
-        for (size_t i = 0; i < source->part_count; i++)
-            panel_line(panel, "thread", axis,
-                       panel_point(panel, world_of(panel, outline_of_part(&source->parts[i]).center)), 2);
+    const size_t shapes = fbd_model_shape_count(panel->model, panel->index);
+    text_printf(&panel->under, "<g class=\"outline\" id=\"%s-outline\">\n", panel->body.name);
+    if (panel->body.motion == FBD_MOTION_PIVOT) { /* threads from the axis to the parts */
+        struct vec axis = panel_point(panel, panel_place(panel, vec_of(panel->body.pin)));
+        for (size_t i = 0; i < shapes; i++) {
+            fbd_shape part = fbd_model_shape(panel->model, panel->index, i);
+            panel_line(panel, "thread", axis, panel_point(panel, panel_place(panel, vec_of(part.center))), 2);
+        }
     }
     struct vec low, high;
-    if (!outline_size(source, &low, &high)) draw_sizeless(panel);
+    if (!shapes_size(panel->model, panel->index, &low, &high)) draw_sizeless(panel);
     for (int holes = 0; holes < 2; holes++)
-        for (size_t i = 0; i < source->part_count; i++) {
-            struct outline_part part = outline_of_part(&source->parts[i]);
+        for (size_t i = 0; i < shapes; i++) {
+            fbd_shape part = fbd_model_shape(panel->model, panel->index, i);
             if (part.hole != (holes == 1)) continue;
-            bool plain_dot = part.kind == outline_dot && !panel->sized;
+            bool plain_dot = part.kind == FBD_SHAPE_DOT && !panel->sized;
             if (!plain_dot) draw_part(panel, &part);
             take_part(panel, &part);
         }
@@ -353,31 +337,27 @@ static const char *angle_text(struct panel *panel, const char *name, double angl
 
 static void draw_slide(struct panel *panel)
 {
-    const struct model_body *body = panel->body;
-    struct vec e = panel_direction(along_of(panel)), into = panel_direction(vec_scale(-1, normal_of(panel))),
+    struct vec e = panel_direction(vec_of(panel->pose.along)),
+               into = panel_direction(vec_scale(-1, vec_of(panel->pose.normal))),
                base = panel_point(panel, panel->base);
-    bool surface = false, guide = false, supports = panel->drawing->supports;
-    for (size_t i = 0; i < body->source->load_count; i++) {
-        surface |= body->source->loads[i].kind == load_normal;
-        guide |= body->source->loads[i].kind == load_normal && body->source->loads[i].two_sided;
-    }
+    bool surface = panel->body.surface, guide = panel->body.two_sided, supports = panel->drawing->supports;
     const double reach = supports ? surface_half : free_half;
     struct vec half = vec_scale(reach, e);
     if (surface && !supports) panel_line(panel, "reference", vec_sub(base, half), base, 2);
     if (surface && supports) hatched_line(panel, vec_sub(base, half), vec_add(base, half), into);
     if (guide && supports) {
-        struct vec G = panel_point(panel, world_of(panel, body->inertia.G));
+        struct vec G = panel_point(panel, panel_place(panel, panel->G));
         struct vec over = vec_sub(vec_scale(2, G), base);
         hatched_line(panel, vec_add(over, half), vec_sub(over, half), vec_scale(-1, into));
     }
     struct vec far = vec_add(base, vec_scale(reach + 9, e));
     if (!surface) {
-        struct vec G = panel_point(panel, world_of(panel, body->inertia.G));
+        struct vec G = panel_point(panel, panel_place(panel, panel->G));
         panel_line(panel, "reference", vec_sub(G, half), vec_add(G, half), 2);
         far = vec_add(G, vec_scale(reach + 9, e));
     }
     axis_arrow(panel, vec_sub(far, vec_scale(9, e)), far, "x");
-    double along = atan2(along_of(panel).y, along_of(panel).x);
+    double along = atan2(panel->pose.along[1], panel->pose.along[0]);
     if (fabs(remainder(along, pi / 2)) < 1e-9) return;
     /* the angle from the horizontal, at the low end of the line */
     struct vec foot = vec_sub(far, vec_scale(2 * reach + 9, e));
@@ -387,11 +367,17 @@ static void draw_slide(struct panel *panel)
     if (text) angle_arc(panel, foot, 13, 0, turn, text);
 }
 
+static double coordinate_of(const struct panel *panel, size_t index)
+{
+    double value = NAN;
+    fbd_state_get(panel->state, fbd_model_coordinate(panel->model, index).name, &value);
+    return value;
+}
+
 /* Draw the angle of rotation of a body, from the direction `zero` in the world. */
 static void draw_angle(struct panel *panel, struct vec center, double zero, double length)
 {
-    const struct model_body *body = panel->body;
-    double theta = panel->at.y[body_angle_coordinate(body)], turn = remainder(theta, 2 * pi);
+    double theta = coordinate_of(panel, (size_t)panel->body.angle), turn = remainder(theta, 2 * pi);
     struct vec end = vec_add(center, vec_scale(length, panel_direction(vec_unit(zero))));
     panel_line(panel, "reference", center, end, 5);
     const char *text = angle_text(panel, "θ = ", theta);
@@ -399,16 +385,15 @@ static void draw_angle(struct panel *panel, struct vec center, double zero, doub
     if (fabs(turn) < 0.03)
         panel_note(panel, text, end, panel_direction(vec_unit(zero)));
     else
-        angle_arc(panel, center, body->kind == motion_planar ? length - 3 : fmin(length - 2, 17), zero, turn,
-                  text);
+        angle_arc(panel, center, panel->body.motion == FBD_MOTION_PLANAR ? length - 3 : fmin(length - 2, 17),
+                  zero, turn, text);
 }
 
 /* Draw a bearing: a triangle on hatched ground, on the side away from the body. */
 static void draw_pivot(struct panel *panel)
 {
-    const struct model_body *body = panel->body;
-    struct vec axis = panel_point(panel, panel->pose.origin);
-    struct vec G = vec_sub(panel_point(panel, world_of(panel, body->inertia.G)), axis);
+    struct vec axis = panel_point(panel, panel_place(panel, vec_of(panel->body.pin)));
+    struct vec G = vec_sub(panel_point(panel, panel_place(panel, panel->G)), axis);
     bool hangs = vec_norm(G) > 1;
     struct vec d = {0, hangs && G.y > -0.3 * vec_norm(G) ? -1 : 1};
     if (on_ground(panel) && panel->drawing->supports) {
@@ -418,21 +403,23 @@ static void draw_pivot(struct panel *panel)
         hatched_line(panel, vec_sub(foot, wide), vec_add(foot, wide), d);
     }
     /* theta is zero where the body's frame is parallel to that of its parent */
-    double parent = body_angle(body, &panel->at) - panel->at.y[body->first];
-    double zero = parent + (hangs ? atan2(body->arm.y, body->arm.x) : 0);
+    double parent = panel->pose.angle - coordinate_of(panel, panel->body.coordinate);
+    struct vec arm = vec_sub(panel->G, vec_of(panel->body.pin));
+    double zero = parent + (hangs ? atan2(arm.y, arm.x) : 0);
     draw_angle(panel, axis, zero, hangs ? fmin(fmax(0.7 * vec_norm(G), 14), 26) : 20);
 }
 
 static void draw_axis_of_body(struct panel *panel, struct vec center, double length)
 {
-    struct vec x = panel_direction(panel->pose.rotation);
+    struct vec x = panel_direction((struct vec){panel->pose.cosine, panel->pose.sine});
     panel_line(panel, "reference", center, vec_add(center, vec_scale(length, x)), 5);
 }
 
 /* True for a body that turns about its middle, which would hide the bearing behind it. */
 bool panel_fixtures_in_front(const struct panel *panel)
 {
-    return panel->body->kind == motion_pivot && panel->body->L * panel->millimetres < 1;
+    return panel->body.motion == FBD_MOTION_PIVOT &&
+           fbd_model_inertia(panel->model, panel->index).L * panel->millimetres < 1;
 }
 
 /* Draw the curve near the body; for a body without a size at a separate scale. */
@@ -440,40 +427,41 @@ static void draw_track(struct panel *panel)
 {
     enum { segments = 40 };
     const double half = 2 * (panel->drawing->supports ? surface_half : free_half);
-    const struct tree_link *link = &panel->model->tree->links[panel->body->place.link];
-    const struct tree_state *s = &panel->at.tree->links[panel->body->place.link];
-    const struct curve *curve = link->track->curve;
-    double scale = panel->sized ? panel->millimetres : fmax(12 * fabs(s->bend), 6 * half / curve->length);
-    double here = panel->at.y[panel->body->first], first = here - half / scale, last = here + half / scale;
-    if (!curve->closed) first = fmax(first, curve->start), last = fmin(last, curve->start + curve->length);
-    struct curve_place now = curve_at(curve, NULL, here);
-    struct vec frame = {vec_dot(now.e, s->e), vec_cross(now.e, s->e)}; /* rotation of the curve */
-    struct vec P = panel_point(panel, s->p), before = P;
+    const fbd_track track = fbd_model_track(panel->model, panel->index);
+    const double here = coordinate_of(panel, panel->body.coordinate);
+    const fbd_track_place now = fbd_model_track_place(panel->model, panel->index, here);
+    double scale =
+        panel->sized ? panel->millimetres : fmax(12 * fabs(now.curvature), 6 * half / track.length);
+    double first = here - half / scale, last = here + half / scale;
+    if (!track.closed) first = fmax(first, track.start), last = fmin(last, track.start + track.length);
+    struct vec e = vec_of(panel->pose.along), tangent = vec_of(now.tangent);
+    struct vec frame = {vec_dot(tangent, e), vec_cross(tangent, e)}; /* rotation of the curve */
+    struct vec P = panel_point(panel, panel_place(panel, vec_of(panel->body.pin))), before = P;
     for (int i = 0; i <= segments; i++) {
-        struct vec r = curve_at(curve, NULL, first + (last - first) * i / segments).r;
-        struct vec way = vec_scale(scale, vec_turn(frame, vec_sub(r, now.r)));
+        fbd_track_place place =
+            fbd_model_track_place(panel->model, panel->index, first + (last - first) * i / segments);
+        struct vec way = vec_scale(scale, vec_turn(frame, (struct vec){place.x - now.x, place.y - now.y}));
         struct vec at = vec_add(P, panel_direction(way));
         if (i > 0) panel_line(panel, panel->drawing->supports ? "ground" : "reference", before, at, 4);
         before = at;
     }
-    struct vec e = panel_direction(s->e), side = vec_scale(-9 * link->side, panel_direction(vec_perp(s->e)));
-    struct vec from = vec_add(P, side);
-    axis_arrow(panel, from, vec_add(from, vec_scale(9, e)), "s");
+    struct vec from = vec_add(P, vec_scale(-9, panel_direction(vec_of(panel->pose.normal))));
+    axis_arrow(panel, from, vec_add(from, vec_scale(9, panel_direction(e))), "s");
 }
 
 void panel_fixtures(struct panel *panel)
 {
-    const struct model_body *body = panel->body;
-    text_printf(&panel->under, "<g class=\"fixtures\" id=\"%s-fixtures\">\n", body->name);
-    if (body->kind == motion_slide) draw_slide(panel);
-    if (body->kind == motion_pivot) draw_pivot(panel);
-    if (body->kind == motion_track) draw_track(panel);
-    if (body->kind == motion_planar) {
-        struct vec G = panel_point(panel, world_of(panel, body->inertia.G));
-        double theta = panel->at.y[body_angle_coordinate(body)];
-        double reach = outline_reach(body->source, body->inertia.G, (struct vec){1, 0}) * panel->millimetres;
+    text_printf(&panel->under, "<g class=\"fixtures\" id=\"%s-fixtures\">\n", panel->body.name);
+    if (panel->body.motion == FBD_MOTION_SLIDE) draw_slide(panel);
+    if (panel->body.motion == FBD_MOTION_PIVOT) draw_pivot(panel);
+    if (panel->body.motion == FBD_MOTION_TRACK) draw_track(panel);
+    if (panel->body.motion == FBD_MOTION_PLANAR) {
+        struct vec G = panel_point(panel, panel_place(panel, panel->G));
+        double theta = coordinate_of(panel, (size_t)panel->body.angle);
+        double reach =
+            shapes_reach(panel->model, panel->index, panel->G, (struct vec){1, 0}) * panel->millimetres;
         draw_axis_of_body(panel, G, reach + 12);
-        draw_angle(panel, G, body_angle(body, &panel->at) - theta, reach + 12);
+        draw_angle(panel, G, panel->pose.angle - theta, reach + 12);
     }
     text_add(&panel->under, "</g>\n");
 }

@@ -9,14 +9,15 @@
 #include "base/format.h"
 #include "draw/labelling.h"
 #include "fbd_study.h"
-#include "rest/linearize.h"
+#include "fbd_view.h"
 
 static const double width = 130, height = 110, left = 16, right = 8, top = 24, bottom = 16;
 static const double text_size = 3.4;
 
 struct plane {
     struct arena arena;
-    const struct fbd_linearization *linear;
+    const fbd_linearization *linear;
+    size_t count;               /* of eigenvalues */
     double unit;                /* in 1/s; 1 except near the limits of a double, where sums would overflow */
     struct vec low, high, step; /* of the axes, in units, and distance of ticks */
     struct labelling labels;
@@ -61,9 +62,9 @@ static void set_axes(struct plane *plane)
     const double largest = 1e300;
     struct vec low = {0, 0}, high = {0, 0};
     plane->unit = 1;
-    for (size_t i = 0; i < plane->linear->size; i++)
+    for (size_t i = 0; i < plane->count; i++)
         if (fbd_linearization_mode(plane->linear, i).frequency > largest) plane->unit = 1e10;
-    for (size_t i = 0; i < plane->linear->size; i++) {
+    for (size_t i = 0; i < plane->count; i++) {
         fbd_mode mode = fbd_linearization_mode(plane->linear, i);
         double re = mode.re / plane->unit, im = mode.im / plane->unit;
         low = (struct vec){fmin(low.x, re), fmin(low.y, im)};
@@ -127,8 +128,7 @@ static const char *name_of(struct plane *plane, const fbd_mode *mode)
 
 static void draw_modes(struct plane *plane)
 {
-    size_t count = plane->linear->size;
-    for (size_t i = 0; i < count; i++) {
+    for (size_t i = 0; i < plane->count; i++) {
         fbd_mode mode = fbd_linearization_mode(plane->linear, i);
         struct vec center = mode_at(plane, &mode);
         const struct vec anywhere = {1, -0.4};
@@ -159,9 +159,9 @@ static void draw_modes(struct plane *plane)
 char *fbd_linearization_svg(const fbd_linearization *linearization)
 {
     if (!linearization) return NULL;
-    struct plane plane = {.linear = linearization};
+    struct plane plane = {.linear = linearization, .count = fbd_linearization_size(linearization)};
     plane.labels.arena = &plane.arena;
-    const char *title = linearization->model->scene->title;
+    const char *title = fbd_model_title(fbd_linearization_model(linearization));
     svg_begin(&plane.text, (struct vec){width, height}, 1, title[0] ? title : "Eigenvalues",
               "Eigenvalues of the linear system about the equilibrium, in the complex plane");
     svg_text_at(&plane.text, "heading", (struct vec){5, 9}, title[0] ? title : "Eigenvalues");

@@ -18,7 +18,7 @@
 #include "draw/pack.h"
 #include "draw/page.h"
 #include "draw/page_json.h"
-#include "model/outline.h"
+#include "draw/shapes.h"
 #include "output/kinematic_lines.h"
 #include "output/words.h"
 
@@ -73,27 +73,26 @@ static void write_numbers(struct text *text, const struct pack *pack)
 
 /* ---- bodies */
 
-static void write_shape(struct text *text, const struct outline_part *part)
+static void write_shape(struct text *text, const fbd_shape *part)
 {
     static const char *const kinds[] = {"dot", "bar", "circle", "polygon", "unknown"};
     text_add(text, "{");
     json_text_member(text, "kind", kinds[part->kind]);
     if (part->hole) text_add(text, "\"hole\":true,");
-    if (part->kind == outline_circle) {
+    if (part->kind == FBD_SHAPE_CIRCLE) {
         json_number_member(text, "radius", part->radius);
         json_number_member(text, "inner", part->inner);
     }
-    int corners = part->kind == outline_polygon ? 4 : part->kind == outline_bar ? 2 : 0;
-    if (corners > 0) {
+    if (part->corner_count > 0) {
         text_add(text, "\"corners\":[");
-        for (int i = 0; i < corners; i++) {
-            json_comma(text, (size_t)i);
-            json_vector(text, part->corner[i]);
+        for (size_t i = 0; i < part->corner_count; i++) {
+            json_comma(text, i);
+            json_vector(text, vec_of(part->corners[i]));
         }
         text_add(text, "],");
     }
     json_key(text, "center");
-    json_vector(text, part->center);
+    json_vector(text, vec_of(part->center));
     text_add(text, "}");
 }
 
@@ -286,70 +285,74 @@ static void write_equations(struct text *text, struct symbolic *symbolic, const 
 }
 
 /* The curve of a track as points in the frame of the body that carries it. */
-static void write_track(struct text *text, const struct fbd_model *model, const struct model_body *body)
+static void write_track(struct text *text, const fbd_model *model, size_t b, int carrier)
 {
     enum { segments = 400 };
-    const struct curve *curve = body->source->motion.curve;
-    struct vec zero = {0, 0}; /* origin of the parent's frame in the page */
-    if (body->parent != ground_body) zero = model->bodies[body->parent].pin;
-    text_printf(text, "\"track\":{\"on\":%d,\"points\":[", body->parent);
+    const fbd_track track = fbd_model_track(model, b);
+    struct vec zero = {0, 0}; /* origin of the carrier's frame in the page */
+    if (carrier != FBD_GROUND) zero = vec_of(fbd_model_body(model, (size_t)carrier).pin);
+    text_printf(text, "\"track\":{\"on\":%d,\"points\":[", carrier);
     for (int i = 0; i <= segments; i++) {
-        double s = curve->start + curve->length * i / segments;
-        struct vec r = vec_sub(vec_add(body->origin, curve_at(curve, NULL, s).r), zero);
+        double s = track.start + track.length * i / segments;
+        const fbd_track_place place = fbd_model_track_place(model, b, s);
         json_comma(text, (size_t)i);
-        json_vector(text, r);
+        json_vector(text, vec_sub((struct vec){place.x, place.y}, zero));
     }
     text_add(text, "]},");
 }
 
-static void write_guide(struct text *text, const struct fbd_model *model, const struct model_body *body)
+static void write_line(struct text *text, const fbd_model *model, size_t b, const fbd_body *body)
 {
-    if (body->kind == motion_pivot && body->parent == ground_body) {
-        json_key(text, "axis");
-        json_vector(text, body->origin);
-        text_add(text, ",");
-    }
-    if (body->kind == motion_pivot || body->kind == motion_weld) text_add(text, "\"joint\":true,");
-    if (body->kind == motion_track) write_track(text, model, body);
-    if (body->kind != motion_slide) return;
-    bool surface = false;
-    for (size_t i = 0; i < body->source->load_count; i++)
-        surface |= body->source->loads[i].kind == load_normal;
-    struct vec down = vec_scale(-1, body->n),
-               in_body = {vec_dot(down, body->e), vec_dot(down, vec_perp(body->e))};
+    struct vec along = vec_of(body->along), normal = vec_of(body->normal), down = vec_scale(-1, normal);
+    struct vec in_body = {vec_dot(down, along), vec_dot(down, vec_perp(along))};
     text_add(text, "\"line\":{\"through\":");
-    json_vector(text, body->origin);
+    json_vector(text, vec_of(body->joint));
     text_add(text, ",\"along\":");
-    json_vector(text, body->e);
+    json_vector(text, along);
     text_add(text, ",\"normal\":");
-    json_vector(text, body->n);
-    text_printf(text, ",\"on\":%d", body->parent);
-    text_printf(text, ",\"surface\":%s,\"reach\":", surface ? "true" : "false");
-    json_number(text, outline_reach(body->source, body->inertia.G, in_body));
+    json_vector(text, normal);
+    text_printf(text, ",\"on\":%d", body->carrier);
+    text_printf(text, ",\"surface\":%s,\"reach\":", body->surface ? "true" : "false");
+    json_number(text, shapes_reach(model, b, vec_of(fbd_model_inertia(model, b).G), in_body));
     text_add(text, "},");
 }
 
-static void write_body(struct text *text, struct symbolic *symbolic, const struct record *record, int b)
+static void write_guide(struct text *text, const fbd_model *model, size_t b, const fbd_body *body)
+{
+    if (body->motion == FBD_MOTION_PIVOT && body->carrier == FBD_GROUND) {
+        json_key(text, "axis");
+        json_vector(text, vec_of(body->joint));
+        text_add(text, ",");
+    }
+    if (body->motion == FBD_MOTION_PIVOT || body->motion == FBD_MOTION_WELD)
+        text_add(text, "\"joint\":true,");
+    if (body->motion == FBD_MOTION_TRACK) write_track(text, model, b, body->carrier);
+    if (body->motion == FBD_MOTION_SLIDE) write_line(text, model, b, body);
+}
+
+static void write_body(struct text *text, struct symbolic *symbolic, const struct record *record, size_t b)
 {
     static const char *const motions[] = {"slide", "pivot", "particle", "planar", "weld", "track"};
-    const struct model_body *body = &record->model->bodies[b];
+    const fbd_model *model = record->model;
+    const fbd_body body = fbd_model_body(model, b);
     const struct record_of_body *columns = &record->bodies[b];
+    const int count = (int)body.coordinate_count;
     text_add(text, "\n{");
-    json_text_member(text, "name", body->name);
-    json_text_member(text, "motion", motions[body->kind]);
-    text_printf(text, "\"parent\":%d,", body->parent);
+    json_text_member(text, "name", body.name);
+    json_text_member(text, "motion", motions[body.motion]);
+    text_printf(text, "\"parent\":%d,", body.carrier);
     json_columns_member(text, "frame", columns->pose, 3);
     json_columns_member(text, "velocity", columns->pose + 3, 2);
-    json_columns_member(text, "coordinates", columns->coordinate, body->count);
-    json_columns_member(text, "rates", columns->rate, body->count);
-    json_columns_member(text, "accelerations", columns->acceleration, body->count);
-    write_guide(text, record->model, body);
-    write_equations(text, symbolic, record, b);
+    json_columns_member(text, "coordinates", columns->coordinate, count);
+    json_columns_member(text, "rates", columns->rate, count);
+    json_columns_member(text, "accelerations", columns->acceleration, count);
+    write_guide(text, model, b, &body);
+    write_equations(text, symbolic, record, (int)b);
     text_add(text, "\"shapes\":[");
-    for (size_t i = 0; i < body->source->part_count; i++) {
-        struct outline_part part = outline_of_part(&body->source->parts[i]);
+    for (size_t i = 0; i < fbd_model_shape_count(model, b); i++) {
+        fbd_shape shape = fbd_model_shape(model, b, i);
         json_comma(text, i);
-        write_shape(text, &part);
+        write_shape(text, &shape);
     }
     text_add(text, "],\"arrows\":[");
     for (size_t i = 0; i < columns->arrow_count; i++) {
@@ -358,9 +361,9 @@ static void write_body(struct text *text, struct symbolic *symbolic, const struc
     }
     /* the frame of a pivot is at the axis: its points are relative to that */
     text_add(text, "],\"pin\":");
-    json_vector(text, body->pin);
+    json_vector(text, vec_of(body.pin));
     text_add(text, ",\"G\":");
-    json_vector(text, vec_sub(body->inertia.G, body->pin));
+    json_vector(text, vec_sub(vec_of(fbd_model_inertia(model, b).G), vec_of(body.pin)));
     text_add(text, "}");
 }
 
@@ -476,7 +479,7 @@ bool page_data_write(struct text *text, fbd_result *result, struct record *recor
     if (!symbolic_begin(&symbolic, result->start)) text->failed = true;
     for (size_t b = 0; b < record->model->body_count && !text->failed; b++) {
         json_comma(text, b);
-        write_body(text, &symbolic, record, (int)b);
+        write_body(text, &symbolic, record, b);
     }
     symbolic_end(&symbolic);
     text_add(text, "],\n");

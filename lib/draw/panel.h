@@ -10,10 +10,7 @@
 
 #include "draw/labelling.h"
 #include "draw/plates.h"
-#include "dynamics/diagram.h"
-#include "dynamics/state.h"
 #include "fbd_export.h"
-#include "model/outline.h"
 
 /* Sizes on paper [mm]. */
 static const double label_size = 3.4, note_size = 2.9, longest_arrow = 40, shortest_arrow = 5;
@@ -25,8 +22,7 @@ struct arrow_scale {
 
 /* One arrow of the panel: a force, a moment or a component of a force. */
 struct panel_arrow {
-    const struct arrow *source;
-    const char *kind;            /* its class: gravity, reaction, friction, applied, ... */
+    const fbd_force *source;
     const char *suffix;          /* of its id: "", "-moment", "-x", ... */
     bool component, small;       /* small: drawn longer than to scale */
     double value;                /* of the label */
@@ -37,18 +33,21 @@ struct panel_arrow {
 
 struct panel {
     struct arena *arena;
-    const struct fbd_model *model;
-    const struct model_body *body;
-    struct instant at;
-    struct pose pose;
-    struct arrow *arrows; /* of the diagram */
-    size_t arrow_count;
+    const fbd_model *model;
+    const fbd_state *state;
+    const fbd_view *view; /* of that state */
+    size_t index;
+    fbd_body body;
+    fbd_pose pose;
+    struct vec G;      /* centre of mass, in the frame of the body */
+    fbd_force *forces; /* of the diagram */
+    size_t force_count;
+    fbd_units units;
     struct arrow_scale scale,
         largest; /* of all bodies of the scene; smaller values than its round-off level count as zero */
     const fbd_drawing *drawing;
     struct plate plate;
-    const char *const *symbols; /* of the arrows, if requested, */
-    const char *const *moments; /* and of the corresponding couples: M(R) of a force R */
+    const char *const *moments; /* symbols of the couples, M(R) of a force R; NULL without symbols */
 
     struct vec middle;  /* of the body, in the world: the origin of the paper */
     double millimetres; /* on paper per unit of length of the scene */
@@ -66,16 +65,22 @@ struct panel {
 /* From the world to the paper. */
 struct vec panel_point(const struct panel *panel, struct vec world);
 
+/* A point of the body in the world. */
+static inline struct vec panel_place(const struct panel *panel, struct vec point)
+{
+    return pose_point(&panel->pose, &panel->body, point);
+}
+
 /* A direction of the world on paper. */
 static inline struct vec panel_direction(struct vec world)
 {
     return (struct vec){world.x, -world.y};
 }
 
-/* Initialize the panel of a body: its pose and its forces in an evaluated state. Returns false when memory is
- * out. */
-bool panel_start(struct panel *panel, const struct fbd_state *state, size_t body, const fbd_drawing *drawing,
-                 struct arena *arena);
+/* Initialize the panel of a body: its pose and its forces in a state with this view. Returns false when
+ * memory is out. */
+bool panel_start(struct panel *panel, const fbd_state *state, const fbd_view *view, size_t body,
+                 const fbd_drawing *drawing, struct arena *arena);
 
 /* Draw the panel; on a worksheet without arrows, but with room for them. */
 void panel_draw(struct panel *panel);
@@ -104,11 +109,11 @@ void panel_write_notes(const struct panel *panel, struct text *text);
 
 /* The distance along the surface of a slide from the reference point of its force to the line of action, on
  * which the force replaces force and couple. */
-double panel_line_of_action(const struct arrow *arrow, struct vec along);
+double panel_line_of_action(const fbd_force *force, struct vec along);
 
-/* True if the arrow is the normal force of a slide with a size, drawn on its line of action without the
+/* True if it is the normal force of a slide with a size, drawn on its line of action without the
  * couple. */
-bool panel_is_shifted(const struct panel *panel, const struct arrow *arrow);
+bool panel_is_shifted(const struct panel *panel, const fbd_force *force);
 
 /* The largest force and moment of the body, for the scales. */
 struct arrow_scale panel_largest(const struct panel *panel);

@@ -3,15 +3,6 @@
 
 #include <math.h>
 
-#include "model/outline.h"
-#include "model/tree.h"
-
-static bool is_shapeless(const struct body *source)
-{
-    struct vec low, high;
-    return !outline_size(source, &low, &high);
-}
-
 /* Add a point unless it coincides with an earlier one to round-off. */
 static void add_point(struct plate *plate, struct vec point)
 {
@@ -20,43 +11,42 @@ static void add_point(struct plate *plate, struct vec point)
     if (plate->count < most_plate_points) plate->points[plate->count++] = point;
 }
 
-static struct vec place_on(const struct fbd_model *model, int b, const struct point *point)
+static void add_couplings(struct plate *plate, const fbd_view *view, int b)
 {
-    return point->kind == point_fixed ? point->where : model->bodies[b].inertia.G;
-}
-
-static void add_couplings(struct plate *plate, const struct fbd_model *model, int b)
-{
-    for (int i = 0; model->tree && i < model->tree->coupling_count; i++) {
-        const struct coupling *coupling = &model->tree->couplings[i];
-        const struct constraint *source = &model->scene->constraints[coupling->constraint];
-        for (int k = 0; k < coupling->end_count; k++) {
-            if (coupling->end[k].body != b) continue;
-            struct vec place = place_on(model, b, &source->point[coupling->place + k]);
-            bool circle = coupling->end[k].radius > 0;
-            if (circle && coupling->end[k].radius > plate->wheel)
-                plate->wheel = coupling->end[k].radius, plate->hub = place;
-            if (!circle) add_point(plate, place);
+    for (size_t i = 0; i < fbd_view_coupling_count(view); i++)
+        for (size_t k = 0; k < fbd_view_coupling(view, i).end_count; k++) {
+            const fbd_coupling_end end = fbd_view_coupling_end(view, i, k);
+            if (end.body != b) continue;
+            if (end.radius > plate->wheel) plate->wheel = end.radius, plate->hub = vec_of(end.point);
+            if (!(end.radius > 0)) add_point(plate, vec_of(end.point));
         }
+}
+
+static bool has_pin(const fbd_body *body)
+{
+    return body->motion == FBD_MOTION_PIVOT || body->motion == FBD_MOTION_WELD;
+}
+
+/* Add the pins of the body and of its children. */
+static void add_joints(struct plate *plate, const fbd_model *model, const fbd_body *body, int b)
+{
+    if (has_pin(body)) add_point(plate, vec_of(body->pin));
+    for (size_t c = 0; c < fbd_model_body_count(model); c++) {
+        const fbd_body child = fbd_model_body(model, c);
+        if (child.carrier != b) continue;
+        if (has_pin(&child)) add_point(plate, vec_of(child.joint));
+        if (child.motion == FBD_MOTION_SLIDE) plate->rider = (int)c;
     }
 }
 
-/* Add the pins of the body and of its children, and ends of springs and dampers. */
-static void add_joints(struct plate *plate, const struct fbd_model *model, int b)
+/* Add the ends of springs and dampers. */
+static void add_springs(struct plate *plate, const fbd_view *view, int b)
 {
-    const struct model_body *body = &model->bodies[b];
-    if (body->kind == motion_pivot || body->kind == motion_weld) add_point(plate, body->pin);
-    for (size_t c = 0; c < model->body_count; c++) {
-        const struct model_body *child = &model->bodies[c];
-        if (child->parent == b && (child->kind == motion_pivot || child->kind == motion_weld))
-            add_point(plate, child->origin);
-        if (child->parent == b && child->kind == motion_slide) plate->rider = child;
-    }
-    for (size_t i = 0; i < model->load_count; i++) {
-        const struct model_load *load = &model->loads[i];
-        if (!load->linked) continue;
-        if (load->body == b) add_point(plate, load->point);
-        if (load->partner == b) add_point(plate, load->anchor);
+    for (size_t i = 0; i < fbd_view_spring_count(view); i++) {
+        const fbd_spring spring = fbd_view_spring(view, i);
+        if (isnan(spring.anchor[0])) continue;
+        if (spring.body == b) add_point(plate, vec_of(spring.point));
+        if (spring.partner == b) add_point(plate, vec_of(spring.anchor));
     }
 }
 
@@ -81,17 +71,21 @@ static void put_in_order(struct plate *plate)
     }
 }
 
-struct plate plate_of(const struct fbd_model *model, int body)
+struct plate plate_of(const fbd_model *model, const fbd_view *view, size_t body)
 {
-    struct plate plate = {0};
-    const struct model_body *b = &model->bodies[body];
-    if (!is_shapeless(b->source) || b->kind == motion_particle || b->kind == motion_track) return plate;
-    add_couplings(&plate, model, body);
-    add_joints(&plate, model, body);
-    if (b->kind == motion_slide)
+    struct plate plate = {.rider = -1};
+    const fbd_body b = fbd_model_body(model, body);
+    struct vec low, high;
+    if (shapes_size(model, body, &low, &high) || b.motion == FBD_MOTION_PARTICLE ||
+        b.motion == FBD_MOTION_TRACK)
+        return plate;
+    add_couplings(&plate, view, (int)body);
+    add_joints(&plate, model, &b, (int)body);
+    add_springs(&plate, view, (int)body);
+    if (b.motion == FBD_MOTION_SLIDE)
         plate.count = 0; /* drawn as a block, or as a wedge */
     else
-        plate.rider = NULL;
+        plate.rider = -1;
     put_in_order(&plate);
     return plate;
 }

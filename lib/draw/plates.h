@@ -6,7 +6,7 @@
 #ifndef FBD_DRAW_PLATES_H
 #define FBD_DRAW_PLATES_H
 
-#include "model/model.h"
+#include "draw/shapes.h"
 
 enum { most_plate_points = 16 };
 
@@ -15,10 +15,10 @@ struct plate {
     size_t count;
     double wheel; /* radius of the gear around `hub`; 0 if it is none */
     struct vec hub;
-    const struct model_body *rider; /* the body that slides on this slide; else NULL */
+    int rider; /* the body that slides on this slide; else -1 */
 };
 
-/* The plate of a body; all members are zero if the body has a shape. */
-struct plate plate_of(const struct fbd_model *model, int body);
+/* The plate of a body; it has no points, wheel and rider if the body has a shape. */
+struct plate plate_of(const fbd_model *model, const fbd_view *view, size_t body);
 
 #endif

@@ -6,11 +6,12 @@
 #define FBD_LIVE_DRAWING_H
 
 #include "base/text.h"
-#include "dynamics/state.h"
+#include "fbd_view.h"
 
-/* Append the bodies of a sheet in an evaluated state as a JSON array (its members: drawing_body.c), and their
- * pictures as SVG elements for HTML. Neither contains any part of the key, as the sheet has none. Returns
+/* Append the bodies of a sheet in a state with this view as a JSON array (its members: drawing_body.c), and
+ * their pictures as SVG elements for HTML. Neither contains any part of the key, as the sheet has none. Returns
  * false when memory is out. */
-bool drawing_add_bodies(struct text *text, struct text *pictures, const struct fbd_state *state);
+bool drawing_add_bodies(struct text *text, struct text *pictures, const fbd_state *state,
+                        const fbd_view *view);
 
 #endif

@@ -15,10 +15,7 @@
 #include "base/format.h"
 #include "draw/page_json.h"
 #include "draw/panel.h"
-#include "dynamics/constraint.h"
-#include "dynamics/tree.h"
 #include "fbd_export.h"
-#include "model/outline.h"
 
 static const double pi = 3.141592653589793;
 static const double same_place = 0.05; /* mm on paper */
@@ -56,7 +53,7 @@ static void end_point(struct cut_free *cut, const char *name, const char *at)
 
 static struct vec on_paper(const struct cut_free *cut, struct vec point)
 {
-    return panel_point(&cut->panel, point_motion(cut->panel.body, &cut->panel.pose, point).p);
+    return panel_point(&cut->panel, panel_place(&cut->panel, point));
 }
 
 static void add_named_point(struct cut_free *cut, const char *name, struct vec point)
@@ -77,7 +74,7 @@ static void add_point_beside(struct cut_free *cut, const char *name, struct vec 
 {
     const struct panel *panel = &cut->panel;
     char at[160], from[80];
-    bool is_G = vec_norm(vec_sub(center, panel->body->inertia.G)) < 1e-12 * (1 + vec_norm(center));
+    bool is_G = vec_norm(vec_sub(center, panel->G)) < 1e-12 * (1 + vec_norm(center));
     format_into(from, sizeof from, "[%.10g, %.10g]", center.x, center.y);
     format_into(at, sizeof at, "{point: %s, offset: [%.10g, %.10g]}", is_G ? "G" : from, offset.x, offset.y);
     struct vec on_body = vec_scale(panel->millimetres, panel_direction(offset));
@@ -101,24 +98,24 @@ static const char *side_of(struct vec way)
 }
 
 /* Add corners; corner i is named by the two sides that meet there. */
-static void add_corners(struct cut_free *cut, const struct outline_part *part)
+static void add_corners(struct cut_free *cut, const fbd_shape *part)
 {
     char name[60];
-    struct vec center = on_paper(cut, part->center), middle[4], way[4];
+    struct vec center = on_paper(cut, vec_of(part->center)), middle[4], way[4];
     for (int i = 0; i < 4; i++) {
-        middle[i] = vec_scale(0.5, vec_add(part->corner[i], part->corner[(i + 1) % 4]));
+        middle[i] = vec_scale(0.5, vec_add(vec_of(part->corners[i]), vec_of(part->corners[(i + 1) % 4])));
         way[i] = vec_sub(on_paper(cut, middle[i]), center);
         way[i] = vec_scale(1 / vec_norm(way[i]), way[i]);
     }
     for (int i = 0; i < 4; i++) {
         snprintf(name, sizeof name, "%s corner", side_of(vec_add(way[(i + 3) % 4], way[i])));
-        add_point(cut, name, part->corner[i]);
+        add_point(cut, name, vec_of(part->corners[i]));
         snprintf(name, sizeof name, "middle of the %s side", side_of(way[i]));
         add_point(cut, name, middle[i]);
     }
 }
 
-static void add_rim(struct cut_free *cut, const struct outline_part *part)
+static void add_rim(struct cut_free *cut, const fbd_shape *part)
 {
     static const struct {
         const char *name;
@@ -128,22 +125,31 @@ static void add_rim(struct cut_free *cut, const struct outline_part *part)
                   {"left of the rim", -1, 0},
                   {"right of the rim", 1, 0}};
     for (size_t i = 0; i < sizeof places / sizeof *places; i++)
-        add_point_beside(cut, places[i].name, part->center,
+        add_point_beside(cut, places[i].name, vec_of(part->center),
                          vec_scale(part->radius, (struct vec){places[i].x, places[i].y}));
-    add_point(cut, "centre", part->center);
+    add_point(cut, "centre", vec_of(part->center));
+}
+
+static size_t shape_count(const struct cut_free *cut)
+{
+    return fbd_model_shape_count(cut->panel.model, cut->panel.index);
+}
+
+static fbd_shape shape_of(const struct cut_free *cut, size_t index)
+{
+    return fbd_model_shape(cut->panel.model, cut->panel.index, index);
 }
 
 static void add_outline(struct cut_free *cut)
 {
-    const struct body *source = cut->panel.body->source;
-    for (size_t i = 0; i < source->part_count; i++) {
-        struct outline_part part = outline_of_part(&source->parts[i]);
+    for (size_t i = 0; i < shape_count(cut); i++) {
+        fbd_shape part = shape_of(cut, i);
         if (part.hole) continue;
-        if (part.kind == outline_polygon) add_corners(cut, &part);
-        if (part.kind == outline_circle) add_rim(cut, &part);
-        if (part.kind == outline_bar) {
-            add_point(cut, "end of a bar", part.corner[0]);
-            add_point(cut, "end of a bar", part.corner[1]);
+        if (part.kind == FBD_SHAPE_POLYGON) add_corners(cut, &part);
+        if (part.kind == FBD_SHAPE_CIRCLE) add_rim(cut, &part);
+        if (part.kind == FBD_SHAPE_BAR) {
+            add_point(cut, "end of a bar", vec_of(part.corners[0]));
+            add_point(cut, "end of a bar", vec_of(part.corners[1]));
         }
     }
 }
@@ -151,69 +157,61 @@ static void add_outline(struct cut_free *cut)
 /* From the world to the body frame. */
 static struct vec in_body(const struct cut_free *cut, struct vec world)
 {
-    const struct pose *pose = &cut->panel.pose;
-    struct vec arm = vec_sub(world, pose->origin), back = {pose->rotation.x, -pose->rotation.y};
-    return vec_add(cut->panel.body->pin, vec_turn(back, arm));
+    const fbd_pose *pose = &cut->panel.pose;
+    struct vec arm = {world.x - pose->x, world.y - pose->y}, back = {pose->cosine, -pose->sine};
+    return vec_add(vec_of(cut->panel.body.pin), vec_turn(back, arm));
 }
 
 /* Add the point of action of a coupling, a contact or another body; on a circle, at a constant offset from
  * its centre. */
 static void add_place(struct cut_free *cut, const char *acting, struct vec world)
 {
-    const struct body *source = cut->panel.body->source;
-    struct vec point = in_body(cut, world);
+    struct vec point = in_body(cut, world), turn = {cut->panel.pose.cosine, cut->panel.pose.sine};
     char name[80];
     snprintf(name, sizeof name, "where `%.*s` acts", (int)fmin(50, (double)strcspn(acting, ".")), acting);
-    for (size_t i = 0; i < source->part_count; i++) {
-        struct outline_part part = outline_of_part(&source->parts[i]);
-        struct vec arm = vec_sub(point, part.center);
-        if (part.kind != outline_circle || fabs(vec_norm(arm) - part.radius) > 1e-6 * part.radius) continue;
-        add_point_beside(cut, name, part.center, vec_turn(cut->panel.pose.rotation, arm));
+    for (size_t i = 0; i < shape_count(cut); i++) {
+        fbd_shape part = shape_of(cut, i);
+        struct vec arm = vec_sub(point, vec_of(part.center));
+        if (part.kind != FBD_SHAPE_CIRCLE || fabs(vec_norm(arm) - part.radius) > 1e-6 * part.radius) continue;
+        add_point_beside(cut, name, vec_of(part.center), vec_turn(turn, arm));
         return;
     }
     add_point(cut, name, point);
 }
 
-/* Add the points of one end of a coupling or contact; an open one has none. */
-static void add_places_of_end(struct cut_free *cut, const struct coupling *coupling, int end)
-{
-    const struct tree_work *tree = cut->panel.at.tree;
-    const struct row *row = &tree->rows[coupling->first_row];
-    for (int i = 0; i < row->port_count; i++)
-        if (row->ports[i].end == end)
-            add_place(cut, coupling->end[end].name[0],
-                      vec_add(tree->links[row->ports[i].link].p, row->ports[i].arm));
-}
-
 static void add_places(struct cut_free *cut)
 {
-    const struct fbd_model *model = cut->panel.model;
-    const struct tree *tree = model->tree;
-    int index = (int)(cut->panel.body - model->bodies);
-    for (int i = 0; tree && i < tree->coupling_count; i++)
-        for (int end = 0; end < tree->couplings[i].end_count; end++)
-            if (tree->couplings[i].end[end].body == index) add_places_of_end(cut, &tree->couplings[i], end);
-    for (size_t b = 0; b < model->body_count; b++) { /* a slide acts on its whole surface */
-        const struct model_body *other = &model->bodies[b];
-        if (other->parent == index && other->kind != motion_slide)
-            add_place(cut, other->name, cut->panel.at.tree->links[other->place.link].p);
+    const struct panel *panel = &cut->panel;
+    const int index = (int)panel->index;
+    for (size_t i = 0; i < fbd_view_coupling_count(panel->view); i++)
+        for (size_t end = 0; end < fbd_view_coupling(panel->view, i).end_count; end++) {
+            const fbd_coupling_end at = fbd_view_coupling_end(panel->view, i, end);
+            for (size_t k = 0; at.body == index && k < at.place_count; k++)
+                add_place(cut, at.force, vec_of(at.places[k]));
+        }
+    for (size_t b = 0; b < fbd_model_body_count(panel->model); b++) { /* a slide acts on its whole surface */
+        const fbd_body other = fbd_model_body(panel->model, b);
+        const fbd_pose pose = fbd_view_pose(panel->view, b);
+        if (other.carrier == index && other.motion != FBD_MOTION_SLIDE)
+            add_place(cut, other.name, (struct vec){pose.x, pose.y});
     }
 }
 
 static void add_points(struct cut_free *cut)
 {
     const struct panel *panel = &cut->panel;
-    const struct body *source = panel->body->source;
     text_add(cut->text, "\"points\":[");
-    add_named_point(cut, "G", panel->body->inertia.G);
-    if (panel->body->kind == motion_pivot) add_named_point(cut, "O", panel->body->pin);
-    for (size_t i = 0; i < source->point_count; i++)
-        add_named_point(cut, source->points[i].name, source->points[i].where);
+    add_named_point(cut, "G", panel->G);
+    if (panel->body.motion == FBD_MOTION_PIVOT) add_named_point(cut, "O", vec_of(panel->body.pin));
+    for (size_t i = 0; i < fbd_model_point_count(panel->model, panel->index); i++) {
+        const fbd_named_point point = fbd_model_point(panel->model, panel->index, i);
+        add_named_point(cut, point.name, (struct vec){point.x, point.y});
+    }
     if (panel->sized) {
         add_outline(cut);
         add_places(cut);
     }
-    if (panel->body->kind == motion_slide && begin_point(cut, panel_point(panel, panel->base)))
+    if (panel->body.motion == FBD_MOTION_SLIDE && begin_point(cut, panel_point(panel, panel->base)))
         end_point(cut, "side of the line", "");
     text_add(cut->text, "],\n");
 }
@@ -248,72 +246,95 @@ static double angle_of(const struct vec way)
     return atan2(way.y, way.x);
 }
 
-static double angle_of_end(const struct cut_free *cut, int body)
+static double angle_of_body(const struct cut_free *cut, int body)
 {
-    if (body == ground_body) return 0;
-    return angle_of(body_pose(&cut->panel.model->bodies[body], &cut->panel.at).rotation);
+    const fbd_pose pose = fbd_view_pose(cut->panel.view, (size_t)body);
+    return body == FBD_GROUND ? 0 : angle_of((struct vec){pose.cosine, pose.sine});
 }
 
-static struct vec place_of_end(const struct cut_free *cut, const struct constraint *source, int end)
+static struct vec place_of_end(const struct cut_free *cut, const fbd_coupling_end *end)
 {
-    const struct model_body *body;
-    if (source->body[end] == ground_body) return source->point[end].where;
-    body = &cut->panel.model->bodies[source->body[end]];
-    const struct point *point = &source->point[end];
-    struct pose pose = body_pose(body, &cut->panel.at);
-    return point_motion(body, &pose, point->kind == point_fixed ? point->where : body->inertia.G).p;
+    if (end->body == FBD_GROUND) return vec_of(end->point);
+    const fbd_body body = fbd_model_body(cut->panel.model, (size_t)end->body);
+    const fbd_pose pose = fbd_view_pose(cut->panel.view, (size_t)end->body);
+    return pose_point(&pose, &body, vec_of(end->point));
 }
 
 /* Add the directions from a point of a rod or rope on this body to its next point, and back. */
-static void add_strand(struct cut_free *cut, const struct constraint *source, int from, int to)
+static void add_strand(struct cut_free *cut, const char *coupling, const fbd_coupling_end *from,
+                       const fbd_coupling_end *to)
 {
-    int index = (int)(cut->panel.body - cut->panel.model->bodies);
-    if (to < 0 || to >= source->end_count || source->body[from] != index) return;
-    if (source->radius[from] > 0 || source->radius[to] > 0) return;
-    struct vec way = vec_sub(place_of_end(cut, source, to), place_of_end(cut, source, from));
+    if (from->body != (int)cut->panel.index || from->radius > 0 || to->radius > 0) return;
+    struct vec way = vec_sub(place_of_end(cut, to), place_of_end(cut, from));
     if (!(vec_norm(way) > 0)) return;
     for (int back = 0; back < 2; back++) {
         char name[100], text[40];
         double angle = angle_of(way) + back * pi;
-        snprintf(name, sizeof name, "%s `%.60s`", back ? "against" : "along", source->name);
+        snprintf(name, sizeof name, "%s `%.60s`", back ? "against" : "along", coupling);
         format_into(text, sizeof text, "%.10g deg", remainder(angle * 180 / pi, 360));
         add_direction(cut, name, angle, text, false);
     }
 }
 
-static void add_coupling(struct cut_free *cut, const struct constraint *source)
+static void add_strands(struct cut_free *cut, size_t index, const fbd_coupling *coupling)
 {
-    int index = (int)(cut->panel.body - cut->panel.model->bodies);
-    bool surface = constraint_laws[source->kind].surface && !source->contact.polygon;
-    bool here = source->body[0] == index || source->body[1] == index;
+    for (size_t k = 0; k < coupling->end_count; k++) {
+        const fbd_view *view = cut->panel.view;
+        const fbd_coupling_end end = fbd_view_coupling_end(view, index, k);
+        const fbd_coupling_end before = fbd_view_coupling_end(view, index, k - 1);
+        const fbd_coupling_end next = fbd_view_coupling_end(view, index, k + 1);
+        if (k > 0) add_strand(cut, coupling->name, &end, &before);
+        if (k + 1 < coupling->end_count) add_strand(cut, coupling->name, &end, &next);
+    }
+}
+
+/* Add the directions along the line of a coupling that this body is an end of, and across it. */
+static void add_line_of(struct cut_free *cut, size_t index, const fbd_coupling *coupling)
+{
+    const fbd_coupling_end first = fbd_view_coupling_end(cut->panel.view, index, 0);
+    const fbd_coupling_end second = fbd_view_coupling_end(cut->panel.view, index, 1);
+    const int body = (int)cut->panel.index;
+    if (first.body != body && second.body != body) return;
     char along[100], across[100];
-    if (constraint_laws[source->kind].length)
-        for (int k = 0; k < source->end_count; k++) {
-            add_strand(cut, source, k, k - 1);
-            add_strand(cut, source, k, k + 1);
+    snprintf(along, sizeof along, "along the surface of `%.60s`", coupling->name);
+    snprintf(across, sizeof across, "normal to the surface of `%.60s`", coupling->name);
+    add_line(cut, along, across, coupling->angle + angle_of_body(cut, second.body), false);
+}
+
+/* The couplings in the order of the file; of a contact with several points the line is added once. */
+static void add_couplings(struct cut_free *cut)
+{
+    const fbd_view *view = cut->panel.view;
+    const size_t count = fbd_view_coupling_count(view);
+    size_t last = 0;
+    for (size_t i = 0; i < count; i++)
+        if (fbd_view_coupling(view, i).entry > last) last = fbd_view_coupling(view, i).entry;
+    for (size_t entry = 0; entry <= last; entry++) {
+        bool lined = false;
+        for (size_t i = 0; i < count; i++) {
+            const fbd_coupling coupling = fbd_view_coupling(view, i);
+            if (coupling.entry != entry) continue;
+            if (coupling.pulls) add_strands(cut, i, &coupling);
+            if (coupling.lined && !lined) add_line_of(cut, i, &coupling);
+            lined |= coupling.lined;
         }
-    if (!here || (!surface && source->kind != constraint_rack)) return;
-    if (source->kind == constraint_contact && !source->contact.line) return;
-    snprintf(along, sizeof along, "along the surface of `%.60s`", source->name);
-    snprintf(across, sizeof across, "normal to the surface of `%.60s`", source->name);
-    add_line(cut, along, across, source->along + angle_of_end(cut, source->body[1]), false);
+    }
 }
 
 static void add_directions(struct cut_free *cut)
 {
     const struct panel *panel = &cut->panel;
-    const struct scene *scene = panel->model->scene;
-    double angle = angle_of(panel->pose.rotation);
+    double angle = angle_of((struct vec){panel->pose.cosine, panel->pose.sine});
     text_add(cut->text, "\"directions\":[");
-    switch (panel->body->kind) {
-    case motion_slide: add_line(cut, "along the line", "normal to the line", angle, true); break;
-    case motion_track: add_line(cut, "along the track", "normal to the track", angle, false); break;
-    case motion_pivot:
-    case motion_planar:
-    case motion_weld: add_line(cut, "along the body", "across the body", angle, true); break;
-    case motion_particle: break;
+    switch (panel->body.motion) {
+    case FBD_MOTION_SLIDE: add_line(cut, "along the line", "normal to the line", angle, true); break;
+    case FBD_MOTION_TRACK: add_line(cut, "along the track", "normal to the track", angle, false); break;
+    case FBD_MOTION_PIVOT:
+    case FBD_MOTION_PLANAR:
+    case FBD_MOTION_WELD: add_line(cut, "along the body", "across the body", angle, true); break;
+    case FBD_MOTION_PARTICLE: break;
     }
-    for (size_t i = 0; i < scene->constraint_count; i++) add_coupling(cut, &scene->constraints[i]);
+    add_couplings(cut);
     text_add(cut->text, "],\n");
 }
 
@@ -342,23 +363,26 @@ static void add_frame(struct cut_free *cut)
     }
     text_add(cut->text, "{");
     json_vector_member(cut->text, "paper", on_paper(cut, (struct vec){0, 0}));
-    json_number_member(cut->text, "degrees", angle_of(panel->pose.rotation) * 180 / pi);
+    json_number_member(cut->text, "degrees",
+                       angle_of((struct vec){panel->pose.cosine, panel->pose.sine}) * 180 / pi);
     json_key(cut->text, "millimetres");
     json_number(cut->text, panel->millimetres);
     text_add(cut->text, "}}");
 }
 
-bool drawing_add_bodies(struct text *text, struct text *pictures, const struct fbd_state *state)
+bool drawing_add_bodies(struct text *text, struct text *pictures, const fbd_state *state,
+                        const fbd_view *view)
 {
     const fbd_drawing drawing = {.worksheet = true};
+    const size_t count = fbd_model_body_count(fbd_state_model(state));
     struct arena arena = {0};
     text_add(text, "[");
-    for (size_t b = 0; b < state->model->body_count && !arena.failed; b++) {
+    for (size_t b = 0; b < count && !arena.failed; b++) {
         struct cut_free cut = {.text = text, .pictures = pictures};
-        if (!panel_start(&cut.panel, state, b, &drawing, &arena)) break;
+        if (!panel_start(&cut.panel, state, view, b, &drawing, &arena)) break;
         panel_draw(&cut.panel);
         text_add(text, b ? ",\n{" : "{");
-        json_text_member(text, "name", cut.panel.body->name);
+        json_text_member(text, "name", cut.panel.body.name);
         add_picture(&cut);
         add_points(&cut);
         add_directions(&cut);

@@ -16,8 +16,6 @@
 #include "grade/handout.h"
 #include "live/drawing.h"
 #include "live/live.h"
-#include "output/equations.h"
-#include "rest/start.h"
 
 struct drawing_page {
     const fbd_key *key;
@@ -67,25 +65,21 @@ static bool compile_sheet(struct drawing_page *page, fbd_errors *errors)
 
 static bool add_bodies(struct drawing_page *page, fbd_errors *errors)
 {
-    struct lack lack = {0};
-    fbd_state *state = state_new(page->sheet);
-    bool done = false;
+    fbd_state *state = fbd_state_new(page->sheet);
     if (!state) {
         diag_out_of_memory(errors);
         return false;
     }
-    state_ready(state);
-    if (start_finite(state, &lack))
-        done = drawing_add_bodies(&page->data, &page->pictures, state);
-    else
-        lack_note(&lack, errors);
+    fbd_view *view = fbd_view_new(state, errors);
+    bool done = view && drawing_add_bodies(&page->data, &page->pictures, state, view);
     if (!done && fbd_errors_failed_count(errors) == 0) diag_out_of_memory(errors);
     if (done && (page->data.odd || page->pictures.odd)) {
         diag_add(errors, FBD_ERROR, "not-finite", (struct pos){0, 0}, NULL,
                  "the sheet cannot be drawn: a length is too large or too small for any scale");
         done = false;
     }
-    state_free(state);
+    fbd_view_free(view);
+    fbd_state_free(state);
     return done;
 }
 
@@ -102,14 +96,13 @@ static void add_made(struct text *text, const char *name, struct text *made)
 static bool make_data(struct drawing_page *page, bool exam, fbd_errors *errors)
 {
     struct text *text = &page->data, reactions = {0};
-    const struct scene *scene = page->key->model->scene;
     if (!write_sheet(page, &page->source, true)) {
         diag_out_of_memory(errors);
         return false;
     }
-    handout_reactions(&reactions, &scene->grading);
+    handout_reactions(&reactions, &page->key->model->scene->grading);
     text_add(text, "{");
-    json_text_member(text, "title", scene->title);
+    json_text_member(text, "title", fbd_model_title(page->key->model));
     json_text_member(text, "student", page->student);
     json_text_member(text, "sheet", page->source.data);
     add_made(text, "reactions", &reactions);
@@ -139,7 +132,7 @@ static bool make_engine(struct drawing_page *page, fbd_errors *errors)
 static void write_title(struct text *text, const void *context)
 {
     const struct drawing_page *page = context;
-    const char *title = page->key->model->scene->title;
+    const char *title = fbd_model_title(page->key->model);
     svg_escape(text, *title ? title : "Free-body diagram");
     text_add(text, ": ");
     svg_escape(text, page->student);

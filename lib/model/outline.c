@@ -70,38 +70,3 @@ struct outline_part outline_of_part(const struct part *part)
     }
     return outline;
 }
-
-static double reach_of(const struct outline_part *part, struct vec center, struct vec along)
-{
-    double middle = vec_dot(vec_sub(part->center, center), along), most = middle;
-    if (part->kind == outline_circle) return middle + part->radius;
-    int corners = part->kind == outline_polygon ? 4 : part->kind == outline_bar ? 2 : 0;
-    for (int i = 0; i < corners; i++) most = fmax(most, vec_dot(vec_sub(part->corner[i], center), along));
-    return most;
-}
-
-double outline_reach(const struct body *body, struct vec center, struct vec along)
-{
-    double most = 0;
-    for (size_t i = 0; i < body->part_count; i++) {
-        struct outline_part part = outline_of_part(&body->parts[i]);
-        if (!part.hole) most = fmax(most, reach_of(&part, center, along));
-    }
-    return most;
-}
-
-bool outline_size(const struct body *body, struct vec *low, struct vec *high)
-{
-    const struct vec right = {1, 0}, up = {0, 1}, left = {-1, 0}, down = {0, -1}, zero = {0, 0};
-    *low = (struct vec){HUGE_VAL, HUGE_VAL};
-    *high = (struct vec){-HUGE_VAL, -HUGE_VAL};
-    for (size_t i = 0; i < body->part_count; i++) {
-        struct outline_part part = outline_of_part(&body->parts[i]);
-        if (part.hole) continue;
-        *low = (struct vec){fmin(low->x, -reach_of(&part, zero, left)),
-                            fmin(low->y, -reach_of(&part, zero, down))};
-        *high = (struct vec){fmax(high->x, reach_of(&part, zero, right)),
-                             fmax(high->y, reach_of(&part, zero, up))};
-    }
-    return high->x > low->x || high->y > low->y;
-}

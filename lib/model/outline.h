@@ -26,12 +26,4 @@ struct outline_part {
 /* The shape of the part in the plane. */
 struct outline_part outline_of_part(const struct part *part);
 
-/* The largest extent of the body from `center` in the direction `along` (a unit vector), all in the body
- * frame; 0 when no part has a size. */
-double outline_reach(const struct body *body, struct vec center, struct vec along);
-
-/* The corners of the smallest axis-parallel rectangle, in the body frame, around the body's parts. False when
- * no part has a size. */
-bool outline_size(const struct body *body, struct vec *low, struct vec *high);
-
 #endif

@@ -455,6 +455,11 @@ void fbd_linearization_free(fbd_linearization *linearization)
     free(linearization);
 }
 
+const fbd_model *fbd_linearization_model(const fbd_linearization *linearization)
+{
+    return linearization ? linearization->model : NULL;
+}
+
 size_t fbd_linearization_size(const fbd_linearization *linearization)
 {
     if (!linearization) return 0;

@@ -68,6 +68,9 @@ void a_key_without_an_answer(void **context);
 /* bad_calls_contents.c */
 void contents(void **context);
 
+/* bad_calls_view.c */
+void views(void **context);
+
 /* bad_calls_options.c */
 void options_have_a_size(void **context);
 void options_are_filled_with_defaults(void **context);

@@ -312,6 +312,7 @@ static void linearizations_and_derivations(void **context)
     REFUSES(fbd_linearize, !fbd_linearize(NULL, errors));
     ENDURES(fbd_linearization_free, fbd_linearization_free(NULL));
     ANSWERS(fbd_linearization_size, fbd_linearization_size(NULL) == 0);
+    ANSWERS(fbd_linearization_model, !fbd_linearization_model(NULL));
     ANSWERS(fbd_linearization_matrix, !fbd_linearization_matrix(NULL));
     ANSWERS(fbd_linearization_coordinate, fbd_linearization_coordinate(NULL, 0) == (size_t)-1);
     ANSWERS(fbd_linearization_mode, is_nan(fbd_linearization_mode(NULL, 0).re));
@@ -421,6 +422,7 @@ int main(void)
         cmocka_unit_test(errors_and_models),
         cmocka_unit_test(a_model_may_have_no_name),
         cmocka_unit_test(contents),
+        cmocka_unit_test(views),
         cmocka_unit_test(states),
         cmocka_unit_test(equations),
         cmocka_unit_test(simulations),

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Drawings: labels that never overlap, outlines of every shape, the record of a run and how it is thinned and
+ * Drawings: labels that never overlap, sizes of every shape, the record of a run and how it is thinned and
  * packed, and runs that are interrupted.
  */
 #include <float.h>
@@ -16,8 +16,8 @@
 
 #include "draw/labelling.h"
 #include "draw/pack.h"
+#include "draw/shapes.h"
 #include "fbd_export.h"
-#include "model/outline.h"
 #include "random_numbers.h"
 #include "scenes.h"
 
@@ -53,43 +53,43 @@ static void labels_of_random_crowds_never_overlap(void **unused)
     }
 }
 
-/* ---- outlines */
+/* ---- shapes */
 
-struct seen {
-    struct part part;
-    double width, height; /* of what is seen, at angle 0 */
-};
-
-static void outlines_have_the_sizes_of_their_shapes(void **unused)
+static void shapes_have_their_sizes(void **unused)
 {
     (void)unused;
-    const double sides[3] = {4, 3, 2};
-    struct seen seen[] = {
-        {{.shape = shape_rod, .axis = 'z', .mass = 1, .length = 2}, 2, 0},
-        {{.shape = shape_rod, .axis = 'x', .mass = 1, .length = 2}, 0, 0}, /* from its end */
-        {{.shape = shape_sphere, .axis = 'z', .mass = 1, .radius = 0.5}, 1, 1},
-        {{.shape = shape_cylinder, .axis = 'x', .mass = 1, .radius = 0.5, .length = 3}, 1, 1},
-        {{.shape = shape_cylinder, .axis = 'y', .mass = 1, .radius = 0.5, .length = 3}, 3, 1},
-        {{.shape = shape_hollow_cylinder, .axis = 'x', .mass = 1, .radius = 2, .inner_radius = 1}, 4, 4},
-        {{.shape = shape_ring, .axis = 'x', .mass = 1, .radius = 2}, 4, 4},
-        {{.shape = shape_ring, .axis = 'z', .mass = 1, .radius = 2}, 0, 4}, /* from its edge */
-        {{.shape = shape_prism, .axis = 'z', .mass = 1}, 4, 3},
-        {{.shape = shape_prism, .axis = 'y', .mass = 1}, 4, 2},
-        {{.shape = shape_prism, .axis = 'x', .mass = 1}, 3, 2},
-        {{.shape = shape_point, .mass = 1}, 0, 0},
+    static const struct {
+        const char *shape;
+        double width, height; /* of what is seen, at angle 0 */
+    } seen[] = {
+        {"rod, axis: z, length: 2", 2, 0},
+        {"rod, axis: x, length: 2", 0, 0}, /* from its end */
+        {"sphere, radius: 0.5", 1, 1},
+        {"cylinder, axis: x, radius: 0.5, length: 3", 1, 1},
+        {"cylinder, axis: y, radius: 0.5, length: 3", 3, 1},
+        {"hollow_cylinder, axis: x, outer_radius: 2, inner_radius: 1", 4, 4},
+        {"ring, axis: x, radius: 2", 4, 4},
+        {"ring, axis: z, radius: 2", 0, 4}, /* from its edge */
+        {"prism, axis: z, a: 4, b: 3, c: 2", 4, 3},
+        {"prism, axis: y, a: 4, b: 3, c: 2", 4, 2},
+        {"prism, axis: x, a: 4, b: 3, c: 2", 3, 2},
+        {"point", 0, 0},
     };
     const double rounding = 4 * DBL_EPSILON * 4;
     for (size_t i = 0; i < sizeof seen / sizeof *seen; i++) {
-        memcpy(seen[i].part.side, sides, sizeof sides);
-        seen[i].part.center = (struct vec){0.25, -0.5};
-        struct body body = {.part_count = 1, .parts = &seen[i].part};
+        char text[300];
+        snprintf(text, sizeof text,
+                 "fbd: 1\nbodies: {body: {motion: {slide: {along: 0}}, parts: {p: {shape: %s, mass: 1, "
+                 "center: [0.25, -0.5]}}}}\n",
+                 seen[i].shape);
+        fbd_model *model = model_from(text);
         struct vec low, high;
-        bool sized = outline_size(&body, &low, &high);
-        assert_int_equal(sized, seen[i].width + seen[i].height > 0);
+        assert_int_equal(shapes_size(model, 0, &low, &high), seen[i].width + seen[i].height > 0);
         assert_true(fabs(high.x - low.x - seen[i].width) <= rounding);
         assert_true(fabs(high.y - low.y - seen[i].height) <= rounding);
-        double reach = outline_reach(&body, seen[i].part.center, (struct vec){0, -1});
+        double reach = shapes_reach(model, 0, (struct vec){0.25, -0.5}, (struct vec){0, -1});
         assert_true(fabs(reach - seen[i].height / 2) <= rounding);
+        fbd_model_free(model);
     }
 }
 
@@ -370,7 +370,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(labels_of_random_crowds_never_overlap),
-        cmocka_unit_test(outlines_have_the_sizes_of_their_shapes),
+        cmocka_unit_test(shapes_have_their_sizes),
         cmocka_unit_test(a_thinned_record_keeps_events_and_extremes),
         cmocka_unit_test(fewer_rows_are_of_the_same_motion),
         cmocka_unit_test(packing_loses_nothing),

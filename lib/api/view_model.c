@@ -1,0 +1,135 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * Public interface: units, bodies and their shapes, for drawings.
+ */
+#include <math.h>
+
+#include "base/api_check.h"
+#include "expr/curve.h"
+#include "fbd_view.h"
+#include "model/outline.h"
+#include "output/words.h"
+
+#define PAIR(v)                                                                                              \
+    {                                                                                                        \
+        (v).x, (v).y                                                                                         \
+    }
+
+fbd_units fbd_model_units(const fbd_model *model)
+{
+    if (!model) return (fbd_units){.length = NULL};
+    const bool si = model->scene->units == unit_si;
+    return (fbd_units){.length = length_unit(model),
+                       .force = force_unit(model),
+                       .moment = moment_unit(model),
+                       .energy = energy_unit(model),
+                       .mass = si ? "kg" : "slug",
+                       .inertia = si ? "kg*m^2" : "slug*ft^2"};
+}
+
+/* ---- bodies */
+
+static const struct model_body *body_at(const fbd_model *model, size_t index)
+{
+    return model && index < model->body_count ? &model->bodies[index] : NULL;
+}
+
+static const fbd_motion motions[] = {
+    [motion_slide] = FBD_MOTION_SLIDE,       [motion_pivot] = FBD_MOTION_PIVOT,
+    [motion_particle] = FBD_MOTION_PARTICLE, [motion_planar] = FBD_MOTION_PLANAR,
+    [motion_weld] = FBD_MOTION_WELD,         [motion_track] = FBD_MOTION_TRACK};
+
+fbd_body fbd_model_body(const fbd_model *model, size_t index)
+{
+    const struct model_body *body = body_at(model, index);
+    if (!body)
+        return (fbd_body){.carrier = FBD_GROUND,
+                          .angle = -1,
+                          .pin = {NAN, NAN},
+                          .joint = {NAN, NAN},
+                          .along = {NAN, NAN},
+                          .normal = {NAN, NAN}};
+    const bool turns = body->kind == motion_pivot || body->kind == motion_planar;
+    fbd_body seen = {.name = body->name,
+                     .motion = motions[body->kind],
+                     .carrier = body->parent,
+                     .coordinate = (size_t)body->first,
+                     .coordinate_count = (size_t)body->count,
+                     .angle = turns ? body->first + body->count - 1 : -1,
+                     .pin = PAIR(body->pin),
+                     .joint = PAIR(body->origin),
+                     .along = PAIR(body->e),
+                     .normal = PAIR(body->n)};
+    for (size_t i = 0; body->kind == motion_slide && i < body->source->load_count; i++) {
+        if (body->source->loads[i].kind != load_normal) continue;
+        seen.surface = true;
+        seen.two_sided |= body->source->loads[i].two_sided;
+    }
+    return seen;
+}
+
+size_t fbd_model_shape_count(const fbd_model *model, size_t body)
+{
+    const struct model_body *b = body_at(model, body);
+    return b ? b->source->part_count : 0;
+}
+
+fbd_shape fbd_model_shape(const fbd_model *model, size_t body, size_t index)
+{
+    static const fbd_shape_kind kinds[] = {[outline_dot] = FBD_SHAPE_DOT,
+                                           [outline_bar] = FBD_SHAPE_BAR,
+                                           [outline_circle] = FBD_SHAPE_CIRCLE,
+                                           [outline_polygon] = FBD_SHAPE_POLYGON,
+                                           [outline_unknown] = FBD_SHAPE_UNKNOWN};
+    static const size_t corners[] = {[outline_bar] = 2, [outline_polygon] = 4, [outline_unknown] = 0};
+    if (index >= fbd_model_shape_count(model, body))
+        return (fbd_shape){.kind = FBD_SHAPE_UNKNOWN, .center = {NAN, NAN}, .radius = NAN, .inner = NAN};
+    const struct outline_part part = outline_of_part(&model->bodies[body].source->parts[index]);
+    fbd_shape shape = {.kind = kinds[part.kind],
+                       .hole = part.hole,
+                       .center = PAIR(part.center),
+                       .radius = part.radius,
+                       .inner = part.inner,
+                       .corner_count = corners[part.kind]};
+    for (size_t i = 0; i < shape.corner_count; i++) {
+        shape.corners[i][0] = part.corner[i].x;
+        shape.corners[i][1] = part.corner[i].y;
+    }
+    return shape;
+}
+
+size_t fbd_model_point_count(const fbd_model *model, size_t body)
+{
+    const struct model_body *b = body_at(model, body);
+    return b ? b->source->point_count : 0;
+}
+
+fbd_named_point fbd_model_point(const fbd_model *model, size_t body, size_t index)
+{
+    if (index >= fbd_model_point_count(model, body)) return (fbd_named_point){NULL, NAN, NAN};
+    const struct named_point *point = &model->bodies[body].source->points[index];
+    return (fbd_named_point){point->name, point->where.x, point->where.y};
+}
+
+/* ---- tracks */
+
+static const struct curve *curve_of(const fbd_model *model, size_t body)
+{
+    const struct model_body *b = body_at(model, body);
+    return b && b->kind == motion_track ? b->source->motion.curve : NULL;
+}
+
+fbd_track fbd_model_track(const fbd_model *model, size_t body)
+{
+    const struct curve *curve = curve_of(model, body);
+    return curve ? (fbd_track){curve->start, curve->length, curve->closed} : (fbd_track){NAN, NAN, false};
+}
+
+fbd_track_place fbd_model_track_place(const fbd_model *model, size_t body, double s)
+{
+    const struct curve *curve = curve_of(model, body);
+    if (!curve || !isfinite(s)) return (fbd_track_place){NAN, NAN, {NAN, NAN}, NAN};
+    const struct curve_place place = curve_at(curve, NULL, s);
+    const struct vec r = vec_add(model->bodies[body].origin, place.r);
+    return (fbd_track_place){r.x, r.y, PAIR(place.e), place.bend};
+}
