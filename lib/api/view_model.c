@@ -34,7 +34,7 @@ static const struct model_body *body_at(const fbd_model *model, size_t index)
     return model && index < model->body_count ? &model->bodies[index] : NULL;
 }
 
-static const fbd_motion motions[] = {
+static const fbd_motion_kind motions[] = {
     [motion_slide] = FBD_MOTION_SLIDE,       [motion_pivot] = FBD_MOTION_PIVOT,
     [motion_particle] = FBD_MOTION_PARTICLE, [motion_planar] = FBD_MOTION_PLANAR,
     [motion_weld] = FBD_MOTION_WELD,         [motion_track] = FBD_MOTION_TRACK};
