@@ -214,8 +214,8 @@ FBD_API void fbd_state_free(fbd_state *state);
 /* Copy `from` into `to`. Returns false when they are not of the same model. */
 FBD_API bool fbd_state_copy(fbd_state *to, const fbd_state *from);
 
-/* Write all numbers that determine the further motion: the time, coordinates and rates, the memory of
- * expressions (`hysteresis`), and the start values that couplings keep, for example the length of a rope.
+/* Write all numbers that determine the further motion: the time, coordinates, rates and user states, the
+ * memory of expressions (`hysteresis`), and the start values that couplings keep, for example the length of a rope.
  * Fills at most `room` of them; returns their number. */
 FBD_API size_t fbd_state_pack(const fbd_state *state, double *numbers, size_t room);
 
@@ -332,13 +332,14 @@ typedef struct fbd_options {
     double accuracy;
     /* integrate all bodies together by the general method, whatever the structure of the forces */
     bool no_structure;
+    bool automatic_step; /* automatic steps even where the file gives a size; `step` takes precedence */
 } fbd_options;
 
 /* Options that leave everything to the file, as a macro and as a function for callers that cannot use it;
  * `size` is the caller's sizeof of the struct. */
 #define FBD_OPTIONS_DEFAULT                                                                                  \
     {                                                                                                        \
-        sizeof(fbd_options), NAN, 0, 0, NULL, false, 0, false                                                \
+        sizeof(fbd_options), NAN, 0, 0, NULL, false, 0, false, false                                         \
     }
 FBD_API void fbd_options_init(fbd_options *options, size_t size);
 

@@ -204,6 +204,30 @@ typedef enum fbd_sweep_end {
 FBD_API fbd_sweep_end fbd_sweep_run(const fbd_sweep *sweep, const fbd_sweep_work *work,
                                     fbd_sweep_counts *counts);
 
+/* ---------------------------------------------------------------- methods of integration */
+
+/* A method for fbd_options.method, besides "auto", which chooses among them. */
+typedef struct fbd_method {
+    const char *name;
+    const char *description; /* one line without a full stop; NULL past the end, as the name */
+    int order;               /* the highest one of a method of variable order */
+    bool implicit;           /* for stiff systems: it needs the Jacobian */
+    bool multistep;          /* it uses earlier steps: no steps of fixed size */
+} fbd_method;
+
+/* The methods in the order of preference, and the one of a name. Texts are constant. */
+FBD_API size_t fbd_method_count(void);
+FBD_API fbd_method fbd_method_get(size_t index);
+FBD_API fbd_method fbd_method_find(const char *name);
+
+/* ---------------------------------------------------------------- exact solutions */
+
+/* The exact solution that the file gives (`exact`) at a time: the value, and its derivative by time, of quantity
+ * `quantity`: coordinate `quantity`, or beyond these the rate of coordinate `quantity` minus their number. That of
+ * a rate follows from its coordinate where the file does not give it. Returns false where the file gives none. */
+FBD_API bool fbd_model_exact(const fbd_model *model, size_t quantity, double t, double *value,
+                             double *derivative);
+
 /* ---------------------------------------------------------------- cost of accuracy */
 
 typedef struct fbd_cost_options {
@@ -296,6 +320,42 @@ FBD_API char *fbd_cost_text(const fbd_cost *cost);
 FBD_API char *fbd_cost_csv(const fbd_cost *cost);
 FBD_API char *fbd_cost_json(const fbd_cost *cost);
 FBD_API char *fbd_cost_svg(const fbd_cost *cost);
+
+/* ---------------------------------------------------------------- simplifications of a scene */
+
+/* A sampled motion of a model: at each time one row of the coordinates, then their rates, then the user states,
+ * in the order of the model (2 fbd_model_coordinate_count + fbd_model_state_count numbers). */
+typedef struct fbd_motion {
+    size_t count;         /* of times and rows; 0 for none */
+    const double *t;      /* increasing */
+    const double *values; /* row by row */
+} fbd_motion;
+
+/* A scene without one of its effects, or with a linear one in its place. */
+typedef struct fbd_simplification {
+    const char *body, *name; /* "block", "friction"; body "" for an effect of the whole scene */
+    const char *change;      /* "left out", "linear: sin(theta) -> theta", ... */
+    const char *reason;      /* why that is not possible; "" if it is */
+} fbd_simplification;
+
+typedef struct fbd_simplifications fbd_simplifications;
+
+/* List the simplifications of a scene: each force, moment, part and coupling left out, static friction as
+ * kinetic, surfaces and air at rest, laws that are not linear in the range of `motion` replaced by linear ones
+ * (quadratic drag for its largest speed). `motion` is read during the call only. NULL with a note in `errors`:
+ * `bad-call`, or memory is out. The model must outlive the list; texts live as long as the list, and are NULL
+ * past the end. */
+FBD_API fbd_simplifications *fbd_simplify(const fbd_model *model, const fbd_motion *motion,
+                                          fbd_errors *errors);
+FBD_API void fbd_simplifications_free(fbd_simplifications *simplifications);
+FBD_API size_t fbd_simplifications_count(const fbd_simplifications *simplifications);
+FBD_API fbd_simplification fbd_simplifications_get(const fbd_simplifications *simplifications, size_t index);
+
+/* The scene with simplification `index` alone, and the parameter values of the model, to be freed with
+ * fbd_model_free. NULL with notes in `errors`: `bad-call` for one that is not possible, those of a scene that is
+ * wrong without the effect, or memory is out. */
+FBD_API fbd_model *fbd_simplifications_model(const fbd_simplifications *simplifications, size_t index,
+                                             fbd_errors *errors);
 
 /* ---------------------------------------------------------------- cost of each effect */
 

@@ -8,9 +8,9 @@
 #include <assert.h>
 #include <string.h>
 
+#include "document/node.h"
 #include "emit/emit.h"
 #include "scene/language.h"
-#include "scene/node.h"
 
 /* ---- the keys of the file */
 

@@ -5,8 +5,8 @@
 #ifndef FBD_EMIT_LIVE_H
 #define FBD_EMIT_LIVE_H
 
+#include "document/node.h"
 #include "emit/emit.h"
-#include "scene/node.h"
 
 /* Read the file once more. Returns false when memory is out; close it also then. */
 bool emit_live_open(struct emitter *emitter);

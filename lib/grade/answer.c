@@ -7,10 +7,10 @@
 #include <sys/stat.h>
 
 #include "base/file.h"
+#include "document/node_edit.h"
 #include "fbd_grade.h"
 #include "grade/lines.h"
 #include "output/hand_forces.h"
-#include "scene/node_edit.h"
 
 fbd_model *grade_compile(struct fbd_grade *grade, const struct node *root, const char *file, bool hands,
                          fbd_errors *errors)

@@ -12,9 +12,9 @@
 #include <string.h>
 
 #include "base/text.h"
+#include "document/node_edit.h"
 #include "fbd_grade.h"
 #include "grade/lines.h"
-#include "scene/node_edit.h"
 #include "scene/quantity.h"
 
 /* An arrow in units of the drawing. */

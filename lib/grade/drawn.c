@@ -10,9 +10,9 @@
 #include <string.h>
 
 #include "base/text.h"
+#include "document/node_edit.h"
 #include "fbd_grade.h"
 #include "grade/lines.h"
-#include "scene/node_edit.h"
 
 const char *name_as_drawn(const struct fbd_grade *grade, const struct load *load)
 {

@@ -6,11 +6,11 @@
 #include <string.h>
 
 #include "base/arena.h"
+#include "document/node_edit.h"
+#include "document/scalar.h"
 #include "fbd_grade.h"
 #include "grade/lines.h"
 #include "output/hand_forces.h"
-#include "scene/node_edit.h"
-#include "scene/scalar.h"
 
 static const struct hand_force *find(const struct hand_forces *forces, int body, const char *name)
 {

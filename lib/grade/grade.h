@@ -14,11 +14,11 @@
 #ifndef FBD_GRADE_GRADE_H
 #define FBD_GRADE_GRADE_H
 
+#include "document/node.h"
 #include "dynamics/modes.h"
 #include "fbd_grade.h"
 #include "model/model.h"
 #include "scene/names.h"
-#include "scene/node.h"
 
 enum { most_grade_samples = 32 };
 

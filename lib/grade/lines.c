@@ -9,9 +9,9 @@
 #include <string.h>
 
 #include "base/text.h"
+#include "document/node_edit.h"
 #include "fbd_grade.h"
 #include "grade/lines.h"
-#include "scene/node_edit.h"
 
 /* ---- one line */
 

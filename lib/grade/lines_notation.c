@@ -5,10 +5,10 @@
 #include <string.h>
 
 #include "base/text.h"
+#include "document/node_edit.h"
 #include "fbd_grade.h"
 #include "grade/lines.h"
 #include "output/hand_forces.h"
-#include "scene/node_edit.h"
 
 /* A text and its translation. */
 struct reading {

@@ -4,9 +4,9 @@
  */
 #include <string.h>
 
+#include "document/node_edit.h"
 #include "fbd_grade.h"
 #include "grade/lines.h"
-#include "scene/node_edit.h"
 
 /* ---- the key's scene with the answer's derivations */
 

@@ -5,9 +5,9 @@
 #include <string.h>
 
 #include "base/text.h"
+#include "document/node_edit.h"
 #include "fbd_grade.h"
 #include "grade/lines.h"
-#include "scene/node_edit.h"
 
 /* A scene with only one equation, so that the others are not compiled again for each change of a parameter. */
 const struct node *lines_alone(struct lines *lines, const struct node *root, int body, int index)

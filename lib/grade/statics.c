@@ -11,14 +11,14 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/hash.h"
+#include "document/node_edit.h"
 #include "dynamics/project.h"
 #include "fbd_grade.h"
 #include "grade/lines.h"
 #include "output/hand_forces.h"
 #include "output/random_state.h"
 #include "scene/law.h"
-#include "scene/node_edit.h"
-#include "study/hash.h"
 
 enum { sums = 3 }; /* of a body: forces along x and y, moments about the origin */
 

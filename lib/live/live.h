@@ -7,8 +7,8 @@
 #define FBD_LIVE_LIVE_H
 
 #include "base/text.h"
+#include "document/spans.h"
 #include "model/model.h"
-#include "scene/spans.h"
 
 /* An entry of the file that lists an effect: a force or moment of a body, a coupling or a contact. */
 struct live_effect {

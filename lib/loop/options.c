@@ -48,7 +48,7 @@ bool options_choose(const struct fbd_model *model, const fbd_options *given, str
     chosen->tolerance = given->tolerance != 0 ? given->tolerance
                         : file->tolerance > 0 ? file->tolerance
                                               : default_tolerance;
-    chosen->step = given->step != 0 ? given->step : file->step;
+    chosen->step = given->step != 0 ? given->step : given->automatic_step ? 0 : file->step;
     if (!isnan(given->until)) diag_in_file(errors, NULL); /* not in the file */
     if (isnan(chosen->until))
         bad_option(errors, "no-end-time", "write `simulate: {until: 2 s}` or give --until",

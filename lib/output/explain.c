@@ -198,7 +198,8 @@ static void write_method(struct text *text, const struct fbd_model *model, const
         return;
     }
     const struct method *stiff = method_find("rodas5p"), *other = structure_method(model, structure_general);
-    bool structure = !options->no_structure && options->step == 0 && model->scene->simulate.step == 0;
+    bool structure = !options->no_structure && options->step == 0 &&
+                     (options->automatic_step || model->scene->simulate.step == 0);
     text_printf(text, "\nMethod: auto, the default\n  %s%s (%s)\n",
                 structure ? "the method for the structure above; without a special structure " : "",
                 other->name, other->description);

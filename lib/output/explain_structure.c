@@ -79,7 +79,9 @@ static bool write_groups(struct text *text, const struct fbd_model *model, const
 bool explain_structure(struct text *text, const struct fbd_model *model, const fbd_options *options)
 {
     const char *method = options->method ? options->method : model->scene->simulate.method;
-    double step = options->step != 0 ? options->step : model->scene->simulate.step;
+    double step = options->step != 0        ? options->step
+                  : options->automatic_step ? 0
+                                            : model->scene->simulate.step;
     if (options->no_structure) {
         text_add(text, "  not used (--no-structure): all bodies together by one method\n");
         return true;

@@ -159,6 +159,8 @@ static bool take(struct naming *naming, const struct force_key *key)
 
 const char *symbol_of_mass(const struct fbd_model *model, int body, struct arena *arena)
 {
+    const char *name = model->scene->bodies[body].mass_name;
+    if (name) return name;
     const struct parameter *given = scene_mass_parameter(model->scene, body + 1);
     const double mass = model->bodies[body].inertia.mass;
     const bool of_another = given && fabs(given->value - mass) > 1e-12 * fabs(mass);

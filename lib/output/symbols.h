@@ -40,7 +40,7 @@ const struct force_symbol *const *symbols_of_forces(const struct fbd_state *stat
 /* The symbol in the present state. */
 const char *symbol_now(const struct force_symbol *symbol);
 
-/* The mass of a body: "m", "m_2". */
+/* The mass of a body: the parameter that the file gives as its mass ("M", "m_cart"), else "m", with several bodies "m_2". */
 const char *symbol_of_mass(const struct fbd_model *model, int body, struct arena *arena);
 
 /* The symbol as printed in a drawing: mg, μₖN, T₁. */

@@ -20,7 +20,7 @@ bool body_turns(const struct body *body);
 /* The circle at end k: its centre, and its radius if that is not given (0). The body turns. */
 bool coupling_circle_set(struct reader *reader, struct constraint *constraint, int k, double radius);
 
-/* Two points; two turning bodies with their circles; and the remaining kinds (read_couplings.c). */
+/* Two points; two turning bodies with their circles; and the remaining kinds (read_wheels.c). */
 bool points_read(struct reader *reader, const struct coupling_keys *keys, struct constraint *constraint);
 bool wheels_read(struct reader *reader, const struct coupling_keys *keys, struct constraint *constraint);
 bool rack_read(struct reader *reader, const struct coupling_keys *keys, struct constraint *constraint);
@@ -28,6 +28,9 @@ bool roll_read(struct reader *reader, const struct coupling_keys *keys, struct c
 
 /* A point on a line or curve (read_slot.c). */
 bool slot_read(struct reader *reader, const struct coupling_keys *keys, struct constraint *constraint);
+
+/* Two bodies that may touch, or a body and the ground (read_contacts.c). */
+bool contact_read(struct reader *reader, const struct coupling_keys *keys, struct constraint *constraint);
 
 /* A rope with its discs (read_ropes.c). */
 bool rope_read(struct reader *reader, const struct coupling_keys *keys, struct constraint *constraint);

@@ -2,7 +2,6 @@
 #include "scene/fields.h"
 
 #include "scene/slip_law.h"
-#include "scene/usual_words.h"
 #include "scene/values.h"
 
 #include <assert.h>
@@ -61,14 +60,32 @@ static const char *kind_with(const struct kinds *kinds, const char *key)
     return NULL;
 }
 
+/* The field with this key, or one without group and kinds. */
+static const struct field *field_below(const struct group *group, const char *key)
+{
+    static const struct field none = {0};
+    size_t offset;
+    const struct field *field = find_field(group, key, &offset);
+    return field ? field : &none;
+}
+
+/* True if the group below the key `outer` has the key `inner`. */
+static bool is_below(const struct group *group, const char *outer, const char *inner)
+{
+    const struct group *below = field_below(group, outer)->group;
+    return below && fields_has(below, inner);
+}
+
 /* A hint for a key one level too high, as by wrong indentation; else NULL. */
 static const char *misplaced(fbd_errors *errors, const struct group *group, const char *key)
 {
-    if (group == &body_group && is_kind(&force_kinds, key))
+    const struct kinds *forces = field_below(group, "forces")->kinds,
+                       *motions = field_below(group, "motion")->kinds;
+    if (forces && is_kind(forces, key))
         return diag_hint(errors, "put it into the list of the body: `forces: [%s]`", key);
-    if (group == &body_group && is_kind(&motion_kinds, key))
+    if (motions && is_kind(motions, key))
         return diag_hint(errors, "write it under `motion`: `motion: {%s: ...}`", key);
-    const char *motion = group == &body_group ? kind_with(&motion_kinds, key) : NULL;
+    const char *motion = motions ? kind_with(motions, key) : NULL;
     if (motion)
         return diag_hint(errors, "it belongs to the motion, as in `motion: {%s: {%s: ...}}`", motion, key);
     if ((fields_has(group, "along") || fields_has(group, "at")) && fields_has(group, "on") &&
@@ -77,10 +94,10 @@ static const char *misplaced(fbd_errors *errors, const struct group *group, cons
                          "the rate at the start belongs to `initial: {%s: ...}`; prescribed is the "
                          "coordinate, as an expression of t",
                          key);
-    if (group == &scene_group && fields_has(&body_group, key))
+    if (is_below(group, "bodies", key))
         return "it belongs to a body: indent it below the name of the body, under `bodies`";
-    if (group == &scene_group && fields_has(&simulate_group, key)) return "it belongs under `simulate`";
-    if (group == &scene_group && fields_has(&ground_group, key)) return "it belongs under `ground`";
+    if (is_below(group, "simulate", key)) return "it belongs under `simulate`";
+    if (is_below(group, "ground", key)) return "it belongs under `ground`";
     return NULL;
 }
 
@@ -361,7 +378,9 @@ static const struct kind *find_kind(struct reader *reader, const struct kinds *k
         names[i] = kinds->kinds[i].name;
         if (strcmp(names[i], name) == 0) return &kinds->kinds[i];
     }
-    const char *hint = kind_by_usual_word(kinds, name);
+    const char *hint = NULL;
+    for (const struct usual_word *usual = kinds->usual; usual->word && !hint; usual++)
+        if (strcmp(name, usual->word) == 0) hint = usual->hint;
     if (!hint && strchr(name, ')')) hint = in_quotes;
     if (!hint) hint = diag_nearest(reader->errors, name, names, kinds->count);
     diag_add(reader->errors, FBD_ERROR, "unknown-kind", at, hint, "no %s is called `%.40s`", kinds->noun,
@@ -381,9 +400,7 @@ static void note_several_keys(struct reader *reader, const struct kinds *kinds, 
         } else if (!kind) {
             kind = pair;
         } else {
-            bool list = kinds != &motion_kinds;
-            diag_add(reader->errors, FBD_ERROR, "conflicting-keys", pair->at,
-                     list ? "make a list of them: start each with `- `" : "a body moves in one way: choose",
+            diag_add(reader->errors, FBD_ERROR, "conflicting-keys", pair->at, kinds->one,
                      "`%s` and `%s` stand in one entry", kind->key, pair->key);
             return;
         }

@@ -1,53 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "scene/language.h"
 
-static const struct choice unit_systems[] = {
-    {"SI", unit_si, "kg, m, s, N, rad"},
-    {"US", unit_us, "slug, ft, s, lbf, rad"},
-};
-
-static const struct field scene_fields[] = {
-    FIELD_NUMBER(offsetof(struct scene_keys, version), "fbd", a_number, 0,
-                 "version of the model language: 1"),
-    FIELD_IGNORED("$schema", "where an editor finds the schema; ignored"),
-    FIELD_TEXT(offsetof(struct scene_keys, title), "title", "one line that names the model in reports"),
-    FIELD_TEXT(offsetof(struct scene_keys, description), "description",
-               "a description of the model; ignored"),
-    FIELD_CHOICE(offsetof(struct scene_keys, units), "units", unit_systems,
-                 "units of bare numbers and of all output"),
-    FIELD_NODE(offsetof(struct scene_keys, gravity), "gravity", field_any, 0, NULL,
-               "acceleration of gravity: a magnitude, straight down, or a pair [gx, gy]"),
-    FIELD_NUMBER(offsetof(struct scene_keys, datum), "datum", a_length, 0,
-                 "height y at which the potential energy of gravity is zero"),
-    FIELD_ENTRIES(offsetof(struct scene_keys, parameters), "parameters", field_map, 0, each_group,
-                  &parameter_group, "named constants: name: quantity or expression of other parameters"),
-    FIELD_ENTRIES(offsetof(struct scene_keys, inputs), "inputs", field_map, 0, each_group, &input_group,
-                  "quantities that are set from outside during the motion, with their values at the start"),
-    FIELD_ENTRIES(offsetof(struct scene_keys, tables), "tables", field_map, 0, each_group, &table_group,
-                  "functions given by points or files of data, called as `name(t)` in expressions"),
-    FIELD_ENTRIES(offsetof(struct scene_keys, own), "states", field_map, 0, each_group, &own_state_group,
-                  "quantities with differential equations of first order; in expressions `states.name`"),
-    FIELD_NODE(offsetof(struct scene_keys, ground), "ground", field_map, 0, &ground_group,
-               "named points and lines that do not move"),
-    FIELD_ENTRIES(offsetof(struct scene_keys, bodies), "bodies", field_map, required, each_group, &body_group,
-                  "each body by its name: its shape and mass, its motion, the forces and moments on it"),
-    FIELD_NODE(offsetof(struct scene_keys, simulate), "simulate", field_map, 0, &simulate_group,
-               "duration and accuracy of the run, and its events"),
-    FIELD_NODE(offsetof(struct scene_keys, output), "output", field_map, 0, &output_group,
-               "what a run writes"),
-    FIELD_KINDS(offsetof(struct scene_keys, couplings), "couplings", field_list, 0, each_kind,
-                &coupling_kinds, "connections of two bodies, besides joints"),
-    FIELD_ENTRIES(offsetof(struct scene_keys, contacts), "contacts", field_list, 0, each_group,
-                  &contact_group, "contacts of bodies with each other or with the ground"),
-    FIELD_NODE(offsetof(struct scene_keys, grading), "grading", field_map, 0, &grading_group,
-               "grading of answers by this file as the key"),
-    FIELD_NODE(
-        offsetof(struct scene_keys, symbols), "symbols", field_map, 0, NULL,
-        "letters of forces in derivations: a name in a diagram, or a list of them, which is their sum"),
-};
-
-const struct group scene_group = {"the file", NULL, FIELDS(scene_fields), NULL, 0, "a model"};
-
 static const struct field own_state_fields[] = {
     FIELD_NODE(offsetof(struct own_state_keys, rate), "rate", field_scalar, required, NULL,
                "its rate of change: an expression of time, coordinates, rates and states"),
@@ -111,6 +64,15 @@ static const struct field line_fields[] = {
 };
 
 const struct group line_group = {"a line", NULL, FIELDS(line_fields), NULL, 0, "a straight line"};
+
+static const struct field place_fields[] = {
+    FIELD_NODE(offsetof(struct place_keys, point), "point", field_any, 0, NULL,
+               "point of the body: a name or [x, y]; default G"),
+    FIELD_ENTRIES(offsetof(struct place_keys, offset), "offset", field_any, required, each_pair, NULL,
+                  "from there to where the force acts, [x, y] along the axes of the world, as [0.1 m, 0]: it "
+                  "does not turn with the body"),
+};
+const struct group place_group = {"`at`", "point", FIELDS(place_fields), NULL, 0, "where a force acts"};
 
 /* The methods are in lib/integrate/method.c. */
 const struct choice method_choices[] = {

@@ -10,8 +10,8 @@
 #ifndef FBD_SCENE_LANGUAGE_H
 #define FBD_SCENE_LANGUAGE_H
 
+#include "document/node.h"
 #include "scene/law.h"
-#include "scene/node.h"
 #include "scene/quantity.h"
 #include "scene/scene.h"
 
@@ -97,10 +97,17 @@ struct kind {
     const struct law *law; /* of forces and moments */
 };
 
+/* A word of textbooks and other programs, with a hint at the corresponding kind. */
+struct usual_word {
+    const char *word, *hint;
+};
+
 struct kinds {
     const char *noun; /* in messages: "force" */
     const struct kind *kinds;
     size_t count;
+    const struct usual_word *usual; /* up to an entry without a word (usual_words.h) */
+    const char *one;                /* hint where two kinds are in one entry */
 };
 
 /* ---- the groups and the structures that they fill */

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "scene/language.h"
+#include "scene/usual_words.h"
 
 /* ---- body and parts */
 
@@ -67,36 +68,6 @@ static const struct field inertia_fields[] = {
 
 const struct group inertia_group = {"`inertia`", "value", FIELDS(inertia_fields),
                                     NULL,        0,       "a moment of inertia that is known"};
-
-static const struct field body_fields[] = {
-    FIELD_TEXT(offsetof(struct body_keys, description), "description", "a description; ignored"),
-    FIELD_ENTRIES(offsetof(struct body_keys, parts), "parts", field_map, 0, each_group, &part_group,
-                  "name: a piece of the body"),
-    FIELD_ENTRIES(offsetof(struct body_keys, points), "points", field_map, 0, each_pair, NULL,
-                  "name: [x, y] in the body frame"),
-    FIELD_KINDS(offsetof(struct body_keys, motion), "motion", field_any, required, one_value, &motion_kinds,
-                "slide, pivot, track, particle, planar or weld"),
-    FIELD_NODE(offsetof(struct body_keys, initial), "initial", field_map, 0, NULL,
-               "coordinates and rates at t = 0; default 0"),
-    FIELD_KINDS(offsetof(struct body_keys, forces), "forces", field_any, may_be_empty, each_kind,
-                &force_kinds, "list of the forces that act on it"),
-    FIELD_KINDS(offsetof(struct body_keys, moments), "moments", field_any, may_be_empty, each_kind,
-                &moment_kinds, "list of the moments that act on it"),
-    FIELD_ENTRIES(offsetof(struct body_keys, hand), "hand", field_any, may_be_empty, each_group, &hand_group,
-                  "equations derived by hand, to be checked"),
-    FIELD_NODE(offsetof(struct body_keys, symbols), "symbols", field_map, 0, NULL,
-               "letters of forces in these, as at the top level"),
-    FIELD_NODE(offsetof(struct body_keys, exact), "exact", field_map, 0, NULL,
-               "the solution, where it is known: coordinates as expressions of t"),
-};
-
-const struct group body_group = {
-    "a body",
-    NULL,
-    FIELDS(body_fields),
-    &part_group,
-    offsetof(struct body_keys, part),
-    "a rigid body: its shape and mass, its motion, the forces and moments on it"};
 
 /* ---- motion */
 
@@ -191,7 +162,8 @@ static const struct kind motions[] = {
     {"track", motion_track, &track_group, ~0u, NULL, NULL},
 };
 
-const struct kinds motion_kinds = {"motion", FIELDS(motions)};
+const struct kinds motion_kinds = {"motion", FIELDS(motions), usual_motions,
+                                   "a body moves in one way: choose"};
 
 /* ---- initial values */
 

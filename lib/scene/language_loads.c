@@ -5,6 +5,7 @@
  */
 #include "scene/language.h"
 #include "scene/load_entry.h"
+#include "scene/usual_words.h"
 
 enum {
     on_slide = 1u << motion_slide,
@@ -53,15 +54,6 @@ static const struct choice frames[] = {
 #define TO_ROW                                                                                               \
     FIELD_NODE(offsetof(struct load_keys, to), "to", field_any, 0, NULL,                                     \
                "point of the ground: a name or [x, y]")
-
-static const struct field place_fields[] = {
-    FIELD_NODE(offsetof(struct place_keys, point), "point", field_any, 0, NULL,
-               "point of the body: a name or [x, y]; default G"),
-    FIELD_ENTRIES(offsetof(struct place_keys, offset), "offset", field_any, required, each_pair, NULL,
-                  "from there to where the force acts, [x, y] along the axes of the world, as [0.1 m, 0]: it "
-                  "does not turn with the body"),
-};
-const struct group place_group = {"`at`", "point", FIELDS(place_fields), NULL, 0, "where a force acts"};
 
 static const struct group gravity_group = BARE_GROUP("`gravity`", "the weight, at G");
 
@@ -286,7 +278,7 @@ static const struct kind forces[] = {
          .formula = "P/@", .singular = "which is P/v and infinite at rest (give it an initial velocity)")},
 };
 
-const struct kinds force_kinds = {"force", FIELDS(forces)};
+const struct kinds force_kinds = {"force", FIELDS(forces), usual_forces, kinds_in_list};
 
 /* ---- moments */
 
@@ -354,7 +346,7 @@ static const struct kind moments[] = {
          .singular = "which is P/omega and infinite at rest (give it an initial velocity)")},
 };
 
-const struct kinds moment_kinds = {"moment", FIELDS(moments)};
+const struct kinds moment_kinds = {"moment", FIELDS(moments), usual_moments, kinds_in_list};
 
 /* ---- laws that are not listed */
 

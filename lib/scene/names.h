@@ -14,6 +14,12 @@
 
 struct reader;
 
+/* The variable in a slot of the values of an expression. */
+static inline struct symbol slot_symbol(struct dim dim, size_t slot)
+{
+    return (struct symbol){.kind = symbol_variable, .dim = dim, .slot = (int)slot};
+}
+
 /* The names of one coordinate. */
 struct coordinate_names {
     const char *name, *rate, *rate_alias;
@@ -64,6 +70,23 @@ struct names {
     size_t known_count;
 };
 
+/* ---- quantities of a body (names_body.c); symbol_unknown where it has none of that name */
+
+/* A coordinate or rate. */
+struct symbol coordinate_symbol(const struct names *names, int body, const char *name);
+
+/* The acceleration of a coordinate of another body, in a derivation. */
+struct symbol other_acceleration_symbol(const struct names *names, int body, const char *name);
+
+/* A name behind `body.` that is no coordinate: `angle`, `x` (of the frame's origin), `G.x`, `right.vy`. */
+struct symbol absolute_symbol(const struct names *names, int body, const char *name);
+
+/* The mass of a body, `m`, and its rate, `m_dot` if it varies. */
+struct symbol mass_symbol(const struct names *names, int body, const char *name);
+
+/* A name of enum hand_slot in a derivation. */
+struct symbol hand_symbol(const struct names *names, const char *name);
+
 /* The position of a point of a body in the world, as a variable. */
 struct symbol name_of_place(struct reader *reader, int body, const struct point *point,
                             enum absolute_kind kind);
@@ -74,15 +97,14 @@ struct symbol names_absolute(struct reader *reader, enum place place, const stru
 /* Find a point of the body by its name: G, O of a pivot, or a named one; false if there is none. */
 bool names_point(const struct body *owner, const char *name, size_t length, struct point *point);
 
+/* ---- names of derivations (names_force.c) */
+
 /* In a derivation: the acceleration `a_x` of the centre of mass of a body, `P.a_y` of a point of it, also `a_Py`, `angle_ddot`,
  * and the moment of inertia `I_P` about it (names_force.c). */
 struct symbol hand_place_symbol(const struct names *names, int body, const char *name);
 
 /* m_2, I_G2, L_2 of the second body of several, as in the program's own equations (names_force.c). */
 struct symbol hand_numbered_symbol(const struct names *names, const char *name);
-
-/* The mass of a body, `m`, and its rate, `m_dot`. */
-struct symbol mass_symbol(const struct names *names, int body, const char *name);
 
 /* A force of the diagrams in a derivation: of the current body, or `body.name` (names_force.c). */
 struct symbol force_symbol(const struct names *names, const char *name);
@@ -95,9 +117,6 @@ bool names_take_force(const struct names *names);
 
 /* True for one of the `symbols` of the file, in a derivation. */
 bool is_declared(const struct names *names, const char *name);
-
-/* A name of enum hand_slot in a derivation. */
-struct symbol hand_symbol(const struct names *names, const char *name);
 
 /* All names and all tables that are allowed, for hints (names_known.c). */
 size_t names_list(void *context, const char *const **list);

@@ -11,9 +11,9 @@
 #ifndef FBD_SCENE_PROGRAMS_H
 #define FBD_SCENE_PROGRAMS_H
 
+#include "document/node.h"
 #include "expr/expr.h"
 #include "scene/names.h"
-#include "scene/node.h"
 
 /* Position of an expression and all that determines its program beside the text. By an alias one node may be
  * in several places. */

@@ -96,53 +96,6 @@ static bool read_given_points(struct reader *reader, int index)
     return fine;
 }
 
-static void note_unknown_point(struct reader *reader, int index, const struct node *node, const char *what)
-{
-    enum { most_listed = 60 };
-    const struct body *body = &reader->scene->bodies[index];
-    const char *names[most_listed] = {"G"};
-    size_t count = 1;
-    if (reader->drafts[index].motion_known && body->motion.kind == motion_pivot) names[count++] = "O";
-    for (size_t i = 0; i < body->point_count && count < most_listed; i++)
-        names[count++] = body->points[i].name;
-    diag_add(reader->errors, FBD_ERROR, "unknown-point", node->at,
-             diag_nearest(reader->errors, node->text, names, count), "`%s`: `%s` has no point %s", what,
-             body->name, value_found(reader, node));
-}
-
-/* True if a point may be missing because of an error noted before. */
-static bool is_excused(const struct draft *draft, const char *name)
-{
-    bool pivot = strcmp(name, "O") == 0 && !draft->motion_known;
-    return pivot || draft->faulty_parts || node_find(draft->keys.points, name);
-}
-
-bool body_point_read(struct reader *reader, int index, const struct node *node, const char *what,
-                     struct point *point)
-{
-    const struct body *body = &reader->scene->bodies[index];
-    const struct draft *draft = &reader->drafts[index];
-    *point = (struct point){.kind = point_fixed, .at = node->at};
-    if (node->kind == node_list) return value_vector(reader, node, what, a_length, &point->where);
-    if (node->kind != node_scalar)
-        return value_refuse(reader, node, what, "a pair [x, y] or the name of a point of the body", NULL);
-    if (strcmp(node->text, "G") == 0) {
-        point->kind = point_G;
-        return true;
-    }
-    if (strcmp(node->text, "O") == 0 && draft->motion_known && body->motion.kind == motion_pivot) {
-        point->where = body->motion.point;
-        return true;
-    }
-    for (size_t i = 0; i < body->point_count; i++) {
-        if (strcmp(node->text, body->points[i].name) != 0) continue;
-        point->where = body->points[i].where;
-        return true;
-    }
-    if (!is_excused(draft, node->text)) note_unknown_point(reader, index, node, what);
-    return false;
-}
-
 /* ---- first pass */
 
 static size_t most_points(const struct draft *draft)

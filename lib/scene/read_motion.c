@@ -8,18 +8,6 @@
 
 #include <math.h>
 
-struct vec body_centre_of_mass(const struct body *body)
-{
-    double mass = 0;
-    struct vec moment = {0, 0};
-    for (size_t i = 0; i < body->part_count; i++) {
-        mass += body->parts[i].mass;
-        moment = vec_add(moment, vec_scale(body->parts[i].mass, body->parts[i].center));
-    }
-    /* the exact centre of a single part, without rounding */
-    return body->part_count == 1 ? body->parts[0].center : vec_scale(1 / mass, moment);
-}
-
 static bool read_slide(struct reader *reader, const struct chosen *chosen, const struct motion_keys *keys)
 {
     const char *hint = "a line has its direction and its zero";

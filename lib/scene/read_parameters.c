@@ -44,22 +44,6 @@ static const struct pair *pair_of(const struct reader *reader, size_t index)
                               : &reader->inputs->pairs[index - parameters];
 }
 
-/* Index of `name` in a mapping, which may be NULL; false if not found. */
-static bool find_in(const struct node *map, const char *name, size_t *index)
-{
-    const struct pair *pair = map ? node_find(map, name) : NULL;
-    if (pair) *index = (size_t)(pair - map->pairs);
-    return pair != NULL;
-}
-
-bool parameters_find(const struct reader *reader, const char *name, size_t *index)
-{
-    if (find_in(reader->parameters, name, index)) return true;
-    bool found = find_in(reader->inputs, name, index);
-    if (found) *index += count_of(reader->parameters);
-    return found;
-}
-
 static void note_unknown_override(struct reader *reader, const struct override *override)
 {
     size_t parameters = reader->scene->parameter_count, count = parameters + reader->scene->table_count;

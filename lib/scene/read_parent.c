@@ -8,26 +8,6 @@
 
 #include <string.h>
 
-bool body_name_read(struct reader *reader, const struct node *node, const char *what, int *body)
-{
-    enum { most_listed = 100 };
-    const char *names[most_listed];
-    *body = ground_body;
-    if (node->kind != node_scalar) return value_refuse(reader, node, what, "the name of a body", NULL);
-    if (strcmp(node->text, "ground") == 0) return true;
-    const struct pair *pair = node_find(reader->bodies, node->text);
-    if (pair) {
-        *body = (int)(pair - reader->bodies->pairs);
-        return true;
-    }
-    size_t count = 0, there = reader->bodies ? reader->bodies->count : 0; /* the file may have none */
-    for (; count < there && count < most_listed; count++) names[count] = reader->bodies->pairs[count].key;
-    diag_add(reader->errors, FBD_ERROR, "unknown-body", node->at,
-             diag_nearest(reader->errors, node->text, names, count), "`%s`: there is no body %s", what,
-             value_found(reader, node));
-    return false;
-}
-
 /* Note a position of an axis in the world that names a point of the body itself. */
 static bool is_own_point(struct reader *reader, int index, const struct node *node)
 {

@@ -301,6 +301,18 @@ static bool check_positive_mass(struct reader *reader, const struct node *map, d
     return false;
 }
 
+/* The parameter that a body has as its mass (`mass: m_1`), if its name is a symbol as a textbook writes it: M, m2, m_cart. */
+static const char *name_of_mass(const struct reader *reader, const struct node *body)
+{
+    const struct pair *mass = node_find(body, "mass");
+    size_t index;
+    if (!mass || mass->value->kind != node_scalar || mass->value->quoted) return NULL;
+    const char *name = mass->value->text;
+    const bool is_symbol = (*name == 'm' || *name == 'M') &&
+                           (!name[1] || name[1] == '_' || strspn(name + 1, "0123456789") == strlen(name + 1));
+    return is_symbol && parameters_find(reader, name, &index) ? reader->scene->parameters[index].name : NULL;
+}
+
 static bool read_single(struct reader *reader, int index)
 {
     struct body *body = &reader->scene->bodies[index];
@@ -316,6 +328,7 @@ static bool read_single(struct reader *reader, int index)
                         check_positive_mass(reader, draft->node, keys->mass);
     if (!read_part(reader, index, draft->node, body->at, keys, body->parts)) return false;
     name_points(reader, body, body->parts);
+    if (!draft->mass_varies) body->mass_name = name_of_mass(reader, draft->node);
     return draft->mass_known;
 }
 

@@ -5,9 +5,9 @@
  */
 #include <string.h>
 
+#include "document/scalar.h"
 #include "scene/fields.h"
 #include "scene/reader.h"
-#include "scene/scalar.h"
 #include "scene/values.h"
 
 /* ---- names */
@@ -169,11 +169,6 @@ static bool know_dimension(struct reader *reader, size_t index, struct pos at)
 }
 
 /* ---- symbols */
-
-bool own_states_name(const struct reader *reader, const char *name)
-{
-    return reader->scene->own_count > 0 && strncmp(name, "states.", strlen("states.")) == 0;
-}
 
 struct symbol own_state_symbol(const struct names *names, const char *name, struct pos at)
 {

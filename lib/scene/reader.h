@@ -12,10 +12,10 @@
 #ifndef FBD_SCENE_READER_H
 #define FBD_SCENE_READER_H
 
+#include "document/node.h"
 #include "scene/data_file.h"
 #include "scene/language.h"
 #include "scene/names.h"
-#include "scene/node.h"
 #include "scene/programs.h"
 #include "scene/scene.h"
 
@@ -50,6 +50,15 @@ struct own_draft {
     const struct expr *start;
 };
 
+/* The symbols of definitions that are evaluated at their first use. Their readers compile expressions, whose
+ * names lead to further definitions: names.c finds them here. */
+struct definition_readers {
+    struct symbol (*parameter)(struct reader *reader, size_t index, struct pos at);
+    struct symbol (*gravity)(struct reader *reader, struct pos at);
+    struct symbol (*state)(const struct names *names, const char *name, struct pos at);
+    struct table_symbol (*table)(struct reader *reader, const char *name, struct pos at);
+};
+
 struct ground_line {
     struct vec through;
     double along;
@@ -77,6 +86,7 @@ struct reader {
     struct scene *scene;
     struct arena *arena; /* of the scene */
     fbd_errors *errors;
+    const struct definition_readers *definition_readers;
 
     /* Mappings of the file, or NULL. Entry i of a mapping is parameter, body, point or line i; inputs
      * are numbered behind the parameters. */
@@ -126,6 +136,14 @@ struct scene *scene_read_by(struct reader *reader, const struct document *docume
                             const struct override *overrides, size_t override_count, struct programs *keep,
                             struct record *record, fbd_errors *errors);
 
+/* ---- searches in the file (reader.c) */
+
+/* Index of the parameter or input `name`; false if there is none. */
+bool parameters_find(const struct reader *reader, const char *name, size_t *index);
+
+/* True if the name begins with `states.` and the file has states. */
+bool own_states_name(const struct reader *reader, const char *name);
+
 /* ---- parameters (read_parameters.c) */
 
 /* Compile the value of an override; its text has no position in the file. */
@@ -138,9 +156,6 @@ bool parameters_start(struct reader *reader, const struct override *overrides, s
 void parameters_finish(struct reader *reader);
 /* Call when the whole file was read without errors. */
 void parameters_note_unused(struct reader *reader);
-
-/* Index of the parameter or input `name`; false if there is none. */
-bool parameters_find(const struct reader *reader, const char *name, size_t *index);
 
 /* The symbol of parameter or input `index`, named at `at`. */
 struct symbol parameter_symbol(struct reader *reader, size_t index, struct pos at);
@@ -181,9 +196,6 @@ bool own_states_start(struct reader *reader);
 /* Call when all coordinates are numbered. */
 bool own_states_read(struct reader *reader);
 
-/* True if the name begins with `states.` and the file has states. */
-bool own_states_name(const struct reader *reader, const char *name);
-
 /* The state called `name`; symbol_unknown if there is none or states are not allowed here. */
 struct symbol own_state_symbol(const struct names *names, const char *name, struct pos at);
 
@@ -199,6 +211,25 @@ const struct ground_line *ground_line_find(struct reader *reader, const struct n
 /* Refuse `ground` alone and the bare name of a point of the ground as an end on the ground; with `surfaces`
  * also that of a line or polygon. Returns true after noting the correct form. */
 bool ground_end_refuse(struct reader *reader, const struct node *node, const char *what, bool surfaces);
+
+/* ---- bodies and their points as other entries name them (read_points.c) */
+
+/* The body called `node`, -1 for `ground`; false after noting `unknown-body`. */
+bool body_name_read(struct reader *reader, const struct node *node, const char *what, int *body);
+
+/* [x, y], G, O or the name of a point of the body. */
+bool body_point_read(struct reader *reader, int body, const struct node *node, const char *what,
+                     struct point *point);
+
+/* An end of a coupling: `body.point`, `ground.point`, or a body for its centre of mass. */
+bool coupling_end_read(struct reader *reader, const struct node *node, const char *what, int *body,
+                       struct point *point);
+
+/* The `length` characters of a text from `from` on, with their position in the file; NULL when memory is out. */
+const struct node *text_part(struct reader *reader, const struct node *whole, size_t from, size_t length);
+
+/* The centre of mass of the parts of a body: the sum of m r over the sum of m. */
+struct vec body_centre_of_mass(const struct body *body);
 
 /* ---- bodies */
 
@@ -230,20 +261,11 @@ bool body_parent_read(struct reader *reader, int body);
 /* Note `motion-in-a-circle` for bodies that move on each other in a circle. */
 bool parents_check(struct reader *reader);
 
-/* The body called `node`, -1 for `ground`; false after noting `unknown-body`. */
-bool body_name_read(struct reader *reader, const struct node *node, const char *what, int *body);
-
-/* The centre of mass of the parts of a body: the sum of m r over the sum of m. */
-struct vec body_centre_of_mass(const struct body *body);
 bool body_initial_read(struct reader *reader, int body);
 bool body_prescribed_read(struct reader *reader, int body);
 
 /* Warn of a motion prescribed by tables whose first or second derivative jumps (smooth.c). */
 void smoothness_note(struct reader *reader, struct pos at, const char *what, const struct expr *expr);
-
-/* [x, y], G, O or the name of a point of the body. */
-bool body_point_read(struct reader *reader, int body, const struct node *node, const char *what,
-                     struct point *point);
 
 /* A varying mass, when coordinates are numbered, and its initial value (read_mass.c). */
 bool body_mass_read(struct reader *reader, int body);
@@ -266,21 +288,11 @@ bool body_exact_read(struct reader *reader, int body);
 /* The convex polygon of the ground called `name`, or NULL. It has no corners if it was refused. */
 const struct polygon *ground_polygon_find(struct reader *reader, const struct node *name);
 
-/* ---- couplings and contacts (read_couplings.c, read_contacts.c) */
+/* ---- couplings and contacts (read_couplings.c) */
 
 bool couplings_read(struct reader *reader, const struct node *couplings, const struct node *contacts);
 
-/* An end of a coupling: `body.point`, `ground.point`, or a body for its centre of mass. */
-bool coupling_end_read(struct reader *reader, const struct node *node, const char *what, int *body,
-                       struct point *point);
-
-/* The `length` characters of a text from `from` on, with their position in the file; NULL when memory is out. */
-const struct node *text_part(struct reader *reader, const struct node *whole, size_t from, size_t length);
-
-struct coupling_keys;
-bool contact_read(struct reader *reader, const struct coupling_keys *keys, struct constraint *constraint);
-
-/* Stops of coordinates are contacts, numbered behind those of the lists. */
+/* Stops of coordinates are contacts, numbered behind those of the lists (read_stops.c). */
 struct coupling_name;
 size_t stops_count(const struct reader *reader);
 bool stops_read(struct reader *reader, struct coupling_name *names);

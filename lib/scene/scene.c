@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "scene/scene.h"
 
+#include "document/node.h"
 #include "scene/fields.h"
-#include "scene/node.h"
 #include "scene/programs.h"
 #include "scene/reader.h"
 #include "scene/record.h"
@@ -206,6 +206,13 @@ void document_close(struct document *document)
     arena_free(&document->arena);
 }
 
+static const struct definition_readers definition_readers = {
+    .parameter = parameter_symbol,
+    .gravity = gravity_symbol,
+    .state = own_state_symbol,
+    .table = table_symbol,
+};
+
 static void start(struct reader *reader, const struct document *document, struct scene *scene,
                   struct programs *keep, struct record *record, fbd_errors *errors)
 {
@@ -216,6 +223,7 @@ static void start(struct reader *reader, const struct document *document, struct
     reader->hand_reader = document->hand_reader;
     reader->force_names = document->force_names;
     reader->force_name_count = document->force_name_count;
+    reader->definition_readers = &definition_readers;
     reader->known = document->programs;
     reader->keep = keep;
     reader->record = record;
@@ -272,18 +280,6 @@ struct scene *scene_read(const char *text, size_t length, const char *file, cons
     struct scene *scene = open ? scene_make(&document, overrides, override_count, errors) : NULL;
     document_close(&document);
     return scene;
-}
-
-const struct parameter *scene_mass_parameter(const struct scene *scene, int number)
-{
-    for (size_t i = 0; i < scene->parameter_count; i++) {
-        const char *name = scene->parameters[i].name, *digits = name && *name == 'm' ? name + 1 : "";
-        digits += *digits == '_';
-        char *end = NULL;
-        if (*digits >= '1' && *digits <= '9' && strtol(digits, &end, 10) == number && !*end)
-            return &scene->parameters[i];
-    }
-    return NULL;
 }
 
 void scene_free(struct scene *scene)

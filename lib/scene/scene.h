@@ -100,6 +100,7 @@ struct body {
     int first, count;          /* its coordinates */
     struct value mass;         /* if varying; else expr NULL. That of the part is then the initial mass */
     struct value inverse_mass; /* 1/m, for its accelerations */
+    const char *mass_name; /* the parameter that is its mass, if its name is a symbol of a mass; or NULL */
     size_t part_count, point_count, load_count, hand_count;
     struct part *parts;
     struct named_point *points; /* given points and those of its shapes */

@@ -1,12 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "scene/usual_words.h"
 
-#include <string.h>
-
-/* A word of textbooks, and a hint at the corresponding word here. */
-struct usual {
-    const char *word, *hint;
-};
+const char kinds_in_list[] = "make a list of them: start each with `- `";
 
 static const char a_weight[] = "the weight is `gravity`, of the mass of the body",
                   a_push[] = "a given force is `applied: {value: 5 N, angle: 30 deg}`",
@@ -15,7 +10,7 @@ static const char a_weight[] = "the weight is `gravity`, of the mass of the body
                   joins[] = "it joins two ends: write it under `couplings`",
                   a_rope[] = "it is a `rope`, under `couplings`";
 
-static const struct usual usual_forces[] = {
+const struct usual_word usual_forces[] = {
     {"weight", a_weight},
     {"mg", a_weight},
     {"g", a_weight},
@@ -42,8 +37,10 @@ static const struct usual usual_forces[] = {
     {"dashpot", "it is a `damper`"},
     {"viscous", "it is a `damper`"},
     {"motor", a_push},
+    {NULL, NULL},
 };
-static const struct usual usual_moments[] = {
+
+const struct usual_word usual_moments[] = {
     {"moment", a_couple},
     {"torque", a_couple},
     {"couple", a_couple},
@@ -51,8 +48,10 @@ static const struct usual usual_moments[] = {
     {"force", "forces belong under `forces`; their moments about the axis are computed"},
     {"gravity", "it belongs under `forces`; its moment about the axis is computed"},
     {"torsion", "it is a `spring`"},
+    {NULL, NULL},
 };
-static const struct usual usual_couplings[] = {
+
+const struct usual_word usual_couplings[] = {
     {"string", "it is a `rope`"},
     {"cable", "it is a `rope`"},
     {"cord", "it is a `rope`"},
@@ -70,12 +69,13 @@ static const struct usual usual_couplings[] = {
     {"drum", "it is a `rope` with `wound`"},
     {"winch", "it is a `rope` with `wound`, or with a `length` of t"},
     {"rack_and_pinion", "it is a `rack`"},
+    {NULL, NULL},
 };
 
 static const char a_slide[] = "along a line it is a `slide`", a_pivot[] = "about an axis it is a `pivot`",
                   a_point[] = "without turning it is a `particle`",
                   a_curve[] = "along a curve it is a `track`: `{track: {y: ..., from: ..., to: ...}}`";
-static const struct usual usual_motions[] = {
+const struct usual_word usual_motions[] = {
     {"free", "in the plane it is `planar`"},
     {"fixed", "to another body it is a `weld`; what never moves is the ground"},
     {"rigid", "to another body it is a `weld`; what never moves is the ground"},
@@ -93,20 +93,5 @@ static const struct usual usual_motions[] = {
     {"rail", a_curve},
     {"roll", "it is `planar`, and rolls by a `roll` under `couplings`"},
     {"rolling", "it is `planar`, and rolls by a `roll` under `couplings`"},
+    {NULL, NULL},
 };
-
-const char *kind_by_usual_word(const struct kinds *kinds, const char *word)
-{
-    const struct {
-        const struct kinds *kinds;
-        const struct usual *words;
-        size_t count;
-    } lists[] = {{&force_kinds, FIELDS(usual_forces)},
-                 {&moment_kinds, FIELDS(usual_moments)},
-                 {&coupling_kinds, FIELDS(usual_couplings)},
-                 {&motion_kinds, FIELDS(usual_motions)}};
-    for (size_t k = 0; k < sizeof lists / sizeof *lists; k++)
-        for (size_t i = 0; kinds == lists[k].kinds && i < lists[k].count; i++)
-            if (strcmp(word, lists[k].words[i].word) == 0) return lists[k].words[i].hint;
-    return NULL;
-}

@@ -7,7 +7,9 @@
 
 #include "scene/language.h"
 
-/* A hint at the corresponding name here; NULL if `word` is not in the lists. */
-const char *kind_by_usual_word(const struct kinds *kinds, const char *word);
+extern const struct usual_word usual_forces[], usual_moments[], usual_couplings[], usual_motions[];
+
+/* The hint where an entry of a list has two kinds. */
+extern const char kinds_in_list[];
 
 #endif

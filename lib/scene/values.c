@@ -2,8 +2,8 @@
 #include "scene/values.h"
 
 #include "base/utf8.h"
+#include "document/scalar.h"
 #include "scene/record.h"
-#include "scene/scalar.h"
 
 #include <string.h>
 

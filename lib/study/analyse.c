@@ -7,7 +7,6 @@
 #include <string.h>
 
 #include "fbd_study.h"
-#include "integrate/method.h"
 #include "study/cost.h"
 
 /* The error, but at least the floor, below which errors are indistinguishable. */
@@ -83,8 +82,8 @@ static double observed_order(const struct fbd_cost *cost, const fbd_series *seri
                      point->error > above_floor * cost->reference.floor && point->same_events;
         if (tells) fit_add(&fit, -log((double)point->stats.steps), log(point->error));
     }
-    const struct method *method = method_find(series->method);
-    double slope = fit_slope(&fit), most = method ? 1.5 * method->order + 1 : highest;
+    fbd_method method = fbd_method_find(series->method);
+    double slope = fit_slope(&fit), most = method.name ? 1.5 * method.order + 1 : highest;
     return slope <= most ? slope : NAN;
 }
 

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "study/axes.h"
 
+#include "base/hash.h"
 #include "expr/expr.h"
-#include "study/hash.h"
 
 #include <math.h>
 #include <string.h>

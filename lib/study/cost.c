@@ -3,19 +3,15 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "base/api_check.h"
 #include "base/diag.h"
 #include "fbd_study.h"
-#include "model/variant.h"
+#include "fbd_view.h"
 #include "study/stopwatch.h"
 
 static const double default_budget = 6;
-
-const fbd_model *cost_model(const struct fbd_cost *cost)
-{
-    return cost->stepless ? cost->stepless : cost->model;
-}
 
 /* ---- quantities */
 
@@ -35,14 +31,22 @@ const char *quantity_unit_of(const fbd_model *model, size_t quantity)
     return quantity < n ? coordinate.unit : coordinate.rate_unit;
 }
 
+/* Is quantity `quantity` called so? In a scene of one body the name of the body may be left out. */
+static bool is_called(const fbd_model *model, size_t quantity, const char *name)
+{
+    const char *full = quantity_name_of(model, quantity), *dot = strchr(full, '.');
+    bool alone = fbd_model_body_count(model) == 1 && quantity < 2 * fbd_model_coordinate_count(model);
+    return strcmp(full, name) == 0 || (alone && dot && strcmp(dot + 1, name) == 0);
+}
+
 static bool choose_quantity(const fbd_model *model, const char *name, bool *chosen, fbd_errors *errors)
 {
     enum { most_names = 40 };
     size_t size = quantity_count(model), count = 0;
     const char *names[most_names];
-    int index = model_find_component(model, name, true);
-    if (index >= 0) {
-        chosen[index] = true;
+    for (size_t i = 0; i < size; i++) {
+        if (!is_called(model, i, name)) continue;
+        chosen[i] = true;
         return true;
     }
     for (; count < size && count < most_names; count++) names[count] = quantity_name_of(model, count);
@@ -55,7 +59,7 @@ bool quantities_choose(const fbd_model *model, const fbd_cost_options *options, 
                        bool **chosen, fbd_errors *errors)
 {
     *chosen = NULL;
-    diag_in_file(errors, model->scene->file);
+    diag_in_file(errors, fbd_model_file(model));
     if (!options->quantities) return true;
     *chosen = ARENA_ARRAY(arena, quantity_count(model) + 1, bool);
     if (!*chosen) {
@@ -99,17 +103,12 @@ bool study_until(const fbd_model *model, const fbd_cost_options *options, double
     fbd_simulation *simulation = fbd_simulation_new(model, &run, errors);
     if (!simulation) return false;
     fbd_simulation_free(simulation);
-    *until = isnan(options->until) ? expr_value(model->scene->simulate.until.expr) : options->until;
+    fbd_model_options(model, &run, sizeof run);
+    *until = isnan(options->until) ? run.until : options->until;
     if (*until > 0) return true;
     diag_add(errors, FBD_ERROR, "bad-option", (struct pos){0, 0}, "give --until a time above 0",
              "the run has zero duration and cannot be studied");
     return false;
-}
-
-static void forget_step(struct scene *scene, void *context, fbd_errors *errors)
-{
-    (void)context, (void)errors;
-    scene->simulate.step = scene->simulate.accuracy = 0;
 }
 
 static bool time_points(struct fbd_cost *cost, double seconds)
@@ -119,7 +118,7 @@ static bool time_points(struct fbd_cost *cost, double seconds)
     if (!timed) return false;
     for (size_t i = 0; i < cost->point_count; i++)
         if (cost->points[i].state == FBD_POINT_MEASURED)
-            timed[count++] = (struct timed){.model = cost_model(cost),
+            timed[count++] = (struct timed){.model = cost->model,
                                             .options = setting_options(&cost->settings[i], cost->until),
                                             .estimate = cost->points[i].seconds};
     bool done = timing_in_turn(timed, count, seconds, &cost->progress, cost->errors);
@@ -141,13 +140,9 @@ static bool study(struct fbd_cost *cost, const fbd_cost_options *options)
     struct stopwatch watch = stopwatch_start();
     if (!quantities_choose(cost->model, options, &cost->arena, &cost->chosen, cost->errors)) return false;
     if (!study_until(cost->model, options, &cost->until, cost->errors)) return false;
-    if (cost->model->scene->simulate.step > 0) {
-        cost->stepless = model_variant(cost->model, forget_step, NULL, cost->errors);
-        if (!cost->stepless) return false;
-    }
     if (!ladder_plan(cost, options)) return false;
     if (!progress_report(&cost->progress, "reference", 0, cost->errors)) return false;
-    if (!reference_make(&cost->reference, cost_model(cost), cost->until, cost->chosen,
+    if (!reference_make(&cost->reference, cost->model, cost->until, cost->chosen,
                         REFERENCE_SHARE * cost->budget, &cost->arena, cost->errors))
         return false;
     cost->says = reference_says(&cost->arena, &cost->reference, cost->model);
@@ -189,7 +184,6 @@ fbd_cost *fbd_cost_new(const fbd_model *model, const fbd_cost_options *options, 
 void fbd_cost_free(fbd_cost *cost)
 {
     if (!cost) return;
-    model_free(cost->stepless);
     arena_free(&cost->arena);
     free(cost);
 }

@@ -17,7 +17,6 @@
 struct fbd_cost {
     struct arena arena;
     const fbd_model *model;
-    fbd_model *stepless; /* the model without the fixed step that its file gives, if any; or NULL */
     struct certified_reference reference;
     double until, budget;
     bool *chosen; /* selected quantities; NULL for all */
@@ -49,9 +48,6 @@ const fbd_point *cost_cheapest(const struct fbd_cost *cost, double error);
 
 /* The value of fbd_cost_point past the end. */
 extern const fbd_point no_point;
-
-/* The model of the measured runs. */
-const fbd_model *cost_model(const struct fbd_cost *cost);
 
 /* A description of the reference, in sentences; NULL when memory is out (reference_text.c). */
 const char *reference_says(struct arena *arena, const struct certified_reference *reference,

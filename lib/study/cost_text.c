@@ -7,7 +7,6 @@
 #include <string.h>
 
 #include "fbd_study.h"
-#include "model/model.h"
 #include "study/cost.h"
 
 void text_seconds(struct text *text, double seconds)

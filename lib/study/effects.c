@@ -48,6 +48,32 @@ static bool run_scene(struct fbd_effects *effects, const fbd_cost_options *optio
     return true;
 }
 
+/* ---- the effects */
+
+static bool list_effects(struct fbd_effects *effects)
+{
+    const struct track *track = &effects->track;
+    double *times = ARENA_ARRAY(&effects->arena, track->reached + 1, double);
+    if (!times) return false;
+    for (size_t k = 0; k < track->reached; k++) times[k] = grid_time(&effects->grid, k);
+    const fbd_motion motion = {track->reached, times, track->y};
+    effects->simplifications = fbd_simplify(effects->model, &motion, effects->errors);
+    effects->count = fbd_simplifications_count(effects->simplifications);
+    effects->effects = ARENA_ARRAY(&effects->arena, effects->count + 1, fbd_effect);
+    for (size_t i = 0; effects->effects && i < effects->count; i++) {
+        fbd_simplification one = fbd_simplifications_get(effects->simplifications, i);
+        effects->effects[i] = (fbd_effect){.body = one.body,
+                                           .name = one.name,
+                                           .change = one.change,
+                                           .reason = one.reason,
+                                           .change_end = NAN,
+                                           .change_max = NAN,
+                                           .worst = "",
+                                           .time = NAN};
+    }
+    return effects->simplifications && effects->effects;
+}
+
 /* ---- the scene without an effect */
 
 static const char *words(struct fbd_effects *effects, const char *reason)
@@ -97,12 +123,10 @@ static bool try_without(struct fbd_effects *effects, size_t index, fbd_model **m
 {
     fbd_effect *effect = &effects->effects[index];
     *model = NULL;
-    if (effects->edits[index].refusal) return true;
+    if (effect->reason[0]) return true;
     fbd_errors *errors = fbd_errors_new();
     if (!errors) return false;
-    struct edit *edit = &effects->edits[index];
-    *model = edit->kind == edit_linear_scene ? effects_linear_scene(effects, &edit->about, errors)
-                                             : model_variant(effects->model, effect_edit, edit, errors);
+    *model = fbd_simplifications_model(effects->simplifications, index, errors);
     bool runs = *model && run_without(effects, index, *model, seconds, errors);
     for (size_t i = 0; !runs && i < fbd_errors_count(errors); i++)
         if (fbd_errors_get(errors, i).severity == FBD_ERROR)
@@ -110,7 +134,7 @@ static bool try_without(struct fbd_effects *effects, size_t index, fbd_model **m
     bool done = !errors->out_of_memory && !effects->arena.failed;
     fbd_errors_free(errors);
     if (runs && done && !effect->reason[0]) return true;
-    model_free(*model);
+    fbd_model_free(*model);
     *model = NULL;
     return done;
 }
@@ -136,8 +160,7 @@ static bool run_all(struct fbd_effects *effects, fbd_model **models, struct time
     for (size_t i = 0; i < effects->count; i++) {
         double seconds = 0;
         if (stopwatch_seconds(&watch) > effects->budget / 2)
-            effects->edits[i].refusal = "the budget is spent";
-        if (effects->edits[i].refusal) effects->effects[i].reason = effects->edits[i].refusal;
+            effects->effects[i].reason = "the budget is spent";
         if (!try_without(effects, i, &models[i], &seconds)) return false;
         if (models[i])
             timed[count++] = (struct timed){.model = models[i], .options = options, .estimate = seconds};
@@ -155,11 +178,11 @@ static bool run_all(struct fbd_effects *effects, fbd_model **models, struct time
 
 static bool study(struct fbd_effects *effects, const fbd_cost_options *options)
 {
-    if (!run_scene(effects, options) || !effects_list(effects)) return false;
+    if (!run_scene(effects, options) || !list_effects(effects)) return false;
     fbd_model **models = calloc(effects->count + 1, sizeof *models);
     struct timed *timed = calloc(effects->count + 1, sizeof *timed);
     bool done = models && timed && run_all(effects, models, timed);
-    for (size_t i = 0; models && i < effects->count; i++) model_free(models[i]);
+    for (size_t i = 0; models && i < effects->count; i++) fbd_model_free(models[i]);
     free(models);
     free(timed);
     return done;
@@ -198,6 +221,7 @@ fbd_effects *fbd_effects_new(const fbd_model *model, const fbd_cost_options *opt
 void fbd_effects_free(fbd_effects *effects)
 {
     if (!effects) return;
+    fbd_simplifications_free(effects->simplifications);
     arena_free(&effects->arena);
     free(effects);
 }

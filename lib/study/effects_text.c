@@ -6,7 +6,6 @@
 #include <stdio.h>
 
 #include "fbd_study.h"
-#include "model/model.h"
 #include "study/cost.h"
 #include "study/effects.h"
 

@@ -9,7 +9,6 @@
 
 #include "base/diag.h"
 #include "fbd_study.h"
-#include "integrate/method.h"
 #include "study/cost.h"
 #include "study/stopwatch.h"
 
@@ -50,7 +49,8 @@ static void add_series(struct fbd_cost *cost, const char *method, bool fixed)
         .method = method, .fixed = fixed, .first = cost->point_count, .count = rungs, .order = NAN};
     for (size_t r = 0; r < rungs; r++) {
         struct setting *setting = &cost->settings[cost->point_count];
-        *setting = (struct setting){.method = method, .tolerance = fixed ? 0 : tolerances[r]};
+        *setting =
+            (struct setting){.method = method, .tolerance = fixed ? 0 : tolerances[r], .automatic = true};
         cost->points[cost->point_count++] = (fbd_point){.method = method,
                                                         .tolerance = setting->tolerance,
                                                         .state = FBD_POINT_SKIPPED,
@@ -69,10 +69,11 @@ bool ladder_plan(struct fbd_cost *cost, const fbd_cost_options *options)
     cost->settings = ARENA_ARRAY(&cost->arena, most_points, struct setting);
     if (cost->arena.failed) return false;
     if (!options->fixed_steps && wanted(options, automatic)) add_series(cost, automatic, false);
-    const struct method *method;
-    for (size_t i = 0; (method = method_at(i)) && cost->series_count + 1 < most_series; i++)
-        if (wanted(options, method->name) && !(options->fixed_steps && method->multistep))
-            add_series(cost, method->name, options->fixed_steps);
+    for (size_t i = 0; i < fbd_method_count() && cost->series_count + 1 < most_series; i++) {
+        fbd_method method = fbd_method_get(i);
+        if (wanted(options, method.name) && !(options->fixed_steps && method.multistep))
+            add_series(cost, method.name, options->fixed_steps);
+    }
     if (!options->fixed_steps && wanted(options, students)) add_series(cost, students, true);
     if (cost->series_count > 0) return true;
     diag_add(cost->errors, FBD_ERROR, "no-method", (struct pos){0, 0},
@@ -98,8 +99,8 @@ static double round_step(double size)
 static bool plan_steps(struct fbd_cost *cost)
 {
     struct track track;
-    const struct setting loose = {.method = automatic, .tolerance = tolerances[0]};
-    if (!track_make(&track, cost_model(cost), &loose, &cost->reference.grid, cost->budget, &cost->arena,
+    const struct setting loose = {.method = automatic, .tolerance = tolerances[0], .automatic = true};
+    if (!track_make(&track, cost->model, &loose, &cost->reference.grid, cost->budget, &cost->arena,
                     cost->errors))
         return false;
     double size = cost->until / fmax(4, (double)track.stats.steps / 4);
@@ -127,8 +128,8 @@ struct climber {
 /* The expected time of the next rung: at least by work ~ tolerance^(-1/(p + 1)), or by twice as many steps. */
 static double next_seconds(const fbd_series *series, const struct climber *climber, double seconds)
 {
-    const struct method *method = method_find(series->method);
-    double order = method ? method->order : 8;
+    fbd_method method = fbd_method_find(series->method);
+    double order = method.name ? method.order : 8;
     double least = series->fixed ? 2 : pow(10, 1 / (order + 1));
     double ratio = climber->last > 0 ? seconds / climber->last : least;
     return seconds * fmin(fmax(ratio, least), 12);
@@ -176,8 +177,8 @@ static bool run_point(struct fbd_cost *cost, size_t index, double most_seconds)
 {
     struct track track;
     struct arena arena = {0};
-    bool done = track_make(&track, cost_model(cost), &cost->settings[index], &cost->reference.grid,
-                           most_seconds, &arena, cost->errors);
+    bool done = track_make(&track, cost->model, &cost->settings[index], &cost->reference.grid, most_seconds,
+                           &arena, cost->errors);
     fbd_point *point = &cost->points[index];
     if (done && track.outcome == FBD_GOING) {
         const char *reason =

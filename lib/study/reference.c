@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "base/diag.h"
-#include "model/model.h"
+#include "fbd_study.h"
 #include "study/stopwatch.h"
 
 enum { grid_intervals = 240, rungs = 4 };
@@ -47,7 +47,8 @@ static bool climb(struct search *search, int c, double seconds)
         struct attempt *attempt = &search->attempts[c][r];
         double left = seconds - stopwatch_seconds(&watch);
         if (r > 0 && (!attempt[-1].usable || expected(&attempt[-1], r - 1) > left)) break;
-        attempt->setting = (struct setting){.method = candidates[c], .tolerance = tolerances[r]};
+        attempt->setting =
+            (struct setting){.method = candidates[c], .tolerance = tolerances[r], .automatic = true};
         if (!track_make(&attempt->track, search->model, &attempt->setting, &search->reference->grid,
                         fmax(left, 1e-3), search->arena, search->errors))
             return false;
@@ -59,10 +60,15 @@ static bool climb(struct search *search, int c, double seconds)
 
 /* ---- scales */
 
+static bool is_angle(const fbd_model *model, size_t coordinate)
+{
+    return strcmp(fbd_model_coordinate(model, coordinate).unit, "rad") == 0;
+}
+
 void reference_scales(double *scale, const struct track *track, const bool *chosen, const fbd_model *model)
 {
     const double least_share = 1e-6;
-    size_t n = model->scene->coordinate_count;
+    size_t n = fbd_model_coordinate_count(model);
     for (size_t i = 0; i < track->size; i++) {
         scale[i] = 0;
         for (size_t k = 0; k < track->reached; k++)
@@ -70,12 +76,11 @@ void reference_scales(double *scale, const struct track *track, const bool *chos
     }
     double largest[2][2] = {{0}}; /* rate or not, angle or not */
     for (size_t i = 0; i < 2 * n; i++) {
-        double *most = &largest[i >= n][model->scene->coordinates[i < n ? i : i - n].angle];
+        double *most = &largest[i >= n][is_angle(model, i < n ? i : i - n)];
         *most = fmax(*most, scale[i]);
     }
     for (size_t i = 0; i < track->size; i++) { /* user states have no minimum scale */
-        double least =
-            i < 2 * n ? least_share * largest[i >= n][model->scene->coordinates[i < n ? i : i - n].angle] : 0;
+        double least = i < 2 * n ? least_share * largest[i >= n][is_angle(model, i < n ? i : i - n)] : 0;
         scale[i] = chosen && !chosen[i] ? 0 : fmax(scale[i], least);
     }
 }
@@ -188,22 +193,11 @@ static void finish(struct certified_reference *reference, const struct search *s
 /* ---- the exact solution of the file */
 
 /* The value of quantity i at t, and its rounding error: that of t, magnified by the rate, plus that of the
- * value. Returns false when the file does not give it. A rate follows from its coordinate. */
-static bool exact_value(const struct fbd_model *model, size_t i, double t, double *value, double *rounding)
+ * value. Returns false when the file does not give it. */
+static bool exact_value(const fbd_model *model, size_t i, double t, double *value, double *rounding)
 {
-    size_t n = model->scene->coordinate_count;
-    if (i >= 2 * n) return false;
-    const struct body *body = &model->scene->bodies[model->scene->coordinates[i < n ? i : i - n].body];
-    size_t k = (i < n ? i : i - n) - (size_t)body->first, count = (size_t)body->count;
-    const struct expr *own = body->exact[i < n ? k : count + k].expr, *position = body->exact[k].expr;
-    double slope, again;
-    if (own) {
-        *value = expr_eval_slot(own, t, NULL, 0, NULL, &slope);
-    } else if (position && i >= n) {
-        expr_eval_second(position, t, NULL, 0, 0, NULL, value, &again, &slope);
-    } else {
-        return false;
-    }
+    double slope;
+    if (!fbd_model_exact(model, i, t, value, &slope)) return false;
     *rounding = 4 * DBL_EPSILON * (fabs(*value) + fabs(slope * t));
     return true;
 }
@@ -222,7 +216,7 @@ static void check_exact(struct certified_reference *reference, size_t i, double 
 }
 
 /* Replace computed quantities by the exact solution of the file. */
-static void take_exact(struct certified_reference *reference, const struct fbd_model *model)
+static void take_exact(struct certified_reference *reference, const fbd_model *model)
 {
     struct track *track = &reference->track;
     double floor = 0, floor_end = 0;

@@ -2,9 +2,8 @@
 #include "study/thread_pool.h"
 
 #include "base/api_check.h"
-#include "batch/batch.h"
+#include "batch/rows_simd.h"
 #include "fbd_study.h"
-#include "study/sweep_simd.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -70,7 +69,7 @@ static uint64_t share_size(const fbd_sweep_workers *crew, size_t jobs)
     double runs = crew->seconds > 0 ? fmin(share_seconds / crew->seconds, most_share) : 1;
     double left = (double)(crew->work.end - crew->next);
     double size = fmin(runs * (double)jobs, left / (2 * workers));
-    if (crew->simd) size = fmax(size, fmin((double)(batch_most_lanes * jobs), ceil(left / workers)));
+    if (crew->simd) size = fmax(size, fmin((double)(rows_simd_most * jobs), ceil(left / workers)));
     return size >= 1 ? (uint64_t)size : 1;
 }
 
@@ -122,9 +121,9 @@ static void make_rows(struct row_maker *maker, struct place *place)
 }
 
 /* make_rows by SIMD batches. */
-static void make_rows_simd(struct sweep_simd *simd, struct place *place)
+static void make_rows_simd(struct rows_simd *simd, struct place *place)
 {
-    const struct rows_made rows = sweep_simd_make(simd, place->first, place->end, &place->rows);
+    const struct rows_made rows = rows_simd_make(simd, place->first, place->end, &place->rows);
     place->made = rows.made;
     place->failed = rows.failed;
 }
@@ -139,28 +138,26 @@ static struct place *wait_for_share(fbd_sweep_workers *crew)
 static void *work(void *context)
 {
     fbd_sweep_workers *crew = context;
-    struct row_maker maker;
-    bool ready = row_maker_init(&maker, crew->sweep);
-    maker.stop = stops;
-    maker.stop_context = crew;
-    struct sweep_simd *simd = crew->simd ? sweep_simd_new(crew->sweep, batch_most_lanes, stops, crew) : NULL;
+    struct row_maker *maker = row_maker_new(crew->sweep->rows, stops, crew);
+    struct rows_simd *simd =
+        crew->simd ? rows_simd_new(crew->sweep->rows, rows_simd_most, stops, crew) : NULL;
     pthread_mutex_lock(&crew->lock);
-    if (!ready) end_early(crew, FBD_SWEEP_OUT_OF_MEMORY);
+    if (!maker) end_early(crew, FBD_SWEEP_OUT_OF_MEMORY);
     for (struct place *place; (place = wait_for_share(crew)) != NULL;) {
         pthread_mutex_unlock(&crew->lock);
         double start = now();
         if (simd)
             make_rows_simd(simd, place);
         else
-            make_rows(&maker, place);
+            make_rows(maker, place);
         double seconds = (now() - start) / (double)(place->end - place->first);
         pthread_mutex_lock(&crew->lock);
         crew->seconds = crew->seconds > 0 ? 0.5 * (crew->seconds + seconds) : seconds;
         put_in_order(crew, place);
     }
     pthread_mutex_unlock(&crew->lock);
-    sweep_simd_free(simd);
-    row_maker_free(&maker);
+    rows_simd_free(simd);
+    row_maker_free(maker);
     return NULL;
 }
 
@@ -202,7 +199,7 @@ fbd_sweep_workers *fbd_sweep_start(const fbd_sweep *sweep, const fbd_sweep_work 
     crew->sweep = sweep;
     crew->work = own;
     crew->helpers = helpers;
-    crew->simd = sweep_simd_suits(sweep);
+    crew->simd = rows_simd_suits(sweep->rows);
     if (crew->work.end > sweep->axes.runs) crew->work.end = (size_t)sweep->axes.runs;
     crew->next = work->first;
     crew->jobs = work->jobs ? work->jobs : processors();

@@ -31,7 +31,7 @@ struct fbd_sweep_workers {
     fbd_sweep_work work;
     size_t jobs, threads; /* wanted; running */
     size_t helpers;       /* other processes that claim shares */
-    bool simd;            /* use SIMD batches (sweep_simd.h) */
+    bool simd;            /* use SIMD batches (batch/rows_simd.h) */
     pthread_t *thread;
 
     atomic_bool over; /* no more rows are required */

@@ -5,7 +5,6 @@
 #include <string.h>
 
 #include "base/diag.h"
-#include "dynamics/state.h"
 #include "study/stopwatch.h"
 
 fbd_options setting_options(const struct setting *setting, double until)
@@ -15,6 +14,7 @@ fbd_options setting_options(const struct setting *setting, double until)
     options.tolerance = setting->tolerance;
     options.step = setting->step;
     options.until = until;
+    options.automatic_step = setting->automatic;
     return options;
 }
 
@@ -34,29 +34,45 @@ bool track_ended(const struct track *track)
     return track->outcome == FBD_DONE || track->outcome == FBD_STOPPED;
 }
 
-/* Sample the grid times in the last step. */
-static bool look(struct track *track, fbd_simulation *simulation, const struct grid *grid, fbd_state *state)
+/* Store the quantities of a state; `packed` is scratch of size + 1 numbers. */
+static void store(const struct track *track, const fbd_state *state, double *packed, double *quantities)
 {
+    fbd_state_pack(state, packed, track->size + 1); /* the time, then the quantities */
+    memcpy(quantities, packed + 1, track->size * sizeof *quantities);
+}
+
+/* Where a run is sampled. */
+struct sampling {
+    fbd_simulation *simulation;
+    const struct grid *grid;
+    fbd_state *state;
+    double *packed; /* scratch */
+};
+
+/* Sample the grid times in the last step. */
+static bool look(struct track *track, const struct sampling *sampling)
+{
+    fbd_simulation *simulation = sampling->simulation;
+    const struct grid *grid = sampling->grid;
     double from, to;
     fbd_simulation_interval(simulation, &from, &to);
     for (; track->reached < grid->count; track->reached++) {
         double t = grid_time(grid, track->reached);
         if (t > to) break;
-        if (!fbd_simulation_state(simulation, t, state)) return false;
-        memcpy(track->y + track->reached * track->size, state->y, track->size * sizeof *track->y);
+        if (!fbd_simulation_state(simulation, t, sampling->state)) return false;
+        store(track, sampling->state, sampling->packed, track->y + track->reached * track->size);
     }
     return true;
 }
 
-static bool run_through(struct track *track, fbd_simulation *simulation, const struct grid *grid,
-                        fbd_state *state, double most_seconds)
+static bool run_through(struct track *track, const struct sampling *sampling, double most_seconds)
 {
     enum { steps_between_looks_at_the_clock = 64 };
     struct stopwatch watch = stopwatch_start();
-    bool seen = look(track, simulation, grid, state);
+    bool seen = look(track, sampling);
     for (unsigned long step = 1; seen; step++) {
-        track->outcome = fbd_simulation_advance(simulation);
-        seen = look(track, simulation, grid, state);
+        track->outcome = fbd_simulation_advance(sampling->simulation);
+        seen = look(track, sampling);
         if (track->outcome != FBD_GOING) break;
         if (step % steps_between_looks_at_the_clock == 0 && stopwatch_seconds(&watch) > most_seconds) break;
     }
@@ -81,13 +97,14 @@ static bool make(struct track *track, fbd_simulation *simulation, const struct g
 {
     track->y = ARENA_ARRAY(arena, grid->count * track->size + 1, double);
     track->end = ARENA_ARRAY(arena, track->size + 1, double);
-    if (!track->y || !track->end) return false;
-    bool seen = run_through(track, simulation, grid, state, most_seconds);
+    double *packed = ARENA_ARRAY(arena, track->size + 1, double);
+    if (!track->y || !track->end || !packed) return false;
+    const struct sampling sampling = {simulation, grid, state, packed};
+    bool seen = run_through(track, &sampling, most_seconds);
     double from, to;
     fbd_simulation_interval(simulation, &from, &to);
     track->t_end = to;
-    if (fbd_simulation_state(simulation, to, state))
-        memcpy(track->end, state->y, track->size * sizeof *track->end);
+    if (fbd_simulation_state(simulation, to, state)) store(track, state, packed, track->end);
     const char *reason = fbd_simulation_reason(simulation);
     if (!seen && !reason[0]) reason = "the dense output of a step cannot be had";
     if (!seen) /* a simulation that has ended returns its outcome again */

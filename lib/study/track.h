@@ -19,6 +19,7 @@ struct setting {
     const char *method;
     double tolerance; /* 0 with a fixed step */
     double step;      /* 0 without */
+    bool automatic;   /* automatic steps even where the file gives a size */
 };
 
 /* The options of a run with this setting. */

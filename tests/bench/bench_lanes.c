@@ -12,19 +12,19 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "batch/batch.h"
+#include "batch/rows_simd.h"
 #include "claim.h"
 #include "fbd_study.h"
 #include "open_sweep.h"
-#include "study/sweep_simd.h"
+#include "study/sweep.h"
 #include "timing.h"
 
 enum { rounds = 15, ways = 3 };
 
 /* Of each way what it needs, and its rows. */
 struct way {
-    struct row_maker maker;
-    struct sweep_simd *abreast; /* NULL: one after the other */
+    struct row_maker *maker;
+    struct rows_simd *abreast; /* NULL: one after the other */
     struct text rows;
 };
 
@@ -33,9 +33,9 @@ static double time_of(struct way *way, size_t runs)
     const double begin = processor_seconds();
     way->rows.length = 0;
     if (way->abreast) {
-        sweep_simd_make(way->abreast, 0, runs, &way->rows);
+        rows_simd_make(way->abreast, 0, runs, &way->rows);
     } else {
-        for (size_t run = 0; run < runs; run++) row_make(&way->maker, run, &way->rows);
+        for (size_t run = 0; run < runs; run++) row_make(way->maker, run, &way->rows);
     }
     return (processor_seconds() - begin) / (double)runs;
 }
@@ -43,22 +43,24 @@ static double time_of(struct way *way, size_t runs)
 static void open_way(struct way *way, const fbd_sweep *sweep, unsigned lanes)
 {
     *way = (struct way){0};
-    if (lanes == 0 && row_maker_init(&way->maker, sweep)) return;
-    way->abreast = sweep_simd_suits(sweep) ? sweep_simd_new(sweep, lanes, NULL, NULL) : NULL;
-    if (!way->abreast) exit(1);
+    if (lanes == 0)
+        way->maker = row_maker_new(sweep->rows, NULL, NULL);
+    else if (rows_simd_suits(sweep->rows))
+        way->abreast = rows_simd_new(sweep->rows, lanes, NULL, NULL);
+    if (!way->maker && !way->abreast) exit(1);
 }
 
 static void close_way(struct way *way)
 {
-    if (!way->abreast) row_maker_free(&way->maker);
-    sweep_simd_free(way->abreast);
+    row_maker_free(way->maker);
+    rows_simd_free(way->abreast);
     text_free(&way->rows);
 }
 
 /* Where the processor has no four lanes it is not measured. */
 static void measure(const char *name, const char *path, double until, const char *vary, double bound)
 {
-    static const unsigned lanes[ways] = {0, 4, batch_most_lanes};
+    static const unsigned lanes[ways] = {0, 4, rows_simd_most};
     static double seconds[ways][rounds], gain[ways][rounds];
     fbd_sweep *sweep = open_sweep(path, vary, until);
     const size_t runs = fbd_sweep_run_count(sweep);
@@ -75,7 +77,7 @@ static void measure(const char *name, const char *path, double until, const char
                           memcmp(way[i].rows.data, way[0].rows.data, way[0].rows.length) == 0;
         const double most = median(gain[i], rounds); /* which sorts them */
         printf(", %u abreast %.1f us: %.2f times as many (quartiles %.2f to %.2f)",
-               sweep_simd_lanes(way[i].abreast), 1e6 * median(seconds[i], rounds), most, gain[i][rounds / 4],
+               rows_simd_lanes(way[i].abreast), 1e6 * median(seconds[i], rounds), most, gain[i][rounds / 4],
                gain[i][3 * rounds / 4]);
         if (!same) fputs("\nthe rows abreast differ from the others\n", stderr), exit(1);
     }
@@ -83,7 +85,7 @@ static void measure(const char *name, const char *path, double until, const char
     char what[160];
     snprintf(what, sizeof what, "sweep: runs of %s (%g s) in four lanes over the same one by one", name,
              until);
-    const bool four = sweep_simd_lanes(way[1].abreast) == 4;
+    const bool four = rows_simd_lanes(way[1].abreast) == 4;
     if (bound > 0) claim_at_least(what, four ? median(gain[1], rounds) : (double)NAN, bound);
     for (int i = 0; i < ways; i++) close_way(&way[i]);
     fbd_sweep_free(sweep);

@@ -17,7 +17,7 @@ import yaml
 from formula import Unbound, evaluate, from_latex, printed
 
 LAWS = {"gravity", "spring", "damper", "drag"}
-LAW = re.compile(r"m(_[0-9]+)? (g\b|g_[xy]|\(|g ).*|[kc] .*|\(c \+ k .*")
+LAW = re.compile(r"[mM](_\w+|[0-9]*) (g\b|g_[xy]|\(|g ).*|[kc] .*|\(c \+ k .*")
 WORDS = re.compile(r"acts across(?: the guide)?|through the axis|m g along (?:x|the axis|the track)|toward .*|drag at its point.*|"
                    r"k \(l - l0\) toward its end|-c l' along its line")
 NORMAL = re.compile(r"acts across: N = (\S+)(?: \(contact is lost.*\))?")
@@ -82,7 +82,11 @@ class Scene:
             return None
 
     def mass_name(self, b, mass):
-        """By the number of the body; by m alone where it is the only one, or where a parameter of that name is another mass."""
+        """The parameter that is its mass; else by the number of the body, by m alone where it is the only one, or where a
+        parameter of that name is another mass."""
+        name = str(self.file["bodies"][b].get("mass"))
+        if name in self.file.get("parameters", {}) and re.fullmatch(r"[mM](_\w+|\d*)", name):
+            return name
         if len(self.bodies) == 1:
             return "m"
         number = self.bodies.index(b) + 1
@@ -214,7 +218,7 @@ class Place:
             O, G = self.center.get((b, "O")), weight.point
             L = O and math.hypot(G[0] - O[0], G[1] - O[1])
             values.update({"L": L, f"L_{scene.bodies.index(b) + 1}": L})
-            values.update({"m": m, f"m_{scene.bodies.index(b) + 1}": m, "g": math.hypot(*g), "g_x": g[0], "g_y": g[1]})
+            values.update({"m": m, scene.mass_name(b, m): m, "g": math.hypot(*g), "g_x": g[0], "g_y": g[1]})
             if O:
                 values.update({"r_x": G[0] - O[0], "r_y": G[1] - O[1]})
         kind = scene.kind(b)
@@ -233,7 +237,7 @@ class Place:
                 raise Unbound("G")
             G, O, (a, alpha) = self.center[b, "G"], self.center[b, "O"], self.accelerations[b]
             r = (G[0] - O[0], G[1] - O[1])
-            values.update({"m": self.mass[b], f"m_{scene.bodies.index(b) + 1}": self.mass[b], "r_x": r[0], "r_y": r[1],
+            values.update({"m": self.mass[b], scene.mass_name(b, self.mass[b]): self.mass[b], "r_x": r[0], "r_y": r[1],
                            "a_Ox": a[0] + alpha * r[1], "a_Oy": a[1] - alpha * r[0]})
         values["component"] = lambda vector, axis: (
             vector[0] * e[0] + vector[1] * e[1] if kind == "slide" else vector["xy".index(axis)])

@@ -61,6 +61,7 @@ int bad_calls_count(void *context, const char *rows, size_t length);
 void sweeps_that_cannot_be_made(void **context);
 void sweeps(void **context);
 void studies(void **context);
+void methods_and_simplifications(void **context);
 void grades(void **context);
 void a_key_without_an_answer(void **context);
 

@@ -6,6 +6,7 @@
 
 #include "fbd_grade.h"
 #include "fbd_study.h"
+#include "fbd_view.h"
 #include "fbd_workers.h"
 
 /* ---- sweeps */
@@ -117,6 +118,45 @@ void studies(void **context)
     ANSWERS(fbd_effects_json, !fbd_effects_json(NULL));
     fbd_cost_free(cost);
     fbd_effects_free(effects);
+}
+
+static void simplifications(void)
+{
+    const double times[] = {0}, rows[40] = {0};
+    const fbd_motion none = {.count = 0}, hole = {.count = 1, .t = times}, still = {1, times, rows};
+    fbd_simplifications *list = fbd_simplify(model, &still, errors);
+    assert_true(list && fbd_model_coordinate_count(model) <= 20);
+    REFUSES(fbd_simplify, !fbd_simplify(NULL, &none, errors));
+    REFUSES(fbd_simplify, !fbd_simplify(model, NULL, errors));
+    REFUSES(fbd_simplify, !fbd_simplify(model, &hole, errors));
+    ENDURES(fbd_simplifications_free, fbd_simplifications_free(NULL));
+    ANSWERS(fbd_simplifications_count, fbd_simplifications_count(NULL) == 0);
+    ANSWERS(fbd_simplifications_get, !fbd_simplifications_get(NULL, 0).name);
+    ANSWERS(fbd_simplifications_get, !fbd_simplifications_get(list, past).name);
+    REFUSES(fbd_simplifications_model, !fbd_simplifications_model(NULL, 0, errors));
+    REFUSES(fbd_simplifications_model, !fbd_simplifications_model(list, past, errors));
+    fbd_simplifications_free(list);
+}
+
+void methods_and_simplifications(void **context)
+{
+    (void)context;
+    double value = 7, derivative = 7;
+    fbd_options options = FBD_OPTIONS_DEFAULT;
+    ANSWERS(fbd_method_count, fbd_method_count() > 2);
+    ANSWERS(fbd_method_get, !fbd_method_get(past).name);
+    ANSWERS(fbd_method_find, !fbd_method_find(NULL).name);
+    ANSWERS(fbd_method_find, !fbd_method_find("auto").name);
+    ANSWERS(fbd_model_exact, !fbd_model_exact(NULL, 0, 0, &value, &derivative));
+    ANSWERS(fbd_model_exact, !fbd_model_exact(model, past, 0, &value, &derivative));
+    ANSWERS(fbd_model_exact, !fbd_model_exact(model, 0, 0, NULL, &derivative));
+    ANSWERS(fbd_model_exact, !fbd_model_exact(model, 0, 0, &value, NULL));
+    assert_true(value == 7 && derivative == 7);
+    ANSWERS(fbd_model_file, !fbd_model_file(NULL));
+    ENDURES(fbd_model_options, fbd_model_options(model, NULL, sizeof options));
+    ENDURES(fbd_model_options, fbd_model_options(NULL, &options, sizeof options));
+    assert_true(is_nan(options.until) && options.step == 0);
+    simplifications();
 }
 
 /* ---- grading */

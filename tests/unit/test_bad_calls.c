@@ -429,6 +429,7 @@ int main(void)
         cmocka_unit_test(sweeps_that_cannot_be_made),
         cmocka_unit_test(sweeps),
         cmocka_unit_test(studies),
+        cmocka_unit_test(methods_and_simplifications),
         cmocka_unit_test(grades),
         cmocka_unit_test(a_key_without_an_answer),
         cmocka_unit_test(options_have_a_size),

@@ -17,6 +17,7 @@
 #include <cmocka.h>
 
 #include "fbd_study.h"
+#include "fbd_view.h"
 #include "gallery.h"
 #include "study/reference.h"
 
@@ -385,6 +386,31 @@ static void wrong_options_are_answered(void **unused)
     end_study(&s);
 }
 
+#define EXACT                                                                                                \
+    "mass: 1 kg, motion: slide, initial: {v: 1 m/s}, exact: {x: '1[m]*sin(1[rad/s]*t)'}, "                   \
+    "forces: [spring: {stiffness: 1 N/m}]"
+
+static void the_exact_solution_of_a_file_is_given_with_its_derivative(void **unused)
+{
+    (void)unused;
+    struct trial trial = trial_parse(SCENE(EXACT, "1 s, step: 0.1 s, method: rk4"));
+    const double t = 0.5, values[][2] = {{sin(t), cos(t)}, {cos(t), -sin(t)}};
+    double value, derivative;
+    for (size_t i = 0; i < 2; i++) {
+        assert_true(fbd_model_exact(trial.model, i, t, &value, &derivative));
+        assert_float_equal(value, values[i][0], 1e-14);
+        assert_float_equal(derivative, values[i][1], 1e-14);
+    }
+    fbd_options options;
+    fbd_model_options(trial.model, &options, sizeof options);
+    assert_true(options.until == 1 && options.step == 0.1 && options.tolerance == 0);
+    assert_string_equal(options.method, "rk4");
+    trial_close(&trial);
+    trial = trial_parse(SCENE(PENDULUM, "1 s"));
+    assert_false(fbd_model_exact(trial.model, 0, t, &value, &derivative));
+    trial_close(&trial);
+}
+
 int main(void)
 {
     gsl_set_error_handler_off();
@@ -401,6 +427,7 @@ int main(void)
         cmocka_unit_test(what_does_not_fit_the_budget_is_skipped_and_said),
         cmocka_unit_test(a_scene_where_nothing_moves_has_no_error),
         cmocka_unit_test(a_step_of_the_file_does_not_hide_the_tolerances),
+        cmocka_unit_test(the_exact_solution_of_a_file_is_given_with_its_derivative),
         cmocka_unit_test(wrong_options_are_answered),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -323,6 +323,34 @@ static void a_scene_that_breaks_without_an_effect_says_so(void **unused)
     end_study(&s);
 }
 
+static void each_simplification_is_a_model(void **unused)
+{
+    (void)unused;
+    const char text[] =
+        SCENE("mass: 2 kg, motion: slide, initial: {v: 1 m/s}, forces: [drag: {quadratic: 0.5 kg/m}]", "1 s");
+    const double t[] = {0, 0.1}, rows[] = {0, 1, 0.1, 3};
+    const fbd_motion motion = {2, t, rows};
+    struct trial trial = trial_parse(text);
+    fbd_simplifications *list = fbd_simplify(trial.model, &motion, NULL);
+    assert_int_equal(fbd_simplifications_count(list), 2);
+    const double forces[] = {0, -0.5 * 3 * 1}; /* without drag, and with that which is linear up to 3 m/s */
+    for (size_t i = 0; i < 2; i++) {
+        fbd_simplification one = fbd_simplifications_get(list, i);
+        assert_string_equal(one.body, "b");
+        assert_string_equal(one.name, "drag");
+        assert_string_equal(one.reason, "");
+        fbd_model *simple = fbd_simplifications_model(list, i, NULL);
+        fbd_state *state = fbd_state_new(simple);
+        fbd_equations *equations = fbd_assemble(state);
+        assert_float_equal(fbd_equations_get(equations, 0).sum, forces[i], 1e-12);
+        fbd_equations_free(equations);
+        fbd_state_free(state);
+        fbd_model_free(simple);
+    }
+    fbd_simplifications_free(list);
+    trial_close(&trial);
+}
+
 int main(void)
 {
     gsl_set_error_handler_off();
@@ -338,6 +366,7 @@ int main(void)
         cmocka_unit_test(a_law_becomes_its_tangent_at_the_equilibrium),
         cmocka_unit_test(a_scene_of_joints_becomes_its_linearisation),
         cmocka_unit_test(what_cannot_be_left_out_says_why),
+        cmocka_unit_test(each_simplification_is_a_model),
         cmocka_unit_test(a_scene_that_breaks_without_an_effect_says_so),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -16,6 +16,7 @@
 
 #include <cmocka.h>
 
+#include "fbd_study.h"
 #include "gallery.h"
 #include "integrate/method.h"
 #include "scenes.h"
@@ -173,6 +174,20 @@ static void a_file_may_name_every_method_and_no_other(void **unused)
     assert_null(fbd_model_parse(none, sizeof none - 1, "none.yaml", NULL, 0, NULL));
 }
 
+static void the_methods_are_listed_with_their_properties(void **unused)
+{
+    (void)unused;
+    assert_true(fbd_method_count() >= method_count);
+    for (size_t i = 0; i < fbd_method_count(); i++) {
+        const fbd_method method = fbd_method_get(i), same = fbd_method_find(method.name);
+        assert_true(method.order >= 1 && method.description[0]);
+        assert_string_equal(same.name, method.name);
+        assert_int_equal(method.multistep, strncmp(method.name, "ms", 2) == 0);
+    }
+    assert_true(fbd_method_find("rodas5p").implicit && !fbd_method_find("rk4").implicit);
+    assert_int_equal(fbd_method_find("rk4").order, 4);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -180,6 +195,7 @@ int main(void)
         cmocka_unit_test(every_method_moves_the_oscillator),
         cmocka_unit_test(every_method_is_blind_to_the_scale),
         cmocka_unit_test(an_unknown_method_is_refused_with_the_nearest_name),
+        cmocka_unit_test(the_methods_are_listed_with_their_properties),
         cmocka_unit_test(a_file_may_name_every_method_and_no_other),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

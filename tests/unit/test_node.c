@@ -9,7 +9,7 @@
 
 #include <cmocka.h>
 
-#include "scene/node.h"
+#include "document/node.h"
 
 #include <stdio.h>
 #include <stdlib.h>

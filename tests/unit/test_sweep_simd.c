@@ -10,8 +10,9 @@
 #include <cmocka.h>
 #include <gsl/gsl_errno.h>
 
+#include "batch/rows_simd.h"
 #include "fbd_study.h"
-#include "study/sweep_simd.h"
+#include "study/sweep.h"
 #include "sweep_table.h"
 
 static const char pendulum[] =
@@ -46,10 +47,10 @@ static const char double_pendulum[] = "fbd: 1\n"
 /* The rows one after the other, up to `count` of them. */
 static void add_alone(const fbd_sweep *sweep, size_t count, struct text *rows)
 {
-    struct row_maker maker;
-    assert_true(row_maker_init(&maker, sweep));
-    for (size_t run = 0; run < count; run++) row_make(&maker, run, rows);
-    row_maker_free(&maker);
+    struct row_maker *maker = row_maker_new(sweep->rows, NULL, NULL);
+    assert_non_null(maker);
+    for (size_t run = 0; run < count; run++) row_make(maker, run, rows);
+    row_maker_free(maker);
 }
 
 static void check_table(const char *text, const fbd_sweep_plan *plan, size_t first, size_t jobs)
@@ -57,7 +58,7 @@ static void check_table(const char *text, const fbd_sweep_plan *plan, size_t fir
     struct sweep_table table = sweep_by(text, plan, first, jobs);
     struct text alone = {0};
     assert_int_equal(table.end, FBD_SWEEP_DONE);
-    assert_true(sweep_simd_suits(table.sweep));
+    assert_true(rows_simd_suits(table.sweep->rows));
     add_alone(table.sweep, fbd_sweep_run_count(table.sweep), &alone);
     const char *rest = alone.data;
     for (size_t i = 0; i < first; i++) rest = strchr(rest, '\n') + 1;
@@ -122,17 +123,17 @@ static void a_stop_leaves_the_first_rows(void **unused)
     add_alone(table.sweep, 200, &alone);
     for (int patience = 0; patience < 4000; patience = 2 * patience + 1) {
         struct patience left = {patience};
-        struct sweep_simd *abreast = sweep_simd_new(table.sweep, 4, lose_patience, &left);
+        struct rows_simd *abreast = rows_simd_new(table.sweep->rows, 4, lose_patience, &left);
         struct text rows = {0};
         assert_non_null(abreast);
-        const struct rows_made made = sweep_simd_make(abreast, 0, 200, &rows);
+        const struct rows_made made = rows_simd_make(abreast, 0, 200, &rows);
         size_t lines = 0;
         for (size_t i = 0; i < rows.length; i++) lines += rows.data[i] == '\n';
         assert_int_equal(lines, made.made);
         assert_true(rows.length == 0 || memcmp(rows.data, alone.data, rows.length) == 0);
         stopped += made.made > 0 && made.made < 200;
         text_free(&rows);
-        sweep_simd_free(abreast);
+        rows_simd_free(abreast);
     }
     assert_true(stopped > 2); /* amid the rows */
     text_free(&alone);
@@ -148,7 +149,7 @@ static void check_suits(bool suits, const char *text, const char *vary, const ch
     struct sweep_table table = open_table(text, &plan);
     if (!table.sweep) fbd_errors_print(table.errors, stderr);
     assert_non_null(table.sweep);
-    assert_int_equal(sweep_simd_suits(table.sweep), suits);
+    assert_int_equal(rows_simd_suits(table.sweep->rows), suits);
     close_table(&table);
 }
 

@@ -15,6 +15,7 @@
 
 #include <cmocka.h>
 
+#include "document/node_edit.h"
 #include "dynamics/diagram.h"
 #include "dynamics/mass.h"
 #include "dynamics/project.h"
@@ -22,7 +23,6 @@
 #include "output/hand.h"
 #include "output/hand_forces.h"
 #include "output/random_state.h"
-#include "scene/node_edit.h"
 
 #include <stdio.h>
 #include <stdlib.h>

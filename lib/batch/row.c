@@ -1,0 +1,374 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * One run of a sweep, and its row.
+ */
+#include "batch/row.h"
+#include "base/format.h"
+#include "base/utf8.h"
+#include "loop/options.h"
+#include "record/finite_result.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* ---- the maker */
+
+bool row_maker_init(struct row_maker *maker, const struct rows *table)
+{
+    size_t varying = table->source.count, count = varying + table->fixed_count;
+    *maker =
+        (struct row_maker){.table = table,
+                           .overrides = calloc(count + 1, sizeof *maker->overrides),
+                           .starts = calloc(varying + 1, sizeof *maker->starts),
+                           .extremes = calloc(table->columns.extreme_count + 1, sizeof *maker->extremes)};
+    if (!maker->overrides || !maker->starts || !maker->extremes) return false;
+    for (size_t i = 0; i < varying; i++)
+        maker->overrides[i] = (struct override){.name = table->source.parameters[i].name, .varies = true};
+    for (size_t i = varying; i < count; i++) maker->overrides[i] = table->fixed[i - varying];
+    for (size_t i = 0; i < table->columns.extreme_count; i++) maker->extremes[i] = table->columns.extremes[i];
+    return true;
+}
+
+void row_maker_end(struct row_maker *maker)
+{
+    free(maker->overrides);
+    free(maker->starts);
+    free(maker->extremes);
+    text_free(&maker->values);
+    patch_free(maker->patch);
+}
+
+struct row_maker *row_maker_new(const struct rows *rows, fbd_stop *stop, void *stop_context)
+{
+    struct row_maker *maker = calloc(1, sizeof *maker);
+    if (!maker) return NULL;
+    bool made = row_maker_init(maker, rows);
+    maker->stop = stop;
+    maker->stop_context = stop_context;
+    if (made) return maker;
+    row_maker_free(maker);
+    return NULL;
+}
+
+void row_maker_free(struct row_maker *maker)
+{
+    if (!maker) return;
+    row_maker_end(maker);
+    free(maker);
+}
+
+bool row_maker_set(struct row_maker *maker, uint64_t run)
+{
+    const struct rows_source *source = &maker->table->source;
+    struct text *values = &maker->values;
+    values->length = 0;
+    for (size_t i = 0; i < source->count; i++) {
+        const char *unit = source->parameters[i].unit;
+        maker->starts[i] = values->length;
+        source->value(source->context, i, run, values);
+        if (unit[0]) text_add(values, " ");
+        text_add_bytes(values, unit, strlen(unit) + 1); /* with its terminating zero */
+    }
+    for (size_t i = 0; i < source->count && !values->failed; i++)
+        maker->overrides[i].value = values->data + maker->starts[i];
+    return !values->failed;
+}
+
+/* ---- pieces of a row */
+
+/* Append a CSV field (RFC 4180) on one line: a truncated row is recognized by its missing newline. A field
+ * that a spreadsheet would take for a formula (a file may be called `=1+1.yaml`) is marked as text. */
+static void put_field(struct text *text, const char *field)
+{
+    text_add(text, ",");
+    bool formula = field[0] && strchr("=+-@", field[0]);
+    bool quoted = formula || field[strcspn(field, ",\"")];
+    if (quoted) text_add(text, "\"");
+    if (formula) text_add(text, "'");
+    while (*field) {
+        struct utf8_shown next = utf8_show(field);
+        text_add_bytes(text, next.text, next.length);
+        if (*field == '"') text_add(text, "\"");
+        field += next.taken;
+    }
+    if (quoted) text_add(text, "\"");
+}
+
+static void put_start(const struct row_maker *maker, uint64_t run, struct text *text)
+{
+    text_exact(text, (double)(run + 1));
+    for (size_t i = 0; i < maker->table->source.count; i++) {
+        const char *value = maker->overrides[i].value;
+        text_add(text, ",");
+        text_add_bytes(text, value, strcspn(value, " "));
+    }
+}
+
+static void put_end(struct text *text, const char *status, const char *reason)
+{
+    put_field(text, status);
+    put_field(text, reason);
+    text_add(text, "\n");
+}
+
+/* Mark the row as failed when memory is out: rows may only depend on the scene. */
+static void lose(struct text *text)
+{
+    text->failed = true;
+}
+
+/* Append the first error with its position; no error means that memory is out. */
+static void put_wrong(const struct row_maker *maker, fbd_errors *errors, struct text *text)
+{
+    const struct columns *columns = &maker->table->columns;
+    char reason[600] = "";
+    for (size_t i = 0; i < columns->count + 1; i++) text_add(text, ","); /* plus the number of events */
+    const fbd_error *note;
+    for (size_t i = 0; (note = errors->out_of_memory ? NULL : diag_get(errors, i)) != NULL; i++) {
+        if (note->severity != FBD_ERROR) continue;
+        const char *file = note->file ? note->file : "model";
+        if (note->line > 0)
+            snprintf(reason, sizeof reason, "%s:%d:%d: %s [%s]", file, note->line, note->column,
+                     note->message, note->id);
+        else
+            snprintf(reason, sizeof reason, "%s: %s [%s]", file, note->message, note->id);
+        break;
+    }
+    if (!note) lose(text);
+    put_end(text, "wrong", reason);
+}
+
+static const char *status_of(fbd_outcome outcome)
+{
+    switch (outcome) {
+    case FBD_DONE: return "done";
+    case FBD_STOPPED: return "stopped";
+    case FBD_BROKEN: return "broken";
+    case FBD_GOING:
+    case FBD_FAILED:
+    case FBD_OUT_OF_MEMORY:
+    case FBD_INTERRUPTED: break;
+    }
+    return "failed";
+}
+
+/* ---- the run */
+
+static bool account(void *context, struct ensemble *run, size_t group)
+{
+    ledger_note(context, &run->groups[group]);
+    return ledger_step(context, run, group);
+}
+
+static void account_again(void *context, struct ensemble *run, size_t group)
+{
+    ledger_restart(context, run, group);
+}
+
+/* Carry the run to its end, with ledger and extremes if required. Returns false when it was stopped or memory
+ * is out. */
+static bool carry(struct row_maker *maker, struct ensemble *run, struct ledger *ledger,
+                  struct fbd_state *probe)
+{
+    size_t extremes = maker->table->columns.extreme_count;
+    if (ledger) run->observer = (struct observer){ledger, account, account_again};
+    while (run->outcome == FBD_GOING) {
+        if (maker->stop && maker->stop(maker->stop_context) != 0) return false;
+        ensemble_advance(run);
+        if (!(run->t > run->from)) continue; /* no step was made */
+        if (probe && !extremes_step(maker->extremes, extremes, run, probe)) run->outcome = FBD_FAILED;
+    }
+    if (ledger && !ledger_at(ledger, run, ledger->work)) run->outcome = FBD_FAILED;
+    return true;
+}
+
+/* Check the energy balance. `ledger` may be NULL. */
+static bool is_balanced(struct ensemble *run, struct ledger *ledger, char *reason, size_t size)
+{
+    struct energy_balance balance = ensemble_energy_balance(run);
+    if (ledger && run->options.step == 0 && !(fabs(balance.residual) > balance.explained)) {
+        struct fbd_state *state = ensemble_state(run);
+        double steps = 0;
+        for (size_t g = 0; g < run->count; g++)
+            steps += (double)switcher_counts(run->groups[g].run->stepper).accepted;
+        balance.residual = ledger_energy(ledger, state, ledger->work).residual;
+        balance.explained = ledger_explained(ledger, state, run->options.tolerance, steps);
+    }
+    format_into(reason, size, "the residual of the energy is %.2g, where the tolerance explains %.2g",
+                balance.residual, balance.explained);
+    return !(fabs(balance.residual) > balance.explained);
+}
+
+/* Append the outcome; for a refused start its id and, mostly, a position in the file. */
+static void put_outcome(const struct ensemble *run, struct text *text)
+{
+    char reason[600];
+    const char *file = run->model->scene->file ? run->model->scene->file : "model";
+    if (run->refused && run->refused->end.refusal_at.line > 0)
+        snprintf(reason, sizeof reason, "%s:%d:%d: %s [%s]", file, run->refused->end.refusal_at.line,
+                 run->refused->end.refusal_at.column, run->reason, run->refused->end.refusal);
+    else if (run->refused)
+        snprintf(reason, sizeof reason, "%s: %s [%s]", file, run->reason, run->refused->end.refusal);
+    put_end(text, status_of(run->outcome), run->refused ? reason : run->reason);
+}
+
+/* Append the columns of a finished run. */
+static enum row_end put_run(struct row_maker *maker, struct ensemble *run, struct ledger *ledger,
+                            struct text *text)
+{
+    const struct columns *columns = &maker->table->columns;
+    bool ended = run->outcome == FBD_DONE || run->outcome == FBD_STOPPED;
+    bool known =
+        !ended || result_finite(run, ledger, ledger ? ledger->work : NULL) || run->outcome == FBD_FAILED;
+    if (run->outcome == FBD_OUT_OF_MEMORY || !known) {
+        lose(text);
+        return row_failed;
+    }
+    const struct observed observed = {run, ledger, maker->extremes};
+    columns_put(columns, &observed, text);
+    text_add(text, ",");
+    text_exact(text, (double)run->event_count);
+    char reason[100];
+    ended = run->outcome == FBD_DONE || run->outcome == FBD_STOPPED;
+    if (ended && !is_balanced(run, ledger, reason, sizeof reason)) {
+        put_end(text, "inaccurate", reason);
+        return row_failed;
+    }
+    put_outcome(run, text);
+    return run->outcome == FBD_DONE || run->outcome == FBD_STOPPED ? row_well : row_failed;
+}
+
+/* A run at its start; NULL if the values do not permit the options, or memory is out. */
+static struct ensemble *start_run(const struct row_maker *maker, const struct fbd_model *model,
+                                  fbd_errors *errors)
+{
+    struct run_options options;
+    if (!options_choose(model, &maker->table->options, &options, errors)) return NULL;
+    return ensemble_new(model, &options);
+}
+
+static enum row_end simulate(struct row_maker *maker, struct ensemble *run, struct text *text,
+                             fbd_errors *errors)
+{
+    const struct columns *columns = &maker->table->columns;
+    const struct fbd_model *model = run->model;
+    struct ledger ledger = {0};
+    struct fbd_state *probe = NULL;
+    bool ready = true;
+    if (columns->ledger) ready = ledger_init(&ledger, model, ensemble_state(run), true);
+    if (ready && columns->extreme_count) {
+        probe = state_new(model);
+        ready = probe != NULL;
+        extremes_start(maker->extremes, columns->extreme_count, ensemble_state(run));
+    }
+    struct ledger *kept = columns->ledger ? &ledger : NULL;
+    enum row_end end = row_failed;
+    if (!ready)
+        put_wrong(maker, errors, text);
+    else
+        end = carry(maker, run, kept, probe) ? put_run(maker, run, kept, text) : row_stopped;
+    if (columns->ledger) ledger_free(&ledger);
+    state_free(probe);
+    return end;
+}
+
+/* ---- its model */
+
+/* Perturb the values of the run, each by a different small fraction, so that the structure of the scene is
+ * likely the same. Returns false when one is not a number, or zero. */
+static bool move_values(const struct row_maker *maker, struct text *moved, size_t *starts)
+{
+    size_t count = maker->table->source.count;
+    for (size_t i = 0; i < count; i++) {
+        const double part = 1.0 / 1024;
+        char *rest;
+        double value = strtod(maker->overrides[i].value, &rest);
+        if (rest == maker->overrides[i].value || value == 0 || !isfinite(value)) return false;
+        starts[i] = moved->length;
+        text_exact(moved, value * (1 - part / (double)(i + 1)));
+        text_add_bytes(moved, rest, strlen(rest) + 1);
+    }
+    return !moved->failed;
+}
+
+static struct patch *make_patch(const struct row_maker *maker)
+{
+    const struct rows *table = maker->table;
+    size_t varying = table->source.count, count = varying + table->fixed_count;
+    struct text moved = {0};
+    size_t *starts = calloc(varying + 1, sizeof *starts);
+    const char **beside = calloc(count + 1, sizeof *beside);
+    bool fine = starts && beside && move_values(maker, &moved, starts);
+    for (size_t i = 0; fine && i < varying; i++) beside[i] = moved.data + starts[i];
+    struct patch *patch = fine ? patch_new(&table->document, maker->overrides, count, beside) : NULL;
+    text_free(&moved);
+    free(starts);
+    free(beside);
+    return patch;
+}
+
+/* The scene of the current values by a patch, or NULL. Making a patch reads the file twice, which costs as
+ * much as a few rows; it is attempted after a few rows, and again when the patch has served for some rows and
+ * no longer fits the values, as after a change of sign. */
+static struct scene *patched(struct row_maker *maker)
+{
+    enum { first_row = 3, last_row = 6, worth = 16 };
+    struct scene *scene = maker->patch ? patch_apply(maker->patch, maker->overrides) : NULL;
+    maker->rows++;
+    if (scene) maker->served++;
+    if (scene || (maker->patch && maker->served < worth)) return scene;
+    if (!maker->patch && !(maker->rows >= first_row && maker->rows <= last_row)) return NULL;
+    patch_free(maker->patch);
+    maker->served = 0;
+    maker->patch = make_patch(maker);
+    if (!maker->patch) maker->rows = 0; /* retry after a few rows */
+    return maker->patch ? patch_apply(maker->patch, maker->overrides) : NULL;
+}
+
+static struct fbd_model *make_model(struct row_maker *maker, fbd_errors *errors)
+{
+    const struct rows *table = maker->table;
+    size_t count = table->source.count + table->fixed_count;
+    struct scene *scene = patched(maker);
+    diag_in_file(errors, table->document.file);
+    if (scene) return model_compile_again(scene, table->base, errors);
+    scene = scene_make(&table->document, maker->overrides, count, errors);
+    return scene ? model_compile(scene, errors) : NULL;
+}
+
+bool row_open(struct row_maker *maker, uint64_t run, struct open_row *row, struct text *text)
+{
+    *row = (struct open_row){.errors = fbd_errors_new()};
+    if (!row->errors || !row_maker_set(maker, run)) lose(text);
+    if (text->failed) return false;
+    put_start(maker, run, text);
+    row->model = make_model(maker, row->errors);
+    row->run = row->model ? start_run(maker, row->model, row->errors) : NULL;
+    if (!row->run) put_wrong(maker, row->errors, text);
+    return row->run != NULL;
+}
+
+void row_close(struct open_row *row)
+{
+    ensemble_free(row->run);
+    model_free(row->model);
+    fbd_errors_free(row->errors);
+    *row = (struct open_row){0};
+}
+
+enum row_end row_put(struct row_maker *maker, const struct open_row *row, struct text *text)
+{
+    return put_run(maker, row->run, NULL, text);
+}
+
+enum row_end row_make(struct row_maker *maker, uint64_t run, struct text *text)
+{
+    size_t start = text->length;
+    struct open_row row;
+    enum row_end end = row_failed;
+    if (row_open(maker, run, &row, text)) end = simulate(maker, row.run, text, row.errors);
+    row_close(&row);
+    if (end == row_stopped) text->length = start;
+    return end;
+}

@@ -1,0 +1,227 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * Reading a key: it is graded against itself.
+ */
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/api_check.h"
+#include "base/file.h"
+#include "base/text.h"
+#include "dynamics/diagram.h"
+#include "fbd_grade.h"
+#include "grade/grade.h"
+#include "output/hand_forces.h"
+
+static double points_of(const struct fbd_key *key)
+{
+    const struct scene *scene = key->model->scene;
+    const struct grading_points *points = &scene->grading.points;
+    double most = 0;
+    for (size_t b = 0; b < scene->body_count; b++)
+        most += points->force * (double)(scene->bodies[b].load_count + key_asks(key, b)) +
+                points->derivation * (double)scene->bodies[b].hand_count + points->inertia;
+    return most;
+}
+
+static bool has_points(struct fbd_key *key, fbd_errors *errors)
+{
+    const struct scene *scene = key->model->scene;
+    for (size_t b = 0; b < scene->body_count; b++) key->lines += scene->bodies[b].hand_count;
+    key->most = points_of(key);
+    if (key->most > 0) return true;
+    diag_add(errors, FBD_ERROR, "nothing-to-grade", (struct pos){0, 0},
+             "list the forces and moments that a right answer has, or derivations under `hand`",
+             "the key has no entry with points");
+    return false;
+}
+
+/* The reactions of a body that have to be drawn, by name. */
+static void add_names(const struct fbd_key *key, size_t b, struct text *text)
+{
+    const fbd_model *model = key->model;
+    fbd_state *state = key_asks(key, b) > 0 ? state_new(model) : NULL;
+    struct arrow *arrows = calloc(diagram_arrows(model, (int)b) + 1, sizeof *arrows);
+    if (state && arrows) {
+        state_evaluate(state);
+        struct instant at = state_instant(state);
+        size_t listed = model->bodies[b].source->load_count;
+        size_t count = diagram_list(model, (int)b, &at, state->a, state->slots, arrows);
+        for (size_t i = 0; i < key->asked_count[b] && listed + i < count; i++)
+            if (key->asked[b][i])
+                text_printf(text, "%s`%s` on `%s`", text->length ? ", " : "", arrows[listed + i].name,
+                            model->bodies[b].name);
+    }
+    if (!arrows || (!state && key_asks(key, b) > 0)) text->failed = true;
+    free(arrows);
+    state_free(state);
+}
+
+/* Warn the author that answers have to draw reactions where the key does not state it; a model cannot list
+ * its reactions, which already act. False when memory is out. */
+static bool tell_reactions(const struct fbd_key *key, fbd_errors *errors)
+{
+    struct text text = {0};
+    if (key->model->scene->grading.reactions_given) return true;
+    for (size_t b = 0; b < key->model->body_count; b++) add_names(key, b, &text);
+    if (text.length > 0)
+        diag_add(errors, FBD_WARNING, "key-differs", (struct pos){0, 0},
+                 "write `grading: {reactions: all}` if this is intended, else `none` or the names of those "
+                 "to be drawn",
+                 "an answer has to draw reactions too: %.600s", text.data);
+    bool failed = text.failed;
+    if (failed) diag_out_of_memory(errors);
+    text_free(&text);
+    return !failed;
+}
+
+static const fbd_finding *first_fault(const fbd_grade *grade)
+{
+    for (const struct finding *one = grade->first; one; one = one->next) {
+        const fbd_finding *finding = &one->finding;
+        bool reaction = finding->kind == FBD_FINDING_MISSING && one->reaction;
+        if (!reaction && (finding->points < finding->most || finding->points < 0)) return finding;
+    }
+    return NULL;
+}
+
+/* Grade the key with itself, and warn of entries without full marks; false with a note if the key has no
+ * points, or when memory is out. */
+static bool check_itself(struct fbd_key *key, fbd_errors *errors)
+{
+    if (!has_points(key, errors)) return false;
+    fbd_grade *grade = grade_itself(key);
+    const fbd_finding *fault = grade ? first_fault(grade) : NULL;
+    if (!grade) diag_out_of_memory(errors);
+    if (fault)
+        diag_add(errors, FBD_WARNING, "key-differs", (struct pos){fault->line, fault->column},
+                 "`fbd-run --grade KEY KEY --details` lists all, `--check-hand` has more about derivations",
+                 "graded against itself the key has not all points: %.80s%s%.200s: %.200s", fault->body,
+                 *fault->name ? ": " : "", fault->name, fault->message);
+    bool graded = grade != NULL;
+    fbd_grade_free(grade);
+    return graded && tell_reactions(key, errors);
+}
+
+static bool find_asked(struct fbd_key *key)
+{
+    size_t count = key->model->body_count;
+    key->asked = ARENA_ARRAY(&key->arena, count + 1, bool *);
+    key->asked_count = ARENA_ARRAY(&key->arena, count + 1, size_t);
+    bool done = key->asked && key->asked_count && compare_with_itself(key);
+    if (!done) key->arena.failed = true;
+    return done;
+}
+
+static bool compile_key(struct fbd_key *key, fbd_errors *errors)
+{
+    key->model = hands_compile(&key->document, key->set, key->set_count, errors);
+    return key->model && find_asked(key);
+}
+
+/* The texts are copied. */
+static bool take_settings(struct fbd_key *key, const fbd_setting *settings, size_t count)
+{
+    key->set = ARENA_ARRAY(&key->arena, count + 1, struct override);
+    for (size_t i = 0; key->set && i < count; i++) {
+        const char *name = settings[i].name, *value = settings[i].value;
+        key->set[i] = (struct override){.name = arena_text(&key->arena, name, strlen(name)),
+                                        .value = arena_text(&key->arena, value, strlen(value))};
+        key->set_count++;
+    }
+    return !key->arena.failed;
+}
+
+/* Make a key of this text, which it takes over, without checking it; the text may be NULL. */
+static fbd_key *compile_text(char *text, size_t length, const char *name, const fbd_setting *settings,
+                             size_t count, fbd_errors *errors)
+{
+    fbd_key *key = text ? calloc(1, sizeof *key) : NULL;
+    if (!key) {
+        if (text) diag_out_of_memory(errors);
+        free(text);
+        return NULL;
+    }
+    key->source = text;
+    key->length = length;
+    key->file = arena_text(&key->arena, name, strlen(name));
+    bool taken = take_settings(key, settings, count);
+    bool opened = taken && key->file && document_open(&key->document, text, length, key->file, errors);
+    key->document.split_hands = true;
+    if (opened && compile_key(key, errors)) return key;
+    if (key->arena.failed) diag_out_of_memory(errors);
+    fbd_key_free(key);
+    return NULL;
+}
+
+/* The same, and grade it against itself. */
+static fbd_key *make_key(char *text, size_t length, const char *name, const fbd_setting *settings,
+                         size_t count, fbd_errors *errors)
+{
+    fbd_key *key = compile_text(text, length, name, settings, count, errors);
+    if (key && check_itself(key, errors)) return key;
+    fbd_key_free(key);
+    return NULL;
+}
+
+static bool is_asked(const char *path_or_text, const fbd_setting *settings, size_t count, fbd_errors *errors)
+{
+    if (path_or_text && api_has_settings(settings, count)) return true;
+    api_refuse(errors,
+               path_or_text ? "a setting has no name or no value" : "there is no path, or no text, of a key");
+    return false;
+}
+
+fbd_key *fbd_key_read_set(const char *path, const fbd_setting *settings, size_t setting_count,
+                          fbd_errors *list)
+{
+    struct diag_call call;
+    fbd_errors *errors = diag_begin(&call, list);
+    size_t length = 0;
+    char *text = is_asked(path, settings, setting_count, errors) ? file_text(path, &length, errors) : NULL;
+    fbd_key *key = text ? make_key(text, length, file_name(path), settings, setting_count, errors) : NULL;
+    diag_end(&call);
+    return key;
+}
+
+static bool check_source(const fbd_model *model, fbd_errors *errors)
+{
+    fbd_errors *others = fbd_errors_new(); /* discards warnings already given when the file was read */
+    char *copy = others ? file_copy(model->source, model->source_length, others) : NULL;
+    fbd_key *key = compile_text(copy, model->source_length, model->scene->file, NULL, 0, others);
+    bool lacking = !others || others->out_of_memory;
+    if (lacking) diag_out_of_memory(errors);
+    diag_in_file(errors, model->scene->file);
+    /* A file that needs settings to be a valid model is rejected when it is graded. */
+    bool done = key ? check_itself(key, errors) : !lacking;
+    fbd_key_free(key);
+    fbd_errors_free(others);
+    return done;
+}
+
+bool fbd_model_check_key(const fbd_model *model, fbd_errors *list)
+{
+    struct diag_call call;
+    fbd_errors *errors = diag_begin(&call, list);
+    bool is_key = model && model->source && model->scene->grading.given;
+    bool done = is_key ? check_source(model, errors) : model || api_refuse(errors, "there is no model");
+    diag_end(&call);
+    return done;
+}
+
+fbd_key *fbd_key_parse(const char *text, size_t length, const char *name, const fbd_setting *settings,
+                       size_t setting_count, fbd_errors *list)
+{
+    struct diag_call call;
+    fbd_errors *errors = diag_begin(&call, list);
+    bool asked = is_asked(text, settings, setting_count, errors);
+    char *copy = asked ? file_copy(text, length, errors) : NULL;
+    fbd_key *key = copy ? make_key(copy, length, name ? name : "key", settings, setting_count, errors) : NULL;
+    diag_end(&call);
+    return key;
+}
+
+fbd_key *fbd_key_read(const char *path, fbd_errors *errors)
+{
+    return fbd_key_read_set(path, NULL, 0, errors);
+}
