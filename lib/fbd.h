@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
  * fbd: free-body diagrams that run. This header has models, states, equations and runs; fbd_study.h has studies of a model,
- * fbd_grade.h compares derivations and answers with it, fbd_export.h has its outputs, fbd_workers.h sweeps over several
- * processes, fbd_test.h checks for unit tests.
+ * fbd_grade.h compares derivations and answers with it, fbd_view.h has its bodies and forces in detail, fbd_export.h its
+ * outputs, fbd_workers.h sweeps over several processes, fbd_test.h checks for unit tests.
  *
  * Units are those of the model's system (`units: SI` or `US`), angles are in radians, times in seconds. A
  * unit returned with a name is the unit of that quantity.

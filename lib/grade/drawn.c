@@ -14,10 +14,10 @@
 #include "fbd_grade.h"
 #include "grade/lines.h"
 
-const char *name_as_drawn(const struct fbd_grade *grade, const struct load *load)
+const char *name_as_drawn(const struct fbd_grade *grade, const fbd_force *force)
 {
-    const struct drawn *drawn = drawn_at(grade, load->at);
-    return drawn && drawn->name ? drawn->name : load->name;
+    const struct drawn *drawn = drawn_at(grade, (struct pos){force->line, force->column});
+    return drawn && drawn->name ? drawn->name : force->arrow.name;
 }
 
 struct drawn *drawn_at(const struct fbd_grade *grade, struct pos at)

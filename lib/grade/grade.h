@@ -17,6 +17,7 @@
 #include "document/node.h"
 #include "dynamics/modes.h"
 #include "fbd_grade.h"
+#include "fbd_view.h"
 #include "model/model.h"
 #include "scene/names.h"
 
@@ -71,7 +72,7 @@ struct finding {
 /* A coordinate that the answer measures otherwise: its own is sign times that of the sheet, plus offset. */
 struct own_coordinate {
     const char *body;
-    const struct coordinate_names *names;
+    bool angle; /* of a pivot; else of a slide */
     double sign, offset;
     const char *unit; /* of the offset */
     const struct own_coordinate *next;
@@ -165,7 +166,7 @@ const struct node *answer_take_drawn(struct fbd_grade *grade, const struct node 
 struct drawn *drawn_at(const struct fbd_grade *grade, struct pos at);
 
 /* The answer's name of a force. */
-const char *name_as_drawn(const struct fbd_grade *grade, const struct load *load);
+const char *name_as_drawn(const struct fbd_grade *grade, const fbd_force *force);
 
 /* ---- comparing */
 

@@ -8,7 +8,6 @@
 #include "base/api_check.h"
 #include "base/file.h"
 #include "base/text.h"
-#include "dynamics/diagram.h"
 #include "fbd_grade.h"
 #include "grade/grade.h"
 #include "output/hand_forces.h"
@@ -39,22 +38,18 @@ static bool has_points(struct fbd_key *key, fbd_errors *errors)
 /* The reactions of a body that have to be drawn, by name. */
 static void add_names(const struct fbd_key *key, size_t b, struct text *text)
 {
-    const fbd_model *model = key->model;
-    fbd_state *state = key_asks(key, b) > 0 ? state_new(model) : NULL;
-    struct arrow *arrows = calloc(diagram_arrows(model, (int)b) + 1, sizeof *arrows);
-    if (state && arrows) {
-        state_evaluate(state);
-        struct instant at = state_instant(state);
-        size_t listed = model->bodies[b].source->load_count;
-        size_t count = diagram_list(model, (int)b, &at, state->a, state->slots, arrows);
-        for (size_t i = 0; i < key->asked_count[b] && listed + i < count; i++)
-            if (key->asked[b][i])
-                text_printf(text, "%s`%s` on `%s`", text->length ? ", " : "", arrows[listed + i].name,
-                            model->bodies[b].name);
-    }
-    if (!arrows || (!state && key_asks(key, b) > 0)) text->failed = true;
+    if (key_asks(key, b) == 0) return;
+    const fbd_body body = fbd_model_body(key->model, b);
+    fbd_state *state = fbd_state_new(key->model);
+    fbd_arrow *arrows = calloc(body.most_forces + 1, sizeof *arrows);
+    size_t count = arrows ? fbd_diagram(state, b, arrows, body.most_forces) : 0;
+    for (size_t i = 0; i < key->asked_count[b] && body.listed + i < count; i++)
+        if (key->asked[b][i])
+            text_printf(text, "%s`%s` on `%s`", text->length ? ", " : "", arrows[body.listed + i].name,
+                        body.name);
+    if (count == 0) text->failed = true; /* memory is out */
     free(arrows);
-    state_free(state);
+    fbd_state_free(state);
 }
 
 /* Warn the author that answers have to draw reactions where the key does not state it; a model cannot list

@@ -64,6 +64,10 @@ void studies(void **context);
 void grades(void **context);
 void a_key_without_an_answer(void **context);
 
+/* bad_calls_view.c */
+void bodies_and_forces(void **context);
+void states_for_comparison(void **context);
+
 /* bad_calls_options.c */
 void options_have_a_size(void **context);
 void options_are_filled_with_defaults(void **context);

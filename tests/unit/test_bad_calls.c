@@ -405,7 +405,8 @@ static void no_function_is_forgotten(void **context)
     note("fbd_schema");
     size_t forgotten = 0;
     size_t functions = 0;
-    static const char *const headers[] = {"fbd.h", "fbd_study.h", "fbd_grade.h", "fbd_export.h"};
+    static const char *const headers[] = {"fbd.h", "fbd_study.h", "fbd_grade.h", "fbd_export.h",
+                                          "fbd_view.h"};
     for (size_t i = 0; i < sizeof headers / sizeof *headers; i++) {
         const size_t own = check_header(headers[i], &forgotten);
         assert_true(own > 10);
@@ -434,6 +435,8 @@ int main(void)
         cmocka_unit_test(studies),
         cmocka_unit_test(grades),
         cmocka_unit_test(a_key_without_an_answer),
+        cmocka_unit_test(bodies_and_forces),
+        cmocka_unit_test(states_for_comparison),
         cmocka_unit_test(options_have_a_size),
         cmocka_unit_test(options_are_filled_with_defaults),
         cmocka_unit_test(progress_ends_what_is_under_way),
