@@ -79,14 +79,13 @@ FBD_API size_t fbd_state_forces(fbd_state *state, size_t body, fbd_force *forces
 
 /* A force by the name that derivations (`hand`) use for it. */
 typedef struct fbd_named_force {
-    size_t force; /* index in the diagram */
+    size_t force; /* index in the diagram; SIZE_MAX when memory is out */
     bool moment;  /* it is a pure moment */
     double value; /* of the name at the state, with its sign, in the unit of the force or moment */
 } fbd_named_force;
 
 /* Find a force on a body by the name or letter by which derivations of the body refer to its magnitude, to a
- * component or to its couple: `cord`, `T_1`, `wrist.x`, `clamp.moment`. Returns false if there is no such name, or
- * memory is out. */
+ * component or to its couple: `cord`, `T_1`, `wrist.x`, `clamp.moment`. Returns false if there is no such name. */
 FBD_API bool fbd_state_named_force(fbd_state *state, size_t body, const char *name, fbd_named_force *found);
 
 /* ---------------------------------------------------------------- states at which scenes are compared */

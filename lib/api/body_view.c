@@ -2,6 +2,7 @@
  *
  * Public interface: the bodies of a scene, and their forces with their origin.
  */
+#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -201,17 +202,17 @@ bool fbd_state_named_force(fbd_state *state, size_t body, const char *name, fbd_
     if (!state || body >= state->model->body_count || !name || !found) return false;
     struct arena arena = {0};
     struct hand_forces forces = {0};
-    bool listed = hand_forces_make(state->model, &arena, &forces);
-    const struct hand_force *one = listed ? find_name(&forces, body, name) : NULL;
     size_t count;
-    struct arrow *arrows = one ? arrows_of(state, (int)body, &count) : NULL;
+    struct arrow *arrows = arrows_of(state, (int)body, &count);
     const struct instant at = state_instant(state);
-    if (arrows)
+    const bool listed = arrows && hand_forces_make(state->model, &arena, &forces);
+    const struct hand_force *one = listed ? find_name(&forces, body, name) : NULL;
+    *found = (fbd_named_force){.force = SIZE_MAX, .value = NAN};
+    if (one)
         *found = (fbd_named_force){.force = one->arrow,
                                    .moment = one->symbol->moment,
                                    .value = hand_force_value(state->model, one, &at, arrows)};
-    const bool done = arrows != NULL;
     free(arrows);
     arena_free(&arena);
-    return done;
+    return one || !listed;
 }

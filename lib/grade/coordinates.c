@@ -71,7 +71,7 @@ static bool is_known(const struct rewriting *rewriting, const char *name)
     static const char *const maps[] = {"parameters", "inputs", "states", "tables"};
     if (strcmp(name, "N") == 0) return has_normal(grade, rewriting->body);
     for (size_t i = 0; i < sizeof maps / sizeof *maps; i++)
-        if (node_find(lines_value(grade->key->document.root, maps[i]), name) ||
+        if (node_find(lines_value(grade->key->root, maps[i]), name) ||
             node_find(lines_value(rewriting->answer, maps[i]), name))
             return true;
     return name_is_of_equations(name);

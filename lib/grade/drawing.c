@@ -393,7 +393,7 @@ static const struct node *body_over(struct arena *arena, const struct node *body
 static const struct node *over_sheet(struct fbd_grade *grade, const struct node *root)
 {
     struct arena *arena = &grade->arena;
-    const struct node *sheet = without_places(arena, grade->key->document.root);
+    const struct node *sheet = without_places(arena, grade->key->root);
     const struct node *own = lines_value(root, "bodies"), *bodies = lines_value(sheet, "bodies"),
                       *made = bodies;
     for (size_t b = 0; made && b < bodies->count; b++) {

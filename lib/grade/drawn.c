@@ -52,7 +52,7 @@ static bool has_value(const struct fbd_grade *grade, const struct node *root, co
         if (strcmp(name, known[i]) == 0) return true;
     for (size_t i = 0; i < sizeof maps / sizeof *maps; i++)
         if (node_find(lines_value(root, maps[i]), name) ||
-            node_find(lines_value(grade->key->document.root, maps[i]), name))
+            node_find(lines_value(grade->key->root, maps[i]), name))
             return true;
     return false;
 }

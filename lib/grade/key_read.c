@@ -10,7 +10,6 @@
 #include "base/text.h"
 #include "fbd_grade.h"
 #include "grade/grade.h"
-#include "output/hand_forces.h"
 
 static double points_of(const struct fbd_key *key)
 {
@@ -110,18 +109,18 @@ static bool find_asked(struct fbd_key *key)
 
 static bool compile_key(struct fbd_key *key, fbd_errors *errors)
 {
-    key->model = hands_compile(&key->document, key->set, key->set_count, errors);
+    key->model = tree_compile(key->root, key->file, key->set, key->set_count, true, errors);
     return key->model && find_asked(key);
 }
 
 /* The texts are copied. */
 static bool take_settings(struct fbd_key *key, const fbd_setting *settings, size_t count)
 {
-    key->set = ARENA_ARRAY(&key->arena, count + 1, struct override);
+    key->set = ARENA_ARRAY(&key->arena, count + 1, fbd_setting);
     for (size_t i = 0; key->set && i < count; i++) {
         const char *name = settings[i].name, *value = settings[i].value;
-        key->set[i] = (struct override){.name = arena_text(&key->arena, name, strlen(name)),
-                                        .value = arena_text(&key->arena, value, strlen(value))};
+        key->set[i] = (fbd_setting){.name = arena_text(&key->arena, name, strlen(name)),
+                                    .value = arena_text(&key->arena, value, strlen(value))};
         key->set_count++;
     }
     return !key->arena.failed;
@@ -141,9 +140,9 @@ static fbd_key *compile_text(char *text, size_t length, const char *name, const 
     key->length = length;
     key->file = arena_text(&key->arena, name, strlen(name));
     bool taken = take_settings(key, settings, count);
-    bool opened = taken && key->file && document_open(&key->document, text, length, key->file, errors);
-    key->document.split_hands = true;
-    if (opened && compile_key(key, errors)) return key;
+    diag_in_file(errors, key->file);
+    if (taken && key->file) key->root = node_open(&key->arena, text, length, errors);
+    if (key->root && compile_key(key, errors)) return key;
     if (key->arena.failed) diag_out_of_memory(errors);
     fbd_key_free(key);
     return NULL;

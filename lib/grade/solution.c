@@ -14,7 +14,7 @@
 fbd_model *solution_model(const struct handout *handout, fbd_errors *errors)
 {
     struct fbd_grade grade = {.key = handout->key, .student = handout->student};
-    fbd_model *model = grade_compile(&grade, handout->key->document.root, handout->key->file, true, errors);
+    fbd_model *model = grade_compile(&grade, handout->key->root, handout->key->file, true, errors);
     if (grade.arena.failed) diag_out_of_memory(errors);
     arena_free(&grade.arena);
     return model;
