@@ -15,7 +15,6 @@
 #define FBD_GRADE_GRADE_H
 
 #include "document/node.h"
-#include "dynamics/modes.h"
 #include "fbd_grade.h"
 #include "fbd_view.h"
 #include "model/model.h"
