@@ -23,7 +23,7 @@ FBD_API fbd_scene fbd_model_scene(const fbd_model *model);
 
 /* A body of a scene. Texts live as long as the model. Past the last body the name is NULL, and numbers are
  * NAN or 0. */
-typedef struct fbd_body {
+typedef struct fbd_listed_body {
     const char *name;
     const char *motion; /* its key in the file: "slide", "pivot", "particle", "planar", "weld", "track" */
     size_t coordinate, coordinate_count; /* the first one, as index of fbd_model_coordinate */
@@ -34,26 +34,26 @@ typedef struct fbd_body {
     double pin[2];                  /* pivot: the point on the axis, in the body frame */
     int line, column;               /* of the body in the file, */
     int motion_line, motion_column; /* and of its `motion` */
-} fbd_body;
+} fbd_listed_body;
 
-FBD_API fbd_body fbd_model_body(const fbd_model *model, size_t body);
+FBD_API fbd_listed_body fbd_model_listed_body(const fbd_model *model, size_t body);
 
 /* The position of a body: of the origin of its frame and of its centre of mass G, in the world, and the x axis
  * of its frame, which for a slide is its line. */
-typedef struct fbd_pose {
+typedef struct fbd_placement {
     double x, y, G[2];
     double cosine, sine;
-} fbd_pose;
+} fbd_placement;
 
 /* The pose at a state; NAN past the last body. */
-FBD_API fbd_pose fbd_state_pose(const fbd_state *state, size_t body);
+FBD_API fbd_placement fbd_state_placement(const fbd_state *state, size_t body);
 
 /* The sense in which the friction of a body slips: 1 along +x of its motion, -1 against it; 0 while it sticks,
  * and without friction. */
 FBD_API int fbd_state_slip(const fbd_state *state, size_t body);
 
 /* A force or moment of a diagram with its origin. Texts live as long as the model. */
-typedef struct fbd_force {
+typedef struct fbd_listed_force {
     fbd_arrow arrow; /* as of fbd_diagram; its name is NULL where there is no force */
     /* of an entry of the file, from here on: the key of its law, "gravity", "spring"; of a law that is
      * computed as an applied force or moment "applied". "" for other forces, as those of couplings */
@@ -71,11 +71,11 @@ typedef struct fbd_force {
     bool free;       /* its direction is not given by the scene, as of a pin */
     int contact;     /* the contact that it is part of, numbered from 0, or -1 */
     double along[2]; /* vector along its line where that is given, outward for a normal force; else 0 */
-} fbd_force;
+} fbd_listed_force;
 
 /* Fill at most `room` forces of a body at a state, in the order of fbd_diagram; returns their number, 0 past
  * the last body. `forces` may be NULL to count only. */
-FBD_API size_t fbd_state_forces(fbd_state *state, size_t body, fbd_force *forces, size_t room);
+FBD_API size_t fbd_state_forces(fbd_state *state, size_t body, fbd_listed_force *forces, size_t room);
 
 /* A force by the name that derivations (`hand`) use for it. */
 typedef struct fbd_named_force {

@@ -25,34 +25,34 @@ fbd_scene fbd_model_scene(const fbd_model *model)
                        .gravity = {scene->gravity.x, scene->gravity.y}};
 }
 
-fbd_body fbd_model_body(const fbd_model *model, size_t body)
+fbd_listed_body fbd_model_listed_body(const fbd_model *model, size_t body)
 {
     const fbd_inertia inertia = fbd_model_inertia(model, body);
-    if (!model || body >= model->body_count) return (fbd_body){.inertia = inertia, .pin = {NAN, NAN}};
+    if (!model || body >= model->body_count) return (fbd_listed_body){.inertia = inertia, .pin = {NAN, NAN}};
     const struct model_body *b = &model->bodies[body];
-    return (fbd_body){.name = b->name,
-                      .motion = motion_kinds.kinds[b->kind].name,
-                      .coordinate = (size_t)b->first,
-                      .coordinate_count = (size_t)b->count,
-                      .listed = b->source->load_count,
-                      .most_forces = diagram_arrows(model, (int)body),
-                      .friction = b->friction >= 0,
-                      .inertia = inertia,
-                      .pin = {b->pin.x, b->pin.y},
-                      .line = b->source->at.line,
-                      .column = b->source->at.column,
-                      .motion_line = b->source->motion.at.line,
-                      .motion_column = b->source->motion.at.column};
+    return (fbd_listed_body){.name = b->name,
+                             .motion = motion_kinds.kinds[b->kind].name,
+                             .coordinate = (size_t)b->first,
+                             .coordinate_count = (size_t)b->count,
+                             .listed = b->source->load_count,
+                             .most_forces = diagram_arrows(model, (int)body),
+                             .friction = b->friction >= 0,
+                             .inertia = inertia,
+                             .pin = {b->pin.x, b->pin.y},
+                             .line = b->source->at.line,
+                             .column = b->source->at.column,
+                             .motion_line = b->source->motion.at.line,
+                             .motion_column = b->source->motion.at.column};
 }
 
-fbd_pose fbd_state_pose(const fbd_state *state, size_t body)
+fbd_placement fbd_state_placement(const fbd_state *state, size_t body)
 {
-    if (!state || body >= state->model->body_count) return (fbd_pose){NAN, NAN, {NAN, NAN}, NAN, NAN};
+    if (!state || body >= state->model->body_count) return (fbd_placement){NAN, NAN, {NAN, NAN}, NAN, NAN};
     const struct model_body *b = &state->model->bodies[body];
     const struct instant at = state_instant(state);
     const struct pose pose = body_pose(b, &at);
     const struct vec G = point_motion(b, &pose, b->inertia.G).p;
-    return (fbd_pose){pose.origin.x, pose.origin.y, {G.x, G.y}, pose.rotation.x, pose.rotation.y};
+    return (fbd_placement){pose.origin.x, pose.origin.y, {G.x, G.y}, pose.rotation.x, pose.rotation.y};
 }
 
 int fbd_state_slip(const fbd_state *state, size_t body)
@@ -81,7 +81,7 @@ static double coefficient(const struct value *value, const fbd_state *state)
 }
 
 static void describe_load(const fbd_state *state, const struct model_body *body, const struct load *load,
-                          const struct instant *at, fbd_force *force)
+                          const struct instant *at, fbd_listed_force *force)
 {
     static const char *const sides[] = {[side_up] = "up", [side_left] = "left", [side_right] = "right"};
     const bool normal = load->kind == load_normal;
@@ -115,7 +115,7 @@ static struct vec direction_of(const struct coupling *coupling, int k, int row, 
 }
 
 static struct vec describe_joint(const fbd_model *model, int b, const char *name, const struct instant *at,
-                                 fbd_force *force)
+                                 fbd_listed_force *force)
 {
     const struct model_body *body = &model->bodies[b];
     for (size_t c = 0; c < model->body_count;
@@ -129,7 +129,8 @@ static struct vec describe_joint(const fbd_model *model, int b, const char *name
     return joint && guided ? vec_perp(body_direction(body, at)) : (struct vec){0, 0};
 }
 
-static void describe_reaction(const fbd_model *model, int b, const struct instant *at, fbd_force *force)
+static void describe_reaction(const fbd_model *model, int b, const struct instant *at,
+                              fbd_listed_force *force)
 {
     const char *name = force->arrow.name;
     struct vec along = describe_joint(model, b, name, at, force);
@@ -163,7 +164,7 @@ static struct arrow *arrows_of(fbd_state *state, int b, size_t *count)
     return arrows;
 }
 
-size_t fbd_state_forces(fbd_state *state, size_t body, fbd_force *forces, size_t room)
+size_t fbd_state_forces(fbd_state *state, size_t body, fbd_listed_force *forces, size_t room)
 {
     if (!state || body >= state->model->body_count) return 0;
     const struct fbd_model *model = state->model;
@@ -174,7 +175,8 @@ size_t fbd_state_forces(fbd_state *state, size_t body, fbd_force *forces, size_t
     const struct pose pose = body_pose(b, &at);
     const struct vec about = b->kind == motion_pivot ? pose.origin : point_motion(b, &pose, b->inertia.G).p;
     for (size_t i = 0; forces && i < count && i < room; i++) {
-        forces[i] = (fbd_force){.arrow = public_arrow(&arrows[i], about), .law = "", .side = "", .size = NAN};
+        forces[i] =
+            (fbd_listed_force){.arrow = public_arrow(&arrows[i], about), .law = "", .side = "", .size = NAN};
         forces[i].reaction = arrow_is_reaction(model, &arrows[i]);
         forces[i].contact = -1;
         if (i < b->source->load_count)

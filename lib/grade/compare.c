@@ -26,7 +26,7 @@ struct comparison {
     size_t body_count; /* of the key */
     fbd_state *key_state, *state;
     struct twin *twins; /* of each body of the key */
-    fbd_force *forces;
+    fbd_listed_force *forces;
     fbd_sampler *sampler;  /* of the key */
     double length, force;  /* units of the answer in those of the key */
     bool possible, starts; /* state of the key: it is admissible; it is the start, perhaps at another time */
@@ -99,7 +99,7 @@ static int body_called(const fbd_model *model, const char *name)
     return -1;
 }
 
-static bool has_coordinates(const struct comparison *comparison, const fbd_body *body)
+static bool has_coordinates(const struct comparison *comparison, const fbd_listed_body *body)
 {
     for (size_t k = 0; k < body->coordinate_count; k++)
         if (!has_coordinate(comparison, fbd_model_coordinate(comparison->key, body->coordinate + k).name))
@@ -107,13 +107,13 @@ static bool has_coordinates(const struct comparison *comparison, const fbd_body 
     return true;
 }
 
-static bool moves_by(const fbd_body *body, const char *motion)
+static bool moves_by(const fbd_listed_body *body, const char *motion)
 {
     return strcmp(body->motion, motion) == 0;
 }
 
 /* True if the body and its angle move. */
-static bool turns(const fbd_body *body)
+static bool turns(const fbd_listed_body *body)
 {
     return !moves_by(body, "slide") && !moves_by(body, "particle");
 }
@@ -123,9 +123,9 @@ static double size_of_scene(const struct comparison *comparison)
 {
     double size = 0;
     for (size_t b = 0; b < comparison->body_count; b++) {
-        const fbd_body body = fbd_model_body(comparison->key, b);
+        const fbd_listed_body body = fbd_model_listed_body(comparison->key, b);
         const fbd_inertia *inertia = &body.inertia;
-        const fbd_pose pose = fbd_state_pose(comparison->key_state, b);
+        const fbd_placement pose = fbd_state_placement(comparison->key_state, b);
         double gyration = sqrt(fmax(inertia->I_G, 0) / inertia->mass);
         double arm = moves_by(&body, "pivot") ? inertia->L : hypot(inertia->G[0], inertia->G[1]);
         size = fmax(size, hypot(pose.x, pose.y) + arm + gyration);
@@ -134,9 +134,9 @@ static double size_of_scene(const struct comparison *comparison)
 }
 
 /* The poses of a body of the key and of its twin, in the units of the key. */
-static fbd_pose pose_of_twin(const struct comparison *comparison, size_t b)
+static fbd_placement pose_of_twin(const struct comparison *comparison, size_t b)
 {
-    fbd_pose pose = fbd_state_pose(comparison->state, (size_t)comparison->twins[b].other);
+    fbd_placement pose = fbd_state_placement(comparison->state, (size_t)comparison->twins[b].other);
     pose.x *= comparison->length;
     pose.y *= comparison->length;
     for (int k = 0; k < 2; k++) pose.G[k] *= comparison->length;
@@ -148,8 +148,9 @@ static fbd_pose pose_of_twin(const struct comparison *comparison, size_t b)
 static bool is_there(const struct comparison *comparison, size_t b)
 {
     const struct twin *twin = &comparison->twins[b];
-    const fbd_body body = fbd_model_body(comparison->key, b);
-    const fbd_pose pose = fbd_state_pose(comparison->key_state, b), there = pose_of_twin(comparison, b);
+    const fbd_listed_body body = fbd_model_listed_body(comparison->key, b);
+    const fbd_placement pose = fbd_state_placement(comparison->key_state, b),
+                        there = pose_of_twin(comparison, b);
     const double digits = 1e-9; /* of files */
     struct vec turn = {cos(twin->offset), sin(twin->offset)}, rotation = {pose.cosine, pose.sine};
     if (moves_by(&body, "pivot")) rotation = vec_turn(turn, rotation);
@@ -160,21 +161,22 @@ static bool is_there(const struct comparison *comparison, size_t b)
 /* True if its centre of mass coincides with that of the key's. */
 static bool balances_there(const struct comparison *comparison, size_t b)
 {
-    const fbd_pose pose = fbd_state_pose(comparison->key_state, b), there = pose_of_twin(comparison, b);
+    const fbd_placement pose = fbd_state_placement(comparison->key_state, b),
+                        there = pose_of_twin(comparison, b);
     const double digits = 1e-6; /* of lengths computed by hand */
     return hypot(pose.G[0] - there.G[0], pose.G[1] - there.G[1]) <= digits * size_of_scene(comparison);
 }
 
 static void find_twin(struct comparison *comparison, size_t b)
 {
-    const fbd_body body = fbd_model_body(comparison->key, b);
+    const fbd_listed_body body = fbd_model_listed_body(comparison->key, b);
     struct twin *twin = &comparison->twins[b];
     *twin = (struct twin){.other = body_called(comparison->answer, body.name), .sign = 1};
     if (twin->other < 0) {
         verdict_body(comparison->grade, b);
         return;
     }
-    const fbd_body other = fbd_model_body(comparison->answer, (size_t)twin->other);
+    const fbd_listed_body other = fbd_model_listed_body(comparison->answer, (size_t)twin->other);
     if (moves_by(&body, other.motion) && has_coordinates(comparison, &body)) return;
     verdict_motion(comparison->grade, b, &other);
     twin->other = -1;
@@ -185,12 +187,12 @@ static bool find_slide(struct comparison *comparison, size_t b)
 {
     struct twin *twin = &comparison->twins[b];
     if (is_there(comparison, b)) return true;
-    const fbd_pose pose = fbd_state_pose(comparison->key_state, b);
-    fbd_pose there = pose_of_twin(comparison, b);
+    const fbd_placement pose = fbd_state_placement(comparison->key_state, b);
+    fbd_placement there = pose_of_twin(comparison, b);
     twin->sign = pose.cosine * there.cosine + pose.sine * there.sine < 0 ? -1 : 1;
     follow(comparison);
     if (is_there(comparison, b)) return true;
-    there = fbd_state_pose(comparison->state, (size_t)twin->other);
+    there = fbd_state_placement(comparison->state, (size_t)twin->other);
     twin->offset = (pose.x / comparison->length - there.x) * there.cosine +
                    (pose.y / comparison->length - there.y) * there.sine;
     follow(comparison);
@@ -202,7 +204,7 @@ static double initial_angle(struct fbd_grade *grade, const fbd_model *model, siz
 {
     double angle = 0;
     fbd_state *state = fbd_state_new(model);
-    const fbd_body body = fbd_model_body(model, b);
+    const fbd_listed_body body = fbd_model_listed_body(model, b);
     if (!fbd_state_get(state, fbd_model_coordinate(model, body.coordinate).name, &angle))
         grade->arena.failed = true;
     fbd_state_free(state);
@@ -225,13 +227,14 @@ static bool find_pivot(struct comparison *comparison, size_t b)
     return there;
 }
 
-static void keep_own(const struct comparison *comparison, const fbd_body *body, const struct twin *twin)
+static void keep_own(const struct comparison *comparison, const fbd_listed_body *body,
+                     const struct twin *twin)
 {
     struct fbd_grade *grade = comparison->grade;
     if (twin->sign > 0 && twin->offset == 0) return;
     struct own_coordinate *own = ARENA_NEW(&grade->arena, struct own_coordinate);
     if (!own) return;
-    const fbd_body other = fbd_model_body(comparison->answer, (size_t)twin->other);
+    const fbd_listed_body other = fbd_model_listed_body(comparison->answer, (size_t)twin->other);
     *own = (struct own_coordinate){.body = body->name,
                                    .angle = moves_by(body, "pivot"),
                                    .sign = twin->sign,
@@ -247,8 +250,8 @@ static void find_coordinates(struct comparison *comparison)
     for (size_t b = 0; b < comparison->body_count; b++) {
         struct twin *twin = &comparison->twins[b];
         if (twin->other < 0) continue;
-        const fbd_body body = fbd_model_body(comparison->key, b);
-        const fbd_body other = fbd_model_body(comparison->answer, (size_t)twin->other);
+        const fbd_listed_body body = fbd_model_listed_body(comparison->key, b);
+        const fbd_listed_body other = fbd_model_listed_body(comparison->answer, (size_t)twin->other);
         bool found = moves_by(&body, "slide")   ? find_slide(comparison, b)
                      : moves_by(&body, "pivot") ? find_pivot(comparison, b)
                                                 : is_there(comparison, b);
@@ -290,7 +293,7 @@ static void note_unknown(const struct comparison *comparison, struct item *item)
 /* The properties of a force at the start. */
 static void describe(struct item *item)
 {
-    const fbd_force *force = &item->force;
+    const fbd_listed_force *force = &item->force;
     item->across = (struct vec){force->along[0], force->along[1]};
     item->one_sided = force->one_sided;
     item->couples = force->couples;
@@ -303,7 +306,7 @@ static void take_items(const struct comparison *comparison, fbd_state *state, si
                        const struct sides *sides, bool own, size_t s, struct vec G)
 {
     const fbd_model *model = own ? comparison->key : comparison->answer;
-    const fbd_body body = fbd_model_body(model, b);
+    const fbd_listed_body body = fbd_model_listed_body(model, b);
     double force = own ? 1 : comparison->force, length = own ? 1 : comparison->length;
     size_t count = fbd_state_forces(state, b, comparison->forces, body.most_forces);
     if (count == 0 && body.most_forces > 0) comparison->grade->arena.failed = true;
@@ -327,7 +330,7 @@ static void take_state(struct comparison *comparison, size_t s)
     for (size_t b = 0; b < comparison->body_count; b++) {
         struct twin *twin = &comparison->twins[b];
         if (twin->other < 0) continue;
-        const fbd_pose pose = fbd_state_pose(comparison->key_state, b);
+        const fbd_placement pose = fbd_state_placement(comparison->key_state, b);
         const struct vec G = {pose.G[0], pose.G[1]};
         struct sides *sides = &twin->sides;
         take_items(comparison, comparison->key_state, b, sides, true, s, G);
@@ -348,8 +351,8 @@ static bool make_sides(struct comparison *comparison)
         struct twin *twin = &comparison->twins[b];
         struct sides *sides = &twin->sides;
         if (twin->other < 0) continue;
-        const fbd_body body = fbd_model_body(comparison->key, b);
-        const fbd_body other = fbd_model_body(comparison->answer, (size_t)twin->other);
+        const fbd_listed_body body = fbd_model_listed_body(comparison->key, b);
+        const fbd_listed_body other = fbd_model_listed_body(comparison->answer, (size_t)twin->other);
         if (body.most_forces > most) most = body.most_forces;
         if (other.most_forces > most) most = other.most_forces;
         sides->key_count = body.listed;
@@ -469,8 +472,8 @@ static void judge_body(struct comparison *comparison, size_t b)
     struct fbd_grade *grade = comparison->grade;
     struct twin *twin = &comparison->twins[b];
     if (twin->other < 0) return;
-    const fbd_body body = fbd_model_body(comparison->key, b);
-    const fbd_body other = fbd_model_body(comparison->answer, (size_t)twin->other);
+    const fbd_listed_body body = fbd_model_listed_body(comparison->key, b);
+    const fbd_listed_body other = fbd_model_listed_body(comparison->answer, (size_t)twin->other);
     measure(&twin->sides);
     reactions_take_asked(grade->key, b, &twin->sides);
     if (moves_by(&body, "pivot")) twin->sides.turned = twin->offset;

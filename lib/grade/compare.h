@@ -21,8 +21,8 @@ struct action {
 
 /* One force or moment of a body at every state: one that it lists, or a reaction of the key. */
 struct item {
-    fbd_force force;         /* at the last state */
-    const fbd_force *source; /* that, of a listed one; NULL for a reaction */
+    fbd_listed_force force;         /* at the last state */
+    const fbd_listed_force *source; /* that, of a listed one; NULL for a reaction */
     const char *name;
     bool follows; /* depends on the other forces */
     bool used;    /* already paired */
@@ -73,7 +73,7 @@ static inline bool are_alike(const struct item *a, const struct item *b)
     return strcmp(a->source->law, b->source->law) == 0;
 }
 
-static inline struct pos position_of(const fbd_force *force)
+static inline struct pos position_of(const fbd_listed_force *force)
 {
     return (struct pos){force->line, force->column};
 }

@@ -14,7 +14,7 @@
 #include "fbd_grade.h"
 #include "grade/lines.h"
 
-const char *name_as_drawn(const struct fbd_grade *grade, const fbd_force *force)
+const char *name_as_drawn(const struct fbd_grade *grade, const fbd_listed_force *force)
 {
     const struct drawn *drawn = drawn_at(grade, (struct pos){force->line, force->column});
     return drawn && drawn->name ? drawn->name : force->arrow.name;

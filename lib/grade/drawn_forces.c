@@ -35,7 +35,7 @@ static const char *component(struct arena *arena, const struct drawn *drawn)
 /* The size of the force, or of the couple, by its name only. */
 static const char *size_name(struct fbd_grade *grade, size_t b, fbd_state *state, const struct drawn *drawn)
 {
-    const size_t room = fbd_model_body(grade->sheet, b).most_forces;
+    const size_t room = fbd_model_listed_body(grade->sheet, b).most_forces;
     const bool couple = drawn->along.x == 0 && drawn->along.y == 0;
     const char *name = drawn->reaction;
     fbd_named_force force;

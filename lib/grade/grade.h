@@ -174,7 +174,7 @@ const struct node *answer_take_drawn(struct fbd_grade *grade, const struct node 
 struct drawn *drawn_at(const struct fbd_grade *grade, struct pos at);
 
 /* The answer's name of a force. */
-const char *name_as_drawn(const struct fbd_grade *grade, const fbd_force *force);
+const char *name_as_drawn(const struct fbd_grade *grade, const fbd_listed_force *force);
 
 /* ---- comparing */
 

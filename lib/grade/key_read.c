@@ -38,7 +38,7 @@ static bool has_points(struct fbd_key *key, fbd_errors *errors)
 static void add_names(const struct fbd_key *key, size_t b, struct text *text)
 {
     if (key_asks(key, b) == 0) return;
-    const fbd_body body = fbd_model_body(key->model, b);
+    const fbd_listed_body body = fbd_model_listed_body(key->model, b);
     fbd_state *state = fbd_state_new(key->model);
     fbd_arrow *arrows = calloc(body.most_forces + 1, sizeof *arrows);
     size_t count = arrows ? fbd_diagram(state, b, arrows, body.most_forces) : 0;

@@ -51,11 +51,11 @@ void solution_reactions(const struct handout *handout, const char *body_name, bo
     size_t b = 0;
     while (strcmp(fbd_model_body_name(model, b), body_name) != 0) b++;
     if (key_asks(handout->key, b) == 0) return;
-    const fbd_body body = fbd_model_body(model, b);
+    const fbd_listed_body body = fbd_model_listed_body(model, b);
     fbd_state *state = fbd_state_new_start(model);
     fbd_arrow *arrows = calloc(body.most_forces + 1, sizeof *arrows);
     bool turns = strcmp(body.motion, "slide") != 0 && strcmp(body.motion, "particle") != 0;
-    const fbd_pose pose = fbd_state_pose(state, b);
+    const fbd_placement pose = fbd_state_placement(state, b);
     size_t count = arrows ? fbd_diagram(state, b, arrows, body.most_forces) : 0;
     if (count == 0) handout->arena->failed = true;
     for (size_t i = 0; i < handout->key->asked_count[b] && body.listed + i < count; i++) {

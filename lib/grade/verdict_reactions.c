@@ -17,7 +17,7 @@ static void keep_values(struct fbd_grade *grade, const fbd_model *answer, const 
     double values[most_components];
     support_solve(sides, support, values);
     for (size_t j = 0; j < support->count; j++) {
-        const fbd_force *source = support->parts[j]->source;
+        const fbd_listed_force *source = support->parts[j]->source;
         struct drawn *drawn = drawn_at(grade, position_of(source));
         bool moment = strcmp(verdict_noun(source), "moment") == 0;
         if (!drawn) continue;

@@ -19,7 +19,7 @@ void verdict_right(struct fbd_grade *grade, const char *body, struct item *key, 
 double verdict_worth(const struct fbd_grade *grade, const struct item *key);
 
 /* `force` or `moment`. */
-const char *verdict_noun(const fbd_force *force);
+const char *verdict_noun(const fbd_listed_force *force);
 
 /* The reactions, and then the rest: of all readings of the drawn forces the one with the most points. */
 void verdict_reactions(struct fbd_grade *grade, const fbd_model *answer, size_t body, struct sides *sides);

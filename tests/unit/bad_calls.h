@@ -64,7 +64,7 @@ void studies(void **context);
 void grades(void **context);
 void a_key_without_an_answer(void **context);
 
-/* bad_calls_view.c */
+/* bad_calls_bodies.c */
 void bodies_and_forces(void **context);
 void states_for_comparison(void **context);
 

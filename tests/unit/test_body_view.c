@@ -42,7 +42,7 @@ static void a_body_has_its_entries_and_its_motion(void **context)
 {
     (void)context;
     fbd_model *model = model_from(crate);
-    const fbd_body body = fbd_model_body(model, 0);
+    const fbd_listed_body body = fbd_model_listed_body(model, 0);
     assert_string_equal(body.name, "crate");
     assert_string_equal(body.motion, "slide");
     assert_int_equal(body.coordinate_count, 1);
@@ -61,7 +61,7 @@ static void forces_have_their_laws(void **context)
     (void)context;
     fbd_model *model = model_from(crate);
     fbd_state *state = fbd_state_new_start(model);
-    fbd_force forces[8];
+    fbd_listed_force forces[8];
     fbd_arrow arrows[8];
     static const char *const laws[] = {"gravity", "normal", "friction", "applied"};
     assert_int_equal(fbd_state_forces(state, 0, forces, 8), fbd_diagram(state, 0, arrows, 8));
@@ -89,13 +89,13 @@ static void a_pin_has_no_direction(void **context)
     (void)context;
     fbd_model *model = model_from(arm);
     fbd_state *state = fbd_state_new_start(model);
-    fbd_force forces[4];
+    fbd_listed_force forces[4];
     fbd_named_force pin;
     assert_int_equal(fbd_state_forces(state, 0, forces, 4), 2);
     assert_string_equal(forces[1].law, "");
     assert_true(forces[1].reaction && forces[1].free && !forces[1].couples && forces[1].contact < 0);
     assert_true(fbd_state_named_force(state, 0, "pin.y", &pin) && pin.value == forces[1].arrow.fy);
-    const fbd_pose pose = fbd_state_pose(state, 0);
+    const fbd_placement pose = fbd_state_placement(state, 0);
     assert_true(fabs(pose.G[0] - 1) < 1e-12 && fabs(pose.G[1] - 2.4) < 1e-12 && fabs(pose.sine - 1) < 1e-12);
     fbd_state_free(state);
     fbd_model_free(model);
