@@ -67,6 +67,9 @@ struct pair {
  * as long as the tree. */
 const struct node *node_read(struct arena *arena, const struct source *source, fbd_errors *errors);
 
+/* Check and read a text, as source_open and node_read do. */
+const struct node *node_open(struct arena *arena, const char *text, size_t length, fbd_errors *errors);
+
 /* The pair of a mapping with this key, or NULL; takes O(log count). `map` may be NULL or another kind. */
 const struct pair *node_find(const struct node *map, const char *key);
 

@@ -475,3 +475,12 @@ const struct node *node_read(struct arena *arena, const struct source *source, f
     free(builder.pending);
     return root;
 }
+
+const struct node *node_open(struct arena *arena, const char *text, size_t length, fbd_errors *errors)
+{
+    struct source source;
+    if (!source_open(text, length, errors, &source)) return NULL;
+    const struct node *root = node_read(arena, &source, errors);
+    if (arena->failed || errors->arena.failed) diag_out_of_memory(errors);
+    return root;
+}

@@ -10,20 +10,6 @@
 #include "document/node_edit.h"
 #include "fbd_grade.h"
 #include "grade/lines.h"
-#include "output/hand_forces.h"
-
-fbd_model *grade_compile(struct fbd_grade *grade, const struct node *root, const char *file, bool hands,
-                         fbd_errors *errors)
-{
-    struct override *overrides;
-    const struct document document = {.file = file,
-                                      .root = root,
-                                      .without_hands = !hands,
-                                      .split_hands = hands};
-    size_t count = drawn_overrides(&grade->arena, grade->key, grade->student, root, &overrides);
-    if (grade->arena.failed) return NULL;
-    return hands_compile(&document, overrides, count, errors);
-}
 
 /* ---- leaving out */
 
@@ -197,7 +183,7 @@ static void refuse_files(struct fbd_grade *grade, const struct node *root, const
 static const struct node *strip(struct fbd_grade *grade, const struct node *root)
 {
     static const char *const unused[] = {"grading", "simulate", "output", "tables"};
-    const struct pair *tables = node_find(grade->key->document.root, "tables");
+    const struct pair *tables = node_find(grade->key->root, "tables");
     refuse_files(grade, root, tables ? tables->value : NULL);
     for (size_t i = 0; root && i < sizeof unused / sizeof *unused; i++)
         root = node_with(&grade->arena, root, unused[i], NULL);
@@ -304,7 +290,7 @@ static bool has_more(const struct node *root, const struct node *key, const char
 
 static bool is_too_large(const struct fbd_grade *grade, const struct node *root)
 {
-    const struct node *key = grade->key->document.root;
+    const struct node *key = grade->key->root;
     return has_more(root, key, "bodies") || has_more(root, key, "couplings") ||
            has_more(root, key, "contacts");
 }
@@ -330,11 +316,12 @@ static void open_answer(struct fbd_grade *grade, const struct submission *submis
         return;
     }
     answer_mend(grade, answer->text, length);
-    bool open = document_open(&answer->document, answer->text, length, grade->file, errors);
-    if (open && fbd_errors_failed_count(errors) == 0 && is_too_large(grade, answer->document.root))
+    diag_in_file(errors, grade->file);
+    const struct node *root = node_open(&grade->arena, answer->text, length, errors);
+    if (root && fbd_errors_failed_count(errors) == 0 && is_too_large(grade, root))
         note_absent(grade, "the answer has far more bodies or couplings than the sheet: it is not read");
-    else if (open && fbd_errors_failed_count(errors) == 0)
-        answer->root = take_answer(grade, answer->document.root, failures);
+    else if (root && fbd_errors_failed_count(errors) == 0)
+        answer->root = take_answer(grade, root, failures);
     else if (first_error(errors))
         note_unreadable(grade, "", NULL, first_error(errors));
 }
@@ -363,6 +350,5 @@ bool answer_read(struct fbd_grade *grade, const struct submission *submission, s
 void answer_close(struct answer *answer)
 {
     fbd_model_free(answer->model);
-    document_close(&answer->document);
     free(answer->text);
 }

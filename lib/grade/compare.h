@@ -5,7 +5,10 @@
 #ifndef FBD_GRADE_COMPARE_H
 #define FBD_GRADE_COMPARE_H
 
+#include <string.h>
+
 #include "fbd_grade.h"
+#include "fbd_view.h"
 #include "grade/grade.h"
 
 /* A force and a moment at one state: in the world, in the units of the key, about the key's centre of mass. */
@@ -18,7 +21,8 @@ struct action {
 
 /* One force or moment of a body at every state: one that it lists, or a reaction of the key. */
 struct item {
-    const struct load *source; /* NULL for a reaction */
+    fbd_listed_force force;         /* at the last state */
+    const fbd_listed_force *source; /* that, of a listed one; NULL for a reaction */
     const char *name;
     bool follows; /* depends on the other forces */
     bool used;    /* already paired */
@@ -61,6 +65,17 @@ bool sketches_place(const struct fbd_grade *grade, struct sides *sides);
 static inline bool is_left(const struct item *item)
 {
     return !item->used && item->source && !item->unknown;
+}
+
+/* True if both are of the same law: entries of the file. */
+static inline bool are_alike(const struct item *a, const struct item *b)
+{
+    return strcmp(a->source->law, b->source->law) == 0;
+}
+
+static inline struct pos position_of(const fbd_listed_force *force)
+{
+    return (struct pos){force->line, force->column};
 }
 
 /* Difference of a force of the answer from one of the key. */

@@ -40,13 +40,12 @@ static bool is_part(char c)
 static bool add_in_its_place(struct text *text, const struct own_coordinate *own, const char *word,
                              size_t length)
 {
-    const struct coordinate_names *names = own->names;
-    bool angle = names->angle && is_word(word, length, "angle");
-    bool place = is_word(word, length, names->name) || angle;
-    bool rate = is_word(word, length, names->rate) || is_word(word, length, names->rate_alias) ||
-                is_word(word, length, names->acceleration) ||
-                is_word(word, length, names->acceleration_alias[0]) ||
-                is_word(word, length, names->acceleration_alias[1]);
+    static const char *const slide[] = {"v", "x_dot", "v_dot", "a", "x_ddot"};
+    static const char *const pivot[] = {"omega", "theta_dot", "omega_dot", "alpha", "theta_ddot"};
+    const char *const *rates = own->angle ? pivot : slide;
+    bool rate = false, place = own->angle ? is_word(word, length, "theta") || is_word(word, length, "angle")
+                                          : is_word(word, length, "x");
+    for (size_t i = 0; i < sizeof slide / sizeof *slide; i++) rate = rate || is_word(word, length, rates[i]);
     if (!place && !rate) return false;
     text_add(text, own->sign < 0 ? "(-" : "(");
     if (strcmp(own->body, "") != 0) text_printf(text, "%s.", own->body);
@@ -72,7 +71,7 @@ static bool is_known(const struct rewriting *rewriting, const char *name)
     static const char *const maps[] = {"parameters", "inputs", "states", "tables"};
     if (strcmp(name, "N") == 0) return has_normal(grade, rewriting->body);
     for (size_t i = 0; i < sizeof maps / sizeof *maps; i++)
-        if (node_find(lines_value(grade->key->document.root, maps[i]), name) ||
+        if (node_find(lines_value(grade->key->root, maps[i]), name) ||
             node_find(lines_value(rewriting->answer, maps[i]), name))
             return true;
     return name_is_of_equations(name);

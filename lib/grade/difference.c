@@ -30,7 +30,7 @@ static bool counts(const struct sides *sides, const struct item *key, const stru
 {
     if (!key->follows) return true;
     if (!sides->possible[s]) return false;
-    return item->follows || key->source->kind == load_normal || sides->like_start[s];
+    return item->follows || strcmp(key->source->law, "normal") == 0 || sides->like_start[s];
 }
 
 static struct action reversed(struct action wrench)
@@ -84,7 +84,7 @@ bool is_drawn_as_such(const struct sides *sides, const struct item *key)
 {
     for (size_t i = 0; i < sides->count && key->follows; i++) {
         const struct item *item = &sides->items[i];
-        if (is_left(item) && item->source->kind == key->source->kind) return true;
+        if (is_left(item) && are_alike(item, key)) return true;
     }
     return false;
 }
@@ -177,13 +177,13 @@ static struct difference of_reactions(const struct sides *sides, const struct it
                                       const struct item *item)
 {
     struct difference difference = {.relation = is_same};
-    if (key->source->kind != item->source->kind)
+    if (!are_alike(key, item))
         difference.relation = is_other;
     else if (!same_coefficients(sides, key, item))
         difference.relation = is_rougher;
     else if (!same_line(sides, key, item))
         difference.relation = is_elsewhere;
-    else if (key->source->side != item->source->side)
+    else if (strcmp(key->source->side, item->source->side) != 0)
         difference.relation = is_opposite;
     return difference;
 }

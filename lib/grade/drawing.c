@@ -15,7 +15,6 @@
 #include "document/node_edit.h"
 #include "fbd_grade.h"
 #include "grade/lines.h"
-#include "scene/quantity.h"
 
 /* An arrow in units of the drawing. */
 struct arrow_drawn {
@@ -105,11 +104,14 @@ static const char *plain(struct arena *arena, const char *label)
 /* True if the sheet has a parameter of that name that may be the value of a force, or of a moment. */
 static bool is_value(const struct desk *desk, const char *name, size_t length, bool couple)
 {
-    const struct scene *scene = desk->grade->sheet->scene;
-    for (size_t i = 0; i < scene->parameter_count; i++) {
-        const struct parameter *one = &scene->parameters[i];
-        if (strlen(one->name) == length && strncmp(one->name, name, length) == 0)
-            return one->bare || dim_equal(one->dim, quantity_dim(couple ? a_moment : a_force));
+    const fbd_model *sheet = desk->grade->sheet;
+    for (size_t i = 0; i < fbd_model_parameter_count(sheet); i++) {
+        const fbd_parameter one = fbd_model_parameter(sheet, i);
+        double value;
+        if (strlen(one.name) != length || strncmp(one.name, name, length) != 0) continue;
+        if (!*one.unit) return true; /* a number whose dimension follows from its use */
+        const char *text = arena_printf(&desk->grade->arena, "1[%s]", one.unit);
+        return text && fbd_model_quantity(sheet, one.name, text, couple ? "N*m" : "N", &value, NULL);
     }
     return false;
 }
@@ -393,7 +395,7 @@ static const struct node *body_over(struct arena *arena, const struct node *body
 static const struct node *over_sheet(struct fbd_grade *grade, const struct node *root)
 {
     struct arena *arena = &grade->arena;
-    const struct node *sheet = without_places(arena, grade->key->document.root);
+    const struct node *sheet = without_places(arena, grade->key->root);
     const struct node *own = lines_value(root, "bodies"), *bodies = lines_value(sheet, "bodies"),
                       *made = bodies;
     for (size_t b = 0; made && b < bodies->count; b++) {

@@ -14,10 +14,10 @@
 #include "fbd_grade.h"
 #include "grade/lines.h"
 
-const char *name_as_drawn(const struct fbd_grade *grade, const struct load *load)
+const char *name_as_drawn(const struct fbd_grade *grade, const fbd_listed_force *force)
 {
-    const struct drawn *drawn = drawn_at(grade, load->at);
-    return drawn && drawn->name ? drawn->name : load->name;
+    const struct drawn *drawn = drawn_at(grade, (struct pos){force->line, force->column});
+    return drawn && drawn->name ? drawn->name : force->arrow.name;
 }
 
 struct drawn *drawn_at(const struct fbd_grade *grade, struct pos at)
@@ -52,7 +52,7 @@ static bool has_value(const struct fbd_grade *grade, const struct node *root, co
         if (strcmp(name, known[i]) == 0) return true;
     for (size_t i = 0; i < sizeof maps / sizeof *maps; i++)
         if (node_find(lines_value(root, maps[i]), name) ||
-            node_find(lines_value(grade->key->document.root, maps[i]), name))
+            node_find(lines_value(grade->key->root, maps[i]), name))
             return true;
     return false;
 }

@@ -3,23 +3,23 @@
  * Names of drawn reactions in derivations: T for the tension of a rope denotes that reaction at all states,
  * not its value at the start.
  */
+#include <stdint.h>
 #include <string.h>
 
 #include "base/arena.h"
 #include "document/node_edit.h"
 #include "document/scalar.h"
 #include "fbd_grade.h"
+#include "fbd_view.h"
 #include "grade/lines.h"
-#include "output/hand_forces.h"
 
-static const struct hand_force *find(const struct hand_forces *forces, int body, const char *name)
+/* Find a force by its name in derivations. */
+static bool find(struct fbd_grade *grade, fbd_state *state, size_t b, const char *name,
+                 fbd_named_force *found)
 {
-    for (size_t i = 0; i < forces->count; i++) {
-        const struct force_name *one = &forces->list[i].name;
-        if (name && one->body == body && !one->letter && strcmp(one->name, name) == 0)
-            return &forces->list[i];
-    }
-    return NULL;
+    if (!name || !fbd_state_named_force(state, b, name, found)) return false;
+    if (found->force == SIZE_MAX) grade->arena.failed = true;
+    return found->force != SIZE_MAX;
 }
 
 /* A component along an axis; NULL for another direction. */
@@ -33,41 +33,46 @@ static const char *component(struct arena *arena, const struct drawn *drawn)
 }
 
 /* The size of the force, or of the couple, by its name only. */
-static const char *size_name(struct fbd_grade *grade, const struct hand_forces *forces, int b,
-                             const fbd_state *state, struct arrow *arrows, const struct drawn *drawn)
+static const char *size_name(struct fbd_grade *grade, size_t b, fbd_state *state, const struct drawn *drawn)
 {
-    const struct fbd_model *model = grade->sheet;
-    const struct instant at = state_instant(state);
+    const size_t room = fbd_model_listed_body(grade->sheet, b).most_forces;
     const bool couple = drawn->along.x == 0 && drawn->along.y == 0;
-    const struct hand_force *force = find(forces, b, drawn->reaction);
-    if (!force && couple) force = find(forces, b, arena_printf(&grade->arena, "%s.moment", drawn->reaction));
-    if (!force || (force->symbol->moment && !couple)) return NULL;
-    diagram_fill(model, b, &at, state->a, state->slots, arrows);
-    const double size = hand_force_value(model, force, &at, arrows);
-    const struct arrow *arrow = &arrows[force->arrow];
-    const double drawn_size = couple ? arrow->couple : vec_dot(arrow->force, drawn->along);
-    if (!(fabs(size) > 0) || !isfinite(size)) return NULL;
-    return arena_printf(&grade->arena, "%s%s", size * drawn_size < 0 ? "-" : "", force->name.name);
+    const char *name = drawn->reaction;
+    fbd_named_force force;
+    bool found = find(grade, state, b, name, &force);
+    if (!found && couple) {
+        name = arena_printf(&grade->arena, "%s.moment", name);
+        found = find(grade, state, b, name, &force);
+    }
+    if (!found || (force.moment && !couple)) return NULL;
+    fbd_arrow *arrows = ARENA_ARRAY(&grade->arena, room + 1, fbd_arrow);
+    if (!arrows || fbd_diagram(state, b, arrows, room) == 0) {
+        grade->arena.failed = true;
+        return NULL;
+    }
+    const fbd_arrow *arrow = &arrows[force.force];
+    const double along = arrow->fx * drawn->along.x + arrow->fy * drawn->along.y;
+    const double drawn_size = couple ? arrow->couple : along;
+    if (!(fabs(force.value) > 0) || !isfinite(force.value)) return NULL;
+    return arena_printf(&grade->arena, "%s%s", force.value * drawn_size < 0 ? "-" : "", name);
 }
 
 void drawn_find_forces(struct fbd_grade *grade)
 {
-    const struct fbd_model *model = grade->sheet;
-    struct hand_forces forces = {0};
     fbd_state *state = NULL;
-    struct arrow *arrows = ARENA_ARRAY(&grade->arena, diagram_most_arrows(model), struct arrow);
-    for (struct drawn *one = grade->drawn; arrows && one; one = one->next) {
+    for (struct drawn *one = grade->drawn; one; one = one->next) {
         if (!one->reaction) continue;
-        if (!state) state = lines_start_of(model);
-        if (!state || (!forces.list && !hand_forces_make(model, &grade->arena, &forces))) break;
-        for (int b = 0; b < (int)model->body_count; b++) {
-            if (strcmp(model->bodies[b].name, one->body) != 0) continue;
-            one->force = size_name(grade, &forces, b, state, arrows, one);
+        if (!state) state = fbd_state_new_start(grade->sheet);
+        if (!state) grade->arena.failed = true;
+        for (size_t b = 0; state && b < fbd_model_body_count(grade->sheet); b++) {
+            fbd_named_force force;
+            if (strcmp(fbd_model_body_name(grade->sheet, b), one->body) != 0) continue;
+            one->force = size_name(grade, b, state, one);
             const char *part = one->force ? NULL : component(&grade->arena, one);
-            if (part && find(&forces, b, part + (*part == '-'))) one->force = part;
+            if (part && find(grade, state, b, part + (*part == '-'), &force)) one->force = part;
         }
     }
-    state_free(state);
+    fbd_state_free(state);
 }
 
 /* True if the name is not that of a parameter or another object of the files. */
@@ -75,7 +80,7 @@ static bool may_be_symbol(const struct fbd_grade *grade, const struct node *answ
 {
     static const char *const maps[] = {"parameters", "inputs", "states", "tables"};
     for (size_t i = 0; name && i < sizeof maps / sizeof *maps; i++)
-        if (node_find(lines_value(grade->key->document.root, maps[i]), name) ||
+        if (node_find(lines_value(grade->key->root, maps[i]), name) ||
             node_find(lines_value(answer, maps[i]), name))
             return false;
     return name && scalar_is_name(name) && !name_is_reserved(name) && !name_is_of_equations(name);

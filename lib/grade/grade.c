@@ -31,7 +31,7 @@ static bool make_sheet(struct fbd_grade *grade)
 {
     fbd_errors *errors = fbd_errors_new();
     if (!errors) return false;
-    grade->sheet = grade_compile(grade, grade->key->document.root, grade->key->file, true, errors);
+    grade->sheet = grade_compile(grade, grade->key->root, grade->key->file, true, errors);
     const fbd_error *error = diag_get(errors, 0);
     bool done = grade->sheet != NULL || (error && !errors->out_of_memory);
     if (!grade->sheet && done) {

@@ -15,8 +15,8 @@
 #define FBD_GRADE_GRADE_H
 
 #include "document/node.h"
-#include "dynamics/modes.h"
 #include "fbd_grade.h"
+#include "fbd_view.h"
 #include "model/model.h"
 #include "scene/names.h"
 
@@ -27,9 +27,9 @@ struct fbd_key {
     char *source; /* text of the file */
     size_t length;
     const char *file;
-    struct document document;
-    fbd_model *model;     /* with the values of the file */
-    struct override *set; /* values from outside */
+    const struct node *root;
+    fbd_model *model; /* with the values of the file */
+    fbd_setting *set; /* values from outside */
     size_t set_count;
     double most;  /* points */
     size_t lines; /* derivations */
@@ -71,7 +71,7 @@ struct finding {
 /* A coordinate that the answer measures otherwise: its own is sign times that of the sheet, plus offset. */
 struct own_coordinate {
     const char *body;
-    const struct coordinate_names *names;
+    bool angle; /* of a pivot; else of a slide */
     double sign, offset;
     const char *unit; /* of the offset */
     const struct own_coordinate *next;
@@ -103,15 +103,25 @@ const char *value_for_student(struct arena *arena, const struct fbd_key *key, co
                               const char *student);
 
 /* These values for the parameters in a file. */
-size_t drawn_overrides(struct arena *arena, const struct fbd_key *key, const char *student,
-                       const struct node *root, struct override **overrides);
+size_t student_settings(struct arena *arena, const struct fbd_key *key, const char *student,
+                        const struct node *root, fbd_setting **settings);
 
 /* Grade the key as an answer; NULL when memory is out. */
 fbd_grade *grade_itself(const struct fbd_key *key);
 
+/* ---- compiling trees (compile.c) */
+
+/* Compile a tree under these values of its parameters, with its derivations or without. NULL with notes. */
+fbd_model *tree_compile(const struct node *root, const char *file, const fbd_setting *settings, size_t count,
+                        bool hands, fbd_errors *errors);
+
 /* Compile a tree of an answer or of the key under the student's values. NULL with notes. */
 fbd_model *grade_compile(struct fbd_grade *grade, const struct node *root, const char *file, bool hands,
                          fbd_errors *errors);
+
+/* Read a tree with derivations that may name the drawn forces of the answer; `take` receives each as an
+ * expression. The notes on errors are dropped: they are found again when it is compiled. */
+void grade_read_hands(struct fbd_grade *grade, const struct node *root, const struct hand_reader *reader);
 
 /* ---- findings (findings.c); the texts are copied */
 
@@ -136,7 +146,6 @@ struct submission {
 };
 
 struct answer {
-    struct document document;
     const struct node *root; /* without the removed entries */
     fbd_model *model;
     char *text;
@@ -165,7 +174,7 @@ const struct node *answer_take_drawn(struct fbd_grade *grade, const struct node 
 struct drawn *drawn_at(const struct fbd_grade *grade, struct pos at);
 
 /* The answer's name of a force. */
-const char *name_as_drawn(const struct fbd_grade *grade, const struct load *load);
+const char *name_as_drawn(const struct fbd_grade *grade, const fbd_listed_force *force);
 
 /* ---- comparing */
 

@@ -205,8 +205,8 @@ static void write_head(const struct handout *handout)
 bool handout_write(struct handout *handout)
 {
     write_head(handout);
-    for (size_t i = 0; i < handout->key->document.root->count; i++)
-        write_entry(handout, &handout->key->document.root->pairs[i]);
+    for (size_t i = 0; i < handout->key->root->count; i++)
+        write_entry(handout, &handout->key->root->pairs[i]);
     if (handout->model) solution_equations(handout);
     return !handout->text->failed && !handout->arena->failed;
 }

@@ -40,18 +40,18 @@ const char *value_for_student(struct arena *arena, const struct fbd_key *key, co
     return NULL;
 }
 
-size_t drawn_overrides(struct arena *arena, const struct fbd_key *key, const char *student,
-                       const struct node *root, struct override **overrides)
+size_t student_settings(struct arena *arena, const struct fbd_key *key, const char *student,
+                        const struct node *root, fbd_setting **settings)
 {
     const struct pair *pair = node_find(root, "parameters");
-    const struct scene *scene = key->model->scene;
+    const size_t most = fbd_model_parameter_count(key->model);
     size_t count = 0;
-    *overrides = ARENA_ARRAY(arena, scene->parameter_count + 1, struct override);
-    for (size_t i = 0; *overrides && pair && i < scene->parameter_count; i++) {
-        const char *name = scene->parameters[i].name;
+    *settings = ARENA_ARRAY(arena, most + 1, fbd_setting);
+    for (size_t i = 0; *settings && pair && i < most; i++) {
+        const char *name = fbd_model_parameter(key->model, i).name;
         const char *value =
             node_find(pair->value, name) ? value_for_student(arena, key, name, student) : NULL;
-        if (value) (*overrides)[count++] = (struct override){.name = name, .value = value};
+        if (value) (*settings)[count++] = (fbd_setting){.name = name, .value = value};
     }
     return count;
 }
@@ -69,7 +69,6 @@ void fbd_key_free(fbd_key *key)
 {
     if (!key) return;
     fbd_model_free(key->model);
-    document_close(&key->document);
     free(key->source);
     arena_free(&key->arena);
     free(key);

@@ -8,10 +8,8 @@
 #include "base/api_check.h"
 #include "base/file.h"
 #include "base/text.h"
-#include "dynamics/diagram.h"
 #include "fbd_grade.h"
 #include "grade/grade.h"
-#include "output/hand_forces.h"
 
 static double points_of(const struct fbd_key *key)
 {
@@ -39,22 +37,18 @@ static bool has_points(struct fbd_key *key, fbd_errors *errors)
 /* The reactions of a body that have to be drawn, by name. */
 static void add_names(const struct fbd_key *key, size_t b, struct text *text)
 {
-    const fbd_model *model = key->model;
-    fbd_state *state = key_asks(key, b) > 0 ? state_new(model) : NULL;
-    struct arrow *arrows = calloc(diagram_arrows(model, (int)b) + 1, sizeof *arrows);
-    if (state && arrows) {
-        state_evaluate(state);
-        struct instant at = state_instant(state);
-        size_t listed = model->bodies[b].source->load_count;
-        size_t count = diagram_list(model, (int)b, &at, state->a, state->slots, arrows);
-        for (size_t i = 0; i < key->asked_count[b] && listed + i < count; i++)
-            if (key->asked[b][i])
-                text_printf(text, "%s`%s` on `%s`", text->length ? ", " : "", arrows[listed + i].name,
-                            model->bodies[b].name);
-    }
-    if (!arrows || (!state && key_asks(key, b) > 0)) text->failed = true;
+    if (key_asks(key, b) == 0) return;
+    const fbd_listed_body body = fbd_model_listed_body(key->model, b);
+    fbd_state *state = fbd_state_new(key->model);
+    fbd_arrow *arrows = calloc(body.most_forces + 1, sizeof *arrows);
+    size_t count = arrows ? fbd_diagram(state, b, arrows, body.most_forces) : 0;
+    for (size_t i = 0; i < key->asked_count[b] && body.listed + i < count; i++)
+        if (key->asked[b][i])
+            text_printf(text, "%s`%s` on `%s`", text->length ? ", " : "", arrows[body.listed + i].name,
+                        body.name);
+    if (count == 0) text->failed = true; /* memory is out */
     free(arrows);
-    state_free(state);
+    fbd_state_free(state);
 }
 
 /* Warn the author that answers have to draw reactions where the key does not state it; a model cannot list
@@ -115,18 +109,18 @@ static bool find_asked(struct fbd_key *key)
 
 static bool compile_key(struct fbd_key *key, fbd_errors *errors)
 {
-    key->model = hands_compile(&key->document, key->set, key->set_count, errors);
+    key->model = tree_compile(key->root, key->file, key->set, key->set_count, true, errors);
     return key->model && find_asked(key);
 }
 
 /* The texts are copied. */
 static bool take_settings(struct fbd_key *key, const fbd_setting *settings, size_t count)
 {
-    key->set = ARENA_ARRAY(&key->arena, count + 1, struct override);
+    key->set = ARENA_ARRAY(&key->arena, count + 1, fbd_setting);
     for (size_t i = 0; key->set && i < count; i++) {
         const char *name = settings[i].name, *value = settings[i].value;
-        key->set[i] = (struct override){.name = arena_text(&key->arena, name, strlen(name)),
-                                        .value = arena_text(&key->arena, value, strlen(value))};
+        key->set[i] = (fbd_setting){.name = arena_text(&key->arena, name, strlen(name)),
+                                    .value = arena_text(&key->arena, value, strlen(value))};
         key->set_count++;
     }
     return !key->arena.failed;
@@ -146,9 +140,9 @@ static fbd_key *compile_text(char *text, size_t length, const char *name, const 
     key->length = length;
     key->file = arena_text(&key->arena, name, strlen(name));
     bool taken = take_settings(key, settings, count);
-    bool opened = taken && key->file && document_open(&key->document, text, length, key->file, errors);
-    key->document.split_hands = true;
-    if (opened && compile_key(key, errors)) return key;
+    diag_in_file(errors, key->file);
+    if (taken && key->file) key->root = node_open(&key->arena, text, length, errors);
+    if (key->root && compile_key(key, errors)) return key;
     if (key->arena.failed) diag_out_of_memory(errors);
     fbd_key_free(key);
     return NULL;

@@ -11,6 +11,7 @@
 #include "base/text.h"
 #include "document/node_edit.h"
 #include "fbd_grade.h"
+#include "fbd_view.h"
 #include "grade/lines.h"
 
 /* ---- one line */
@@ -97,9 +98,9 @@ static bool take_form(struct lines *lines, int body, struct line *line)
 {
     double size;
     if (!(line->says & (unsigned)hand_named_forces)) return true;
-    fbd_state *state = lines_start_of(lines->alone);
+    fbd_state *state = fbd_state_new_start(lines->alone);
     if (state) hand_lack_at(state, body, 0, &size, line->form);
-    state_free(state);
+    fbd_state_free(state);
     return state != NULL;
 }
 
@@ -323,10 +324,7 @@ static bool open_lines(struct lines *lines)
 
 static void close_lines(struct lines *lines)
 {
-    for (int k = 0; k < 2; k++) {
-        model_free(lines->pushed[k].model);
-        document_close(&lines->pushed[k].probes);
-    }
+    for (int k = 0; k < lines_pushes; k++) fbd_model_free(lines->pushed[k].model);
     fbd_model_free(lines->alone);
     free(lines->check.samples);
     if (lines->rng) gsl_rng_free(lines->rng);
@@ -348,7 +346,7 @@ static bool read_plain(struct lines *lines, struct lines *plain)
 void grade_lines(struct fbd_grade *grade, const struct node *root)
 {
     struct lines lines = {.grade = grade}, plain = lines, sheet = {.grade = grade, .model = grade->sheet};
-    sheet.root = grade->key->document.root;
+    sheet.root = grade->key->root;
     unsigned *slips_of_motion = lines_slips(grade);
     lines.slips = plain.slips = sheet.slips = slips_of_motion;
     bool done = slips_of_motion && open_lines(&lines) && open_lines(&plain) && open_lines(&sheet);

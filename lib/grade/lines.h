@@ -12,7 +12,6 @@
 /* A scene with an additional force on every body. */
 struct pushed {
     bool made;
-    struct document probes;
     const struct node *root;
     fbd_model *model; /* NULL if it is impossible */
 };
@@ -143,9 +142,6 @@ bool lines_of_run_agree(const struct line_of_run *a, const struct line_of_run *b
 /* *changes: the changes of left - right with the parameters if the equation is a correct one of equilibrium;
  * else NULL. False when memory is out. */
 bool line_is_of_rest(struct lines *lines, int body, const char *text, const double **changes);
-
-/* The settled start; NULL if there is none. */
-fbd_state *lines_start_of(const fbd_model *model);
 
 /* True if a form of so many numbers is linearly independent of `count` others. `base` is their orthonormal
  * basis and is extended. */

@@ -8,7 +8,6 @@
 #include "document/node_edit.h"
 #include "fbd_grade.h"
 #include "grade/lines.h"
-#include "output/hand_forces.h"
 
 /* A text and its translation. */
 struct reading {
@@ -51,28 +50,15 @@ static const char *as_read(struct arena *arena, const struct node *scalar, const
     return arena_text(arena, scalar->text, scalar->length);
 }
 
-/* Read the scene for the notes on its derivations; their errors are found again later. */
-static bool read_scene(struct fbd_grade *grade, const struct node *root, struct readings *readings)
-{
-    struct override *overrides;
-    const struct hand_reader reader = {readings, is_drawn, take};
-    struct document document = {.file = grade->key->file, .root = root, .hand_reader = &reader};
-    if (!hand_forces_list(grade->sheet, &grade->arena, &document)) return false;
-    size_t count = drawn_overrides(&grade->arena, grade->key, grade->student, root, &overrides);
-    fbd_errors *errors = fbd_errors_new();
-    if (errors && !grade->arena.failed) scene_free(scene_make(&document, overrides, count, errors));
-    if (!errors || errors->out_of_memory) grade->arena.failed = true;
-    fbd_errors_free(errors);
-    return !grade->arena.failed;
-}
-
 const struct node *lines_of_notation(struct fbd_grade *grade, const struct node *answer,
                                      const struct node *root)
 {
     struct arena *arena = &grade->arena;
     struct readings readings = {grade, NULL};
     const struct node *bodies = lines_value(answer, "bodies"), *made = bodies;
-    if (!root || !read_scene(grade, root, &readings)) return NULL;
+    const struct hand_reader reader = {&readings, is_drawn, take};
+    if (root) grade_read_hands(grade, root, &reader);
+    if (!root || grade->arena.failed) return NULL;
     if (!readings.first || !bodies || bodies->kind != node_map) return answer;
     for (size_t b = 0; made && b < bodies->count; b++) {
         const struct pair *body = &bodies->pairs[b];

@@ -157,7 +157,7 @@ static void check_parameters(struct lines *lines, const struct node *sheet)
 static void leave_out_all(struct lines *lines, fbd_errors *errors)
 {
     struct fbd_grade *grade = lines->grade;
-    const struct node *key = grade->key->document.root;
+    const struct node *key = grade->key->root;
     const fbd_error *error = first_error(errors);
     if (error) finding_of_error(grade, FBD_FINDING_UNREADABLE, "", "", error);
     lines->root = lines->left_out ? NULL : with_lines(grade, key, NULL, true);
@@ -184,7 +184,7 @@ void lines_read(struct lines *lines, const struct node *answer)
     struct fbd_grade *grade = lines->grade;
     struct arena *arena = &grade->arena;
     drawn_find_forces(grade);
-    const struct node *key = grade->key->document.root, *written = with_lines(grade, key, answer, true);
+    const struct node *key = grade->key->root, *written = with_lines(grade, key, answer, true);
     if (written) written = with_parameters(arena, written, answer);
     lines->paper = answer;
     lines->answer = answer = lines_of_notation(grade, answer, written);

@@ -7,13 +7,14 @@
 #include "base/text.h"
 #include "document/node_edit.h"
 #include "fbd_grade.h"
+#include "fbd_view.h"
 #include "grade/lines.h"
 
 /* A scene with only one equation, so that the others are not compiled again for each change of a parameter. */
 const struct node *lines_alone(struct lines *lines, const struct node *root, int body, int index)
 {
     struct arena *arena = &lines->grade->arena;
-    const char *name = lines->model->bodies[body].name;
+    const char *name = fbd_model_body_name(lines->model, (size_t)body);
     const struct node *bodies = lines_value(root, "bodies"), *made = bodies;
     const struct node *hand = lines_value(lines_value(bodies, name), "hand");
     if (hand->kind == node_list) hand = node_appended(arena, NULL, hand->items[index]);
@@ -43,12 +44,12 @@ static const struct vec shares[lines_pushes] = {{1.7, -2.9}, {-3.1, 0.8}};
 
 static void write_pushes(const fbd_model *model, struct vec share, struct text *text)
 {
-    double pounds = model->scene->units == unit_us ? 14.6 : 1;
-    for (size_t b = 0; b < model->body_count; b++) {
-        const struct model_body *body = &model->bodies[b];
-        bool turns = body->kind == motion_pivot || body->kind == motion_planar;
-        double mass = body->inertia.mass * pounds;
-        text_printf(text, "%s: {applied: {name: fbd_probe, fx: %.17g N, fy: %.17g N%s}}\n", body->name,
+    double pounds = strcmp(fbd_model_scene(model).units, "US") == 0 ? 14.6 : 1;
+    for (size_t b = 0; b < fbd_model_body_count(model); b++) {
+        const fbd_listed_body body = fbd_model_listed_body(model, b);
+        bool turns = strcmp(body.motion, "pivot") == 0 || strcmp(body.motion, "planar") == 0;
+        double mass = body.inertia.mass * pounds;
+        text_printf(text, "%s: {applied: {name: fbd_probe, fx: %.17g N, fy: %.17g N%s}}\n", body.name,
                     share.x * mass, share.y * mass, turns ? ", at: [0.21 m, 0.13 m]" : "");
     }
 }
@@ -64,12 +65,12 @@ void lines_push(struct lines *lines, int k)
     pushed->made = true;
     write_pushes(lines->model, shares[k], &text);
     char *kept = errors && !text.failed ? arena_text(arena, text.data, text.length) : NULL;
-    bool open = kept && document_open(&pushed->probes, kept, text.length, NULL, errors);
-    for (size_t b = 0; open && made && b < bodies->count; b++) {
-        const struct node *body = pushed_body(arena, pushed->probes.root, &bodies->pairs[b]);
+    const struct node *probes = kept ? node_open(arena, kept, text.length, errors) : NULL;
+    for (size_t b = 0; probes && made && b < bodies->count; b++) {
+        const struct node *body = pushed_body(arena, probes, &bodies->pairs[b]);
         made = body ? node_with(arena, made, bodies->pairs[b].key, body) : NULL;
     }
-    pushed->root = open && made ? node_with(arena, lines->root, "bodies", made) : NULL;
+    pushed->root = probes && made ? node_with(arena, lines->root, "bodies", made) : NULL;
     if (pushed->root) pushed->model = lines_try(lines, pushed->root, true, false, errors);
     if (!errors || text.failed) lines->grade->arena.failed = true;
     fbd_errors_free(errors);
@@ -84,24 +85,25 @@ unsigned *lines_slips(struct fbd_grade *grade)
 {
     enum { most_steps = 400 };
     const fbd_model *model = grade->sheet;
-    unsigned *found = ARENA_ARRAY(&grade->arena, model->body_count + 1, unsigned);
+    const size_t bodies = fbd_model_body_count(model);
+    unsigned *found = ARENA_ARRAY(&grade->arena, bodies + 1, unsigned);
     fbd_errors *errors = fbd_errors_new();
     fbd_simulation *run = found && errors ? fbd_simulation_new(model, NULL, errors) : NULL;
-    fbd_state *state = run ? state_new(model) : NULL;
+    fbd_state *state = run ? fbd_state_new(model) : NULL;
     bool rubs = false;
-    for (size_t b = 0; found && b < model->body_count; b++) rubs = rubs || model->bodies[b].friction >= 0;
+    for (size_t b = 0; b < bodies; b++) rubs = rubs || fbd_model_listed_body(model, b).friction;
     for (int step = 0; state && rubs && step < most_steps; step++) {
         double from, to;
         if (fbd_simulation_advance(run) != FBD_GOING) break;
         fbd_simulation_interval(run, &from, &to);
         if (!fbd_simulation_state(run, from + 0.5 * (to - from), state)) continue;
-        for (size_t b = 0; b < model->body_count; b++) {
-            int friction = model->bodies[b].friction;
-            if (friction >= 0 && state->slip[friction] != 0) found[b] |= 1U << (state->slip[friction] + 1);
+        for (size_t b = 0; b < bodies; b++) {
+            int slip = fbd_state_slip(state, b);
+            if (slip != 0) found[b] |= 1U << (slip + 1);
         }
     }
-    for (size_t b = 0; found && b < model->body_count; b++) found[b] = found[b] ? found[b] | 2U : 7U;
-    state_free(state);
+    for (size_t b = 0; found && b < bodies; b++) found[b] = found[b] ? found[b] | 2U : 7U;
+    fbd_state_free(state);
     fbd_simulation_free(run);
     fbd_errors_free(errors);
     return errors ? found : NULL;

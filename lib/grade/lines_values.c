@@ -49,7 +49,7 @@ static bool is_of_the_sheet(const struct lines *lines, double value)
 bool line_has_own_names(const struct lines *lines, const char *text, bool *rounded)
 {
     const struct scene *scene = lines->model->scene;
-    const struct node *known = lines_value(lines->grade->key->document.root, "parameters");
+    const struct node *known = lines_value(lines->grade->key->root, "parameters");
     const struct node *own = lines_value(lines->root, "parameters");
     bool found = false;
     for (size_t i = 0; i < scene->parameter_count; i++) {

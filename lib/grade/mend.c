@@ -135,10 +135,11 @@ static void blank(const struct page *page, const struct entry *entry, char *text
 /* The position at which reading stops: `line` is INT_MAX if it does not. The errors belong to the caller. */
 static struct pos find_fault(struct fbd_grade *grade, const char *text, size_t length, fbd_errors *errors)
 {
-    struct document document;
-    bool open = document_open(&document, text, length, grade->file, errors);
+    struct arena arena = {0};
+    diag_in_file(errors, grade->file);
+    bool open = node_open(&arena, text, length, errors) != NULL;
     const fbd_error *error = first_error(errors);
-    document_close(&document);
+    arena_free(&arena);
     if (errors->out_of_memory) grade->arena.failed = true;
     if (open && !error) return (struct pos){INT_MAX, 0};
     return error ? (struct pos){error->line, error->column} : (struct pos){0, 0};

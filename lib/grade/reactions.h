@@ -9,13 +9,8 @@
 #ifndef FBD_GRADE_REACTIONS_H
 #define FBD_GRADE_REACTIONS_H
 
-#include "dynamics/diagram.h"
 #include "fbd_grade.h"
 #include "grade/compare.h"
-
-/* The coupling, contact or guide that exerts it. */
-void reaction_describe(const fbd_model *model, int b, const struct arrow *arrow, const struct instant *at,
-                       struct item *item);
 
 /* Which of them have to be drawn: found once for the key (false when memory is out), and then taken from it. */
 bool reactions_note_asked(struct fbd_key *key, size_t b, const struct sides *sides);

@@ -1,60 +1,16 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * The source of a reaction, the state at which it is compared, and the reactions that have to be drawn.
+ * The state at which a reaction is compared, and the reactions that have to be drawn.
  */
 #include "grade/reactions_work.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-#include "dynamics/constraint.h"
-#include "dynamics/tree.h"
 #include "fbd_grade.h"
 
 /* Forces below this share of the largest one are zero: reactions are solutions of systems of equations. */
 const double reaction_zero = 1e-7;
-
-/* ---- the coupling, contact or guide that exerts it */
-
-/* The direction of the force of row `row` of a coupling at its end k; zero if it has no fixed direction. */
-static struct vec direction_of(const struct coupling *coupling, int k, int row, const struct instant *at)
-{
-    struct vec sum = {0, 0};
-    if (coupling->row_count > 1 && !coupling->law->end_names[1]) return sum; /* a pin */
-    const struct row *one = &at->tree->rows[coupling->first_row + (row < coupling->row_count ? row : 0)];
-    for (int i = 0; i < one->port_count; i++)
-        if (one->ports[i].end == k) sum = vec_add(sum, one->ports[i].force);
-    return sum;
-}
-
-void reaction_describe(const fbd_model *model, int b, const struct arrow *arrow, const struct instant *at,
-                       struct item *item)
-{
-    const struct model_body *body = &model->bodies[b];
-    for (size_t c = 0; c < model->body_count;
-         c++) /* on a body that carries another one: of that one's joint */
-        if (arrow->name && model->bodies[c].reaction_on_parent == arrow->name) body = &model->bodies[c];
-    bool joint = arrow->name && (arrow->name == body->reaction || arrow->name == body->reaction_on_parent);
-    bool guided = body->kind == motion_slide || body->kind == motion_track;
-    item->contact = -1;
-    item->couples = joint && body->kind != motion_pivot;
-    if (!joint && body->place.link == 0) joint = true; /* on the ground: `pin` or `guide` */
-    if (joint && guided) item->across = vec_perp(body_direction(body, at));
-    item->any = joint && !guided;
-    for (int i = 0; model->tree && i < model->tree->coupling_count; i++) {
-        const struct coupling *coupling = &model->tree->couplings[i];
-        for (int k = 0; k < coupling->end_count; k++)
-            for (int row = 0; row < 2; row++) {
-                if (coupling->end[k].body != b || coupling->end[k].name[row] != arrow->name) continue;
-                bool rope = coupling->kind == constraint_rope || coupling->law->strands;
-                item->one_sided = rope || (coupling_presses(coupling) && row == 0);
-                if (coupling->kind == constraint_contact) item->contact = coupling->constraint;
-                item->across = direction_of(coupling, k, row, at);
-                item->any = coupling->row_count > 1 && !coupling->law->end_names[1];
-                return;
-            }
-    }
-}
 
 /* ---- state of comparison */
 

@@ -103,7 +103,8 @@ static bool make_strokes(struct sheet *sheet)
     sheet->strokes = calloc(sides->count + 1, sizeof *sheet->strokes);
     for (size_t j = 0; sheet->strokes && j < sides->count; j++) {
         struct item *item = &sides->items[j];
-        const struct sketch *sketch = item->source ? sketch_at(sheet->grade, item->source->at) : NULL;
+        const struct sketch *sketch =
+            item->source ? sketch_at(sheet->grade, position_of(item->source)) : NULL;
         if (!sketch) continue;
         struct vec along = unit(vec_sub(sketch->tip, sketch->tail));
         sheet->strokes[sheet->stroke_count++] =
@@ -170,7 +171,7 @@ static void put_as_given(const struct sheet *sheet, struct stroke *stroke, const
                 point);
         }
     }
-    struct drawn *drawn = drawn_at(sheet->grade, item->source->at);
+    struct drawn *drawn = drawn_at(sheet->grade, position_of(item->source));
     if (drawn) drawn->size = line->couple ? fabs(line->key->at[0].moment) : vec_norm(line->key->at[0].force);
     item->unknown = false;
     stroke->placed = true;

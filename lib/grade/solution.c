@@ -6,19 +6,15 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "dynamics/diagram.h"
-#include "dynamics/kinematics.h"
-#include "dynamics/project.h"
 #include "fbd_export.h"
 #include "fbd_grade.h"
+#include "fbd_view.h"
 #include "grade/handout.h"
-#include "output/random_state.h"
-#include "output/words.h"
 
 fbd_model *solution_model(const struct handout *handout, fbd_errors *errors)
 {
     struct fbd_grade grade = {.key = handout->key, .student = handout->student};
-    fbd_model *model = grade_compile(&grade, handout->key->document.root, handout->key->file, true, errors);
+    fbd_model *model = grade_compile(&grade, handout->key->root, handout->key->file, true, errors);
     if (grade.arena.failed) diag_out_of_memory(errors);
     arena_free(&grade.arena);
     return model;
@@ -31,63 +27,51 @@ static void write_name(struct text *text, const char *name)
     for (; *name; name++) text_printf(text, "%c", *name == '.' ? '_' : *name);
 }
 
-static void write_reaction(struct text *text, const fbd_model *model, const struct arrow *arrow, bool moments,
+static void write_reaction(struct text *text, bool us, const fbd_arrow *arrow, bool moments,
                            const struct vec *from)
 {
+    const double size = hypot(arrow->fx, arrow->fy);
     text_add(text, "      - applied: {name: ");
     write_name(text, arrow->name);
     if (moments) {
-        text_printf(text, "%s, value: %.6g %s}\n", vec_norm(arrow->force) > 0 ? "_moment" : "", arrow->couple,
-                    model->scene->units == unit_us ? "lbf*ft" : "N*m");
+        text_printf(text, "%s, value: %.6g %s}\n", size > 0 ? "_moment" : "", arrow->couple,
+                    us ? "lbf*ft" : "N*m");
         return;
     }
-    text_printf(text, ", value: %.6g %s, angle: %.5g deg", vec_norm(arrow->force), force_unit(model),
-                atan2(arrow->force.y, arrow->force.x) * 57.29577951308232);
+    text_printf(text, ", value: %.6g %s, angle: %.5g deg", size, us ? "lbf" : "N",
+                atan2(arrow->fy, arrow->fx) * 57.29577951308232);
     if (from) text_printf(text, ", at: {point: G, offset: [%.6g, %.6g]}", from->x, from->y);
     text_add(text, "}\n");
-}
-
-/* The start, in the modes of the motion that follows (compare.c). NULL when memory is out. */
-static fbd_state *start_of(const struct handout *handout)
-{
-    fbd_state *state = state_new(handout->model);
-    if (!state) handout->arena->failed = true;
-    if (state && handout->model->assembles) state_project(state, true);
-    if (state && !random_admissible(state)) state_evaluate(state);
-    return state;
 }
 
 void solution_reactions(const struct handout *handout, const char *body_name, bool moments)
 {
     const fbd_model *model = handout->model;
-    int b = 0;
-    while (strcmp(model->bodies[b].name, body_name) != 0) b++;
-    const struct model_body *body = &model->bodies[b];
-    fbd_state *state = key_asks(handout->key, (size_t)b) > 0 ? start_of(handout) : NULL;
-    struct arrow *arrows = calloc(diagram_arrows(model, b) + 1, sizeof *arrows);
-    bool turns = body->kind != motion_slide && body->kind != motion_particle;
-    if (!arrows) handout->arena->failed = true;
-    if (state && arrows) {
-        struct instant at = state_instant(state);
-        struct pose pose = body_pose(body, &at);
-        struct vec G = point_motion(body, &pose, body->inertia.G).p;
-        size_t listed = body->source->load_count;
-        size_t count = diagram_list(model, b, &at, state->a, state->slots, arrows);
-        for (size_t i = 0; i < handout->key->asked_count[b] && listed + i < count; i++) {
-            const struct arrow *arrow = &arrows[listed + i];
-            struct vec from = vec_sub(arrow->point, G);
-            bool there = moments ? arrow->couple != 0 : vec_norm(arrow->force) > 0;
-            if (handout->key->asked[b][i] && there)
-                write_reaction(handout->text, model, arrow, moments, turns ? &from : NULL);
-        }
+    const bool us = strcmp(fbd_model_scene(model).units, "US") == 0;
+    size_t b = 0;
+    while (strcmp(fbd_model_body_name(model, b), body_name) != 0) b++;
+    if (key_asks(handout->key, b) == 0) return;
+    const fbd_listed_body body = fbd_model_listed_body(model, b);
+    fbd_state *state = fbd_state_new_start(model);
+    fbd_arrow *arrows = calloc(body.most_forces + 1, sizeof *arrows);
+    bool turns = strcmp(body.motion, "slide") != 0 && strcmp(body.motion, "particle") != 0;
+    const fbd_placement pose = fbd_state_placement(state, b);
+    size_t count = arrows ? fbd_diagram(state, b, arrows, body.most_forces) : 0;
+    if (count == 0) handout->arena->failed = true;
+    for (size_t i = 0; i < handout->key->asked_count[b] && body.listed + i < count; i++) {
+        const fbd_arrow *arrow = &arrows[body.listed + i];
+        struct vec from = {arrow->x - pose.G[0], arrow->y - pose.G[1]};
+        bool there = moments ? arrow->couple != 0 : hypot(arrow->fx, arrow->fy) > 0;
+        if (handout->key->asked[b][i] && there)
+            write_reaction(handout->text, us, arrow, moments, turns ? &from : NULL);
     }
     free(arrows);
-    state_free(state);
+    fbd_state_free(state);
 }
 
 void solution_equations(const struct handout *handout)
 {
-    fbd_state *state = start_of(handout);
+    fbd_state *state = fbd_state_new_start(handout->model);
     char *equations = state ? fbd_equations_write(state, NULL, NULL) : NULL;
     if (!equations) handout->arena->failed = true;
     text_add(handout->text, "#\n");
@@ -97,5 +81,5 @@ void solution_equations(const struct handout *handout)
         line += length + (line[length] == '\n');
     }
     fbd_free(equations);
-    state_free(state);
+    fbd_state_free(state);
 }

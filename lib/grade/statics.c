@@ -13,12 +13,9 @@
 
 #include "base/hash.h"
 #include "document/node_edit.h"
-#include "dynamics/project.h"
 #include "fbd_grade.h"
+#include "fbd_view.h"
 #include "grade/lines.h"
-#include "output/hand_forces.h"
-#include "output/random_state.h"
-#include "scene/law.h"
 
 enum { sums = 3 }; /* of a body: forces along x and y, moments about the origin */
 
@@ -50,36 +47,25 @@ static fbd_model *changed_model(struct fbd_grade *grade, const struct node *root
                                 bool hands, int number)
 {
     const double spread = 1e-3;
-    const struct scene *scene = like->scene;
+    const size_t most = fbd_model_parameter_count(like);
     const struct node *parameters = lines_value(root, "parameters");
-    const struct document document = {.file = grade->key->file,
-                                      .root = root,
-                                      .without_hands = !hands,
-                                      .split_hands = hands};
-    struct override *overrides = ARENA_ARRAY(&grade->arena, scene->parameter_count + 1, struct override);
+    fbd_setting *settings = ARENA_ARRAY(&grade->arena, most + 1, fbd_setting);
     fbd_errors *errors = fbd_errors_new();
     size_t count = 0;
     fbd_model *model = NULL;
-    for (size_t i = 0; overrides && i < scene->parameter_count; i++) {
-        const char *name = scene->parameters[i].name;
-        const struct node *value = lines_value(parameters, name);
+    for (size_t i = 0; settings && i < most; i++) {
+        const fbd_parameter parameter = fbd_model_parameter(like, i);
+        const struct node *value = lines_value(parameters, parameter.name);
         if (!value || !is_given(value)) continue;
-        double factor = number > 0 ? 1 + spread * change_of(name, number) : 1;
-        const char *text = arena_printf(&grade->arena, "%.17g", factor * scene->parameters[i].value);
-        overrides[count++] = (struct override){.name = name, .value = text};
+        double factor = number > 0 ? 1 + spread * change_of(parameter.name, number) : 1;
+        const char *text = arena_printf(&grade->arena, "%.17g", factor * parameter.value);
+        settings[count++] = (fbd_setting){.name = parameter.name, .value = text};
     }
-    if (errors && !grade->arena.failed) model = hands_compile(&document, overrides, count, errors);
+    if (errors && !grade->arena.failed)
+        model = tree_compile(root, grade->key->file, settings, count, hands, errors);
     if (!errors || errors->out_of_memory) grade->arena.failed = true;
     fbd_errors_free(errors);
     return model;
-}
-
-fbd_state *lines_start_of(const fbd_model *model)
-{
-    fbd_state *state = state_new(model);
-    if (state && model->assembles) state_project(state, true);
-    if (state && !random_admissible(state)) state_evaluate(state);
-    return state;
 }
 
 /* ---- sums */
@@ -91,60 +77,81 @@ struct rest {
     double *size; /* rows: sums of magnitudes */
 };
 
-static bool counts_here(const struct fbd_grade *grade, const struct load *load, bool answer)
+static bool counts_here(const struct fbd_grade *grade, const fbd_listed_force *force, bool answer)
 {
-    if (!answer) return !load_law(load)->follows;
-    const struct drawn *drawn = drawn_at(grade, load->at);
+    if (!answer) return !force->reaction;
+    const struct drawn *drawn = drawn_at(grade, (struct pos){force->line, force->column});
     return drawn && isfinite(drawn->size);
 }
 
+/* The number of the body of this name; the number of bodies for none. */
+static size_t body_called(const fbd_model *model, const char *name)
+{
+    size_t b = 0;
+    while (b < fbd_model_body_count(model) && strcmp(fbd_model_body_name(model, b), name) != 0) b++;
+    return b;
+}
+
+/* Units of length and force in those of the key. */
+struct units {
+    double length, force;
+};
+
+/* Add the listed forces and moments of a body to its sums. False when memory is out. */
+static bool add_body(const struct fbd_grade *grade, fbd_state *state, const fbd_listed_body *body, size_t b,
+                     struct units units, bool answer, double *sum, double *size)
+{
+    fbd_listed_force *forces = calloc(body->most_forces + 1, sizeof *forces);
+    bool done = forces && fbd_state_forces(state, b, forces, body->most_forces) >= body->listed;
+    for (size_t i = 0; done && i < body->listed; i++) {
+        const fbd_arrow *arrow = &forces[i].arrow;
+        if (!counts_here(grade, &forces[i], answer)) continue;
+        const double moment = arrow->couple + (arrow->x * arrow->fy - arrow->y * arrow->fx);
+        const double parts[sums] = {units.force * arrow->fx, units.force * arrow->fy,
+                                    units.force * units.length * moment};
+        for (int k = 0; k < sums; k++) {
+            sum[k] += parts[k];
+            size[k] += fabs(parts[k]);
+        }
+    }
+    free(forces);
+    return done;
+}
+
 /* Add the listed loads of the bodies of a model to their sums. */
-static bool add_sums(struct lines *lines, const fbd_model *model, double length, double force, bool answer,
+static bool add_sums(struct lines *lines, const fbd_model *model, struct units units, bool answer,
                      double *sum, double *size)
 {
     const fbd_model *key = lines->grade->sheet;
-    fbd_state *state = lines_start_of(model);
-    struct arrow *arrows = calloc(diagram_most_arrows(model) + 1, sizeof *arrows);
-    struct instant at = state ? state_instant(state) : (struct instant){.t = 0};
-    for (size_t b = 0; state && arrows && b < model->body_count; b++) {
-        size_t to = 0;
-        while (to < key->body_count && strcmp(key->bodies[to].name, model->bodies[b].name) != 0) to++;
-        if (to == key->body_count) continue;
-        diagram_fill(model, (int)b, &at, state->a, state->slots, arrows);
-        for (size_t i = 0; i < model->bodies[b].source->load_count; i++) {
-            if (!counts_here(lines->grade, model->loads[arrows[i].load].source, answer)) continue;
-            const double parts[sums] = {force * arrows[i].force.x, force * arrows[i].force.y,
-                                        force * length * arrow_moment(&arrows[i], (struct vec){0, 0})};
-            for (int k = 0; k < sums; k++) {
-                sum[to * sums + (size_t)k] += parts[k];
-                size[to * sums + (size_t)k] += fabs(parts[k]);
-            }
-        }
+    fbd_state *state = fbd_state_new_start(model);
+    bool done = state != NULL;
+    for (size_t b = 0; done && b < fbd_model_body_count(model); b++) {
+        const fbd_listed_body body = fbd_model_listed_body(model, b);
+        size_t to = body_called(key, body.name);
+        if (to < fbd_model_body_count(key))
+            done = add_body(lines->grade, state, &body, b, units, answer, sum + to * sums, size + to * sums);
     }
-    bool done = state && arrows;
-    state_free(state);
-    free(arrows);
+    fbd_state_free(state);
     return done;
+}
+
+static bool is_us(const fbd_model *model)
+{
+    return strcmp(fbd_model_scene(model).units, "US") == 0;
 }
 
 /* The sums under one change of the parameters, in the units of the key. False if a model is invalid. */
 static bool take_sums(struct lines *lines, const fbd_model *answer, int number, double *sum, double *size)
 {
     struct fbd_grade *grade = lines->grade;
-    const double foot = 0.3048, pound = 4.4482216152605;
-    fbd_model *model = changed_model(grade, grade->key->document.root, grade->sheet, false, number);
-    bool done = model && add_sums(lines, model, 1, 1, false, sum, size);
+    const struct units own = {1, 1}, us = {0.3048, 4.4482216152605}, si = {1 / us.length, 1 / us.force};
+    fbd_model *model = changed_model(grade, grade->key->root, grade->sheet, false, number);
+    bool done = model && add_sums(lines, model, own, false, sum, size);
     fbd_model_free(model);
     if (!answer || !done) return done;
-    bool us = answer->scene->units == unit_us, key_us = grade->sheet->scene->units == unit_us;
-    double length = us == key_us ? 1
-                    : us         ? foot
-                                 : 1 / foot,
-           force = us == key_us ? 1
-                   : us         ? pound
-                                : 1 / pound;
+    const bool alike = is_us(answer) == is_us(grade->sheet);
     model = changed_model(grade, lines->varied, answer, false, number);
-    done = model && add_sums(lines, model, length, force, true, sum, size);
+    done = model && add_sums(lines, model, alike ? own : is_us(answer) ? us : si, true, sum, size);
     fbd_model_free(model);
     return done;
 }
@@ -235,7 +242,7 @@ static fbd_model *make_varied(struct lines *lines)
 static bool find_sums(struct lines *lines)
 {
     struct fbd_grade *grade = lines->grade;
-    const size_t rows = sums * grade->sheet->body_count;
+    const size_t rows = sums * fbd_model_body_count(grade->sheet);
     struct rest *rest = ARENA_NEW(&grade->arena, struct rest);
     if (lines->rest_made) return lines->rest != NULL;
     lines->rest_made = true;
@@ -261,7 +268,7 @@ static const struct node *root_of_line(struct lines *lines, int body, const char
     struct fbd_grade *grade = lines->grade;
     struct arena *arena = &grade->arena;
     const struct node *root = lines->root, *bodies = lines_value(root, "bodies"), *made = bodies;
-    const char *name = grade->sheet->bodies[body].name;
+    const char *name = fbd_model_body_name(grade->sheet, (size_t)body);
     for (size_t b = 0; made && b < bodies->count; b++) {
         const struct node *one = node_with(arena, bodies->pairs[b].value, "hand", NULL);
         made = one ? node_with(arena, made, bodies->pairs[b].key, one) : NULL;
@@ -292,9 +299,9 @@ static double rest_beyond(double *a, const double *base, int count)
 
 static double lack_of(const fbd_model *model, int body, double *size)
 {
-    fbd_state *state = model ? lines_start_of(model) : NULL;
+    fbd_state *state = model ? fbd_state_new_start(model) : NULL;
     double lack = state ? hand_lack_at(state, body, 0, size, NULL) : NAN;
-    state_free(state);
+    fbd_state_free(state);
     return lack;
 }
 

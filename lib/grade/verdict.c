@@ -24,33 +24,32 @@ static bool near(double a, double b, double tolerance)
 
 /* ---- bodies */
 
-static double worth(const struct fbd_grade *grade, const struct model_body *key)
+/* A finding on all of a body of the key. */
+static fbd_finding *add_on_body(struct fbd_grade *grade, fbd_finding_kind kind, size_t body, struct pos at)
 {
     const struct grading_points *points = &grading_of(grade)->points;
-    size_t b = (size_t)(key - grade->sheet->bodies);
-    return points->force * (double)(key->source->load_count + key_asks(grade->key, b)) + points->inertia;
+    const fbd_listed_body key = fbd_model_listed_body(grade->sheet, body);
+    fbd_finding *finding = finding_add(grade, kind, key.name, "", at);
+    finding->most = points->force * (double)(key.listed + key_asks(grade->key, body)) + points->inertia;
+    return finding;
 }
 
-void verdict_body(struct fbd_grade *grade, const struct model_body *key)
+void verdict_body(struct fbd_grade *grade, size_t body)
 {
-    fbd_finding *finding = finding_add(grade, FBD_FINDING_BODY, key->name, "", nowhere);
-    finding->most = worth(grade, key);
-    finding_say(grade, finding, "the body is not in the answer");
+    finding_say(grade, add_on_body(grade, FBD_FINDING_BODY, body, nowhere), "the body is not in the answer");
 }
 
-void verdict_motion(struct fbd_grade *grade, const struct model_body *key, const struct model_body *body)
+void verdict_motion(struct fbd_grade *grade, size_t body, const fbd_listed_body *other)
 {
-    fbd_finding *finding = finding_add(grade, FBD_FINDING_MOTION, key->name, "", body->source->motion.at);
-    finding->most = worth(grade, key);
-    finding_say(grade, finding,
+    const struct pos at = {other->motion_line, other->motion_column};
+    finding_say(grade, add_on_body(grade, FBD_FINDING_MOTION, body, at),
                 "the body moves in another way than on the sheet: its forces are not compared");
 }
 
-void verdict_gravity(struct fbd_grade *grade, const struct model_body *key)
+void verdict_gravity(struct fbd_grade *grade, size_t body)
 {
-    fbd_finding *finding = finding_add(grade, FBD_FINDING_MOTION, key->name, "", nowhere);
-    finding->most = worth(grade, key);
-    finding_say(grade, finding, "`gravity` is not that of the sheet: its forces are not compared");
+    finding_say(grade, add_on_body(grade, FBD_FINDING_MOTION, body, nowhere),
+                "`gravity` is not that of the sheet: its forces are not compared");
 }
 
 void verdict_superfluous(struct fbd_grade *grade, fbd_finding_kind kind, const char *body, const char *name,
@@ -63,31 +62,37 @@ void verdict_superfluous(struct fbd_grade *grade, fbd_finding_kind kind, const c
 
 /* ---- inertia */
 
-/* G in the frame of the key; from the axis where there is one. */
-static struct vec centre_of(const struct model_body *body, double length, double turned)
+static bool is_pivot(const fbd_listed_body *body)
 {
-    struct vec turn = {cos(turned), sin(turned)}, G = body->inertia.G;
-    if (body->kind == motion_pivot) G = vec_sub(G, body->pin);
+    return strcmp(body->motion, "pivot") == 0;
+}
+
+/* G in the frame of the key; from the axis where there is one. */
+static struct vec centre_of(const fbd_listed_body *body, double length, double turned)
+{
+    struct vec turn = {cos(turned), sin(turned)}, G = {body->inertia.G[0], body->inertia.G[1]};
+    if (is_pivot(body)) G = vec_sub(G, (struct vec){body->pin[0], body->pin[1]});
     return vec_scale(length, vec_turn(turn, G));
 }
 
-static const char *inertia_fault(const struct fbd_grade *grade, const struct model_body *key,
-                                 const struct model_body *body, const struct sides *sides, double length,
+static const char *inertia_fault(const struct fbd_grade *grade, const fbd_listed_body *body,
+                                 const fbd_listed_body *other, const struct sides *sides, double length,
                                  double force, fbd_finding_kind *kind)
 {
+    const fbd_inertia *key = &body->inertia, *own = &other->inertia;
     double tolerance = grading_of(grade)->tolerance, I = force * length; /* kg m^2 = N m s^2 */
-    double I_G = I * body->inertia.I_G, I_O = I * body->I_O, mass = force / length * body->inertia.mass;
-    struct vec apart = vec_sub(centre_of(body, length, sides->turned), centre_of(key, 1, 0));
-    double gyration =
-        sqrt(fmax(key->inertia.I_G, 0) / key->inertia.mass); /* G may be the origin, up to rounding */
-    double size = tolerance * (vec_norm(key->inertia.G) + key->L + gyration);
-    bool pivot = key->kind == motion_pivot, turns = pivot || key->kind == motion_planar;
+    double I_G = I * own->I_G, I_O = I * own->I_O, mass = force / length * own->mass;
+    struct vec apart = vec_sub(centre_of(other, length, sides->turned), centre_of(body, 1, 0));
+    double gyration = sqrt(fmax(key->I_G, 0) / key->mass); /* G may be the origin, up to rounding */
+    double from_origin = hypot(key->G[0], key->G[1]);
+    bool pivot = is_pivot(body), turns = pivot || strcmp(body->motion, "planar") == 0;
+    double size = tolerance * (from_origin + (pivot ? key->L : from_origin) + gyration);
     *kind = FBD_FINDING_INERTIA;
-    if (!near(mass, key->inertia.mass, tolerance)) return "the mass is another one";
+    if (!near(mass, key->mass, tolerance)) return "the mass is another one";
     if (turns && vec_norm(apart) > size) return "the centre of mass is at another place";
-    if (!turns || near(pivot ? I_O : I_G, pivot ? key->I_O : key->inertia.I_G, tolerance)) return NULL;
+    if (!turns || near(pivot ? I_O : I_G, pivot ? key->I_O : key->I_G, tolerance)) return NULL;
     *kind = FBD_FINDING_REFERENCE_POINT;
-    if (pivot && near(I_O, key->inertia.I_G, tolerance))
+    if (pivot && near(I_O, key->I_G, tolerance))
         return "the moment of inertia about O is that about G: m L^2 is missing";
     if (pivot && near(I_G, key->I_O, tolerance))
         return "the moment of inertia about G is that about O: m L^2 is counted twice";
@@ -95,16 +100,15 @@ static const char *inertia_fault(const struct fbd_grade *grade, const struct mod
     return "the moment of inertia differs";
 }
 
-static void compare_inertia(struct fbd_grade *grade, const struct model_body *key,
-                            const struct model_body *body, const struct sides *sides, double length,
-                            double force)
+static void compare_inertia(struct fbd_grade *grade, const fbd_listed_body *key, const fbd_listed_body *body,
+                            const struct sides *sides, double length, double force)
 {
     const struct grading_points *points = &grading_of(grade)->points;
     fbd_finding_kind kind;
     const char *fault = inertia_fault(grade, key, body, sides, length, force, &kind);
     if (!fault && points->inertia == 0) return;
-    fbd_finding *finding =
-        finding_add(grade, fault ? kind : FBD_FINDING_RIGHT, key->name, "", body->source->at);
+    fbd_finding *finding = finding_add(grade, fault ? kind : FBD_FINDING_RIGHT, key->name, "",
+                                       (struct pos){body->line, body->column});
     finding->most = points->inertia;
     finding->points = !fault ? points->inertia : points->inertia > 0 ? 0 : -points->superfluous;
     finding_say(grade, finding, fault ? fault : "mass and moment of inertia are right");
@@ -112,9 +116,9 @@ static void compare_inertia(struct fbd_grade *grade, const struct model_body *ke
 
 /* ---- pairs */
 
-const char *verdict_noun(const struct load *load)
+const char *verdict_noun(const fbd_listed_force *force)
 {
-    return load && load->kind >= moment_applied && load->kind <= moment_potential ? "moment" : "force";
+    return force && force->moment ? "moment" : "force";
 }
 
 /* Entries that are optional in the key earn no points. */
@@ -128,7 +132,7 @@ void verdict_pair(struct fbd_grade *grade, const char *body, struct item *key, s
 {
     double share = kind == FBD_FINDING_RIGHT ? 1 : grading_of(grade)->partial;
     fbd_finding *finding =
-        finding_add(grade, kind, body, name_as_drawn(grade, item->source), item->source->at);
+        finding_add(grade, kind, body, name_as_drawn(grade, item->source), position_of(item->source));
     finding->most = verdict_worth(grade, key);
     finding->points = share * finding->most;
     finding_say(grade, finding, message);
@@ -150,7 +154,7 @@ void verdict_right(struct fbd_grade *grade, const char *body, struct item *key, 
 static bool follows_mass(const struct item *key, const struct item *item, const struct difference *difference,
                          double masses)
 {
-    return key->source->kind == load_gravity && item->source->kind == load_gravity &&
+    return strcmp(key->source->law, "gravity") == 0 && are_alike(key, item) &&
            difference->relation == is_scaled && near(difference->ratio, masses, 1e-6);
 }
 
@@ -161,8 +165,8 @@ static void pair_equal(struct fbd_grade *grade, const char *body, struct sides *
             for (size_t j = 0; j < sides->count; j++) {
                 struct item *key = &sides->key[i], *item = &sides->items[j];
                 if (!is_left(key) || !is_left(item)) continue;
-                if (same_kind && key->source->kind != item->source->kind) continue;
-                if (key->source->kind != item->source->kind && is_drawn_as_such(sides, key)) continue;
+                if (same_kind && !are_alike(key, item)) continue;
+                if (!are_alike(key, item) && is_drawn_as_such(sides, key)) continue;
                 if (is_nothing(sides, item) && !is_nothing(sides, key))
                     continue; /* for friction that is zero */
                 struct difference difference = difference_of(sides, key, item);
@@ -282,8 +286,8 @@ static int unlikeness(const struct item *key, const struct item *item, const str
 {
     static const int ranks[] = {[is_same] = 0,   [is_opposite] = 0, [is_elsewhere] = 1, [is_rougher] = 0,
                                 [is_turned] = 2, [is_scaled] = 3,   [is_other] = 7};
-    bool same_name = strcmp(key->source->name, item->source->name) == 0;
-    bool same_kind = key->source->kind == item->source->kind;
+    bool same_name = strcmp(key->name, item->name) == 0;
+    bool same_kind = are_alike(key, item);
     bool same_noun = strcmp(verdict_noun(key->source), verdict_noun(item->source)) == 0;
     if (!same_noun) return no_pair + 1;
     /* With another magnitude and the opposite sense, a pair needs the same name or kind. */
@@ -299,10 +303,11 @@ static int unlikeness(const struct item *key, const struct item *item, const str
 static void say_pair(struct fbd_grade *grade, const char *body, struct item *key, struct item *item,
                      const struct difference *difference)
 {
-    const double g = vec_norm(grade->sheet->scene->gravity), degree = 57.29577951308232;
+    const fbd_scene sheet = fbd_model_scene(grade->sheet);
+    const double g = hypot(sheet.gravity[0], sheet.gravity[1]), degree = 57.29577951308232;
     const char *unit = unit_of_ratio(difference->ratio, g), *message = "it differs in size and direction";
     struct text detail = {0};
-    text_printf(&detail, "compared with `%s` of the key", key->source->name);
+    text_printf(&detail, "compared with `%s` of the key", key->name);
     switch (difference->relation) {
     case is_opposite: message = "it points the opposite way"; break;
     case is_elsewhere: message = "it acts at the wrong place: its line of action is another one"; break;
@@ -376,31 +381,33 @@ static void add_missing(struct fbd_grade *grade, const char *body, const struct 
     text_free(&text);
 }
 
-void verdict_rest(struct fbd_grade *grade, const struct model_body *key, const struct model_body *body,
-                  struct sides *sides)
+void verdict_rest(struct fbd_grade *grade, size_t body, struct sides *sides)
 {
-    pair_sums(grade, key->name, sides);
-    pair_groups(grade, key->name, sides);
-    verdict_zeros(grade, key->name, sides);
+    const char *name = fbd_model_body_name(grade->sheet, body);
+    pair_sums(grade, name, sides);
+    pair_groups(grade, name, sides);
+    verdict_zeros(grade, name, sides);
     bool paired = true;
-    while (paired) paired = pair_closest(grade, key->name, sides);
+    while (paired) paired = pair_closest(grade, name, sides);
     for (size_t i = 0; i < sides->key_count; i++)
-        if (!sides->key[i].used) add_missing(grade, key->name, &sides->key[i]);
+        if (!sides->key[i].used) add_missing(grade, name, &sides->key[i]);
     for (size_t i = 0; i < sides->reaction_count; i++)
         if (!sides->reactions[i].used && sides->reactions[i].asked)
-            add_missing(grade, key->name, &sides->reactions[i]);
-    for (size_t j = 0; j < sides->count; j++)
-        if (!sides->items[j].used && !is_nothing(sides, &sides->items[j]))
-            verdict_superfluous(grade, FBD_FINDING_SUPERFLUOUS, key->name,
-                                name_as_drawn(grade, &body->source->loads[j]), body->source->loads[j].at,
-                                "nothing exerts this on the body");
+            add_missing(grade, name, &sides->reactions[i]);
+    for (size_t j = 0; j < sides->count; j++) {
+        const struct item *item = &sides->items[j];
+        if (!item->used && !is_nothing(sides, item))
+            verdict_superfluous(grade, FBD_FINDING_SUPERFLUOUS, name, name_as_drawn(grade, item->source),
+                                position_of(item->source), "nothing exerts this on the body");
+    }
 }
 
-void verdict_on(struct fbd_grade *grade, const fbd_model *answer, const struct model_body *key,
-                const struct model_body *body, struct sides *sides, double length, double force)
+void verdict_on(struct fbd_grade *grade, const fbd_model *answer, size_t body, const fbd_listed_body *other,
+                struct sides *sides, double length, double force)
 {
-    double masses = force / length * body->inertia.mass / key->inertia.mass;
-    compare_inertia(grade, key, body, sides, length, force);
-    pair_equal(grade, key->name, sides, masses);
-    verdict_reactions(grade, answer, key, body, sides);
+    const fbd_listed_body key = fbd_model_listed_body(grade->sheet, body);
+    double masses = force / length * other->inertia.mass / key.inertia.mass;
+    compare_inertia(grade, &key, other, sides, length, force);
+    pair_equal(grade, key.name, sides, masses);
+    verdict_reactions(grade, answer, body, sides);
 }

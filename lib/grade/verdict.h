@@ -8,16 +8,16 @@
 #include "fbd_grade.h"
 #include "grade/compare.h"
 
-/* Findings for a missing body; for a body with another kind of motion. */
-void verdict_body(struct fbd_grade *grade, const struct model_body *key);
-void verdict_motion(struct fbd_grade *grade, const struct model_body *key, const struct model_body *body);
+/* Findings on a body of the key, by its number: it is missing; it has another kind of motion. */
+void verdict_body(struct fbd_grade *grade, size_t body);
+void verdict_motion(struct fbd_grade *grade, size_t body, const fbd_listed_body *other);
 
 /* Finding for an answer with another gravity, and hence other forces. */
-void verdict_gravity(struct fbd_grade *grade, const struct model_body *key);
+void verdict_gravity(struct fbd_grade *grade, size_t body);
 
 /* Judge the properties and the list of a body; units of length and force of the answer in those of the key. */
-void verdict_on(struct fbd_grade *grade, const fbd_model *answer, const struct model_body *key,
-                const struct model_body *body, struct sides *sides, double length, double force);
+void verdict_on(struct fbd_grade *grade, const fbd_model *answer, size_t body, const fbd_listed_body *other,
+                struct sides *sides, double length, double force);
 
 /* Deduct points for a superfluous force, body or coupling. */
 void verdict_superfluous(struct fbd_grade *grade, fbd_finding_kind kind, const char *body, const char *name,

@@ -17,14 +17,13 @@ static void keep_values(struct fbd_grade *grade, const fbd_model *answer, const 
     double values[most_components];
     support_solve(sides, support, values);
     for (size_t j = 0; j < support->count; j++) {
-        const struct load *source = support->parts[j]->source;
-        struct drawn *drawn = drawn_at(grade, source->at);
+        const fbd_listed_force *source = support->parts[j]->source;
+        struct drawn *drawn = drawn_at(grade, position_of(source));
         bool moment = strcmp(verdict_noun(source), "moment") == 0;
         if (!drawn) continue;
-        bool us = (drawn->unknown ? grade->sheet : answer)->scene->units == unit_us;
+        bool us = strcmp(fbd_model_scene(drawn->unknown ? grade->sheet : answer).units, "US") == 0;
         drawn->unit = moment ? (us ? "lb*ft" : "N*m") : us ? "lb" : "N";
-        bool constant = source->value.expr && expr_is_constant(source->value.expr);
-        drawn->size = drawn->unknown ? values[j] : constant ? expr_value(source->value.expr) : NAN;
+        drawn->size = drawn->unknown ? values[j] : source->size;
         drawn->reaction =
             drawn->unknown && !drawn->free && support->key_count == 1 ? support->key[0]->name : NULL;
         drawn->along = support->parts[j]->at[reaction_when(sides, support->key[0])].force;
@@ -49,7 +48,7 @@ static void take_normals(struct sides *sides)
 {
     for (size_t j = 0; j < sides->count; j++) {
         struct item *item = &sides->items[j];
-        if (!is_left(item) || item->source->kind != load_normal) continue;
+        if (!is_left(item) || strcmp(item->source->law, "normal") != 0) continue;
         for (size_t i = 0; i < sides->reaction_count; i++) {
             const struct item *key = &sides->reactions[i];
             if (!key->name || !key->couples || key->used) continue;
@@ -89,8 +88,8 @@ void verdict_zeros(struct fbd_grade *grade, const char *body, struct sides *side
         if (item->used || !item->source || !is_of_nothing(sides, item)) continue;
         if (reaction_is_reversed(sides, item)) continue;
         item->used = true;
-        fbd_finding *finding =
-            finding_add(grade, FBD_FINDING_RIGHT, body, name_as_drawn(grade, item->source), item->source->at);
+        fbd_finding *finding = finding_add(grade, FBD_FINDING_RIGHT, body, name_as_drawn(grade, item->source),
+                                           position_of(item->source));
         finding_say(grade, finding, "right: it is zero");
     }
 }
@@ -104,7 +103,7 @@ struct state {
 
 struct reading {
     struct fbd_grade *grade;
-    const struct model_body *key, *body;
+    size_t body;
     struct sides *sides;
     struct supports supports;
     bool taken[most_supports], best[most_supports];
@@ -173,7 +172,7 @@ static void weigh(struct reading *reading)
         for (size_t k = 0; reading->taken[i] && k < reading->supports.all[i].key_count; k++)
             points += verdict_worth(grade, reading->supports.all[i].key[k]);
     exchange_all(reading, false);
-    verdict_rest(grade, reading->key, reading->body, reading->sides);
+    verdict_rest(grade, reading->body, reading->sides);
     exchange_all(reading, true);
     points += points_from(last ? last->next : grade->first);
     if (last)
@@ -243,15 +242,14 @@ static void read_on(struct reading *reading, size_t from)
     if (!certain) read_on(reading, from + 1);
 }
 
-void verdict_reactions(struct fbd_grade *grade, const fbd_model *answer, const struct model_body *key,
-                       const struct model_body *body, struct sides *sides)
+void verdict_reactions(struct fbd_grade *grade, const fbd_model *answer, size_t body, struct sides *sides)
 {
     static const struct search searches[] = {
         {false, 1, false}, {false, 2, false}, {false, 3, false}, {true, 1, false},
         {true, 1, true},   {true, 2, false},  {true, 3, false},  {false, 1, true},
     };
     size_t count = sides->key_count + sides->count + sides->reaction_count + 1;
-    struct reading reading = {.grade = grade, .key = key, .body = body, .sides = sides, .points = -HUGE_VAL};
+    struct reading reading = {.grade = grade, .body = body, .sides = sides, .points = -HUGE_VAL};
     reading.states = ARENA_ARRAY(&grade->arena, count, struct state);
     if (!reading.states) return;
     take_normals(sides);
@@ -264,8 +262,8 @@ void verdict_reactions(struct fbd_grade *grade, const fbd_model *answer, const s
     read_on(&reading, 0);
     for (size_t i = 0; i < reading.supports.count; i++) {
         if (!reading.best[i]) continue;
-        take_support(grade, answer, key->name, sides, &reading.supports.all[i]);
+        take_support(grade, answer, fbd_model_body_name(grade->sheet, body), sides, &reading.supports.all[i]);
         use_support(&reading.supports.all[i], true);
     }
-    verdict_rest(grade, key, body, sides);
+    verdict_rest(grade, body, sides);
 }

@@ -19,15 +19,13 @@ void verdict_right(struct fbd_grade *grade, const char *body, struct item *key, 
 double verdict_worth(const struct fbd_grade *grade, const struct item *key);
 
 /* `force` or `moment`. */
-const char *verdict_noun(const struct load *load);
+const char *verdict_noun(const fbd_listed_force *force);
 
 /* The reactions, and then the rest: of all readings of the drawn forces the one with the most points. */
-void verdict_reactions(struct fbd_grade *grade, const fbd_model *answer, const struct model_body *key,
-                       const struct model_body *body, struct sides *sides);
+void verdict_reactions(struct fbd_grade *grade, const fbd_model *answer, size_t body, struct sides *sides);
 
 /* The remaining items: forces that the key lists by components, and wrong ones. */
-void verdict_rest(struct fbd_grade *grade, const struct model_body *key, const struct model_body *body,
-                  struct sides *sides);
+void verdict_rest(struct fbd_grade *grade, size_t body, struct sides *sides);
 
 void verdict_misdrawn(struct fbd_grade *grade, const char *body, const struct misdrawn *misdrawn);
 void verdict_zeros(struct fbd_grade *grade, const char *body, struct sides *sides);

@@ -189,12 +189,9 @@ static struct scene *new_scene(const char *file, fbd_errors *errors)
 bool document_open(struct document *document, const char *text, size_t length, const char *file,
                    fbd_errors *errors)
 {
-    struct source source;
     *document = (struct document){.file = file};
     diag_in_file(errors, file);
-    if (!source_open(text, length, errors, &source)) return false;
-    document->root = node_read(&document->arena, &source, errors);
-    if (document->arena.failed || errors->arena.failed) diag_out_of_memory(errors);
+    document->root = node_open(&document->arena, text, length, errors);
     return document->root != NULL;
 }
 

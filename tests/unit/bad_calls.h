@@ -71,6 +71,10 @@ void contents(void **context);
 /* bad_calls_view.c */
 void views(void **context);
 
+/* bad_calls_bodies.c */
+void bodies_and_forces(void **context);
+void states_for_comparison(void **context);
+
 /* bad_calls_options.c */
 void options_have_a_size(void **context);
 void options_are_filled_with_defaults(void **context);

@@ -436,6 +436,8 @@ int main(void)
         cmocka_unit_test(methods_and_simplifications),
         cmocka_unit_test(grades),
         cmocka_unit_test(a_key_without_an_answer),
+        cmocka_unit_test(bodies_and_forces),
+        cmocka_unit_test(states_for_comparison),
         cmocka_unit_test(options_have_a_size),
         cmocka_unit_test(options_are_filled_with_defaults),
         cmocka_unit_test(progress_ends_what_is_under_way),
