@@ -36,8 +36,7 @@ struct comparison {
 
 static bool has_coordinate(const struct comparison *comparison, const char *name)
 {
-    double value;
-    return fbd_state_get(comparison->state, name, &value);
+    return fbd_state_get(comparison->state, name, &(double){0});
 }
 
 /* Copy the user states by name, in the units of the answer. */
