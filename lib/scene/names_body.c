@@ -5,9 +5,9 @@
  */
 #include "scene/names.h"
 
+#include "document/scalar.h"
 #include "expr/glyph.h"
 #include "scene/reader.h"
-#include "document/scalar.h"
 
 #include <stdlib.h>
 #include <string.h>
