@@ -108,7 +108,7 @@ void panel_set_scale(struct panel *panel)
 static void draw_part(struct panel *panel, const fbd_shape *part)
 {
     struct text *text = &panel->under;
-    struct vec center = panel_point(panel, panel_place(panel, vec_of(part->center))), corners[4];
+    struct vec center = panel_point(panel, panel_place(panel, vec_of(part->center))), corners[4] = {{0, 0}};
     const char *css = part->hole ? "hole" : "body";
     for (size_t i = 0; i < part->corner_count; i++)
         corners[i] = panel_point(panel, panel_place(panel, vec_of(part->corners[i])));
