@@ -34,7 +34,7 @@ check 'and nowhere else' is_empty err
 check '--version says a version' "$program" --version
 
 # ---- the table
-check 'a study ends with 0' exits 0 run --methods auto,rk4,rodas5p --of ball.v "$fall"
+check 'a study ends with 0' exits 0 run --budget 60 --methods auto,rk4,rodas5p --of ball.v "$fall"
 check 'and without a word on standard error: progress is for terminals' is_empty err
 check 'it says what errors are measured against' says 'exact solution of the file, which the runs confirm' out
 check 'one quantity counts' says 'size of each quantity: ball\.v 19\.7 m/s$' out
