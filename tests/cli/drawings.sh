@@ -89,6 +89,18 @@ else
     echo '# neither rsvg-convert nor inkscape is installed: other formats are left out'
 fi
 
+# ---- components of a slide on a slanted one: its line is at 60 deg to the ground, W sin(60 deg) along it
+cat >carried.yaml <<'END'
+fbd: 1
+bodies:
+  wedge: {mass: 2 kg, motion: {slide: {along: 30 deg}}, forces: [gravity]}
+  block: {mass: 10 kg, motion: {slide: {on: wedge, along: 30 deg}}, forces: [gravity]}
+simulate: {until: 1 s}
+END
+check '--svg --components on a body that is carried' exits 0 run --svg - --components carried.yaml
+check 'are along its line in the world' says 'gravity_x 84\.96 N' out
+check 'and across it' says 'gravity_n 49\.05 N' out
+
 # ---- LaTeX
 check '--equations --latex' exits 0 run --equations --latex "$incline"
 check 'has the symbols of the file' says '^m\\,\\dot\{v\} &= -m\\,g\\,\\sin \(\\phi \) - \\mu _\{k\}\\,N \+ \\mathit\{push\} ' out
