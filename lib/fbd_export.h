@@ -117,10 +117,10 @@ FBD_API char *fbd_model_without(const fbd_model *model, const char *const *effec
  * fbd_free; NULL when memory is out. */
 FBD_API char *fbd_errors_json(fbd_errors *errors);
 
-/* The data of a page of --html about a run, as one JSON object (its format: lib/draw/page_data.c), for a run
+/* The data of a page of --html about a run, as one JSON object (its format: lib/api/page_data.c), for a run
  * recorded with `keep`. To be freed with fbd_free; NULL with a note in `errors`: `not-recorded`, or memory is
  * out. */
-FBD_API char *fbd_result_page_data(fbd_result *result, fbd_errors *errors);
+FBD_API char *fbd_result_page_data(fbd_result *result, size_t most_bytes, fbd_errors *errors);
 
 /* True if the library was built with the parts of live pages: itself as WebAssembly (`make live`). */
 FBD_API bool fbd_has_live(void);

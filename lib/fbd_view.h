@@ -106,7 +106,7 @@ FBD_API const fbd_model *fbd_state_model(const fbd_state *state);
  * start is refused. */
 FBD_API fbd_outcome fbd_simulation_outcome(const fbd_simulation *simulation);
 
-/* ---------------------------------------------------------------- drawings: bodies and their shapes */
+/* ---------------------------------------------------------------- bodies and their shapes */
 
 /* The index of a body that stands for the ground; points of the ground are in the world. */
 #define FBD_GROUND (-1)
@@ -134,15 +134,21 @@ typedef struct fbd_body {
     int carrier;                         /* the body that it moves on, or FBD_GROUND */
     size_t coordinate, coordinate_count; /* its coordinates: see fbd_model_coordinate */
     int angle;                           /* the coordinate that is its angle, or -1 */
-    double pin[2];    /* the point of the body in its joint, in its frame: that on the axis of a pivot */
-    double joint[2];  /* the place of the joint, in the frame of the carrier: the axis; where x = 0; ... */
-    double along[2];  /* slide: the direction of +x, in the frame of the carrier, as a unit vector */
-    double normal[2]; /* slide: the direction in which its surface pushes, across `along` */
-    bool surface;     /* slide: on a surface with a normal force; false where it is guided */
-    bool two_sided;   /* and the surface has a second side, above the body */
+    double pin[2];       /* the point of the body in its joint, in its frame: that on the axis of a pivot */
+    double joint[2];     /* the place of the joint, in the frame of the carrier: the axis; where x = 0; ... */
+    double along[2];     /* slide: the direction of +x, in the frame of the carrier, as a unit vector */
+    double normal[2];    /* slide: the direction in which its surface pushes, across `along` */
+    bool surface;        /* slide: on a surface with a normal force; false where it is guided */
+    bool two_sided;      /* and the surface has a second side, above the body */
+    bool friction;       /* `friction` with a surface, or of a bearing, acts on it */
+    fbd_inertia inertia; /* see fbd_model_inertia */
+    size_t listed;       /* forces and moments that the file lists: the first of its diagram */
+    size_t most_forces;  /* the most that its diagram can have */
+    int line, column;    /* of the body in the file, */
+    int motion_line, motion_column; /* and of its `motion` */
 } fbd_body;
 
-/* Body `index`; past the last one the name is NULL and the numbers are NAN. */
+/* Body `index`; past the last one the name is NULL and the numbers are NAN or 0. */
 FBD_API fbd_body fbd_model_body(const fbd_model *model, size_t index);
 
 typedef enum fbd_shape_kind {
@@ -166,6 +172,11 @@ typedef struct fbd_shape {
  * are NAN. */
 FBD_API size_t fbd_model_shape_count(const fbd_model *model, size_t body);
 FBD_API fbd_shape fbd_model_shape(const fbd_model *model, size_t body, size_t index);
+
+/* The largest extent of the parts of a body from a point in a direction (a unit vector), both in the frame of
+ * the body; -INFINITY when it has no parts. */
+FBD_API double fbd_model_extent(const fbd_model *model, size_t body, const double from[2],
+                                const double along[2]);
 
 /* A named point of a body, of the file or of its shapes, in its frame. The name is NULL past the last one. */
 typedef struct fbd_named_point {
@@ -193,6 +204,21 @@ typedef struct fbd_track_place {
 
 FBD_API fbd_track_place fbd_model_track_place(const fbd_model *model, size_t body, double s);
 
+/* ---------------------------------------------------------------- positions */
+
+/* Position of a body: its point `pin` is at (x, y) in the world, and a point r of its frame at (x, y) +
+ * R(angle) (r - pin). NAN past the last body. */
+typedef struct fbd_pose {
+    double x, y, angle;
+    double cosine, sine;
+    double G[2]; /* the centre of mass, in the world */
+    /* the direction of +x or s of a slide or track in the world, and the direction in which its surface pushes;
+     * (1, 0) and (0, 1) for other bodies */
+    double along[2], normal[2];
+} fbd_pose;
+
+FBD_API fbd_pose fbd_state_pose(fbd_state *state, size_t body);
+
 /* ---------------------------------------------------------------- drawings: a state */
 
 /* The positions, forces and couplings of a state, computed once; independent of the state from then on, but
@@ -202,16 +228,6 @@ typedef struct fbd_view fbd_view;
 /* NULL with a note in `errors`: `not-finite` where a position or a force is not finite, or memory is out. */
 FBD_API fbd_view *fbd_view_new(fbd_state *state, fbd_errors *errors);
 FBD_API void fbd_view_free(fbd_view *view);
-
-/* Position of a body: its point `pin` is at (x, y) in the world, and a point r of its frame at (x, y) +
- * R(angle) (r - pin). NAN past the last body. */
-typedef struct fbd_pose {
-    double x, y, angle;
-    double cosine, sine;
-    /* the direction of +x or s of a slide or track in the world, and the direction in which its surface pushes;
-     * (1, 0) and (0, 1) for other bodies */
-    double along[2], normal[2];
-} fbd_pose;
 
 FBD_API fbd_pose fbd_view_pose(const fbd_view *view, size_t body);
 
@@ -297,36 +313,9 @@ typedef struct fbd_scene {
 
 FBD_API fbd_scene fbd_model_scene(const fbd_model *model);
 
-/* A body of a scene. Texts live as long as the model. Past the last body the name is NULL, and numbers are
- * NAN or 0. */
-typedef struct fbd_listed_body {
-    const char *name;
-    const char *motion; /* its key in the file: "slide", "pivot", "particle", "planar", "weld", "track" */
-    size_t coordinate, coordinate_count; /* the first one, as index of fbd_model_coordinate */
-    size_t listed;      /* forces and moments that the file lists: the first of its diagram */
-    size_t most_forces; /* the most that its diagram can have */
-    bool friction;      /* `friction` with a surface, or of a bearing, acts on it */
-    fbd_inertia inertia;
-    double pin[2];                  /* pivot: the point on the axis, in the body frame */
-    int line, column;               /* of the body in the file, */
-    int motion_line, motion_column; /* and of its `motion` */
-} fbd_listed_body;
-
-FBD_API fbd_listed_body fbd_model_listed_body(const fbd_model *model, size_t body);
-
-/* The position of a body: of the origin of its frame and of its centre of mass G, in the world, and the x axis
- * of its frame, which for a slide is its line. */
-typedef struct fbd_placement {
-    double x, y, G[2];
-    double cosine, sine;
-} fbd_placement;
-
-/* The pose at a state; NAN past the last body. */
-FBD_API fbd_placement fbd_state_placement(const fbd_state *state, size_t body);
-
 /* The sense in which the friction of a body slips: 1 along +x of its motion, -1 against it; 0 while it sticks,
  * and without friction. */
-FBD_API int fbd_state_slip(const fbd_state *state, size_t body);
+FBD_API int fbd_state_slip(fbd_state *state, size_t body);
 
 /* A force or moment of a diagram with its origin. Texts live as long as the model. */
 typedef struct fbd_listed_force {
@@ -350,7 +339,7 @@ typedef struct fbd_listed_force {
 } fbd_listed_force;
 
 /* Fill at most `room` forces of a body at a state, in the order of fbd_diagram; returns their number, 0 past
- * the last body. `forces` may be NULL to count only. */
+ * the last body, SIZE_MAX when memory is out. `forces` may be NULL to count only. */
 FBD_API size_t fbd_state_forces(fbd_state *state, size_t body, fbd_listed_force *forces, size_t room);
 
 /* A force by the name that derivations (`hand`) use for it. */

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Public interface: views of a state, for drawings.
+ * Public interface: positions, and views of a state for drawings.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -8,6 +8,7 @@
 #include "base/api_check.h"
 #include "dynamics/constraint.h"
 #include "dynamics/mass.h"
+#include "dynamics/tree.h"
 #include "fbd_view.h"
 #include "output/equations.h"
 #include "output/symbols.h"
@@ -35,10 +36,13 @@ struct fbd_view {
 
 /* ---- bodies */
 
+static const fbd_pose no_pose = {NAN, NAN, NAN, NAN, NAN, {NAN, NAN}, {NAN, NAN}, {NAN, NAN}};
+
 static fbd_pose pose_of(const struct fbd_model *model, const struct model_body *body,
                         const struct instant *at)
 {
     const struct pose pose = body_pose(body, at);
+    const struct vec G = point_motion(body, &pose, body->inertia.G).p;
     struct vec along = {1, 0}, normal = {0, 1};
     if (body->kind == motion_slide) {
         along = pose.rotation;
@@ -52,8 +56,17 @@ static fbd_pose pose_of(const struct fbd_model *model, const struct model_body *
                       .angle = body_angle(body, at),
                       .cosine = pose.rotation.x,
                       .sine = pose.rotation.y,
+                      .G = {G.x, G.y},
                       .along = {along.x, along.y},
                       .normal = {normal.x, normal.y}};
+}
+
+fbd_pose fbd_state_pose(fbd_state *state, size_t body)
+{
+    if (!state || body >= state->model->body_count) return no_pose;
+    const struct instant at = state_instant(state);
+    if (state->model->tree) tree_move(state->model, &at);
+    return pose_of(state->model, &state->model->bodies[body], &at);
 }
 
 static fbd_mass mass_of(const struct fbd_model *model, int b, const struct instant *at, struct arena *arena)
@@ -254,7 +267,7 @@ void fbd_view_free(fbd_view *view)
 fbd_pose fbd_view_pose(const fbd_view *view, size_t body)
 {
     if (view && body < view->body_count) return view->bodies[body].pose;
-    return (fbd_pose){NAN, NAN, NAN, NAN, NAN, {NAN, NAN}, {NAN, NAN}};
+    return no_pose;
 }
 
 fbd_mass fbd_view_mass(const fbd_view *view, size_t body)

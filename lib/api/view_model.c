@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Public interface: units, bodies and their shapes, for drawings.
+ * Public interface: units, bodies and their shapes.
  */
 #include <math.h>
 
 #include "base/api_check.h"
+#include "dynamics/diagram.h"
 #include "expr/curve.h"
 #include "fbd_view.h"
 #include "model/outline.h"
@@ -45,6 +46,7 @@ fbd_body fbd_model_body(const fbd_model *model, size_t index)
     if (!body)
         return (fbd_body){.carrier = FBD_GROUND,
                           .angle = -1,
+                          .inertia = fbd_model_inertia(model, index),
                           .pin = {NAN, NAN},
                           .joint = {NAN, NAN},
                           .along = {NAN, NAN},
@@ -59,7 +61,15 @@ fbd_body fbd_model_body(const fbd_model *model, size_t index)
                      .pin = PAIR(body->pin),
                      .joint = PAIR(body->origin),
                      .along = PAIR(body->e),
-                     .normal = PAIR(body->n)};
+                     .normal = PAIR(body->n),
+                     .friction = body->friction >= 0,
+                     .inertia = fbd_model_inertia(model, index),
+                     .listed = body->source->load_count,
+                     .most_forces = diagram_arrows(model, (int)index),
+                     .line = body->source->at.line,
+                     .column = body->source->at.column,
+                     .motion_line = body->source->motion.at.line,
+                     .motion_column = body->source->motion.at.column};
     for (size_t i = 0; body->kind == motion_slide && i < body->source->load_count; i++) {
         if (body->source->loads[i].kind != load_normal) continue;
         seen.surface = true;
@@ -96,6 +106,26 @@ fbd_shape fbd_model_shape(const fbd_model *model, size_t body, size_t index)
         shape.corners[i][1] = part.corner[i].y;
     }
     return shape;
+}
+
+static double extent_of(const fbd_shape *shape, struct vec from, struct vec along)
+{
+    const double middle = vec_dot(vec_sub(vec_of(shape->center), from), along);
+    double most = middle;
+    if (shape->kind == FBD_SHAPE_CIRCLE) return middle + shape->radius;
+    for (size_t i = 0; i < shape->corner_count; i++)
+        most = fmax(most, vec_dot(vec_sub(vec_of(shape->corners[i]), from), along));
+    return most;
+}
+
+double fbd_model_extent(const fbd_model *model, size_t body, const double from[2], const double along[2])
+{
+    double most = -HUGE_VAL;
+    for (size_t i = 0; from && along && i < fbd_model_shape_count(model, body); i++) {
+        const fbd_shape shape = fbd_model_shape(model, body, i);
+        if (!shape.hole) most = fmax(most, extent_of(&shape, vec_of(from), vec_of(along)));
+    }
+    return most;
 }
 
 size_t fbd_model_point_count(const fbd_model *model, size_t body)

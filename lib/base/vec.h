@@ -18,6 +18,11 @@ struct vec {
     double x, y;
 };
 
+static inline struct vec vec_of(const double pair[static 2])
+{
+    return (struct vec){pair[0], pair[1]};
+}
+
 static inline struct vec vec_add(struct vec a, struct vec b)
 {
     return (struct vec){a.x + b.x, a.y + b.y};

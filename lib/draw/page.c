@@ -8,6 +8,7 @@
 #include "base/diag.h"
 #include "draw/svg.h"
 #include "fbd_export.h"
+#include "fbd_view.h"
 
 static const struct page_asset *find_asset(const char *name, size_t length)
 {
@@ -75,14 +76,6 @@ bool fbd_has_html(void)
     return page_asset_find("page.html") != NULL;
 }
 
-static bool is_recorded(const fbd_result *result, fbd_errors *errors)
-{
-    if (result->record) return true;
-    diag_add(errors, FBD_ERROR, "not-recorded", (struct pos){0, 0}, "set `keep` in fbd_recording",
-             "the run was not recorded");
-    return false;
-}
-
 static void write_title(struct text *text, const void *context)
 {
     svg_escape(text, context);
@@ -103,27 +96,35 @@ static void fill_page(struct text *page, const struct page_asset *template, cons
     page_fill(page, template, all);
 }
 
+static char *make(fbd_result *result, const char *data, const struct page_asset *template,
+                  const struct page_part *parts, fbd_errors *errors)
+{
+    const char *title = fbd_model_title(fbd_state_model(fbd_result_state(result)));
+    struct text json = {0}, page = {0};
+    text_add(&json, data);
+    fill_page(&page, template, title[0] ? title : "fbd", &json, parts);
+    page.failed |= json.failed;
+    text_free(&json);
+    if (!page.failed) return page.data;
+    text_free(&page);
+    diag_out_of_memory(errors);
+    return NULL;
+}
+
 char *page_make(fbd_result *result, size_t most_bytes, const struct page_part *parts, fbd_errors *errors)
 {
-    const struct fbd_model *model = result->simulation->ensemble->model;
     const struct page_asset *template = page_asset_find("page.html");
-    diag_in_file(errors, model->scene->file);
+    diag_in_file(errors, fbd_model_file(fbd_state_model(fbd_result_state(result))));
     if (!template) {
         diag_add(errors, FBD_ERROR, "no-page", (struct pos){0, 0},
                  "install dygraphs (Debian: libjs-dygraphs) and build again with -Dhtml=enabled",
                  "this fbd was built without the HTML page");
         return NULL;
     }
-    if (!is_recorded(result, errors)) return NULL;
-    struct text json = {0}, page = {0};
-    bool done = page_data_write(&json, result, result->record, most_bytes);
-    const char *title = model->scene->title[0] ? model->scene->title : "fbd";
-    if (done) fill_page(&page, template, title, &json, parts);
-    text_free(&json);
-    if (done && !page.failed) return page.data;
-    text_free(&page);
-    diag_out_of_memory(errors);
-    return NULL;
+    char *data = fbd_result_page_data(result, most_bytes, errors);
+    char *page = data ? make(result, data, template, parts, errors) : NULL;
+    fbd_free(data);
+    return page;
 }
 
 /* Permits only resources contained in the page. */
@@ -143,24 +144,4 @@ char *fbd_result_html(fbd_result *result, fbd_errors *list)
     char *page = result ? page_make(result, 0, parts, errors) : api_refuse(errors, "there is no result");
     diag_end(&call);
     return page;
-}
-
-static char *make_data(fbd_result *result, fbd_errors *errors)
-{
-    struct text json = {0};
-    diag_in_file(errors, result->simulation->ensemble->model->scene->file);
-    if (!is_recorded(result, errors)) return NULL;
-    if (page_data_write(&json, result, result->record, 0) && !json.failed) return json.data;
-    text_free(&json);
-    diag_out_of_memory(errors);
-    return NULL;
-}
-
-char *fbd_result_page_data(fbd_result *result, fbd_errors *list)
-{
-    struct diag_call call;
-    fbd_errors *errors = diag_begin(&call, list);
-    char *data = result ? make_data(result, errors) : api_refuse(errors, "there is no result");
-    diag_end(&call);
-    return data;
 }

@@ -6,7 +6,8 @@
 #ifndef FBD_DRAW_PAGE_H
 #define FBD_DRAW_PAGE_H
 
-#include "output/run_record.h"
+#include "base/text.h"
+#include "fbd.h"
 
 /* A compiled-in file. */
 struct page_asset {
@@ -22,10 +23,6 @@ extern const size_t page_asset_count;
 /* The asset of this name, or NULL. */
 const struct page_asset *page_asset_find(const char *name);
 
-/* The data of the page as JSON: see page_data.c for its members; its numbers take at most `most_bytes`, 0:
- * the limit of an ordinary page. Returns false when memory is out. */
-bool page_data_write(struct text *text, fbd_result *result, struct record *record, size_t most_bytes);
-
 /* The replacement of a line `@MARK@` that does not name an asset. */
 struct page_part {
     const char *mark;
@@ -33,7 +30,7 @@ struct page_part {
     const void *context;
 };
 
-/* The page of a run with those parts, the last one without a mark; lines that begin with `@LIVE` are dropped
+/* The page of a run with those parts; `most_bytes` is that of fbd_result_page_data. The parts, the last one without a mark; lines that begin with `@LIVE` are dropped
  * if no part has their mark. NULL with a note in `errors`. */
 char *page_make(fbd_result *result, size_t most_bytes, const struct page_part *parts, fbd_errors *errors);
 
@@ -45,9 +42,5 @@ void page_write_policy(struct text *text, const void *context);
 
 /* Append JSON inside a script element. */
 void page_add_json(struct text *text, const struct text *json);
-
-/* The members `links` and `couplings` of the data. */
-void page_links_write(struct text *text, const struct record *record);
-void page_couplings_write(struct text *text, const fbd_result *result, const struct record *record);
 
 #endif

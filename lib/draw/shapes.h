@@ -8,11 +8,6 @@
 #include "base/vec.h"
 #include "fbd_view.h"
 
-static inline struct vec vec_of(const double pair[static 2])
-{
-    return (struct vec){pair[0], pair[1]};
-}
-
 /* From the frame of a body to the world. */
 static inline struct vec pose_point(const fbd_pose *pose, const fbd_body *body, struct vec point)
 {

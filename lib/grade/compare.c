@@ -2,6 +2,7 @@
  *
  * The forces and moments of an answer at states of the key.
  */
+#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -98,7 +99,7 @@ static int body_called(const fbd_model *model, const char *name)
     return -1;
 }
 
-static bool has_coordinates(const struct comparison *comparison, const fbd_listed_body *body)
+static bool has_coordinates(const struct comparison *comparison, const fbd_body *body)
 {
     for (size_t k = 0; k < body->coordinate_count; k++)
         if (!has_coordinate(comparison, fbd_model_coordinate(comparison->key, body->coordinate + k).name))
@@ -106,15 +107,10 @@ static bool has_coordinates(const struct comparison *comparison, const fbd_liste
     return true;
 }
 
-static bool moves_by(const fbd_listed_body *body, const char *motion)
-{
-    return strcmp(body->motion, motion) == 0;
-}
-
 /* True if the body and its angle move. */
-static bool turns(const fbd_listed_body *body)
+static bool turns(const fbd_body *body)
 {
-    return !moves_by(body, "slide") && !moves_by(body, "particle");
+    return body->motion != FBD_MOTION_SLIDE && body->motion != FBD_MOTION_PARTICLE;
 }
 
 /* The size of the key's scene, the reference for rounding of positions. */
@@ -122,20 +118,20 @@ static double size_of_scene(const struct comparison *comparison)
 {
     double size = 0;
     for (size_t b = 0; b < comparison->body_count; b++) {
-        const fbd_listed_body body = fbd_model_listed_body(comparison->key, b);
+        const fbd_body body = fbd_model_body(comparison->key, b);
         const fbd_inertia *inertia = &body.inertia;
-        const fbd_placement pose = fbd_state_placement(comparison->key_state, b);
+        const fbd_pose pose = fbd_state_pose(comparison->key_state, b);
         double gyration = sqrt(fmax(inertia->I_G, 0) / inertia->mass);
-        double arm = moves_by(&body, "pivot") ? inertia->L : hypot(inertia->G[0], inertia->G[1]);
+        double arm = body.motion == FBD_MOTION_PIVOT ? inertia->L : hypot(inertia->G[0], inertia->G[1]);
         size = fmax(size, hypot(pose.x, pose.y) + arm + gyration);
     }
     return size;
 }
 
 /* The poses of a body of the key and of its twin, in the units of the key. */
-static fbd_placement pose_of_twin(const struct comparison *comparison, size_t b)
+static fbd_pose pose_of_twin(const struct comparison *comparison, size_t b)
 {
-    fbd_placement pose = fbd_state_placement(comparison->state, (size_t)comparison->twins[b].other);
+    fbd_pose pose = fbd_state_pose(comparison->state, (size_t)comparison->twins[b].other);
     pose.x *= comparison->length;
     pose.y *= comparison->length;
     for (int k = 0; k < 2; k++) pose.G[k] *= comparison->length;
@@ -147,12 +143,11 @@ static fbd_placement pose_of_twin(const struct comparison *comparison, size_t b)
 static bool is_there(const struct comparison *comparison, size_t b)
 {
     const struct twin *twin = &comparison->twins[b];
-    const fbd_listed_body body = fbd_model_listed_body(comparison->key, b);
-    const fbd_placement pose = fbd_state_placement(comparison->key_state, b),
-                        there = pose_of_twin(comparison, b);
+    const fbd_body body = fbd_model_body(comparison->key, b);
+    const fbd_pose pose = fbd_state_pose(comparison->key_state, b), there = pose_of_twin(comparison, b);
     const double digits = 1e-9; /* of files */
     struct vec turn = {cos(twin->offset), sin(twin->offset)}, rotation = {pose.cosine, pose.sine};
-    if (moves_by(&body, "pivot")) rotation = vec_turn(turn, rotation);
+    if (body.motion == FBD_MOTION_PIVOT) rotation = vec_turn(turn, rotation);
     bool turned = turns(&body) && hypot(rotation.x - there.cosine, rotation.y - there.sine) > digits;
     return hypot(pose.x - there.x, pose.y - there.y) <= digits * size_of_scene(comparison) && !turned;
 }
@@ -160,23 +155,22 @@ static bool is_there(const struct comparison *comparison, size_t b)
 /* True if its centre of mass coincides with that of the key's. */
 static bool balances_there(const struct comparison *comparison, size_t b)
 {
-    const fbd_placement pose = fbd_state_placement(comparison->key_state, b),
-                        there = pose_of_twin(comparison, b);
+    const fbd_pose pose = fbd_state_pose(comparison->key_state, b), there = pose_of_twin(comparison, b);
     const double digits = 1e-6; /* of lengths computed by hand */
     return hypot(pose.G[0] - there.G[0], pose.G[1] - there.G[1]) <= digits * size_of_scene(comparison);
 }
 
 static void find_twin(struct comparison *comparison, size_t b)
 {
-    const fbd_listed_body body = fbd_model_listed_body(comparison->key, b);
+    const fbd_body body = fbd_model_body(comparison->key, b);
     struct twin *twin = &comparison->twins[b];
     *twin = (struct twin){.other = body_called(comparison->answer, body.name), .sign = 1};
     if (twin->other < 0) {
         verdict_body(comparison->grade, b);
         return;
     }
-    const fbd_listed_body other = fbd_model_listed_body(comparison->answer, (size_t)twin->other);
-    if (moves_by(&body, other.motion) && has_coordinates(comparison, &body)) return;
+    const fbd_body other = fbd_model_body(comparison->answer, (size_t)twin->other);
+    if (body.motion == other.motion && has_coordinates(comparison, &body)) return;
     verdict_motion(comparison->grade, b, &other);
     twin->other = -1;
 }
@@ -186,12 +180,12 @@ static bool find_slide(struct comparison *comparison, size_t b)
 {
     struct twin *twin = &comparison->twins[b];
     if (is_there(comparison, b)) return true;
-    const fbd_placement pose = fbd_state_placement(comparison->key_state, b);
-    fbd_placement there = pose_of_twin(comparison, b);
+    const fbd_pose pose = fbd_state_pose(comparison->key_state, b);
+    fbd_pose there = pose_of_twin(comparison, b);
     twin->sign = pose.cosine * there.cosine + pose.sine * there.sine < 0 ? -1 : 1;
     follow(comparison);
     if (is_there(comparison, b)) return true;
-    there = fbd_state_placement(comparison->state, (size_t)twin->other);
+    there = fbd_state_pose(comparison->state, (size_t)twin->other);
     twin->offset = (pose.x / comparison->length - there.x) * there.cosine +
                    (pose.y / comparison->length - there.y) * there.sine;
     follow(comparison);
@@ -203,7 +197,7 @@ static double initial_angle(struct fbd_grade *grade, const fbd_model *model, siz
 {
     double angle = 0;
     fbd_state *state = fbd_state_new(model);
-    const fbd_listed_body body = fbd_model_listed_body(model, b);
+    const fbd_body body = fbd_model_body(model, b);
     if (!fbd_state_get(state, fbd_model_coordinate(model, body.coordinate).name, &angle))
         grade->arena.failed = true;
     fbd_state_free(state);
@@ -226,16 +220,15 @@ static bool find_pivot(struct comparison *comparison, size_t b)
     return there;
 }
 
-static void keep_own(const struct comparison *comparison, const fbd_listed_body *body,
-                     const struct twin *twin)
+static void keep_own(const struct comparison *comparison, const fbd_body *body, const struct twin *twin)
 {
     struct fbd_grade *grade = comparison->grade;
     if (twin->sign > 0 && twin->offset == 0) return;
     struct own_coordinate *own = ARENA_NEW(&grade->arena, struct own_coordinate);
     if (!own) return;
-    const fbd_listed_body other = fbd_model_listed_body(comparison->answer, (size_t)twin->other);
+    const fbd_body other = fbd_model_body(comparison->answer, (size_t)twin->other);
     *own = (struct own_coordinate){.body = body->name,
-                                   .angle = moves_by(body, "pivot"),
+                                   .angle = body->motion == FBD_MOTION_PIVOT,
                                    .sign = twin->sign,
                                    .offset = twin->offset,
                                    .unit = fbd_model_coordinate(comparison->answer, other.coordinate).unit,
@@ -249,11 +242,11 @@ static void find_coordinates(struct comparison *comparison)
     for (size_t b = 0; b < comparison->body_count; b++) {
         struct twin *twin = &comparison->twins[b];
         if (twin->other < 0) continue;
-        const fbd_listed_body body = fbd_model_listed_body(comparison->key, b);
-        const fbd_listed_body other = fbd_model_listed_body(comparison->answer, (size_t)twin->other);
-        bool found = moves_by(&body, "slide")   ? find_slide(comparison, b)
-                     : moves_by(&body, "pivot") ? find_pivot(comparison, b)
-                                                : is_there(comparison, b);
+        const fbd_body body = fbd_model_body(comparison->key, b);
+        const fbd_body other = fbd_model_body(comparison->answer, (size_t)twin->other);
+        bool found = body.motion == FBD_MOTION_SLIDE   ? find_slide(comparison, b)
+                     : body.motion == FBD_MOTION_PIVOT ? find_pivot(comparison, b)
+                                                       : is_there(comparison, b);
         if (found) {
             keep_own(comparison, &body, twin);
             continue;
@@ -305,11 +298,11 @@ static void take_items(const struct comparison *comparison, fbd_state *state, si
                        const struct sides *sides, bool own, size_t s, struct vec G)
 {
     const fbd_model *model = own ? comparison->key : comparison->answer;
-    const fbd_listed_body body = fbd_model_listed_body(model, b);
+    const fbd_body body = fbd_model_body(model, b);
     double force = own ? 1 : comparison->force, length = own ? 1 : comparison->length;
     size_t count = fbd_state_forces(state, b, comparison->forces, body.most_forces);
-    if (count == 0 && body.most_forces > 0) comparison->grade->arena.failed = true;
-    for (size_t i = 0; i < count; i++) {
+    if (count == SIZE_MAX) comparison->grade->arena.failed = true;
+    for (size_t i = 0; count != SIZE_MAX && i < count; i++) {
         bool listed = i < body.listed;
         if (!listed && !own) break;
         struct item *items = own ? sides->key : sides->items;
@@ -329,7 +322,7 @@ static void take_state(struct comparison *comparison, size_t s)
     for (size_t b = 0; b < comparison->body_count; b++) {
         struct twin *twin = &comparison->twins[b];
         if (twin->other < 0) continue;
-        const fbd_placement pose = fbd_state_placement(comparison->key_state, b);
+        const fbd_pose pose = fbd_state_pose(comparison->key_state, b);
         const struct vec G = {pose.G[0], pose.G[1]};
         struct sides *sides = &twin->sides;
         take_items(comparison, comparison->key_state, b, sides, true, s, G);
@@ -350,8 +343,8 @@ static bool make_sides(struct comparison *comparison)
         struct twin *twin = &comparison->twins[b];
         struct sides *sides = &twin->sides;
         if (twin->other < 0) continue;
-        const fbd_listed_body body = fbd_model_listed_body(comparison->key, b);
-        const fbd_listed_body other = fbd_model_listed_body(comparison->answer, (size_t)twin->other);
+        const fbd_body body = fbd_model_body(comparison->key, b);
+        const fbd_body other = fbd_model_body(comparison->answer, (size_t)twin->other);
         if (body.most_forces > most) most = body.most_forces;
         if (other.most_forces > most) most = other.most_forces;
         sides->key_count = body.listed;
@@ -471,11 +464,11 @@ static void judge_body(struct comparison *comparison, size_t b)
     struct fbd_grade *grade = comparison->grade;
     struct twin *twin = &comparison->twins[b];
     if (twin->other < 0) return;
-    const fbd_listed_body body = fbd_model_listed_body(comparison->key, b);
-    const fbd_listed_body other = fbd_model_listed_body(comparison->answer, (size_t)twin->other);
+    const fbd_body body = fbd_model_body(comparison->key, b);
+    const fbd_body other = fbd_model_body(comparison->answer, (size_t)twin->other);
     measure(&twin->sides);
     reactions_take_asked(grade->key, b, &twin->sides);
-    if (moves_by(&body, "pivot")) twin->sides.turned = twin->offset;
+    if (body.motion == FBD_MOTION_PIVOT) twin->sides.turned = twin->offset;
     if (!sketches_place(grade, &twin->sides)) grade->arena.failed = true;
     verdict_on(grade, comparison->answer, b, &other, &twin->sides, comparison->length, comparison->force);
 }

@@ -107,11 +107,12 @@ static bool is_value(const struct desk *desk, const char *name, size_t length, b
     const fbd_model *sheet = desk->grade->sheet;
     for (size_t i = 0; i < fbd_model_parameter_count(sheet); i++) {
         const fbd_parameter one = fbd_model_parameter(sheet, i);
-        double value;
+        fbd_unit unit;
         if (strlen(one.name) != length || strncmp(one.name, name, length) != 0) continue;
-        if (!*one.unit) return true; /* a number whose dimension follows from its use */
-        const char *text = arena_printf(&desk->grade->arena, "1[%s]", one.unit);
-        return text && fbd_model_quantity(sheet, one.name, text, couple ? "N*m" : "N", &value, NULL);
+        if (!*one.unit) return !one.derived; /* a number whose dimension follows from its use */
+        return fbd_unit_read(sheet, one.unit, strlen(one.unit), &unit) && unit.mass == 1 &&
+               unit.length == (couple ? 2 : 1) && unit.time == -2 && unit.current == 0 &&
+               unit.temperature == 0;
     }
     return false;
 }

@@ -35,7 +35,7 @@ static const char *component(struct arena *arena, const struct drawn *drawn)
 /* The size of the force, or of the couple, by its name only. */
 static const char *size_name(struct fbd_grade *grade, size_t b, fbd_state *state, const struct drawn *drawn)
 {
-    const size_t room = fbd_model_listed_body(grade->sheet, b).most_forces;
+    const size_t room = fbd_model_body(grade->sheet, b).most_forces;
     const bool couple = drawn->along.x == 0 && drawn->along.y == 0;
     const char *name = drawn->reaction;
     fbd_named_force force;
@@ -45,12 +45,12 @@ static const char *size_name(struct fbd_grade *grade, size_t b, fbd_state *state
         found = find(grade, state, b, name, &force);
     }
     if (!found || (force.moment && !couple)) return NULL;
-    fbd_arrow *arrows = ARENA_ARRAY(&grade->arena, room + 1, fbd_arrow);
-    if (!arrows || fbd_diagram(state, b, arrows, room) == 0) {
+    fbd_listed_force *forces = ARENA_ARRAY(&grade->arena, room + 1, fbd_listed_force);
+    if (!forces || fbd_state_forces(state, b, forces, room) == SIZE_MAX) {
         grade->arena.failed = true;
         return NULL;
     }
-    const fbd_arrow *arrow = &arrows[force.force];
+    const fbd_arrow *arrow = &forces[force.force].arrow;
     const double along = arrow->fx * drawn->along.x + arrow->fy * drawn->along.y;
     const double drawn_size = couple ? arrow->couple : along;
     if (!(fabs(force.value) > 0) || !isfinite(force.value)) return NULL;

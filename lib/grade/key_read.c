@@ -2,6 +2,7 @@
  *
  * Reading a key: it is graded against itself.
  */
+#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -38,16 +39,16 @@ static bool has_points(struct fbd_key *key, fbd_errors *errors)
 static void add_names(const struct fbd_key *key, size_t b, struct text *text)
 {
     if (key_asks(key, b) == 0) return;
-    const fbd_listed_body body = fbd_model_listed_body(key->model, b);
+    const fbd_body body = fbd_model_body(key->model, b);
     fbd_state *state = fbd_state_new(key->model);
-    fbd_arrow *arrows = calloc(body.most_forces + 1, sizeof *arrows);
-    size_t count = arrows ? fbd_diagram(state, b, arrows, body.most_forces) : 0;
-    for (size_t i = 0; i < key->asked_count[b] && body.listed + i < count; i++)
+    fbd_listed_force *forces = calloc(body.most_forces + 1, sizeof *forces);
+    size_t count = forces && state ? fbd_state_forces(state, b, forces, body.most_forces) : SIZE_MAX;
+    if (count == SIZE_MAX) text->failed = true;
+    for (size_t i = 0; !text->failed && i < key->asked_count[b] && body.listed + i < count; i++)
         if (key->asked[b][i])
-            text_printf(text, "%s`%s` on `%s`", text->length ? ", " : "", arrows[body.listed + i].name,
+            text_printf(text, "%s`%s` on `%s`", text->length ? ", " : "", forces[body.listed + i].arrow.name,
                         body.name);
-    if (count == 0) text->failed = true; /* memory is out */
-    free(arrows);
+    free(forces);
     fbd_state_free(state);
 }
 

@@ -46,8 +46,8 @@ static void write_pushes(const fbd_model *model, struct vec share, struct text *
 {
     double pounds = strcmp(fbd_model_scene(model).units, "US") == 0 ? 14.6 : 1;
     for (size_t b = 0; b < fbd_model_body_count(model); b++) {
-        const fbd_listed_body body = fbd_model_listed_body(model, b);
-        bool turns = strcmp(body.motion, "pivot") == 0 || strcmp(body.motion, "planar") == 0;
+        const fbd_body body = fbd_model_body(model, b);
+        bool turns = body.motion == FBD_MOTION_PIVOT || body.motion == FBD_MOTION_PLANAR;
         double mass = body.inertia.mass * pounds;
         text_printf(text, "%s: {applied: {name: fbd_probe, fx: %.17g N, fy: %.17g N%s}}\n", body.name,
                     share.x * mass, share.y * mass, turns ? ", at: [0.21 m, 0.13 m]" : "");
@@ -91,7 +91,7 @@ unsigned *lines_slips(struct fbd_grade *grade)
     fbd_simulation *run = found && errors ? fbd_simulation_new(model, NULL, errors) : NULL;
     fbd_state *state = run ? fbd_state_new(model) : NULL;
     bool rubs = false;
-    for (size_t b = 0; b < bodies; b++) rubs = rubs || fbd_model_listed_body(model, b).friction;
+    for (size_t b = 0; b < bodies; b++) rubs = rubs || fbd_model_body(model, b).friction;
     for (int step = 0; state && rubs && step < most_steps; step++) {
         double from, to;
         if (fbd_simulation_advance(run) != FBD_GOING) break;

@@ -3,6 +3,7 @@
  * The parts of a solution that no key lists: reactions by their values at the start, and equations.
  */
 #include <math.h>
+#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -51,21 +52,22 @@ void solution_reactions(const struct handout *handout, const char *body_name, bo
     size_t b = 0;
     while (strcmp(fbd_model_body_name(model, b), body_name) != 0) b++;
     if (key_asks(handout->key, b) == 0) return;
-    const fbd_listed_body body = fbd_model_listed_body(model, b);
+    const fbd_body body = fbd_model_body(model, b);
     fbd_state *state = fbd_state_new_start(model);
-    fbd_arrow *arrows = calloc(body.most_forces + 1, sizeof *arrows);
-    bool turns = strcmp(body.motion, "slide") != 0 && strcmp(body.motion, "particle") != 0;
-    const fbd_placement pose = fbd_state_placement(state, b);
-    size_t count = arrows ? fbd_diagram(state, b, arrows, body.most_forces) : 0;
-    if (count == 0) handout->arena->failed = true;
-    for (size_t i = 0; i < handout->key->asked_count[b] && body.listed + i < count; i++) {
-        const fbd_arrow *arrow = &arrows[body.listed + i];
+    fbd_listed_force *forces = calloc(body.most_forces + 1, sizeof *forces);
+    bool turns = body.motion != FBD_MOTION_SLIDE && body.motion != FBD_MOTION_PARTICLE;
+    const fbd_pose pose = fbd_state_pose(state, b);
+    size_t count = forces && state ? fbd_state_forces(state, b, forces, body.most_forces) : SIZE_MAX;
+    if (count == SIZE_MAX) handout->arena->failed = true;
+    for (size_t i = 0; count != SIZE_MAX && i < handout->key->asked_count[b] && body.listed + i < count;
+         i++) {
+        const fbd_arrow *arrow = &forces[body.listed + i].arrow;
         struct vec from = {arrow->x - pose.G[0], arrow->y - pose.G[1]};
         bool there = moments ? arrow->couple != 0 : hypot(arrow->fx, arrow->fy) > 0;
         if (handout->key->asked[b][i] && there)
             write_reaction(handout->text, us, arrow, moments, turns ? &from : NULL);
     }
-    free(arrows);
+    free(forces);
     fbd_state_free(state);
 }
 

@@ -8,6 +8,7 @@
  * (W = 400[N]) does not. The sums contain the loads that the key lists and the correct reactions of the
  * answer, each of which is a parameter.
  */
+#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -98,11 +99,11 @@ struct units {
 };
 
 /* Add the listed forces and moments of a body to its sums. False when memory is out. */
-static bool add_body(const struct fbd_grade *grade, fbd_state *state, const fbd_listed_body *body, size_t b,
+static bool add_body(const struct fbd_grade *grade, fbd_state *state, const fbd_body *body, size_t b,
                      struct units units, bool answer, double *sum, double *size)
 {
     fbd_listed_force *forces = calloc(body->most_forces + 1, sizeof *forces);
-    bool done = forces && fbd_state_forces(state, b, forces, body->most_forces) >= body->listed;
+    bool done = forces && fbd_state_forces(state, b, forces, body->most_forces) != SIZE_MAX;
     for (size_t i = 0; done && i < body->listed; i++) {
         const fbd_arrow *arrow = &forces[i].arrow;
         if (!counts_here(grade, &forces[i], answer)) continue;
@@ -126,7 +127,7 @@ static bool add_sums(struct lines *lines, const fbd_model *model, struct units u
     fbd_state *state = fbd_state_new_start(model);
     bool done = state != NULL;
     for (size_t b = 0; done && b < fbd_model_body_count(model); b++) {
-        const fbd_listed_body body = fbd_model_listed_body(model, b);
+        const fbd_body body = fbd_model_body(model, b);
         size_t to = body_called(key, body.name);
         if (to < fbd_model_body_count(key))
             done = add_body(lines->grade, state, &body, b, units, answer, sum + to * sums, size + to * sums);

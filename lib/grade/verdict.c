@@ -28,7 +28,7 @@ static bool near(double a, double b, double tolerance)
 static fbd_finding *add_on_body(struct fbd_grade *grade, fbd_finding_kind kind, size_t body, struct pos at)
 {
     const struct grading_points *points = &grading_of(grade)->points;
-    const fbd_listed_body key = fbd_model_listed_body(grade->sheet, body);
+    const fbd_body key = fbd_model_body(grade->sheet, body);
     fbd_finding *finding = finding_add(grade, kind, key.name, "", at);
     finding->most = points->force * (double)(key.listed + key_asks(grade->key, body)) + points->inertia;
     return finding;
@@ -39,7 +39,7 @@ void verdict_body(struct fbd_grade *grade, size_t body)
     finding_say(grade, add_on_body(grade, FBD_FINDING_BODY, body, nowhere), "the body is not in the answer");
 }
 
-void verdict_motion(struct fbd_grade *grade, size_t body, const fbd_listed_body *other)
+void verdict_motion(struct fbd_grade *grade, size_t body, const fbd_body *other)
 {
     const struct pos at = {other->motion_line, other->motion_column};
     finding_say(grade, add_on_body(grade, FBD_FINDING_MOTION, body, at),
@@ -62,22 +62,22 @@ void verdict_superfluous(struct fbd_grade *grade, fbd_finding_kind kind, const c
 
 /* ---- inertia */
 
-static bool is_pivot(const fbd_listed_body *body)
+static bool is_pivot(const fbd_body *body)
 {
-    return strcmp(body->motion, "pivot") == 0;
+    return body->motion == FBD_MOTION_PIVOT;
 }
 
 /* G in the frame of the key; from the axis where there is one. */
-static struct vec centre_of(const fbd_listed_body *body, double length, double turned)
+static struct vec centre_of(const fbd_body *body, double length, double turned)
 {
     struct vec turn = {cos(turned), sin(turned)}, G = {body->inertia.G[0], body->inertia.G[1]};
     if (is_pivot(body)) G = vec_sub(G, (struct vec){body->pin[0], body->pin[1]});
     return vec_scale(length, vec_turn(turn, G));
 }
 
-static const char *inertia_fault(const struct fbd_grade *grade, const fbd_listed_body *body,
-                                 const fbd_listed_body *other, const struct sides *sides, double length,
-                                 double force, fbd_finding_kind *kind)
+static const char *inertia_fault(const struct fbd_grade *grade, const fbd_body *body, const fbd_body *other,
+                                 const struct sides *sides, double length, double force,
+                                 fbd_finding_kind *kind)
 {
     const fbd_inertia *key = &body->inertia, *own = &other->inertia;
     double tolerance = grading_of(grade)->tolerance, I = force * length; /* kg m^2 = N m s^2 */
@@ -85,7 +85,7 @@ static const char *inertia_fault(const struct fbd_grade *grade, const fbd_listed
     struct vec apart = vec_sub(centre_of(other, length, sides->turned), centre_of(body, 1, 0));
     double gyration = sqrt(fmax(key->I_G, 0) / key->mass); /* G may be the origin, up to rounding */
     double from_origin = hypot(key->G[0], key->G[1]);
-    bool pivot = is_pivot(body), turns = pivot || strcmp(body->motion, "planar") == 0;
+    bool pivot = is_pivot(body), turns = pivot || body->motion == FBD_MOTION_PLANAR;
     double size = tolerance * (from_origin + (pivot ? key->L : from_origin) + gyration);
     *kind = FBD_FINDING_INERTIA;
     if (!near(mass, key->mass, tolerance)) return "the mass is another one";
@@ -100,7 +100,7 @@ static const char *inertia_fault(const struct fbd_grade *grade, const fbd_listed
     return "the moment of inertia differs";
 }
 
-static void compare_inertia(struct fbd_grade *grade, const fbd_listed_body *key, const fbd_listed_body *body,
+static void compare_inertia(struct fbd_grade *grade, const fbd_body *key, const fbd_body *body,
                             const struct sides *sides, double length, double force)
 {
     const struct grading_points *points = &grading_of(grade)->points;
@@ -402,10 +402,10 @@ void verdict_rest(struct fbd_grade *grade, size_t body, struct sides *sides)
     }
 }
 
-void verdict_on(struct fbd_grade *grade, const fbd_model *answer, size_t body, const fbd_listed_body *other,
+void verdict_on(struct fbd_grade *grade, const fbd_model *answer, size_t body, const fbd_body *other,
                 struct sides *sides, double length, double force)
 {
-    const fbd_listed_body key = fbd_model_listed_body(grade->sheet, body);
+    const fbd_body key = fbd_model_body(grade->sheet, body);
     double masses = force / length * other->inertia.mass / key.inertia.mass;
     compare_inertia(grade, &key, other, sides, length, force);
     pair_equal(grade, key.name, sides, masses);

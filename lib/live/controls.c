@@ -16,7 +16,7 @@
 
 #include "base/api_check.h"
 #include "base/diag.h"
-#include "draw/page_json.h"
+#include "base/json.h"
 #include "fbd_export.h"
 #include "fbd_study.h"
 #include "live/live.h"

@@ -13,7 +13,7 @@
 #include <string.h>
 
 #include "base/format.h"
-#include "draw/page_json.h"
+#include "base/json.h"
 #include "draw/panel.h"
 #include "fbd_export.h"
 

@@ -10,7 +10,7 @@
 #include "base/diag.h"
 #include "base/file.h"
 #include "draw/page.h"
-#include "draw/page_json.h"
+#include "base/json.h"
 #include "fbd_export.h"
 #include "live/live.h"
 

@@ -3,7 +3,7 @@
  * Notes on a model as JSON.
  */
 #include "base/diag.h"
-#include "draw/page_json.h"
+#include "base/json.h"
 #include "fbd_export.h"
 
 static void write_note(struct text *text, const fbd_error *error)

@@ -13,10 +13,10 @@ void bodies_and_forces(void **context)
     fbd_named_force named;
     assert_non_null(state);
     ANSWERS(fbd_model_scene, strcmp(fbd_model_scene(NULL).units, "") == 0);
-    ANSWERS(fbd_model_listed_body, !fbd_model_listed_body(NULL, 0).name);
-    ANSWERS(fbd_model_listed_body, is_nan(fbd_model_listed_body(model, past).inertia.mass));
-    ANSWERS(fbd_state_placement, is_nan(fbd_state_placement(NULL, 0).x));
-    ANSWERS(fbd_state_placement, is_nan(fbd_state_placement(state, past).G[1]));
+    ANSWERS(fbd_model_body, !fbd_model_body(NULL, 0).name);
+    ANSWERS(fbd_model_body, is_nan(fbd_model_body(model, past).inertia.mass));
+    ANSWERS(fbd_state_pose, is_nan(fbd_state_pose(NULL, 0).x));
+    ANSWERS(fbd_state_pose, is_nan(fbd_state_pose(state, past).G[1]));
     ANSWERS(fbd_state_slip, fbd_state_slip(NULL, 0) == 0);
     ANSWERS(fbd_state_slip, fbd_state_slip(state, past) == 0);
     ANSWERS(fbd_state_forces, fbd_state_forces(NULL, 0, &force, 1) == 0);

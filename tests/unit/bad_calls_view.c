@@ -12,6 +12,9 @@ static void bodies(void)
     ANSWERS(fbd_model_body, !fbd_model_body(NULL, 0).name);
     ANSWERS(fbd_model_body, !fbd_model_body(model, past).name && is_nan(fbd_model_body(model, past).pin[0]));
     ANSWERS(fbd_model_shape_count, fbd_model_shape_count(NULL, 0) == 0);
+    ANSWERS(fbd_model_extent, fbd_model_extent(NULL, 0, (double[]){0, 0}, (double[]){1, 0}) < -1e300);
+    ANSWERS(fbd_model_extent, fbd_model_extent(model, 0, NULL, (double[]){1, 0}) < -1e300);
+    ANSWERS(fbd_model_extent, fbd_model_extent(model, past, (double[]){0, 0}, NULL) < -1e300);
     ANSWERS(fbd_model_shape_count, fbd_model_shape_count(model, past) == 0);
     ANSWERS(fbd_model_shape, is_nan(fbd_model_shape(NULL, 0, 0).radius));
     ANSWERS(fbd_model_shape, is_nan(fbd_model_shape(model, 0, past).center[1]));

@@ -291,7 +291,7 @@ static void results(void **context)
     REFUSES(fbd_result_html, !fbd_result_html(NULL, errors));
     ANSWERS(fbd_has_live, fbd_has_live() || true);
     REFUSES(fbd_result_live_html, !fbd_result_live_html(NULL, NULL, errors));
-    REFUSES(fbd_result_page_data, !fbd_result_page_data(NULL, errors));
+    REFUSES(fbd_result_page_data, !fbd_result_page_data(NULL, 0, errors));
     REFUSES(fbd_model_controls, !fbd_model_controls(NULL, errors));
     REFUSES(fbd_model_without, !fbd_model_without(NULL, NULL, 0, errors));
     REFUSES(fbd_model_without, !fbd_model_without(model, NULL, 1, errors));

@@ -42,9 +42,9 @@ static void a_body_has_its_entries_and_its_motion(void **context)
 {
     (void)context;
     fbd_model *model = model_from(crate);
-    const fbd_listed_body body = fbd_model_listed_body(model, 0);
+    const fbd_body body = fbd_model_body(model, 0);
     assert_string_equal(body.name, "crate");
-    assert_string_equal(body.motion, "slide");
+    assert_int_equal(body.motion, FBD_MOTION_SLIDE);
     assert_int_equal(body.coordinate_count, 1);
     assert_int_equal(body.listed, 4);
     assert_true(body.most_forces >= 4 && body.friction);
@@ -95,8 +95,43 @@ static void a_pin_has_no_direction(void **context)
     assert_string_equal(forces[1].law, "");
     assert_true(forces[1].reaction && forces[1].free && !forces[1].couples && forces[1].contact < 0);
     assert_true(fbd_state_named_force(state, 0, "pin.y", &pin) && pin.value == forces[1].arrow.fy);
-    const fbd_placement pose = fbd_state_placement(state, 0);
+    const fbd_pose pose = fbd_state_pose(state, 0);
     assert_true(fabs(pose.G[0] - 1) < 1e-12 && fabs(pose.G[1] - 2.4) < 1e-12 && fabs(pose.sine - 1) < 1e-12);
+    fbd_state_free(state);
+    fbd_model_free(model);
+}
+
+/* Of a body on another one, right after its coordinates are set. */
+static void a_pose_is_that_of_the_coordinates(void **context)
+{
+    (void)context;
+    fbd_model *model = model_from("fbd: 1\n"
+                                  "bodies:\n"
+                                  "  upper: {mass: 1 kg, center: [1, 0], motion: {pivot: {at: [0, 0]}}}\n"
+                                  "  lower:\n"
+                                  "    mass: 1 kg\n"
+                                  "    center: [0.5, 0]\n"
+                                  "    motion: {pivot: {on: upper, at: [2, 0]}}\n"
+                                  "simulate: {until: 1 s}\n");
+    fbd_state *state = fbd_state_new(model);
+    assert_true(fbd_state_set(state, "upper.theta", 1) && fbd_state_set(state, "lower.theta", 0.5));
+    const fbd_pose pose = fbd_state_pose(state, 1);
+    assert_true(fabs(pose.x - 2 * cos(1)) < 1e-12 && fabs(pose.y - 2 * sin(1)) < 1e-12);
+    assert_true(fabs(pose.angle - 1.5) < 1e-12 && fabs(pose.cosine - cos(1.5)) < 1e-12);
+    assert_true(fabs(pose.G[0] - 2 * cos(1) - 0.5 * cos(1.5)) < 1e-12);
+    fbd_state_free(state);
+    fbd_model_free(model);
+}
+
+/* A crate that is set to slip downwards does so before any other call. */
+static void a_slip_is_that_of_the_rates(void **context)
+{
+    (void)context;
+    fbd_model *model = model_from(crate);
+    fbd_state *state = fbd_state_new(model);
+    assert_int_equal(fbd_state_slip(state, 0), 1);
+    assert_true(fbd_state_set(state, "crate.v", -2));
+    assert_int_equal(fbd_state_slip(state, 0), -1);
     fbd_state_free(state);
     fbd_model_free(model);
 }
@@ -134,6 +169,8 @@ int main(void)
         cmocka_unit_test(a_body_has_its_entries_and_its_motion),
         cmocka_unit_test(forces_have_their_laws),
         cmocka_unit_test(a_pin_has_no_direction),
+        cmocka_unit_test(a_pose_is_that_of_the_coordinates),
+        cmocka_unit_test(a_slip_is_that_of_the_rates),
         cmocka_unit_test(states_are_drawn_and_repeat),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

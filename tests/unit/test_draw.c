@@ -15,7 +15,7 @@
 #include <cmocka.h>
 
 #include "draw/labelling.h"
-#include "draw/pack.h"
+#include "api/pack.h"
 #include "draw/shapes.h"
 #include "fbd_export.h"
 #include "random_numbers.h"

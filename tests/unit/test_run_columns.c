@@ -77,7 +77,7 @@ static void check_rows(struct tested *tested)
 static void check_page(struct tested *tested)
 {
     make(tested, column_in_page);
-    char *data = fbd_result_page_data(tested->result, NULL);
+    char *data = fbd_result_page_data(tested->result, 0, NULL);
     assert_non_null(data);
     const char *at = data;
     for (size_t i = 0; i < tested->columns.count; i++) {

@@ -71,6 +71,9 @@ static void bodies_and_shapes_are_those_of_the_file(void **unused)
     near_point(prism.corners[2], -0.2, -0.1);
     assert_true(rod.kind == FBD_SHAPE_BAR && rod.corner_count == 2);
     near_point(rod.corners[0], -1, 0);
+    near(fbd_model_extent(model, 0, (double[]){0.05, 0}, (double[]){1, 0}), 0.15);
+    near(fbd_model_extent(model, 0, (double[]){0, 0}, (double[]){0.6, 0.8}), 0.2 * 0.6 + 0.1 * 0.8);
+    near(fbd_model_extent(model, 1, (double[]){-1, 0}, (double[]){-1, 0}), 0);
     assert_string_equal(fbd_model_point(model, 1, 0).name, "left");
     near(fbd_model_point(model, 1, 0).x, -1);
     assert_true(isnan(fbd_model_track(model, 0).length));

@@ -5,7 +5,7 @@
 
 let run, doubles, floats, envelope, times, inDegrees = false;
 
-// Show `data` (page_data.c) from now on.
+// Show `data` (lib/api/page_data.c) from now on.
 function takeRun(data) {
   run = data;
   inDegrees = inDegrees || data.angles === "deg"; // the first run of a live page decides

@@ -124,7 +124,7 @@ char *live_run(const char *text, const char *name, const char *off, double rows)
     fbd_result *result = simulation ? fbd_simulation_run(simulation, &recording) : NULL;
     fbd_outcome outcome = result ? fbd_result_outcome(result) : FBD_DONE;
     if (result && outcome != FBD_DONE && outcome != FBD_STOPPED) fbd_simulation_blame(simulation, errors);
-    char *data = result ? fbd_result_page_data(result, errors) : NULL;
+    char *data = result ? fbd_result_page_data(result, 0, errors) : NULL;
     fbd_result_free(result);
     fbd_simulation_free(simulation);
     fbd_model_free(model);

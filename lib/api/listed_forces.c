@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Public interface: the bodies of a scene, and their forces with their origin.
+ * Public interface: the forces on bodies with their origin.
  */
 #include <stdint.h>
 #include <stdlib.h>
@@ -25,41 +25,12 @@ fbd_scene fbd_model_scene(const fbd_model *model)
                        .gravity = {scene->gravity.x, scene->gravity.y}};
 }
 
-fbd_listed_body fbd_model_listed_body(const fbd_model *model, size_t body)
-{
-    const fbd_inertia inertia = fbd_model_inertia(model, body);
-    if (!model || body >= model->body_count) return (fbd_listed_body){.inertia = inertia, .pin = {NAN, NAN}};
-    const struct model_body *b = &model->bodies[body];
-    return (fbd_listed_body){.name = b->name,
-                             .motion = motion_kinds.kinds[b->kind].name,
-                             .coordinate = (size_t)b->first,
-                             .coordinate_count = (size_t)b->count,
-                             .listed = b->source->load_count,
-                             .most_forces = diagram_arrows(model, (int)body),
-                             .friction = b->friction >= 0,
-                             .inertia = inertia,
-                             .pin = {b->pin.x, b->pin.y},
-                             .line = b->source->at.line,
-                             .column = b->source->at.column,
-                             .motion_line = b->source->motion.at.line,
-                             .motion_column = b->source->motion.at.column};
-}
-
-fbd_placement fbd_state_placement(const fbd_state *state, size_t body)
-{
-    if (!state || body >= state->model->body_count) return (fbd_placement){NAN, NAN, {NAN, NAN}, NAN, NAN};
-    const struct model_body *b = &state->model->bodies[body];
-    const struct instant at = state_instant(state);
-    const struct pose pose = body_pose(b, &at);
-    const struct vec G = point_motion(b, &pose, b->inertia.G).p;
-    return (fbd_placement){pose.origin.x, pose.origin.y, {G.x, G.y}, pose.rotation.x, pose.rotation.y};
-}
-
-int fbd_state_slip(const fbd_state *state, size_t body)
+int fbd_state_slip(fbd_state *state, size_t body)
 {
     if (!state || body >= state->model->body_count) return 0;
     const int friction = state->model->bodies[body].friction;
-    return friction >= 0 ? state->slip[friction] : 0;
+    state_ready(state);
+    return friction >= 0 ? slip_side(state->slip[friction]) : 0;
 }
 
 /* ---- entries of the file */
@@ -185,7 +156,7 @@ size_t fbd_state_forces(fbd_state *state, size_t body, fbd_listed_force *forces,
             describe_reaction(model, (int)body, &at, &forces[i]);
     }
     free(arrows);
-    return count;
+    return arrows ? count : SIZE_MAX;
 }
 
 static const struct hand_force *find_name(const struct hand_forces *forces, size_t body, const char *name)

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "draw/pack.h"
+#include "api/pack.h"
 
 #include <float.h>
 #include <stdint.h>

@@ -3,8 +3,8 @@
  * Pack: the columns of a record without redundancy. A column may be constant, or an affine function of an
  * earlier column of the same body (the frame of a body on a slide and its coordinate); the others are data.
  */
-#ifndef FBD_DRAW_PACK_H
-#define FBD_DRAW_PACK_H
+#ifndef FBD_API_PACK_H
+#define FBD_API_PACK_H
 
 #include "output/run_record.h"
 

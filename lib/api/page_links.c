@@ -10,8 +10,8 @@
  */
 #include <string.h>
 
-#include "draw/page.h"
-#include "draw/page_json.h"
+#include "api/page_data.h"
+#include "base/json.h"
 #include "dynamics/constraint.h"
 #include "expr/curve.h"
 

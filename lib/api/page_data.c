@@ -15,10 +15,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "draw/pack.h"
-#include "draw/page.h"
-#include "draw/page_json.h"
-#include "draw/shapes.h"
+#include "api/pack.h"
+#include "api/page_data.h"
+#include "base/json.h"
+#include "fbd_view.h"
 #include "output/kinematic_lines.h"
 #include "output/words.h"
 
@@ -313,7 +313,8 @@ static void write_line(struct text *text, const fbd_model *model, size_t b, cons
     json_vector(text, normal);
     text_printf(text, ",\"on\":%d", body->carrier);
     text_printf(text, ",\"surface\":%s,\"reach\":", body->surface ? "true" : "false");
-    json_number(text, shapes_reach(model, b, vec_of(fbd_model_inertia(model, b).G), in_body));
+    const double in_frame[2] = {in_body.x, in_body.y};
+    json_number(text, fmax(0, fbd_model_extent(model, b, fbd_model_inertia(model, b).G, in_frame)));
     text_add(text, "},");
 }
 

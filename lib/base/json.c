@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "draw/page_json.h"
+#include "base/json.h"
 
 #include <math.h>
 

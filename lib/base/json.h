@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Pieces of JSON for the page: each member is followed by a comma.
+ * Pieces of JSON: each member is followed by a comma.
  */
-#ifndef FBD_DRAW_PAGE_JSON_H
-#define FBD_DRAW_PAGE_JSON_H
+#ifndef FBD_BASE_JSON_H
+#define FBD_BASE_JSON_H
 
 #include "base/text.h"
 #include "base/vec.h"
