@@ -17,6 +17,7 @@
 #include "base/api_check.h"
 #include "base/diag.h"
 #include "base/json.h"
+#include "base/number.h"
 #include "fbd_export.h"
 #include "fbd_study.h"
 #include "live/live.h"
@@ -55,16 +56,14 @@ static bool is_quantity(struct controls *controls, struct span span, size_t *dig
     const char *source = controls->source + span.from;
     fbd_unit unit;
     size_t length = span_length(span), i = 0;
-    char number[40], *end;
-    while (i < length && i + 1 < sizeof number && strchr("+-.0123456789eE", source[i])) {
+    double value;
+    while (i < length && strchr("+-.0123456789eE", source[i])) {
         bool exponent = source[i] == 'e' || source[i] == 'E';
         if (exponent && (i + 1 == length || !strchr("+-0123456789", source[i + 1]))) break;
-        number[i] = source[i];
         i++;
     }
-    number[i] = '\0';
     *digits = i;
-    if (i == 0 || !isfinite(strtod(number, &end)) || *end) return false;
+    if (!number_read(source, i, &value)) return false;
     while (i < length && source[i] == ' ') i++;
     *factor = 1;
     if (i == length) return true;

@@ -8,8 +8,8 @@
 
 #include "base/api_check.h"
 #include "base/diag.h"
-#include "draw/page.h"
 #include "base/json.h"
+#include "draw/page.h"
 #include "draw/svg.h"
 #include "fbd_export.h"
 #include "fbd_grade.h"

@@ -9,8 +9,8 @@
 #include "base/api_check.h"
 #include "base/diag.h"
 #include "base/file.h"
-#include "draw/page.h"
 #include "base/json.h"
+#include "draw/page.h"
 #include "fbd_export.h"
 #include "live/live.h"
 

@@ -78,8 +78,8 @@ static void write_body(struct writer *w, int b)
     struct text *text = w->text;
     const struct fbd_model *model = w->state->model;
     const struct model_body *body = &model->bodies[b];
-    const struct label *label = &model->labels[body->first + body->count - 1];
     if (body->kind != motion_pivot) return;
+    const struct label *label = &model->labels[body->first];
     text_printf(text, "  %s turns about O: I_O = ", body->name);
     text_number(text, body->I_O, 9);
     text_printf(text, " %s, m = ", label->inertia_unit);
