@@ -28,42 +28,24 @@ bool arrow_is_reaction(const struct fbd_model *model, const struct arrow *arrow)
     return arrow->load < 0 || load_law(model->loads[arrow->load].source)->follows;
 }
 
-/* The acceleration of the point at r from the point of the joint. */
-static struct vec acceleration_beside(const struct model_body *body, const struct pose *pose, struct vec r,
-                                      const double *a)
-{
-    const double *own = a + body->first;
-    if (body->kind == motion_slide) return vec_scale(own[0], body->e);
-    if (body->kind == motion_particle) return (struct vec){own[0], own[1]};
-    /* a_P = a_O + alpha k x r - omega^2 r */
-    double alpha = own[body->count - 1];
-    struct vec turning = vec_sub(vec_scale(alpha, vec_perp(r)), vec_scale(pose->omega * pose->omega, r));
-    return body->kind == motion_pivot ? turning : vec_add((struct vec){own[0], own[1]}, turning);
-}
-
 struct vec mass_center_acceleration(const struct model_body *body, const struct instant *at, const double *a)
 {
-    if (body->place.link > 0) return tree_mass_center_acceleration(body, at);
-    struct pose pose = body_pose(body, at);
-    return acceleration_beside(body, &pose, vec_turn(pose.rotation, body->arm), a);
+    (void)a;
+    return tree_mass_center_acceleration(body, at);
 }
 
 struct vec point_acceleration(const struct model_body *body, struct vec point, const struct instant *at,
                               const double *a)
 {
+    (void)a;
     struct pose pose = body_pose(body, at);
-    struct vec p = point_motion(body, &pose, point).p;
-    if (body->place.link > 0) return tree_point_acceleration(body, p, at);
-    struct vec joint = body->kind == motion_pivot || body->kind == motion_slide
-                           ? body->origin
-                           : (struct vec){at->y[body->first], at->y[body->first + 1]};
-    return acceleration_beside(body, &pose, vec_sub(p, joint), a);
+    return tree_point_acceleration(body, point_motion(body, &pose, point).p, at);
 }
 
 double body_angular_acceleration(const struct model_body *body, const struct instant *at, const double *a)
 {
-    if (body->place.link > 0) return tree_angular_acceleration(body, at);
-    return body->kind == motion_pivot || body->kind == motion_planar ? a[body->first + body->count - 1] : 0;
+    (void)a;
+    return tree_angular_acceleration(body, at);
 }
 
 /* ---- forces by kind */
@@ -106,13 +88,8 @@ struct joint {
 
 static struct joint joint_of(const struct model_body *body, const struct instant *at)
 {
-    if (body->place.link > 0) {
-        const struct tree_state *s = &at->tree->links[body->place.link];
-        return (struct joint){s->p, s->e, s->turning};
-    }
-    if (body->kind == motion_slide) return (struct joint){body->origin, body->e, 0};
-    if (body->kind == motion_pivot) return (struct joint){body->origin, {1, 0}, 0};
-    return (struct joint){{at->y[body->first], at->y[body->first + 1]}, {1, 0}, 0};
+    const struct tree_state *s = &at->tree->links[body->place.link];
+    return (struct joint){s->p, s->e, s->turning};
 }
 
 struct vec body_direction(const struct model_body *body, const struct instant *at)
@@ -242,7 +219,7 @@ int diagram_account(const struct fbd_model *model, int b, const struct arrow *ar
 bool arrow_is_of_joint(const struct fbd_model *model, int b, const struct arrow *arrow)
 {
     const struct model_body *body = &model->bodies[b];
-    if (arrow->load < 0) return body->place.link == 0 || arrow->name == body->reaction;
+    if (arrow->load < 0) return arrow->name == body->reaction;
     /* The normal force of a rolling body is not listed by it: no reaction of a joint, though its load is of
      * that kind. */
     bool listed = arrow->load >= body->first_load && arrow->load < body->first_load + body->load_count;
@@ -272,66 +249,25 @@ static void set_share(const struct fbd_model *model, int b, const struct instant
     }
 }
 
-/* On the ground by generalized forces and rates; else by the velocity of the point and the angular velocity
- * of the link. */
+/* By the velocity of the point and the angular velocity of the link. */
 static double power_of(const struct model_body *body, const struct instant *at, const struct arrow *arrow)
 {
-    if (body->place.link == 0) {
-        double power = 0;
-        for (int k = 0; k < body->count; k++) power += arrow->share[k] * at->y[body->first_rate + k];
-        return power;
-    }
     const struct tree_state *s = &at->tree->links[body->place.link];
     struct vec arm = vec_sub(arrow->point, s->p);
     struct vec v = vec_add(s->v, vec_scale(s->omega, vec_perp(arm)));
     return vec_dot(arrow->force, v) + arrow->couple * s->omega;
 }
 
-/* The reaction of the body's axis or line: m a_G minus all listed forces; of a line its normal component
- * only. */
-static struct vec guiding_force(const struct model_body *body, const struct instant *at, const double *a,
-                                struct vec listed)
-{
-    struct vec needed = vec_scale(body->inertia.mass, mass_center_acceleration(body, at, a));
-    struct vec reaction = vec_sub(needed, listed);
-    return body->kind == motion_pivot ? reaction : vec_scale(vec_dot(reaction, body->n), body->n);
-}
-
-/* Add the reaction of a guide or an axis on the ground, or set it as the listed `normal`. */
-static size_t add_guide(const struct fbd_model *model, const struct model_body *body, const struct pose *pose,
-                        const struct instant *at, const double *a, struct arrow *arrows, size_t count)
-{
-    const bool pivot = body->kind == motion_pivot;
-    struct vec listed = {0, 0};
-    struct arrow *normal = NULL;
-    if (!pivot && body->kind != motion_slide) return count;
-    for (size_t i = 0; i < count; i++) {
-        if (model->loads[arrows[i].load].source->kind == load_normal) normal = &arrows[i];
-        listed = vec_add(listed, arrows[i].force);
-    }
-    struct vec reaction = guiding_force(body, at, a, listed);
-    if (normal) {
-        normal->force = reaction;
-        return count;
-    }
-    arrows[count] =
-        (struct arrow){.name = pivot ? "pin" : "guide",
-                       .load = -1,
-                       .force = reaction,
-                       .point = pivot ? body->origin : point_motion(body, pose, body->inertia.G).p};
-    return count + 1;
-}
-
 size_t diagram_list(const struct fbd_model *model, int index, const struct instant *at, const double *a,
                     const double *slots, struct arrow *arrows)
 {
+    (void)a;
     const struct model_body *body = &model->bodies[index];
     const struct pose pose = body_pose(body, at);
     size_t count = (size_t)body->load_count;
     for (size_t i = 0; i < count; i++)
         pose_arrow(model, body->first_load + (int)i, &pose, at, slots, &arrows[i]);
-    if (body->place.link > 0) return tree_diagram_add(model, index, at, slots, arrows);
-    return add_guide(model, body, &pose, at, a, arrows, count);
+    return tree_diagram_add(model, index, at, slots, arrows);
 }
 
 double load_power(const struct fbd_model *model, int index, const struct pose *pose, const struct instant *at,

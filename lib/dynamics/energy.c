@@ -10,17 +10,8 @@
 
 double kinetic_energy(const struct model_body *body, const struct instant *at)
 {
-    const double *v = at->y + body->first_rate;
     double m = body->inertia.mass;
     struct pose pose = body_pose(body, at);
-    switch (body->place.link > 0 ? motion_planar : body->kind) {
-    case motion_slide: return m * v[0] * v[0] / 2;
-    case motion_pivot: return body->I_O * v[0] * v[0] / 2;
-    case motion_particle: return m * (v[0] * v[0] + v[1] * v[1]) / 2;
-    case motion_planar:
-    case motion_weld:
-    case motion_track: break;
-    }
     struct vec v_G = point_motion(body, &pose, body->inertia.G).v;
     return body_share(body, at) * (m * vec_dot(v_G, v_G) + body->inertia.I_G * pose.omega * pose.omega) / 2;
 }
@@ -37,7 +28,7 @@ double standing_kinetic_energy(struct fbd_state *state)
     struct instant at = state_instant(state);
     double sum = 0;
     for (size_t b = 0; b < state->model->body_count; b++)
-        if (state->model->bodies[b].place.link > 0) sum += kinetic_energy(&state->model->bodies[b], &at);
+        sum += kinetic_energy(&state->model->bodies[b], &at);
     return sum;
 }
 
@@ -130,10 +121,8 @@ static double constant_force_potential(const struct model_body *body, const stru
 static double linear_potential(const struct model_body *body, const struct model_load *load,
                                const struct pose *pose, const struct instant *at)
 {
-    double q = at->y[body->first + body->count - 1];
-    if (load->source->kind == moment_applied)
-        return -formula_value(&load->value, at) * (body->place.link > 0 ? body_angle(body, at) : q);
-    double share = 0;
+    if (load->source->kind == moment_applied) return -formula_value(&load->value, at) * body_angle(body, at);
+    double q = at->y[body->first + body->count - 1], share = 0;
     add_force(body, pose, point_motion(body, pose, load->point), applied_force(load, pose, at), &share);
     return -share * q;
 }

@@ -1,25 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * The plan's terms summed into slots, body by body: all forces except dry friction.
+ * The forces in the joints: springs, dampers and potentials of coordinates, but no dry friction.
  */
 #ifndef FBD_DYNAMICS_FORCES_H
 #define FBD_DYNAMICS_FORCES_H
 
 #include "dynamics/kinematics.h"
 
-/* The slots of body `b`. `turn` is cosine and sine of its angle if its terms need both (see body_turn). */
-void body_forces(const struct fbd_model *model, int b, const struct instant *at, struct vec turn,
-                 double *slots);
-
-/* Cosine and sine of the angle of body `b` if its terms need them. */
-static inline struct vec body_turn(const struct fbd_model *model, int b, const struct instant *at)
-{
-    const struct model_body *body = &model->bodies[b];
-    return model->plan.bodies[b].turns ? vec_cos_sin(at->y[body->first + body->count - 1])
-                                       : (struct vec){1, 0};
-}
-
-/* slots[plan.slots]: generalized forces of the coordinates, then the sums of forces across slides. */
+/* slots[plan.slots]: the forces in the joints along the n coordinates, then zeros. */
 void force_slots(const struct fbd_model *model, const struct instant *at, double *slots);
 
 /* Their variation along a direction (exact, no differences). */

@@ -30,43 +30,6 @@
 #include "dynamics/user_states.h"
 #include "dynamics/world_refs.h"
 
-/* ---- planar bodies whose frame's origin O is not their centre of mass
- *
- * With r = R(theta) arm from O to G, F and M_O the sums of forces and moments about O:
- *
- *     a_G = F / m,   alpha = (M_O - r x F) / I_G,   a_O = a_G - alpha k x r + omega^2 r */
-
-static void offset_accelerations(const struct offset_body *body, const struct instant *at, int n,
-                                 struct vec turn, const double *slots, double *a)
-{
-    int i = body->first;
-    struct vec r = vec_turn(vec_without_rounding(turn), body->arm), F = {slots[i], slots[i + 1]};
-    double omega = at->y[n + i + 2], alpha = (slots[i + 2] - vec_cross(r, F)) / body->I_G;
-    struct vec a_O = vec_add(vec_scale(1 / body->mass, F),
-                             vec_sub(vec_scale(omega * omega, r), vec_scale(alpha, vec_perp(r))));
-    a[i] = a_O.x;
-    a[i + 1] = a_O.y;
-    a[i + 2] = alpha;
-}
-
-static void offset_variations(const struct offset_body *body, const struct instant *at, int n,
-                              const struct direction *along, const double *slots, const double *slots_along,
-                              double *a_along)
-{
-    int i = body->first;
-    struct vec r = vec_turn(vec_unit(at->y[i + 2]), body->arm), F = {slots[i], slots[i + 1]};
-    struct vec dr = vec_scale(along->dy[i + 2], vec_perp(r)), dF = {slots_along[i], slots_along[i + 1]};
-    double omega = at->y[n + i + 2], d_omega = along->dy[n + i + 2];
-    double alpha = (slots[i + 2] - vec_cross(r, F)) / body->I_G;
-    double d_alpha = (slots_along[i + 2] - vec_cross(dr, F) - vec_cross(r, dF)) / body->I_G;
-    struct vec d = vec_scale(1 / body->mass, dF);
-    d = vec_sub(d, vec_add(vec_scale(d_alpha, vec_perp(r)), vec_scale(alpha, vec_perp(dr))));
-    d = vec_add(d, vec_add(vec_scale(2 * omega * d_omega, r), vec_scale(omega * omega, dr)));
-    a_along[i] = d.x;
-    a_along[i + 1] = d.y;
-    a_along[i + 2] = d_alpha;
-}
-
 /* ---- jointed bodies: their friction depends on their accelerations, so both come from one solution */
 
 void force_balance(const struct fbd_model *model, const struct instant *given, double *slots)
@@ -74,18 +37,13 @@ void force_balance(const struct fbd_model *model, const struct instant *given, d
     struct instant room;
     const struct instant *at = instant_with_places(model, given, &room);
     force_slots(model, at, slots);
-    if (model->tree) tree_accelerations(model, at, slots, at->tree->a);
+    tree_accelerations(model, at, slots, at->tree->a);
 }
 
 void force_balance_of(const struct fbd_model *model, int b, const struct instant *given, double *slots)
 {
-    if (model->bodies[b].place.link > 0) {
-        force_balance(model, given, slots);
-        return;
-    }
-    struct instant room;
-    const struct instant *at = instant_with_places(model, given, &room);
-    body_forces(model, b, at, body_turn(model, b, at), slots);
+    (void)b;
+    force_balance(model, given, slots);
 }
 
 void force_balance_along(const struct fbd_model *model, const struct instant *given,
@@ -95,28 +53,10 @@ void force_balance_along(const struct fbd_model *model, const struct instant *gi
     const struct instant *at = instant_with_places(model, given, &room);
     const struct direction extended_along = direction_extend(model, at, direction), *along = &extended_along;
     force_slots_along(model, at, along, slots_along);
-    if (model->tree)
-        tree_accelerations_along(model, at, along, slots, at->tree->a, slots_along, at->tree->a_along);
-}
-
-/* Copy the entries of jointed bodies only. */
-static void take_tree_variations(const struct tree *tree, const struct tree_work *work, double *a_along)
-{
-    for (int i = 1; i < tree->count; i++) {
-        int first = tree->links[i].coordinate, count = joint_freedom(tree->links[i].kind);
-        for (int k = first; k < first + count; k++) a_along[k] = work->a_along[k];
-    }
+    tree_accelerations_along(model, at, along, slots, at->tree->a, slots_along, at->tree->a_along);
 }
 
 /* ---- the stages */
-
-static void add_kinetic_friction(const struct fbd_model *model, int pair, const struct instant *at,
-                                 double *slots)
-{
-    const struct mode *mode = &model->plan.modes[pair];
-    double press = mode->normal_slot < 0 ? 1 : fmax(0, -at->pull[pair] * slots[mode->normal_slot]);
-    slots[mode->coordinate] -= at->slip[pair] * formula_value(&mode->mu_k, at) * press;
-}
 
 /* Does the mode hold a coordinate by sticking? (A rolling body is held by a row.) */
 static bool holds_coordinate(const struct plan *plan, const struct instant *at, int pair)
@@ -124,46 +64,16 @@ static bool holds_coordinate(const struct plan *plan, const struct instant *at, 
     return at->slip[pair] == stick && plan->modes[pair].coupling < 0;
 }
 
-void body_accelerations(const struct fbd_model *model, int b, const struct instant *at, double *slots,
-                        double *a)
-{
-    const struct plan *plan = &model->plan;
-    const struct body_terms *terms = &plan->bodies[b];
-    const struct model_body *body = &model->bodies[b];
-    struct vec turn = body_turn(model, b, at);
-    body_forces(model, b, at, turn, slots);
-    bool rubs = terms->friction >= 0 && body->place.link == 0;
-    bool slips = rubs && at->slip[terms->friction] != stick;
-    if (slips) add_kinetic_friction(model, terms->friction, at, slots);
-    for (int i = body->first; i < body->first + body->count; i++) a[i] = plan->inverse_inertia[i] * slots[i];
-    if (terms->offset >= 0) offset_accelerations(&plan->offsets[terms->offset], at, plan->n, turn, slots, a);
-    if (rubs && !slips) friction_surface_speed(&plan->modes[terms->friction], at, &a[body->first]);
-}
-
-void joint_forces(const struct fbd_model *model, const struct instant *at, double *slots, double *a)
-{
-    memset(slots, 0, (size_t)model->plan.slots * sizeof *slots);
-    for (int k = 0; k < model->tree->acting_count; k++)
-        body_accelerations(model, model->tree->acting[k], at, slots, a);
-}
-
 void accelerations_at_shares(const struct fbd_model *model, const struct instant *given, double *slots,
                              double *a)
 {
     struct instant extended;
     const struct instant *at = instant_with_places(model, given, &extended);
-    const struct tree *tree = model->tree;
-    if (!tree) {
-        for (int b = 0; b < (int)model->body_count; b++) body_accelerations(model, b, at, slots, a);
-        return;
-    }
-    joint_forces(model, at, slots, a);
+    force_slots(model, at, slots);
     tree_accelerations(model, at, slots, a);
-    for (int pair = 0; pair < (int)model->plan.mode_count; pair++) {
-        const struct mode *mode = &model->plan.modes[pair];
-        if (mode->kind != mode_single && holds_coordinate(&model->plan, at, pair))
-            friction_surface_speed(mode, at, &a[mode->coordinate]);
-    }
+    for (int pair = 0; pair < (int)model->plan.mode_count; pair++)
+        if (holds_coordinate(&model->plan, at, pair))
+            friction_surface_speed(&model->plan.modes[pair], at, &a[model->plan.modes[pair].coordinate]);
 }
 
 void accelerations(const struct fbd_model *model, const struct instant *at, double *slots, double *a)
@@ -181,15 +91,7 @@ static void vary_balance(const struct fbd_model *model, const struct instant *at
     const struct plan *plan = &model->plan;
     const struct direction extended_along = direction_extend(model, at, direction), *along = &extended_along;
     force_balance_along(model, at, along, slots, slots_along);
-    for (int pair = 0; pair < (int)plan->mode_count; pair++) {
-        if (at->slip[pair] == stick || plan->modes[pair].kind != mode_single) continue;
-        struct friction_values rate = friction_along(model, pair, at, slots, along, slots_along);
-        slots_along[plan->modes[pair].coordinate] += rate.force;
-    }
-    for (int i = 0; i < plan->n; i++) a_along[i] = plan->inverse_inertia[i] * slots_along[i];
-    for (size_t i = 0; i < plan->offset_count; i++)
-        offset_variations(&plan->offsets[i], at, plan->n, along, slots, slots_along, a_along);
-    if (model->tree) take_tree_variations(model->tree, at->tree, a_along);
+    memcpy(a_along, at->tree->a_along, (size_t)plan->n * sizeof *a_along);
     for (int pair = 0; pair < (int)plan->mode_count; pair++) {
         if (!holds_coordinate(plan, at, pair)) continue;
         const struct mode *mode = &plan->modes[pair];
@@ -216,17 +118,6 @@ void accelerations_along(const struct fbd_model *model, const struct instant *at
     }
     accelerations_along_at_shares(model, at, along, slots, slots_along, a_along);
     if (at->sliding) sliding_clear_rounding_along(model, at, a_along);
-}
-
-void body_rates(const struct fbd_model *model, int b, const struct instant *at, double *slots, double *dydt)
-{
-    const struct plan *plan = &model->plan;
-    const struct model_body *body = &model->bodies[b];
-    for (int k = 0; k < body->count; k++) dydt[body->first + k] = at->y[body->first_rate + k];
-    body_accelerations(model, b, at, slots, dydt + plan->n);
-    double acceleration;
-    if (body->friction >= 0 && at->slip[body->friction] == stick)
-        dydt[body->first] = friction_surface_speed(&plan->modes[body->friction], at, &acceleration);
 }
 
 void state_rates(const struct fbd_model *model, const struct instant *at, double *slots, double *dydt)

@@ -29,15 +29,6 @@ void accelerations_along_at_shares(const struct fbd_model *model, const struct i
                                    const struct direction *direction, double *slots, double *slots_along,
                                    double *a_along);
 
-/* The same for the entries of slots and a of body `b`, which is not jointed. The instant is already extended
- * (world_refs.h). */
-void body_accelerations(const struct fbd_model *model, int b, const struct instant *at, double *slots,
-                        double *a);
-
-/* Compute the forces in the joints of the tree, and on bodies beside it, in slots[plan.slots]; `a` is written
- * for the latter. */
-void joint_forces(const struct fbd_model *model, const struct instant *at, double *slots, double *a);
-
 /* The variation of the accelerations along a direction. `slots` and `slots_along` (plan.slots each) are
  * scratch. */
 void accelerations_along(const struct fbd_model *model, const struct instant *at,
@@ -46,10 +37,6 @@ void accelerations_along(const struct fbd_model *model, const struct instant *at
 /* dydt[2 n] for an integrator, without user states (user_states.h). A sticking coordinate moves with its
  * surface. */
 void state_rates(const struct fbd_model *model, const struct instant *at, double *slots, double *dydt);
-
-/* The same for the entries of body `b`, which is not jointed, in a model whose expressions refer to no
- * positions. */
-void body_rates(const struct fbd_model *model, int b, const struct instant *at, double *slots, double *dydt);
 
 /* The exact Jacobian: dfdy[plan_size x plan_size] row by row and dfdt[plan_size]. `scratch` has 2 plan.slots + 3 n
  * + 2 own entries. */

@@ -3,8 +3,8 @@
 
 #include "dynamics/tree.h"
 
-/* The pose of a jointed body from its link, as set by the last tree_move. */
-static struct pose pose_in_link(const struct model_body *body, const struct instant *at)
+/* From its link, as set by the last tree_move. */
+struct pose body_pose(const struct model_body *body, const struct instant *at)
 {
     const struct tree_state *link = &at->tree->links[body->place.link];
     if (body->kind != motion_weld) return (struct pose){link->p, link->turn, link->v, link->omega};
@@ -21,17 +21,7 @@ int body_angle_coordinate(const struct model_body *body)
 
 double body_angle(const struct model_body *body, const struct instant *at)
 {
-    if (body->place.link > 0) return at->tree->links[body->place.link].angle + body->place.angle;
-    int coordinate = body_angle_coordinate(body);
-    if (coordinate >= 0) return at->y[coordinate];
-    return body->kind == motion_slide ? body->source->motion.along : 0;
-}
-
-struct pose body_pose(const struct model_body *body, const struct instant *at)
-{
-    if (body->place.link > 0) return pose_in_link(body, at);
-    int turn = body_angle_coordinate(body);
-    return body_pose_turned(body, at, turn >= 0 ? vec_cos_sin(at->y[turn]) : (struct vec){1, 0});
+    return at->tree->links[body->place.link].angle + body->place.angle;
 }
 
 struct motion_of_point point_variation(const struct model_body *body, const struct pose *pose,
