@@ -95,7 +95,7 @@ static struct vec describe_joint(const fbd_model *model, int b, const char *name
     bool joint = name && (name == body->reaction || name == body->reaction_on_parent);
     const bool guided = body->kind == motion_slide || body->kind == motion_track;
     force->couples = joint && body->kind != motion_pivot;
-    if (!joint && body->place.link == 0) joint = true; /* on the ground: `pin` or `guide` */
+    if (!joint && body->alone) joint = true; /* on the ground: `pin` or `guide` */
     force->free = joint && !guided;
     return joint && guided ? vec_perp(body_direction(body, at)) : (struct vec){0, 0};
 }
@@ -105,7 +105,7 @@ static void describe_reaction(const fbd_model *model, int b, const struct instan
 {
     const char *name = force->arrow.name;
     struct vec along = describe_joint(model, b, name, at, force);
-    for (int i = 0, found = 0; !found && model->tree && i < model->tree->coupling_count; i++) {
+    for (int i = 0, found = 0; !found && i < model->tree->coupling_count; i++) {
         const struct coupling *coupling = &model->tree->couplings[i];
         for (int k = 0; !found && k < coupling->end_count; k++)
             for (int row = 0; !found && row < 2; row++) {

@@ -15,7 +15,7 @@
 
 static bool has_thin_contact(const fbd_model *model)
 {
-    for (int i = 0; model->tree && i < model->tree->meeting_count; i++)
+    for (int i = 0; i < model->tree->meeting_count; i++)
         if (model->tree->meetings[i].thin) return true;
     return false;
 }

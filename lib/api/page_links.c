@@ -154,7 +154,7 @@ static void write_surfaces(struct text *text, const fbd_result *result, const st
     const struct tree *tree = record->model->tree;
     size_t written = 0;
     text_add(text, "\"surfaces\":[");
-    for (int i = 0; tree && i < tree->meeting_count; i++) {
+    for (int i = 0; i < tree->meeting_count; i++) {
         const struct meeting *meeting = &tree->meetings[i];
         const struct constraint *source = &record->model->scene->constraints[meeting->constraint];
         if (!source->contact.line && !source->contact.polygon) continue;

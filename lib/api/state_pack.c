@@ -13,7 +13,7 @@ enum { numbers_of_a_coupling = 9 };
 
 static size_t coupling_count(const struct fbd_model *model)
 {
-    return model->tree ? (size_t)model->tree->coupling_count : 0;
+    return (size_t)model->tree->coupling_count;
 }
 
 /* The branch of memory `index` among all switches, or -1 past the last one. */

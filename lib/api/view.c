@@ -65,7 +65,7 @@ fbd_pose fbd_state_pose(fbd_state *state, size_t body)
 {
     if (!state || body >= state->model->body_count) return no_pose;
     const struct instant at = state_instant(state);
-    if (state->model->tree) tree_move(state->model, &at);
+    tree_move(state->model, &at);
     return pose_of(state->model, &state->model->bodies[body], &at);
 }
 

@@ -73,9 +73,9 @@ bool batch_suits(const struct fbd_model *model)
     if (FLT_EVAL_METHOD != 0) return false;
     if (plan->own > 0 || plan->watch_count + plan->mode_count + plan->kink_count + plan->pole_count > 0)
         return false;
-    if (model->tree)
+    if (tree_joins(model->tree))
         return plan->n == 2 && tree_is_bare(model) && tree_bare_form(model) == tree_form_two_pivots;
-    return plan->n == 1 && plan->sine_count == 1;
+    return plan->n == 1 && plan->equations[0].known && plan->equations[0].s != 0;
 }
 
 /* True if the next step is an ordinary one: no events, restarts, projections or other tasks are due. */

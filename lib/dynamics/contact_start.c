@@ -85,7 +85,7 @@ static void start_meeting(struct fbd_state *state, int index)
 int contacts_side_in_doubt(struct fbd_state *state)
 {
     const struct tree *tree = state->model->tree;
-    for (int i = 0; tree && i < tree->meeting_count; i++)
+    for (int i = 0; i < tree->meeting_count; i++)
         if (tree->meetings[i].thin &&
             thin_moves_against_forces(state, i, start_share * meeting_near(state->model, state->tree, i)))
             return i;
@@ -95,7 +95,7 @@ int contacts_side_in_doubt(struct fbd_state *state)
 void contacts_start(struct fbd_state *state)
 {
     const struct tree *tree = state->model->tree;
-    if (!tree || tree->meeting_count == 0) return;
+    if (tree->meeting_count == 0) return;
     struct instant at = state_instant(state);
     tree_move(state->model, &at);
     for (int i = 0; i < tree->meeting_count; i++) open_meeting(state, i);
@@ -128,7 +128,7 @@ bool contacts_are_deep(struct fbd_state *state)
     const struct tree *tree = state->model->tree;
     const struct instant at = state_instant(state);
     bool deep = false;
-    if (!tree || tree->meeting_count == 0) return false;
+    if (tree->meeting_count == 0) return false;
     open_all(state);
     for (int i = 0; i < tree->meeting_count; i++)
         deep |= meeting_depth(state->model, &at, i) > meeting_near(state->model, state->tree, i);
@@ -149,7 +149,7 @@ int contacts_overlap(struct fbd_state *state, double *depth)
     const struct tree *tree = state->model->tree;
     int worst = -1;
     *depth = 0;
-    if (!tree || tree->meeting_count == 0) return -1;
+    if (tree->meeting_count == 0) return -1;
     struct instant at = state_instant(state);
     tree_move(state->model, &at);
     for (int i = 0; i < tree->meeting_count; i++) {

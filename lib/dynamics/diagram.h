@@ -64,7 +64,7 @@ struct balance balance_of(const struct model_body *body, const struct instant *a
 struct motion_of_point other_end(const struct fbd_model *model, const struct model_load *load,
                                  const struct instant *at);
 
-/* For a jointed body, add to its listed loads (tree_diagram.c): the forces of its couplings, the reaction of
+/* Add to the listed loads of a body (tree_diagram.c): the forces of its couplings, the reaction of
  * its joint, and the opposites of the forces in the joints of the bodies that move on it; a listed `normal`
  * gets its force. Returns the total number of arrows. */
 size_t tree_diagram_add(const struct fbd_model *model, int index, const struct instant *at,

@@ -16,7 +16,7 @@ double kinetic_energy(const struct model_body *body, const struct instant *at)
     return body_share(body, at) * (m * vec_dot(v_G, v_G) + body->inertia.I_G * pose.omega * pose.omega) / 2;
 }
 
-double jointed_kinetic_energy(struct fbd_state *state)
+double total_kinetic_energy(struct fbd_state *state)
 {
     struct instant at = state_instant(state);
     tree_move(state->model, &at);

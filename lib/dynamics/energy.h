@@ -11,8 +11,8 @@
 /* m v_G^2 / 2 + I_G omega^2 / 2; for a pivot I_O omega^2 / 2. */
 double kinetic_energy(const struct model_body *body, const struct instant *at);
 
-/* Of all jointed bodies together; moves the links first, or expects them at the state (after state_misfit). */
-double jointed_kinetic_energy(struct fbd_state *state);
+/* Of all bodies together; moves the links first, or expects them at the state (after state_misfit). */
+double total_kinetic_energy(struct fbd_state *state);
 double standing_kinetic_energy(struct fbd_state *state);
 
 /* V of a load at an instant; 0 when it has none. A load by quadrature is integrated from its reference

@@ -46,13 +46,13 @@ void force_slots(const struct fbd_model *model, const struct instant *at, double
     memset(slots, 0, (size_t)plan->slots * sizeof *slots);
     for (size_t i = 0; i < plan->affine_count; i++) {
         const struct affine_term *term = &plan->affine[i];
-        slots[term->slot] += term->c0 - term->kq * q[term->coordinate] - term->kv * v[term->coordinate];
+        slots[term->coordinate] += term->c0 - term->kq * q[term->coordinate] - term->kv * v[term->coordinate];
     }
     for (size_t i = 0; i < plan->potential_count; i++) {
         const struct potential_term *term = &plan->potentials[i];
         double slope;
         expr_eval_slot(term->V.expr, at->t, at->y, 1 + term->coordinate, formula_branches(&term->V, at), &slope);
-        slots[term->slot] -= slope;
+        slots[term->coordinate] -= slope;
     }
 }
 
@@ -64,8 +64,8 @@ void force_slots_along(const struct fbd_model *model, const struct instant *at, 
     memset(variation, 0, (size_t)plan->slots * sizeof *variation);
     for (size_t i = 0; i < plan->affine_count; i++) {
         const struct affine_term *term = &plan->affine[i];
-        variation[term->slot] -= term->kq * dq[term->coordinate] + term->kv * dv[term->coordinate];
+        variation[term->coordinate] -= term->kq * dq[term->coordinate] + term->kv * dv[term->coordinate];
     }
     for (size_t i = 0; i < plan->potential_count; i++)
-        variation[plan->potentials[i].slot] -= slope_variation(&plan->potentials[i], at, along);
+        variation[plan->potentials[i].coordinate] -= slope_variation(&plan->potentials[i], at, along);
 }

@@ -2,17 +2,14 @@
  *
  * From forces to accelerations, and their variations.
  *
- * An independent body has one inertia for each coordinate, that of the plan: q'' = Q / m on a slide, Q / I_O
- * about a pivot, Q / m and Q / I_G in the plane, with Q the sum of the terms in its slot, positive along +q.
- * If its frame is not at its centre of mass its three equations are coupled, see below. Dry friction comes
- * last, since it depends on the normal force, the sum N = -Q_n of the terms across the slide (positive
- * towards the outside of the surface):
+ * The forces in the joints are summed here, all others by tree_accelerations. With Q the sum of the forces along a
+ * coordinate, positive along +q, and N the normal force of a slide:
  *
  *     slips    Q -= slip mu_k |N|, slip = +1 or -1, the sign of the velocity: against the motion
  *     sticks   q'' = s', the acceleration of the surface; the friction is H = m s' - Q (friction.h)
  *
- * On a straight line of an independent body N does not depend on friction. Between jointed bodies it does, so
- * that both come from one solution: tree_accelerations.
+ * On the line of a body that stands alone N does not depend on friction. Between jointed bodies it does, so
+ * that both come from one solution.
  *
  * Along a direction (dt, dq, dv, dz) all of this is linear and is varied term by term; a column of the
  * Jacobian is the variation along one component.
@@ -30,7 +27,7 @@
 #include "dynamics/user_states.h"
 #include "dynamics/world_refs.h"
 
-/* ---- jointed bodies: their friction depends on their accelerations, so both come from one solution */
+/* ---- the stages */
 
 void force_balance(const struct fbd_model *model, const struct instant *given, double *slots)
 {
@@ -38,12 +35,6 @@ void force_balance(const struct fbd_model *model, const struct instant *given, d
     const struct instant *at = instant_with_places(model, given, &room);
     force_slots(model, at, slots);
     tree_accelerations(model, at, slots, at->tree->a);
-}
-
-void force_balance_of(const struct fbd_model *model, int b, const struct instant *given, double *slots)
-{
-    (void)b;
-    force_balance(model, given, slots);
 }
 
 void force_balance_along(const struct fbd_model *model, const struct instant *given,
@@ -55,8 +46,6 @@ void force_balance_along(const struct fbd_model *model, const struct instant *gi
     force_slots_along(model, at, along, slots_along);
     tree_accelerations_along(model, at, along, slots, at->tree->a, slots_along, at->tree->a_along);
 }
-
-/* ---- the stages */
 
 /* Does the mode hold a coordinate by sticking? (A rolling body is held by a row.) */
 static bool holds_coordinate(const struct plan *plan, const struct instant *at, int pair)

@@ -1,25 +1,21 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Forward dynamics: accelerations from the state, body by body, in stages: terms, friction, inertia.
+ * Forward dynamics: accelerations from the state.
  */
 #ifndef FBD_DYNAMICS_FORWARD_H
 #define FBD_DYNAMICS_FORWARD_H
 
 #include "dynamics/friction.h"
 
-/* slots[plan.slots]: all forces except dry friction, as in force_slots; the slots of jointed bodies behind
- * the n are those of their motion in the present modes. */
+/* slots[plan.slots]: the forces in the joints, as by force_slots, and behind them the normal forces and those of
+ * friction by the motion in the present modes (tree.h). */
 void force_balance(const struct fbd_model *model, const struct instant *given, double *slots);
-
-/* The same in the slots of body b only; for a jointed body in all slots. */
-void force_balance_of(const struct fbd_model *model, int b, const struct instant *given, double *slots);
 
 /* The variation of force_balance along a direction, right after it. */
 void force_balance_along(const struct fbd_model *model, const struct instant *given,
                          const struct direction *direction, const double *slots, double *slots_along);
 
-/* Compute a[n] at an instant. On return slots[plan.slots] hold the generalized forces with kinetic friction
- * included (not in the slot of a sticking coordinate) and the sums across slides. */
+/* Compute a[n] at an instant, and slots[plan.slots] as by force_balance. */
 void accelerations(const struct fbd_model *model, const struct instant *at, double *slots, double *a);
 
 /* The same with the present weights of switches in sliding modes (sliding.h). */

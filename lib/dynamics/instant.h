@@ -30,7 +30,7 @@ struct instant {
     const int *branch;      /* plan.branches: of the switches in formulas; NULL for plain values */
     const int *slip;        /* plan.mode_count: enum slip */
     const int *pull;        /* plan.mode_count: sign of the normal force of a two-sided guide, +1 otherwise */
-    struct tree_work *tree; /* scratch and results of the jointed bodies; NULL when there are none */
+    struct tree_work *tree; /* scratch and results */
     double *extended; /* scratch of world_refs.h; NULL when no expression refers to positions in the world */
     struct sliding *sliding; /* switches in a sliding mode; NULL when there are none */
 };

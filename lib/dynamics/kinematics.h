@@ -7,8 +7,7 @@
  *   particle   p = (x, y) + r                           p' = (vx, vy)
  *   planar     p = (x, y) + R(theta) r                  p' = (vx, vy) + omega k x R(theta) r
  *
- * The pose of a jointed body is that of its link, valid after accelerations() or tree_move() at the same
- * instant.
+ * The pose of a body is that of its link, valid after accelerations() or tree_move() at the same instant.
  */
 #ifndef FBD_DYNAMICS_KINEMATICS_H
 #define FBD_DYNAMICS_KINEMATICS_H

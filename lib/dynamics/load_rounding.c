@@ -54,7 +54,7 @@ double load_power_rounding(const struct fbd_model *model, size_t index, const st
 static double reach_of_couplings(const struct tree *tree)
 {
     double reach = 0;
-    for (int i = 0; tree && i < tree->coupling_count; i++) {
+    for (int i = 0; i < tree->coupling_count; i++) {
         const struct coupling *coupling = &tree->couplings[i];
         reach = fmax(reach, fabs(coupling->length));
         for (int end = 0; end < coupling->end_count; end++)

@@ -11,7 +11,7 @@
  *   contact            closes by an impact              likewise
  *   drive              as a function of time            always
  *
- * N, F and H depend on other modes, except for independent bodies on straight lines: these modes are decided
+ * N, F and H depend on other modes, except for bodies that stand alone: these modes are decided
  * here, one by one. Constraints at rest between jointed bodies are decided together, as one complementarity
  * problem (tree_holds.c). Rates are those along the motion, d/dt = (1, v, a, z'), which depend on the modes:
  * so all is repeated until it is consistent.
@@ -113,7 +113,7 @@ static int decide_friction(const struct settling *settling, int pair)
     return v > 0 ? slip_plus : v < 0 ? slip_minus : aside != 0 ? aside : together;
 }
 
-/* At rest an independent body sticks within the limit of its friction (friction_decide). */
+/* At rest a body that stands alone sticks within the limit of its friction (friction_decide). */
 static int decide_single(const struct settling *settling, int pair)
 {
     const struct fbd_model *model = settling->state->model;
@@ -168,7 +168,7 @@ static bool settle_slips(struct fbd_state *state, const struct decided *decided,
         same = same && state->slip[pair] == next;
         state->slip[pair] = next;
     }
-    if (model->tree && plan->mode_count > 0) same = tree_settle_holds(state, decided) && same;
+    if (tree_joins(model->tree) && plan->mode_count > 0) same = tree_settle_holds(state, decided) && same;
     return same;
 }
 
@@ -176,7 +176,7 @@ static bool settle_slips(struct fbd_state *state, const struct decided *decided,
  * constraints decided together or sliding modes. */
 static bool tells_at_once(const struct fbd_state *state)
 {
-    return !state->tree && !state->sliding && state->model->plan.kink_count == 0;
+    return !tree_joins(state->model->tree) && !state->sliding && state->model->plan.kink_count == 0;
 }
 
 static bool settle(struct fbd_state *state, const struct decided *decided)
@@ -195,7 +195,7 @@ static bool settle(struct fbd_state *state, const struct decided *decided)
         if (plan->mode_count > 0) same = settle_slips(state, decided, &flow) && same;
         if (state->holds.found >= holds_none) return false;
         if (same && (!first || tells_at_once(state))) {
-            if (modes_hold_settling(state) || state->tree || state_sliding(state)) state_evaluate(state);
+            if (modes_hold_settling(state) || tree_joins(state->model->tree) || state_sliding(state)) state_evaluate(state);
             return state->holds.found < holds_none;
         }
         first = false;

@@ -37,7 +37,7 @@ double press_slack(const struct fbd_model *model, const struct tree_work *tree, 
 {
     const struct model_body *body = &model->bodies[b];
     double size = body->inertia.mass * vec_norm(model->scene->gravity);
-    for (int i = 1; tree && body->place.link > 0 && i < model->tree->count; i++) {
+    for (int i = 1; !body->alone && i < model->tree->joined; i++) {
         size = fmax(size, vec_norm(tree->links[i].F.force));
         size = fmax(size, vec_norm(model->tree->links[i].force));
     }

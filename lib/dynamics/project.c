@@ -33,7 +33,7 @@ static struct place place_of(struct fbd_state *state, bool assemble)
 
 static bool has_couplings(const struct fbd_model *model)
 {
-    return model->tree && model->tree->coupling_count > 0;
+    return model->tree->coupling_count > 0;
 }
 
 /* Evaluate links and rows. */

@@ -9,46 +9,34 @@
 #include "dynamics/tree.h"
 #include "dynamics/tree_bare.h"
 
-/* Can every coordinate of the body be a row in the present modes? Its equations must be independent, and its
- * friction, if any, constant. */
-static bool stands_by_itself(const struct plan *plan, const struct model_body *body,
-                             const struct body_terms *terms, const struct fbd_state *state)
+/* Does the body have a scalar equation whose friction, if any, is constant in the present mode? */
+static bool has_row(const struct fbd_state *state, int b)
 {
-    if (terms->at_points || terms->offset >= 0 || terms->potentials.count > 0) return false;
-    if (terms->sine.count > 1 || (terms->sine.count == 1 && body->kind != motion_pivot)) return false;
-    if (terms->friction < 0) return true;
-    const struct mode *mode = &plan->modes[terms->friction];
-    if (state->slip[terms->friction] == stick) return formula_is_constant(&mode->surface_speed);
+    const struct plan *plan = &state->model->plan;
+    const int friction = state->model->bodies[b].friction;
+    if (!plan->equations[b].known) return false;
+    if (friction < 0) return true;
+    const struct mode *mode = &plan->modes[friction];
+    if (state->slip[friction] == stick) return formula_is_constant(&mode->surface_speed);
     return formula_is_constant(&mode->mu_k) &&
            (mode->normal_slot < 0 || plan->slot_constant[mode->normal_slot]);
 }
 
-/* Kinetic friction that slips with constant normal force, as in forward.c. */
-static double constant_friction(const struct plan *plan, const struct body_terms *terms,
-                                const struct fbd_state *state)
+/* Kinetic friction with a constant normal force, as in tree.c. */
+static double constant_friction(const struct fbd_state *state, int b)
 {
-    const struct mode *mode = &plan->modes[terms->friction];
-    double across = terms->across.count > 0 ? plan->affine[terms->across.first].c0 : 0, press = 1;
-    if (mode->normal_slot >= 0) press = fmax(0, -state->pull[terms->friction] * across);
-    return state->slip[terms->friction] * mode->mu_k.constant * press;
+    const int friction = state->model->bodies[b].friction;
+    const struct plan *plan = &state->model->plan;
+    if (friction < 0) return 0;
+    const struct mode *mode = &plan->modes[friction];
+    double press = 1;
+    if (mode->normal_slot >= 0) press = fmax(0, -state->pull[friction] * plan->equations[b].across);
+    return state->slip[friction] * mode->mu_k.constant * press;
 }
 
-static void take_terms(const struct plan *plan, const struct body_terms *terms, struct row *row)
+static void take_formulas(const struct plan *plan, const struct scalar_equation *equation, struct row *row)
 {
-    for (int i = terms->affine.first; i < terms->affine.first + terms->affine.count; i++) {
-        const struct affine_term *term = &plan->affine[i];
-        if (term->slot != row->q) continue;
-        row->c0 = term->c0;
-        row->kq = term->kq;
-        row->kv = term->kv;
-    }
-    if (terms->sine.count > 0) {
-        row->s = plan->sine[terms->sine.first].s;
-        row->c = plan->sine[terms->sine.first].c;
-    }
-    for (int i = terms->square.first; i < terms->square.first + terms->square.count; i++)
-        if (plan->square[i].slot == row->q) row->square = plan->square[i].k;
-    for (int i = terms->formulas.first; i < terms->formulas.first + terms->formulas.count; i++) {
+    for (int i = equation->formulas.first; i < equation->formulas.first + equation->formulas.count; i++) {
         if (plan->formulas[i].slot != row->q) continue;
         if (row->formula_count++ == 0) row->formulas = &plan->formulas[i];
     }
@@ -83,87 +71,30 @@ static void choose(struct row *row)
 }
 
 /* Written in place: a row is large. */
-static void set_row(const struct rates *rates, int b, int coordinate, struct row *row)
+static void set_row(const struct rates *rates, int b, struct row *row)
 {
     const struct fbd_state *state = rates->state;
     const struct plan *plan = &state->model->plan;
-    const struct body_terms *terms = &plan->bodies[b];
+    const struct scalar_equation *equation = &plan->equations[b];
+    const int coordinate = state->model->bodies[b].first, friction = state->model->bodies[b].friction;
     *row = (struct row){.all = rates,
                         .q = coordinate,
                         .v = plan->n + coordinate,
-                        .inverse = plan->inverse_inertia[coordinate]};
-    if (terms->friction >= 0 && state->slip[terms->friction] == stick) {
+                        .inverse = plan->inverse_inertia[coordinate],
+                        .c0 = equation->c0,
+                        .kq = equation->kq,
+                        .kv = equation->kv,
+                        .s = equation->s,
+                        .c = equation->c,
+                        .square = equation->square};
+    if (friction >= 0 && state->slip[friction] == stick) {
         row->function = held_row;
-        row->rate = plan->modes[terms->friction].surface_speed.constant;
+        row->rate = plan->modes[friction].surface_speed.constant;
         return;
     }
-    take_terms(plan, terms, row);
-    if (terms->friction >= 0) row->friction = constant_friction(plan, terms, state);
+    take_formulas(plan, equation, row);
+    row->friction = constant_friction(state, b);
     choose(row);
-}
-
-static bool is_pulled_particle(const struct model_body *body, const struct body_terms *terms)
-{
-    return body->kind == motion_particle && terms->forces.count == 0 && terms->potentials.count == 0;
-}
-
-/* Are there only springs without dampers at the particle, and one part of a formula? */
-static bool has_springs_alone(const struct plan *plan, const struct row *row)
-{
-    const struct link_term *link = plan->links + row->terms->links.first,
-                           *end = link + row->terms->links.count;
-    if (row->sloped || row->terms->drags.count > 0 || (row->formula_count > 0 && !row->one_part))
-        return false;
-    for (; link < end; link++)
-        if (link->damping != 0 || link->point.x != 0 || link->point.y != 0) return false;
-    return true;
-}
-
-static struct row row_of_particle(const struct rates *rates, int b)
-{
-    const struct fbd_model *model = rates->state->model;
-    const struct plan *plan = &model->plan;
-    const struct body_terms *terms = &plan->bodies[b];
-    int first = model->bodies[b].first;
-    struct row row = {.function = particle_row,
-                      .all = rates,
-                      .q = first,
-                      .v = plan->n + first,
-                      .inverse = plan->inverse_inertia[first],
-                      .terms = terms,
-                      .formulas = plan->formulas + terms->formulas.first,
-                      .formula_count = terms->formulas.count};
-    for (int i = terms->affine.first; i < terms->affine.first + terms->affine.count; i++) {
-        double *affine = row.x_and_y[plan->affine[i].slot - first];
-        affine[0] = plan->affine[i].c0;
-        affine[1] = plan->affine[i].kq;
-        affine[2] = plan->affine[i].kv;
-        row.sloped |= affine[1] != 0 || affine[2] != 0;
-    }
-    take_part(&row);
-    if (has_springs_alone(plan, &row)) {
-        row.function = springs_row;
-        row.springs = plan->links + terms->links.first;
-        row.spring_count = terms->links.count;
-        row.driven = row.one_part ? row.formulas->slot - first : 0;
-    }
-    return row;
-}
-
-static void bind_body(struct rates *rates, int b)
-{
-    const struct fbd_state *state = rates->state;
-    const struct model_body *body = &state->model->bodies[b];
-    const struct body_terms *terms = &state->model->plan.bodies[b];
-    struct row *next = &rates->rows[rates->count];
-    if (rates->kind == rates_by_rows && stands_by_itself(&state->model->plan, body, terms, state)) {
-        for (int k = 0; k < body->count; k++) set_row(rates, b, body->first + k, next++);
-    } else if (rates->kind == rates_by_rows && is_pulled_particle(body, terms)) {
-        *next++ = row_of_particle(rates, b);
-    } else {
-        *next++ = (struct row){.function = body_row, .all = rates, .q = b};
-    }
-    rates->count = (int)(next - rates->rows);
 }
 
 static struct row row_of_bare_tree(const struct rates *rates)
@@ -195,10 +126,31 @@ static struct row row_of_loop(const struct rates *rates)
                       .all = rates,
                       .links = &model->tree->links[1],
                       .loop = &state->tree->loop};
-    double a[3];
-    joint_forces(model, &at, state->slots, a);
+    force_slots(model, &at, state->slots);
     tree_loop_forces(row.loop, &at, state->slots, row.along);
     return row;
+}
+
+/* A row for each tree: false where one of them needs the recursion. */
+static bool bind_rows(struct rates *rates)
+{
+    const struct fbd_state *state = rates->state;
+    const struct fbd_model *model = state->model;
+    const struct tree *tree = model->tree;
+    if (rates->kind != rates_by_rows || state_sliding(state)) return false;
+    if (state->tree->is_loop) {
+        rates->rows[rates->count++] = row_of_loop(rates);
+        return true;
+    }
+    if (tree_is_bare(model))
+        rates->rows[rates->count++] = row_of_bare_tree(rates);
+    else if (tree_joins(tree) || model->names_places)
+        return false;
+    for (int i = tree->joined; i < tree->count; i++) {
+        if (!has_row(state, tree->links[i].body)) return false;
+        set_row(rates, tree->links[i].body, &rates->rows[rates->count++]);
+    }
+    return true;
 }
 
 void rates_bind(struct rates *rates)
@@ -209,16 +161,9 @@ void rates_bind(struct rates *rates)
         rates->rows[rates->count++] = (struct row){.function = no_row, .all = rates};
         return;
     }
-    bool free = rates->kind == rates_by_rows && !state_sliding(rates->state);
-    if (free && tree_is_bare(model)) {
-        rates->rows[rates->count++] = row_of_bare_tree(rates);
-    } else if (free && model->tree && rates->state->tree->is_loop) {
-        rates->rows[rates->count++] = row_of_loop(rates);
-    } else if (model->tree || model->names_places ||
-               state_sliding(rates->state)) { /* one row for all bodies */
+    if (!bind_rows(rates)) {
+        rates->count = 0;
         rates->rows[rates->count++] = (struct row){.function = whole_row, .all = rates};
-    } else {
-        for (int b = 0; b < (int)rates->state->model->body_count; b++) bind_body(rates, b);
     }
     if (model->plan.own > 0)
         rates->rows[rates->count++] = (struct row){.function = own_row, .all = rates, .q = 2 * model->plan.n};
@@ -226,7 +171,7 @@ void rates_bind(struct rates *rates)
 
 struct rates *rates_new(struct fbd_state *state, enum rates_kind kind)
 {
-    size_t most = (size_t)state->model->plan.n + 2; /* a body with a row has at least one coordinate */
+    size_t most = (size_t)state->model->plan.n + 2; /* each tree has at least one coordinate */
     struct rates *rates = block_alloc(sizeof *rates + most * sizeof *rates->rows);
     if (!rates) return NULL;
     rates->state = state;
@@ -261,12 +206,11 @@ struct rates_census rates_census(const struct rates *rates)
                      : function == steady_row                              ? &census.steady
                      : function == held_row                                ? &census.held
                      : function == affine_row                              ? &census.affine
-                     : function == sine_row || function == swing_row       ? &census.sine
-                     : function == part_row                                ? &census.parts
-                     : function == formulas_row                            ? &census.formulas
-                     : function == particle_row || function == springs_row ? &census.particles
-                     : rates->rows[i].links                                ? &census.bare
-                                                                           : &census.bodies;
+                     : function == sine_row || function == swing_row ? &census.sine
+                     : function == part_row                          ? &census.parts
+                     : function == formulas_row                      ? &census.formulas
+                     : rates->rows[i].links                          ? &census.bare
+                                                                     : &census.whole;
         (*count)++;
     }
     return census;

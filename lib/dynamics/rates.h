@@ -2,11 +2,11 @@
  *
  * Rates: the right-hand side that a stepper calls, built for one plan and one set of modes.
  *
- * Between two events the modes are fixed, and most coordinates have few terms: a block that slides down a
- * plane has a constant acceleration, a pendulum one sine. So each time the stepper starts, every independent
- * coordinate (diagonal mass matrix, no force at a point) becomes a row with a function for its terms only;
- * the friction of a mode is a number in it. Any other body is one row with all stages of forward.h. The
- * right-hand side is the rows; a single row is called directly.
+ * Between two events the modes are fixed, and most coordinates of bodies that stand alone have few terms: a block
+ * that slides down a plane has a constant acceleration, a pendulum one sine. So each time the stepper starts, every
+ * scalar equation (plan.h) becomes a row with a function for its terms only; the friction of a mode is a number in
+ * it. Jointed bodies are one row. Where a tree has neither form, all bodies are one row, by forward.h. A single row
+ * is called directly.
  *
  *   row          dv/dt                                                  for
  *   steady       a                                                      terms and friction constant
@@ -15,12 +15,12 @@
  *   sine         (... + s sin q + c cos q - F) / m
  *   parts        (... + scale (sum of c u^k, c sin(w u + p)) - F) / m   one formula of this shape (expr/parts.h)
  *   formulas     (... + sum of scale f(t, q, v) - F) / m
- *   body         the stages of forward.h                                all others
  *   bare tree    tree_bare.h                                            pivots under gravity and the like
  *   loop         tree_loop.h                                            slider-cranks, four-bars
+ *   whole        forward.h                                              all others
  *   own          z' = f(t, q, v, z)                                     user states
  *
- * Each row adds in the order of forces.c and multiplies by the same 1/m: the bits are those of state_rates.
+ * All agree with state_rates to within rounding.
  */
 #ifndef FBD_DYNAMICS_RATES_H
 #define FBD_DYNAMICS_RATES_H
@@ -51,7 +51,7 @@ struct fbd_state *rates_state(void *params);
 
 /* The number of rows of each kind. */
 struct rates_census {
-    int steady, held, affine, sine, parts, formulas, particles, own, bare, bodies;
+    int steady, held, affine, sine, parts, formulas, own, bare, whole;
 };
 
 struct rates_census rates_census(const struct rates *rates);

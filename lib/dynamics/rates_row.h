@@ -12,7 +12,7 @@
 struct row {
     rates_function *function;
     const struct rates *all;
-    int q, v;       /* indices of the coordinate and its rate in y; of a body's row, `q` is the body */
+    int q, v;       /* indices of the coordinate and its rate in y */
     double inverse; /* 1/m, 1/I_O or 1/I_G */
     double c0, kq, kv;
     double s, c;
@@ -21,12 +21,7 @@ struct row {
     double rate, steady; /* held: dx/dt; steady: dv/dt */
     const struct formula_term *formulas;
     int formula_count;
-    double x_and_y[2][3]; /* particle: c0, kq, kv along x and y, */
-    bool sloped;          /* if these are not constant */
-    const struct body_terms *terms;
-    const struct link_term *springs; /* the springs of a springs_row, */
-    int spring_count, driven;        /* and the axis of its formula */
-    double scale;                    /* of a single formula with one part */
+    double scale; /* of a single formula with one part */
     struct expr_part part;
     int u; /* its variable in y, -1 for t */
     bool one_part;
@@ -45,7 +40,7 @@ struct rates {
 };
 
 rates_function steady_row, held_row, no_row, affine_row, sine_row, swing_row, part_row, formulas_row,
-    particle_row, springs_row, body_row, whole_row, bare_row, pole_row, two_pivots_row, three_pivots_row,
+    whole_row, bare_row, pole_row, two_pivots_row, three_pivots_row,
     loop_row, driven_loop_row, own_row, all_rows;
 
 #endif

@@ -45,7 +45,7 @@ static void read_reactions(const struct rest_system *system, const double *slots
 {
     const struct fbd_model *model = system->state->model;
     const struct instant at = system->at;
-    for (int i = 1; model->tree && i < model->tree->count; i++) {
+    for (int i = 1; i < model->tree->count; i++) {
         const struct tree_link *link = &model->tree->links[i];
         const struct tree_state *s = &system->state->tree->links[i];
         const double *g = slots + link->coordinate;
@@ -79,7 +79,7 @@ static void set_columns(struct rest_system *system)
 {
     const struct fbd_model *model = system->state->model;
     double *Q = system->Q, *r = system->r, *slots = system->forces;
-    size_t bytes = (size_t)(model->tree ? model->tree->row_count : 0) * sizeof *system->lambda;
+    size_t bytes = (size_t)model->tree->row_count * sizeof *system->lambda;
     for (size_t j = 0; j < system->m; j++) {
         memset(system->lambda, 0, bytes);
         add_to_row(system, j, 1);

@@ -332,9 +332,9 @@ void sliding_shift(struct sliding *s, int unit, double by)
  * couplings. */
 static void clear_rounding(const struct fbd_model *model, const struct instant *at, bool along, double *a)
 {
-    const double rounding = 8 * (model->tree ? model->tree->count : 1) * DBL_EPSILON;
+    const double rounding = 8 * model->tree->joined * DBL_EPSILON;
     const struct sliding *s = at->sliding;
-    const double *coupled = model->tree ? tree_rounding(model, at, along) : NULL;
+    const double *coupled = tree_joins(model->tree) ? tree_rounding(model, at, along) : NULL;
     for (int i = 0; i < model->plan.n && !s->failed; i++) {
         double reach = 0;
         for (int unit = 0; unit < s->units; unit++) {

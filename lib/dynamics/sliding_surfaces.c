@@ -69,7 +69,7 @@ bool question_gather(struct question *q, const struct decided *decided)
 static bool has_couplings(const struct question *q)
 {
     const struct tree *tree = q->state->model->tree;
-    return tree && tree->coupling_count > 0;
+    return tree->coupling_count > 0;
 }
 
 /* Project unit velocities in the present modes. False when memory is out. */

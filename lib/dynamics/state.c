@@ -12,7 +12,6 @@ static void share_out(struct fbd_state *state, double *slots)
     struct arena arena = {0};
     struct rest_system system;
     struct instant at = state_instant(state);
-    if (!state->tree) return;
     state->tree->shared = true;
     state->tree->shared_size = 0;
     if (!rest_is_open(state->model, &at)) return;
@@ -26,7 +25,7 @@ void state_evaluate_unshared(struct fbd_state *state)
 {
     struct instant at = state_instant(state);
     accelerations(state->model, &at, state->slots, state->a);
-    if (state->tree) tree_complete(state->model, state->tree);
+    tree_complete(state->model, state->tree);
     if (state->extended) world_refs_write(state->model, &at, state->y);
     if (state->model->plan.own > 0) user_state_rates(state->model, &at, state->a + state->model->plan.n);
 }
@@ -37,9 +36,9 @@ void state_evaluate(struct fbd_state *state)
     share_out(state, state->slots);
 }
 
-void state_balance_of(struct fbd_state *state, int b, double *slots)
+void state_balance(struct fbd_state *state, double *slots)
 {
     struct instant at = state_instant(state);
-    force_balance_of(state->model, b, &at, slots);
-    if (state->model->bodies[b].place.link > 0) share_out(state, slots);
+    force_balance(state->model, &at, slots);
+    share_out(state, slots);
 }

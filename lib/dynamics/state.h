@@ -39,7 +39,7 @@ struct fbd_state {
     double *scratch;         /* see struct scratch */
     double *extended;        /* scratch of world_refs.h */
     struct sliding *sliding; /* NULL if no switch can have a sliding mode */
-    struct tree_work *tree;  /* of the jointed bodies, by state_evaluate; NULL when there are none */
+    struct tree_work *tree;  /* of the bodies, by state_evaluate */
 };
 
 /* Parts of the scratch of a state: none of them outlives a call. */
@@ -138,7 +138,7 @@ void state_evaluate(struct fbd_state *state);
 /* The same with any solution for indeterminate reactions, if no force is read. */
 void state_evaluate_unshared(struct fbd_state *state);
 
-/* Right after state_evaluate: force_balance_of body b with the chosen reactions. */
-void state_balance_of(struct fbd_state *state, int b, double *slots);
+/* Right after state_evaluate: force_balance with the chosen reactions. */
+void state_balance(struct fbd_state *state, double *slots);
 
 #endif

@@ -28,17 +28,15 @@ struct fbd_state *state_allocate(const struct fbd_model *model)
     size_t extra = model->absolute_count > 0 ? 2 * extended : 0;
     size_t doubles = extended + rates + (size_t)plan->slots + scratch_size(plan) + extra;
     size_t ints = 2 * (size_t)plan->branches + 8 * plan->mode_count;
-    size_t tree = model->tree ? sizeof(struct tree_work) + tree_work_size(model) : 0;
+    size_t tree = sizeof(struct tree_work) + tree_work_size(model);
     size_t sliding = plan->slide_count > 0 ? sizeof(struct sliding) + sliding_size(model) : 0;
     struct fbd_state *state =
         block_alloc(sizeof *state + tree + sliding + doubles * sizeof(double) + ints * sizeof(int));
     if (!state) return NULL;
     state->model = model;
     char *behind = (char *)(state + 1);
-    if (model->tree) {
-        state->tree = (void *)behind;
-        tree_work_init(state->tree, model, behind + sizeof *state->tree);
-    }
+    state->tree = (void *)behind;
+    tree_work_init(state->tree, model, behind + sizeof *state->tree);
     if (sliding > 0) {
         state->sliding = (void *)(behind + tree);
         sliding_init(state->sliding, model, behind + tree + sizeof *state->sliding);
@@ -65,8 +63,15 @@ struct fbd_state *state_allocate(const struct fbd_model *model)
 
 void state_free(struct fbd_state *state)
 {
-    if (state && state->tree) rest_memo_free(state->tree->memo);
+    if (state) rest_memo_free(state->tree->memo);
     free(state);
+}
+
+/* Links that stand alone are few numbers; those of jointed bodies are left to the next evaluation. */
+static void copy_alone(const struct tree *tree, struct tree_work *to, const struct tree_work *from)
+{
+    const size_t first = (size_t)tree->joined, count = (size_t)tree->count - first;
+    if (count > 0) memcpy(to->links + first, from->links + first, count * sizeof *to->links);
 }
 
 void state_copy(struct fbd_state *to, const struct fbd_state *from)
@@ -79,7 +84,8 @@ void state_copy(struct fbd_state *to, const struct fbd_state *from)
     memcpy(to->y, from->y, (size_t)(from->scratch - from->y) * sizeof *to->y); /* with a and slots */
     if (modes > 0) memcpy(to->branch, from->branch, modes * sizeof *to->branch);
     if (to->sliding) sliding_copy(from->model, to->sliding, from->sliding);
-    if (to->tree && from->model->tree->coupling_count > 0)
+    copy_alone(from->model->tree, to->tree, from->tree);
+    if (from->model->tree->coupling_count > 0)
         memcpy(to->tree->couplings, from->tree->couplings, coupling_bytes(from->model));
 }
 

@@ -15,7 +15,7 @@
 static void let_slots_slip(struct fbd_state *state)
 {
     const struct tree *tree = state->model->tree;
-    for (int i = 0; tree && i < tree->coupling_count; i++)
+    for (int i = 0; i < tree->coupling_count; i++)
         if (tree->couplings[i].kind == constraint_groove) state->slip[tree->couplings[i].pair] = slip_plus;
 }
 
@@ -47,7 +47,7 @@ struct fbd_state *state_new_from(const struct fbd_model *model, const struct sta
         memcpy(state->branch, start->branch, (size_t)model->plan.branches * sizeof *state->branch);
     modes_drive(state);
     state_start_constraints(state);
-    if (state->tree) couplings_keep(state, start->couplings);
+    couplings_keep(state, start->couplings);
     contacts_start(state);
     return state;
 }

@@ -109,13 +109,12 @@ void rest_forces(const struct fbd_model *model, const struct instant *given, con
     memset(slots, 0, (size_t)model->plan.slots * sizeof *slots);
     if (loads) force_slots(model, &at, slots);
     memcpy(Q, slots, (size_t)model->plan.n * sizeof *Q);
-    if (model->tree) {
-        transmit(model, &at, lambda, loads);
-        for (int i = 1; i < model->tree->count; i++)
-            leave_over(&model->tree->links[i], &at.tree->links[i], slots, Q);
-        tree_slots(model, &at, slots);
-        if (!loads) drop_preloads(model->tree, slots);
-    }
+    transmit(model, &at, lambda, loads);
+    for (int i = 1; i < model->tree->count; i++)
+        leave_over(&model->tree->links[i], &at.tree->links[i], slots, Q);
+    tree_slots(model, &at, slots);
+    tree_alone_slots(model, &at, slots);
+    if (!loads) drop_preloads(model->tree, slots);
     add_slipping(model, &at, slots, loads, Q);
     if (loads) stand_still(model, &at, slots);
 }

@@ -57,7 +57,6 @@ bool rest_begin(struct fbd_state *state)
         state->slip[pair] =
             mode_is_one_sided(mode) ? (int)one_sided_at_rest(state, pair) : (int)slip_at_rest(mode, &at);
     }
-    if (!model->tree) return true;
     for (int i = 0; i < model->tree->count; i++) {
         state->tree->links[i].locked = false;
         state->tree->links[i].A = (struct acceleration){0, {0, 0}};

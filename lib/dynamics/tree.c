@@ -114,6 +114,24 @@ static void set_strands(const struct fbd_model *model, const struct tree_work *w
     for (int k = 0; k < 2; k++) slots[model->tree->couplings[index].slack_slot[k]] = -tension[k];
 }
 
+void tree_alone_slots(const struct fbd_model *model, const struct instant *at, double *slots)
+{
+    const struct tree *tree = model->tree;
+    const struct tree_work *work = at->tree;
+    for (int k = 0; k < tree->watched_count; k++) {
+        int i = tree->watched[k];
+        const struct tree_link *link = &tree->links[i];
+        const struct tree_state *s = &work->links[i];
+        if (!link_is_alone(tree, i)) continue;
+        if (link->normal_slot >= 0)
+            slots[link->normal_slot] = -vec_dot(tree_normal(tree, work, i), work->x[i].p.force);
+        if (link->pair < 0) continue;
+        const struct mode *mode = &model->plan.modes[link->pair];
+        double inertial = s->locked ? mode->inertia * s->held : 0; /* part of the wrench of a locked joint */
+        slots[mode->hold_slot] = slots[link->coordinate] - joint_share(link, s, work->x[i].p) + inertial;
+    }
+}
+
 void tree_slots(const struct fbd_model *model, const struct instant *at, double *slots)
 {
     const struct tree *tree = model->tree;
@@ -122,6 +140,7 @@ void tree_slots(const struct fbd_model *model, const struct instant *at, double 
         int i = tree->watched[k];
         const struct tree_link *link = &tree->links[i];
         const struct tree_state *s = &work->links[i];
+        if (link_is_alone(tree, i)) continue;
         if (link->normal_slot >= 0)
             slots[link->normal_slot] = -vec_dot(tree_normal(tree, work, i), s->F.force);
         if (link->pair < 0) continue;
@@ -159,7 +178,22 @@ static void lock(const struct fbd_model *model, const struct instant *at)
     }
 }
 
-/* Set the generalized forces in the joints, including the moments of dry friction in bearings. */
+/* The force of kinetic friction along the joint of link i; a slide must stand alone, so that its normal force is
+ * that of the applied forces. */
+static double kinetic_friction(const struct fbd_model *model, const struct instant *at, int i)
+{
+    const struct tree_link *link = &model->tree->links[i];
+    const int side = slip_side(at->slip[link->pair]);
+    double mu = formula_value(&model->plan.modes[link->pair].mu_k, at), press = 1;
+    if (side == 0) return 0;
+    if (model->plan.modes[link->pair].normal_slot >= 0) {
+        double N = vec_dot(tree_normal(model->tree, at->tree, i), at->tree->x[i].p.force);
+        press = fmax(0, at->pull[link->pair] * N);
+    }
+    return -side * mu * press;
+}
+
+/* Set the generalized forces in the joints, including dry friction in bearings and of links that stand alone. */
 static void set_joint_forces(const struct fbd_model *model, const struct instant *at, const double *slots)
 {
     const struct tree *tree = model->tree;
@@ -177,9 +211,9 @@ static void set_joint_forces(const struct fbd_model *model, const struct instant
     }
     for (int k = 0; k < tree->watched_count; k++) {
         const struct tree_link *link = &tree->links[tree->watched[k]];
-        if (link->pair < 0 || link->kind != motion_pivot || at->slip[link->pair] == stick) continue;
-        x[tree->watched[k]].g -=
-            slip_side(at->slip[link->pair]) * formula_value(&model->plan.modes[link->pair].mu_k, at);
+        bool decoupled = link->kind == motion_pivot || link_is_alone(tree, tree->watched[k]);
+        if (link->pair >= 0 && decoupled && at->slip[link->pair] != stick)
+            x[tree->watched[k]].g += kinetic_friction(model, at, tree->watched[k]);
     }
 }
 
@@ -298,6 +332,7 @@ void tree_accelerations(const struct fbd_model *model, const struct instant *at,
         add_accelerations(tree, work);
     else
         tree_complete(model, work);
+    if (!work->rates_only) tree_alone_slots(model, at, slots);
     if (tree->coupling_count > 0 || tree_slips(tree, at)) close_system(model, at, a);
     bool holds = false;
     for (int k = 0; k < tree->watched_count; k++) {

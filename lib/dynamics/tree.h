@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Dynamics of the jointed bodies: the articulated-body recursion (Featherstone, Rigid Body Dynamics
+ * Dynamics of the bodies: the articulated-body recursion (Featherstone, Rigid Body Dynamics
  * Algorithms, section 7.3) in three sweeps over the links, with time and memory proportional to their number.
  *
  *   outward  position and velocity of each link, its acceleration for zero joint accelerations (the bias), and
@@ -14,7 +14,7 @@
  *
  * A sticking joint is rigid: its acceleration is that of its surface. The friction of a slipping one, f =
  * -slip mu_k N, depends on the force N across the slide, which depends on f again: N = N_0 + A f over all
- * slipping slides of the tree, a small linear system.
+ * slipping slides of the tree, a small linear system. On a slide that stands alone A is zero.
  */
 #ifndef FBD_DYNAMICS_TREE_H
 #define FBD_DYNAMICS_TREE_H
@@ -122,7 +122,7 @@ struct tree_work {
 size_t tree_work_size(const struct fbd_model *model);
 void tree_work_init(struct tree_work *work, const struct fbd_model *model, void *memory);
 
-/* Compute the accelerations of the jointed bodies, a[n], from the generalized forces in the joints, slots[n].
+/* Compute the accelerations of all bodies, a[n], from the generalized forces in the joints, slots[n].
  * The slots behind receive minus the normal forces and minus the forces of sticking friction, as friction_at
  * expects. Further results are in at->tree. */
 void tree_accelerations(const struct fbd_model *model, const struct instant *at, double *slots, double *a);
@@ -137,7 +137,10 @@ void tree_rest(const struct fbd_model *model, const struct instant *at, bool alo
 /* After tree_accelerations: set A of the links to their accelerations, and F to the wrenches of their joints. */
 void tree_complete(const struct fbd_model *model, struct tree_work *work);
 
-/* Compute the slots behind the n again from complete results; slots[n] hold the forces in the joints. */
+/* Compute the slots behind the n again from complete results; slots[n] hold the forces in the joints. Not those of
+ * links that stand alone, whose slots are the sums of the applied forces, across and along the line, in each mode;
+ * they result from the wrenches x.p, see below. */
+void tree_alone_slots(const struct fbd_model *model, const struct instant *at, double *slots);
 void tree_slots(const struct fbd_model *model, const struct instant *at, double *slots);
 
 /* The variation of tree_accelerations along a direction, at the same instant and right after it. On entry
@@ -146,7 +149,7 @@ void tree_accelerations_along(const struct fbd_model *model, const struct instan
                               const struct direction *along, const double *slots, const double *a,
                               double *slots_along, double *a_along);
 
-/* The acceleration of a point of a jointed body, of its centre of mass, and its angular one, when complete. */
+/* The acceleration of a point of a body, of its centre of mass, and its angular one, when complete. */
 struct vec tree_point_acceleration(const struct model_body *body, struct vec place, const struct instant *at);
 struct vec tree_mass_center_acceleration(const struct model_body *body, const struct instant *at);
 double tree_angular_acceleration(const struct model_body *body, const struct instant *at);

@@ -36,6 +36,22 @@ static void vary_arms(const struct tree *tree, struct tree_work *work)
         work->x[tree->links[i].parent].p.moment += vec_cross(work->variation[i].d, work->links[i].F.force);
 }
 
+/* The variation of kinetic friction in a bearing, or on a slide that stands alone, whose directions are constant. */
+static double kinetic_friction_along(const struct fbd_model *model, const struct instant *at,
+                                     const struct direction *along, int i, const double *slots)
+{
+    const struct tree *tree = model->tree;
+    const struct mode *mode = &model->plan.modes[tree->links[i].pair];
+    const int side = at->slip[tree->links[i].pair];
+    double d_mu, mu = formula_along(&mode->mu_k, at, along, &d_mu), press = 1, d_press = 0;
+    if (mode->normal_slot >= 0) {
+        const int pull = at->pull[tree->links[i].pair];
+        press = fmax(0, -pull * slots[mode->normal_slot]);
+        d_press = pull * vec_dot(tree_normal(tree, at->tree, i), at->tree->x[i].p.force);
+    }
+    return -side * (d_mu * press + mu * d_press);
+}
+
 /* The forces in the joints vary, and so do their directions. */
 static void vary_joint_forces(const struct fbd_model *model, const struct instant *at,
                               const struct direction *along, const double *slots, const double *slots_along)
@@ -57,10 +73,9 @@ static void vary_joint_forces(const struct fbd_model *model, const struct instan
     }
     for (int k = 0; k < tree->watched_count; k++) {
         const struct tree_link *link = &tree->links[tree->watched[k]];
-        if (link->pair < 0 || link->kind != motion_pivot || at->slip[link->pair] == stick) continue;
-        double d_mu;
-        formula_along(&model->plan.modes[link->pair].mu_k, at, along, &d_mu);
-        work->x[tree->watched[k]].g -= at->slip[link->pair] * d_mu;
+        bool decoupled = link->kind == motion_pivot || link_is_alone(tree, tree->watched[k]);
+        if (link->pair >= 0 && decoupled && at->slip[link->pair] != stick)
+            work->x[tree->watched[k]].g += kinetic_friction_along(model, at, along, tree->watched[k], slots);
     }
 }
 
@@ -90,6 +105,20 @@ static double friction_along_base(const struct fbd_model *model, const struct in
     return -at->slip[pair] * at->pull[pair] * (mu * dN + d_mu * N);
 }
 
+/* On a link that stands alone: the variations of the applied forces across and along its joint (tree_alone_slots). */
+static void add_applied(const struct fbd_model *model, const struct instant *at, int i, double *slots_along)
+{
+    const struct tree_link *link = &model->tree->links[i];
+    const struct tree_state *s = &at->tree->links[i];
+    if (link->normal_slot >= 0)
+        slots_along[link->normal_slot] -= vec_dot(tree_normal(model->tree, at->tree, i), at->tree->x[i].p.force);
+    if (link->pair < 0) return;
+    const struct mode *mode = &model->plan.modes[link->pair];
+    double d = joint_share(link, s, at->tree->x[i].p);
+    if (s->locked) d -= mode->inertia * at->tree->variation[i].held;
+    slots_along[mode->hold_slot] += slots_along[link->coordinate] - d;
+}
+
 /* Add the solution to the slots behind the n. `first`: also the parts that are independent of solutions. */
 static void add_slots(const struct fbd_model *model, const struct instant *at, bool first,
                       double *slots_along)
@@ -100,6 +129,10 @@ static void add_slots(const struct fbd_model *model, const struct instant *at, b
         int i = tree->watched[k];
         const struct tree_link *link = &tree->links[i];
         const struct tree_state *s = &work->links[i];
+        if (link_is_alone(tree, i)) {
+            if (first) add_applied(model, at, i, slots_along);
+            continue;
+        }
         if (link->normal_slot >= 0)
             slots_along[link->normal_slot] -=
                 normal_along(tree, work, i) + (first ? normal_turned(tree, work, i) : 0);

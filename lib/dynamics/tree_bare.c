@@ -7,17 +7,9 @@
 
 /* ---- conditions */
 
-static bool acts_in_joints_alone(const struct fbd_model *model, int b)
-{
-    const struct body_terms *terms = &model->plan.bodies[b];
-    return model->bodies[b].place.link > 0 && terms->sine.count == 0 && terms->square.count == 0 &&
-           terms->formulas.count == 0 && terms->potentials.count == 0 && !terms->at_points &&
-           terms->across.count == 0 && terms->friction < 0 && terms->offset < 0;
-}
-
 bool tree_is_in_chains(const struct tree *tree)
 {
-    for (int i = 1; i < tree->count; i++) {
+    for (int i = 1; i < tree->joined; i++) {
         const struct tree_link *link = &tree->links[i];
         bool slides = link->kind == motion_slide && link->parent == 0, chained = link->parent == i - 1;
         if (!(link->kind == motion_pivot || slides) || !(chained || link->parent == 0)) return false;
@@ -28,10 +20,10 @@ bool tree_is_in_chains(const struct tree *tree)
 bool tree_is_bare(const struct fbd_model *model)
 {
     const struct tree *tree = model->tree;
-    if (!tree || tree->loaded || tree->watched_count + tree->coupling_count > 0 || model->plan.mode_count > 0)
-        return false;
-    for (int k = 0; k < tree->acting_count; k++)
-        if (!acts_in_joints_alone(model, tree->acting[k])) return false;
+    const struct plan *plan = &model->plan;
+    if (!tree_joins(tree) || tree->loaded || tree->coupling_count + tree->joined_watched > 0) return false;
+    for (size_t i = 0; i < plan->potential_count; i++)
+        if (!model->bodies[model->scene->coordinates[plan->potentials[i].coordinate].body].alone) return false;
     return tree_is_in_chains(tree);
 }
 
@@ -85,15 +77,10 @@ static inline struct trajectory set_out(const struct tree_link *link, const stru
 static void set_joint_forces(const struct fbd_model *model, const double *y, struct tree_bare *links)
 {
     const struct plan *plan = &model->plan;
-    const struct tree *tree = model->tree;
-    for (int k = 0; k < tree->acting_count; k++) {
-        const struct body_terms *terms = &plan->bodies[tree->acting[k]];
-        double *g = &links[model->bodies[tree->acting[k]].place.link].g;
-        const struct affine_term *term = plan->affine + terms->affine.first;
-        *g = 0;
-        for (int i = 0; i < terms->affine.count; i++, term++)
-            *g += term->c0 - term->kq * y[term->coordinate] - term->kv * y[plan->n + term->coordinate];
-    }
+    const struct affine_term *term = plan->affine, *end = term + plan->affine_count;
+    for (; term < end; term++)
+        links[term->link].g =
+            term->c0 - term->kq * y[term->coordinate] - term->kv * y[plan->n + term->coordinate];
 }
 
 /* ---- inward: inertia and wrench passed to the previous link, about its O */
@@ -188,16 +175,16 @@ static void any_chain(const struct tree_link *links, struct tree_bare *s, int co
 enum tree_form tree_bare_form(const struct fbd_model *model)
 {
     const struct tree *tree = model->tree;
-    bool alone = tree->acting_count == 0 && tree->links[1].end == tree->count;
-    return alone ? tree_form_of(&tree->links[1], tree->count - 1) : tree_form_none;
+    bool one = model->plan.affine_count == 0 && tree->links[1].end == tree->count;
+    return one ? tree_form_of(&tree->links[1], tree->count - 1) : tree_form_none;
 }
 
 void tree_bare_rates(const struct fbd_model *model, struct tree_work *work, const double *y, double *dydt)
 {
     const struct tree *tree = model->tree;
     const int n = model->plan.n;
-    if (tree->acting_count > 0) set_joint_forces(model, y, work->bare);
+    if (model->plan.affine_count > 0) set_joint_forces(model, y, work->bare);
     for (int i = 0; i < n; i++) dydt[i] = y[n + i];
-    for (int i = 1; i < tree->count; i = tree->links[i].end)
+    for (int i = 1; i < tree->joined; i = tree->links[i].end)
         any_chain(&tree->links[i], &work->bare[i], tree->links[i].end - i, y, y + n, dydt + n);
 }

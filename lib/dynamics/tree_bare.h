@@ -25,7 +25,7 @@ struct tree_bare {
 /* Does it consist of such chains, with any loads? */
 bool tree_is_in_chains(const struct tree *tree);
 
-/* Are there only such loads, no couplings, and no other bodies in the scene? */
+/* Do the jointed bodies consist of such chains, with only such loads and no couplings? */
 bool tree_is_bare(const struct fbd_model *model);
 
 enum tree_form { tree_form_none, tree_form_pole, tree_form_two_pivots, tree_form_three_pivots };

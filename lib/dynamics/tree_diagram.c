@@ -55,12 +55,12 @@ double tree_angular_acceleration(const struct model_body *body, const struct ins
 struct vec surface_normal(const struct fbd_model *model, const struct model_body *body,
                           const struct instant *at)
 {
-    return body->place.link > 0 ? tree_normal(model->tree, at->tree, body->place.link) : body->n;
+    return tree_normal(model->tree, at->tree, body->place.link);
 }
 
 bool tree_has_more(const struct model_body *body)
 {
-    if (body->kind == motion_pivot) return body->place.link > 0 && body->parent != ground_body;
+    if (body->kind == motion_pivot) return body->parent != ground_body;
     return body->kind == motion_track && body->source->motion.turns && (body->inertia.I_G > 0 || body->L > 0);
 }
 
@@ -171,7 +171,7 @@ static size_t fill_couplings(const struct fbd_model *model, int b, const struct 
 /* Names of ends are unique. */
 int rope_load(const struct fbd_model *model, int b, const struct arrow *arrow)
 {
-    for (int i = 0; model->tree && i < model->tree->coupling_count; i++) {
+    for (int i = 0; i < model->tree->coupling_count; i++) {
         const struct coupling *coupling = &model->tree->couplings[i];
         if (coupling->kind != constraint_rope) continue;
         for (int k = 0; k < coupling->end_count; k++)

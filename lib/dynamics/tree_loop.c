@@ -102,21 +102,13 @@ static bool close_loop(const struct tree *tree, struct tree_loop *loop)
     return true;
 }
 
-static bool acts_steadily(const struct plan *plan, int b)
-{
-    const struct body_terms *terms = &plan->bodies[b];
-    const struct affine_term *term = plan->affine + terms->affine.first, *end = term + terms->affine.count;
-    for (; term < end; term++)
-        if (term->kq != 0 || term->kv != 0) return false;
-    return terms->sine.count + terms->square.count + terms->formulas.count + terms->potentials.count == 0;
-}
-
 bool tree_loop_is_steady(const struct fbd_model *model)
 {
     const struct tree *tree = model->tree;
-    for (int k = 0; k < tree->acting_count; k++)
-        if (!acts_steadily(&model->plan, tree->acting[k])) return false;
-    return tree->force_count + tree->moment_count == 0;
+    const struct plan *plan = &model->plan;
+    for (size_t i = 0; i < plan->affine_count; i++)
+        if (plan->affine[i].kq != 0 || plan->affine[i].kv != 0) return false;
+    return plan->potential_count + tree->force_count + tree->moment_count == 0;
 }
 
 /* Expressions with positions in the world or accelerations need the tree. */

@@ -119,7 +119,7 @@ void tree_pivots(const struct fbd_model *model, const struct instant *at, const 
     work->x[0].p = (struct wrench){0, {0, 0}};
     work->x[0].A = (struct acceleration){0, {0, 0}};
     sweep_courses(model, at, slots);
-    if (model->tree->loaded) tree_load(model->tree, at);
+    tree_load(model->tree, at);
     sweep_inward(model->tree, work);
     sweep_outward(model->tree, work, a);
 }

@@ -80,7 +80,7 @@ bool tree_give_shared(struct fbd_state *state, int pair, struct decided *decided
 {
     struct arena arena = {0};
     struct rest_margin margin;
-    if (!state->tree) return false; /* independent bodies have no redundant loads */
+    if (!tree_joins(state->model->tree)) return false; /* bodies that stand alone have no redundant loads */
     struct scratch scratch = state_scratch(state);
     struct direction flow = tree_evaluate(state);
     struct instant at = state_instant(state);

@@ -105,13 +105,13 @@ struct instant instant_extend(const struct fbd_model *model, const struct instan
     if (!model->names_places) return extended;
     if (at->y != at->extended) memcpy(at->extended, at->y, plan_size(&model->plan) * sizeof *at->extended);
     extended.y = at->extended;
-    if (model->tree) tree_move(model, &extended);
+    tree_move(model, &extended);
     world_refs_write(model, &extended, at->extended);
     return extended;
 }
 
-/* The variation of a point of a jointed body. */
-static struct motion_of_point jointed_along(const struct model_body *body, const struct instant *at,
+/* The variation of a point. */
+static struct motion_of_point point_along(const struct model_body *body, const struct instant *at,
                                             struct vec point)
 {
     const struct tree_state *s = &at->tree->links[body->place.link];
@@ -133,15 +133,8 @@ static double varied(const struct fbd_model *model, const struct model_absolute 
         return variation;
     }
     if (absolute->kind == absolute_mass_rate) return body_mass_rate_along(model, body, at, along);
-    if (body->place.link > 0) {
-        const struct tree_variation *d = &at->tree->variation[body->place.link];
-        return choose(absolute->kind, jointed_along(body, at, absolute->point), d->angle, d->omega);
-    }
-    struct pose pose = body_pose(body, at);
-    int turn = body_angle_coordinate(body);
-    double d_angle = turn >= 0 ? along->dy[turn] : 0,
-           d_omega = turn >= 0 ? along->dy[model->plan.n + turn] : 0;
-    return choose(absolute->kind, point_variation(body, &pose, absolute->point, along), d_angle, d_omega);
+    const struct tree_variation *d = &at->tree->variation[body->place.link];
+    return choose(absolute->kind, point_along(body, at, absolute->point), d->angle, d->omega);
 }
 
 struct direction direction_extend(const struct fbd_model *model, const struct instant *at,
@@ -151,7 +144,7 @@ struct direction direction_extend(const struct fbd_model *model, const struct in
     size_t size = plan_size(&model->plan);
     double *dy = at->extended + extended_size(model);
     if (along->dy != dy) memcpy(dy, along->dy, size * sizeof *dy);
-    if (model->tree) tree_move_along(model, at, along);
+    tree_move_along(model, at, along);
     const struct direction extended = {along->dt, dy};
     for (int rates = 0; rates < 2; rates++) /* rates of masses depend on all others */
         for (size_t k = 0; k < model->absolute_count; k++)

@@ -450,7 +450,7 @@ void emit_bodies(struct emitter *emitter)
         writer.terms = ARENA_ARRAY(&emitter->arena, (size_t)model->plan.slots, struct slot_terms);
         for (int i = 0; writer.terms && i < body->load_count; i++) {
             const struct model_load *load = &model->loads[body->first_load + i];
-            if (body->place.link > 0)
+            if (!body->alone)
                 add_joint_load(&writer, load);
             else
                 add_own_load(&writer, load);

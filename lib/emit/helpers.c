@@ -69,7 +69,7 @@ static struct helper_features features_of(const struct fbd_model *model)
 {
     const struct plan *plan = &model->plan;
     return (struct helper_features){plan->mode_count > 0, plan->branches > 0, plan->contact_count > 0,
-                                    plan->watch_count > 0, model->tree != NULL};
+                                    plan->watch_count > 0, tree_joins(model->tree)};
 }
 
 /* Goes backward, since later helpers call earlier ones. */

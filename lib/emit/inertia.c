@@ -262,7 +262,7 @@ void emit_inertias(struct emitter *emitter)
         text_printf(&emitter->derive, "    c->%s.pin = %s;\n", name,
                     emit_vector(emitter, emit_join(emitter, name, "point"), body->pin,
                                 (struct emit_origin){source->motion.at, "point", DIM_LENGTH, (int)b}));
-        if (body->place.link > 0) continue;
+        if (!body->alone) continue;
         text_printf(&emitter->derive,
                     "    c->%s.I_O = c->%s.I_G + c->%s.mass*vec_square(vec_sub(c->%s.G, c->%s.pin));\n", name,
                     name, name, name, name);

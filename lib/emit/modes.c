@@ -184,7 +184,8 @@ static const char *pair_normal(struct emitter *emitter, int pair)
 
 static const char *pair_hold(struct emitter *emitter, int pair)
 {
-    return emitter->slot[mode_of(emitter, pair)->hold_slot];
+    const struct mode *mode = mode_of(emitter, pair);
+    return emitter->slot[mode->kind == mode_single ? mode->coordinate : mode->hold_slot];
 }
 
 static const char *pair_drive(struct emitter *emitter, int pair)

@@ -126,7 +126,7 @@ static const char *angle_of(struct emitter *emitter, const struct model_absolute
 {
     const struct model_body *body = &emitter->model->bodies[absolute->body];
     const char *name = emitter->body[absolute->body];
-    if (body->place.link > 0) return emit_printf(emitter, "l.%s.angle + c->%s.place.angle", link, name);
+    if (!body->alone) return emit_printf(emitter, "l.%s.angle + c->%s.place.angle", link, name);
     if (body->kind == motion_slide) return emit_printf(emitter, "c->%s.along", name);
     if (body->kind == motion_particle) return "0";
     return emit_printf(emitter, "y[%s]", emitter->coordinate[body->first + body->count - 1]);
@@ -151,7 +151,7 @@ static const char *one_place(struct emitter *emitter, size_t k, struct text *lin
     if (absolute->kind == absolute_slip) return slip_of(emitter, absolute);
     const struct absolute *source = &emitter->model->scene->absolutes[k];
     const char *link =
-        body->place.link > 0 ? emitter->body[emitter->model->tree->links[body->place.link].body] : "";
+        !body->alone ? emitter->body[emitter->model->tree->links[body->place.link].body] : "";
     if (absolute->kind == absolute_angle) return angle_of(emitter, absolute, link);
     const char *point = source->point.kind == point_fixed
                             ? emit_vector(emitter, emit_join(emitter, name, "point"), absolute->point,
@@ -160,7 +160,7 @@ static const char *one_place(struct emitter *emitter, size_t k, struct text *lin
     if (body->kind == motion_pivot) point = emit_printf(emitter, "vec_sub(%s, c->%s.pin)", point, name);
     const char *pose = emit_printf(emitter, "%s_pose", name);
     if (!lines->data || !strstr(lines->data, emit_printf(emitter, "struct pose %s =", pose))) {
-        const char *call = body->place.link == 0
+        const char *call = body->alone
                                ? emit_printf(emitter, "%s(s, y)", emit_pose(emitter, absolute->body))
                            : body->kind == motion_weld
                                ? emit_printf(emitter, "pose_of_weld(&l.%s, &c->%s.place)", link, name)
@@ -177,7 +177,7 @@ void emit_places(struct emitter *emitter)
     bool jointed = false;
     for (size_t k = 0; k < model->absolute_count; k++)
         if (emitter->used[k] && model->absolutes[k].kind != absolute_slip &&
-            model->bodies[model->absolutes[k].body].place.link > 0)
+            !model->bodies[model->absolutes[k].body].alone)
             jointed = true;
     if (jointed) text_printf(&lines, "%s    move_links(s, y, &l);\n", emit_new_links);
     for (size_t k = 0; k < model->absolute_count; k++)

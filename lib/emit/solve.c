@@ -125,7 +125,7 @@ static const char *link_name(const struct emitter *emitter, int link)
 static void lock_joints(struct emitter *emitter, struct text *lines)
 {
     const struct tree *tree = emitter->model->tree;
-    for (int k = 0; k < tree->watched_count; k++) {
+    for (int k = 0; k < tree->joined_watched; k++) {
         const struct tree_link *link = &tree->links[tree->watched[k]];
         if (link->pair < 0) continue;
         const char *name = link_name(emitter, tree->watched[k]), *pair = emitter->pair[link->pair];
@@ -139,7 +139,7 @@ static void lock_joints(struct emitter *emitter, struct text *lines)
 static void rub_bearings(struct emitter *emitter, struct text *lines)
 {
     const struct tree *tree = emitter->model->tree;
-    for (int k = 0; k < tree->watched_count; k++) {
+    for (int k = 0; k < tree->joined_watched; k++) {
         const struct tree_link *link = &tree->links[tree->watched[k]];
         if (link->pair < 0 || link->kind != motion_pivot || mode_of(emitter, link->pair)->kind == mode_drive)
             continue;
@@ -191,7 +191,7 @@ static void close_frictions(struct emitter *emitter, struct text *lines)
     for (int k = 0; k < m; k++)
         text_printf(lines, "    l.%s.g = friction[%d];\n", link_name(emitter, tree->pairs[k]), k);
     text_add(lines, "    pass_links_inward(&l);\n    give_links_outward(&l, answer);\n");
-    for (int i = 1; i < tree->count; i++)
+    for (int i = 1; i < tree->joined; i++)
         for (int k = 0; k < emitter->model->bodies[tree->links[i].body].count; k++)
             text_printf(lines, "    a[%s] += answer[%s];\n",
                         emitter->coordinate[tree->links[i].coordinate + k],
@@ -202,7 +202,7 @@ static void close_frictions(struct emitter *emitter, struct text *lines)
 static void write_slots(struct emitter *emitter, struct text *lines)
 {
     const struct tree *tree = emitter->model->tree;
-    for (int k = 0; k < tree->watched_count; k++) {
+    for (int k = 0; k < tree->joined_watched; k++) {
         int i = tree->watched[k];
         const struct tree_link *link = &tree->links[i];
         const char *name = link_name(emitter, i), *slot = emitter->coordinate[link->coordinate];
@@ -225,7 +225,7 @@ static void write_tree(struct emitter *emitter)
     const struct tree *tree = emitter->model->tree;
     struct text lines = {0};
     text_add(&lines, emit_new_links);
-    if (tree->pivots_only) {
+    if (tree->joined_by_pivots) {
         text_add(&lines, "    set_out_links(s, y, f, &l);\n");
         if (emitter->walks) text_add(&lines, "    load_links(s, t, y, &l);\n");
     } else {
@@ -237,7 +237,7 @@ static void write_tree(struct emitter *emitter)
         text_add(&lines, "    start_links(s, &l);\n    factor_links(&l);\n");
     }
     text_add(&lines, "    pass_links_inward(&l);\n    give_links_outward(&l, a);\n");
-    if (tree->watched_count > 0) {
+    if (tree->joined_watched > 0) {
         text_add(&lines, "    transmit_links(&l);\n");
         if (tree->pair_count > 0) close_frictions(emitter, &lines);
         write_slots(emitter, &lines);
@@ -257,7 +257,7 @@ static void write_balance(struct emitter *emitter)
     text_add(&lines, "    for (int i = 0; i < slots; i++) f[i] = 0;\n");
     for (size_t b = 0; b < model->body_count; b++)
         if (emitter->forces_on[b]) text_printf(&lines, "    %s(s, t, y, f);\n", emitter->forces_on[b]);
-    text_add(&lines, model->tree ? "    solve_tree(s, t, y, f, a);\n" : "    (void)a;\n");
+    text_add(&lines, tree_joins(model->tree) ? "    solve_tree(s, t, y, f, a);\n" : "    (void)a;\n");
     emit_function(
         &emitter->links,
         "/* The sums of forces and moments, and the bodies that move on each other. */\nstatic void balance",
@@ -282,9 +282,9 @@ static void write_body(struct emitter *emitter, size_t b, struct text *lines)
     const struct model_body *body = &model->bodies[b];
     const char *name = emitter->body[b];
     int pair = body->friction;
-    if (body->place.link > 0) return;
+    if (!body->alone) return;
     if (pair >= 0) write_rubbing(emitter, pair, lines);
-    if (model->plan.bodies[b].offset >= 0) {
+    if (body->kind == motion_planar && (body->arm.x != 0 || body->arm.y != 0)) {
         text_printf(lines, "    accelerate_offset(&c->%s, y[%s], y[%s], &f[%s], &a[%s]);\n", name,
                     emitter->coordinate[body->first + 2], emitter->rate[body->first + 2],
                     emitter->coordinate[body->first], emitter->coordinate[body->first]);
@@ -340,7 +340,7 @@ static void write_rates(struct emitter *emitter)
 void emit_solution(struct emitter *emitter)
 {
     write_laws(emitter);
-    if (emitter->model->tree) write_tree(emitter);
+    if (tree_joins(emitter->model->tree)) write_tree(emitter);
     emit_places(emitter);
     write_balance(emitter);
     write_accelerations(emitter);

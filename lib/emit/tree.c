@@ -81,7 +81,7 @@ static void derive_links(struct emitter *emitter)
 {
     const struct tree *tree = emitter->model->tree;
     text_add(&emitter->derive, "\n    /* links: bodies with all that is welded to them */\n");
-    for (int i = 0; i < tree->body_count; i++) {
+    for (int i = 0; i < tree->joined_count; i++) {
         int b = tree->bodies[i];
         const struct model_body *body = &emitter->model->bodies[b];
         if (body->kind != motion_weld) derive_link(emitter, b);
@@ -261,7 +261,7 @@ static void write_loads(struct tree_writer *writer)
     struct text lines = {0}, *parts[] = {&writer->following, &writer->forces, &writer->moments,
                                          &writer->springs, &writer->drags};
     for (size_t i = 0; i < model->coupled_count; i++)
-        if (model->bodies[model->loads[i].body].place.link > 0) tree_load(writer, &model->loads[i]);
+        if (!model->bodies[model->loads[i].body].alone) tree_load(writer, &model->loads[i]);
     if (writer->springs.length > 0) text_add(&lines, "    struct motion reach;\n");
     for (size_t i = 0; i < sizeof parts / sizeof *parts; i++) {
         if (parts[i]->length > 0) text_add(&lines, parts[i]->data);
@@ -294,7 +294,7 @@ static void write_pass(struct emitter *emitter, const char *head, const char *ar
 {
     const struct tree *tree = emitter->model->tree;
     struct text lines = {0};
-    for (int k = 1; k < tree->count; k++) text_add(&lines, format(emitter, outward ? k : tree->count - k));
+    for (int k = 1; k < tree->joined; k++) text_add(&lines, format(emitter, outward ? k : tree->joined - k));
     emit_function(&emitter->links, head, arguments, &lines);
     emitter->arena.failed = emitter->arena.failed || lines.failed;
     text_free(&lines);
@@ -411,7 +411,7 @@ static void write_struct(struct emitter *emitter)
     struct text *out = &emitter->links;
     text_add(out, "/* The links of the tree, each after the one that it moves on. */\nstruct links {\n    "
                   "struct joint ground");
-    for (int i = 1; i < emitter->model->tree->count; i++) text_printf(out, ", %s", link_name(emitter, i));
+    for (int i = 1; i < emitter->model->tree->joined; i++) text_printf(out, ", %s", link_name(emitter, i));
     text_add(out, ";\n};\n\n");
 }
 
@@ -433,9 +433,9 @@ static bool needs_moves(const struct emitter *emitter)
     const struct fbd_model *model = emitter->model;
     for (size_t k = 0; k < model->absolute_count; k++)
         if (emitter->used[k] && model->absolutes[k].kind != absolute_slip &&
-            model->bodies[model->absolutes[k].body].place.link > 0)
+            !model->bodies[model->absolutes[k].body].alone)
             return true;
-    return !model->tree->pivots_only;
+    return !model->tree->joined_by_pivots;
 }
 
 static void write_general(struct emitter *emitter)
@@ -456,7 +456,7 @@ static void write_general(struct emitter *emitter)
                "struct links *l", false, inward);
     write_pass(emitter, "/* Outward: the accelerations of the joints. */\nstatic void give_links_outward",
                "struct links *l, double *a", true, outward);
-    if (emitter->model->tree->watched_count == 0) return;
+    if (emitter->model->tree->joined_watched == 0) return;
     write_pass(emitter, "/* What the joints pass to the links. */\nstatic void transmit_links",
                "struct links *l", true, transmitted);
     if (emitter->model->tree->pair_count > 0)
@@ -468,14 +468,14 @@ void emit_tree(struct emitter *emitter)
 {
     const struct tree *tree = emitter->model->tree;
     struct tree_writer writer = {.emitter = emitter};
-    if (tree) {
+    if (tree_joins(tree)) {
         derive_links(emitter);
         write_struct(emitter);
         if (needs_moves(emitter))
             write_pass(emitter, "/* Outward: where each link is and how it moves. */\nstatic void move_links",
                        "const struct scene *s, const double *y, struct links *l", true, moved);
         write_loads(&writer);
-        if (tree->pivots_only)
+        if (tree->joined_by_pivots)
             write_pivots(emitter);
         else
             write_general(emitter);

@@ -17,33 +17,22 @@ static bool add_term(struct affine *f, int component, double factor)
     return true;
 }
 
-static bool add_terms(const struct plan *plan, const struct range *range, int slot, double factor,
-                      struct affine *f)
+static bool has_formulas(const struct plan *plan, const struct scalar_equation *equation, int slot)
 {
-    for (int i = range->first; i < range->first + range->count; i++) {
-        const struct affine_term *term = &plan->affine[i];
-        if (term->slot != slot) continue;
-        f->constant += factor * term->c0;
-        if (!add_term(f, term->coordinate, -factor * term->kq) ||
-            !add_term(f, plan->n + term->coordinate, -factor * term->kv))
-            return false;
-    }
-    return true;
+    for (int i = equation->formulas.first; i < equation->formulas.first + equation->formulas.count; i++)
+        if (plan->formulas[i].slot == slot) return true;
+    return false;
 }
 
-/* Add `factor` times the sum of forces in a slot of a body (see enclosure_is_known); false when it is not
- * affine. */
-static bool add_slot(const struct plan *plan, int body, int slot, double factor, struct affine *f)
+/* Add `factor` times the sum of the forces along a coordinate with a scalar equation; false when it is not affine. */
+static bool add_along(const struct plan *plan, const struct mode *mode, double factor, struct affine *f)
 {
-    const struct body_terms *terms = &plan->bodies[body];
-    for (int i = terms->sine.first; i < terms->sine.first + terms->sine.count; i++)
-        if (plan->sine[i].slot == slot) return false;
-    for (int i = terms->square.first; i < terms->square.first + terms->square.count; i++)
-        if (plan->square[i].slot == slot) return false;
-    for (int i = terms->formulas.first; i < terms->formulas.first + terms->formulas.count; i++)
-        if (plan->formulas[i].slot == slot) return false;
-    return add_terms(plan, &terms->affine, slot, factor, f) &&
-           add_terms(plan, &terms->across, slot, factor, f);
+    const struct scalar_equation *equation = &plan->equations[mode->body];
+    if (equation->s != 0 || equation->c != 0 || equation->square != 0) return false;
+    if (has_formulas(plan, equation, mode->coordinate)) return false;
+    f->constant += factor * equation->c0;
+    return add_term(f, mode->coordinate, -factor * equation->kq) &&
+           add_term(f, plan->n + mode->coordinate, -factor * equation->kv);
 }
 
 /* Friction with a constant coefficient other than zero is never idle (friction_is_idle). */
@@ -67,13 +56,12 @@ static bool find_limit(const struct fbd_state *state, int pair, double *limit)
 {
     const struct plan *plan = &state->model->plan;
     const struct mode *mode = &plan->modes[pair];
-    struct affine across = {.constant = 0};
+    const struct scalar_equation *equation = &plan->equations[mode->body];
     double press = 1;
     if (mode->mu_s.expr || mode->mu_k.expr) return false;
     if (mode->normal_slot >= 0) {
-        if (!add_slot(plan, mode->body, mode->normal_slot, -state->pull[pair], &across) || across.count > 0)
-            return false;
-        press = fmax(0, across.constant);
+        if (has_formulas(plan, equation, mode->normal_slot)) return false;
+        press = fmax(0, -state->pull[pair] * equation->across);
     }
     *limit = fmax(0, fmax(mode->mu_s.constant, mode->mu_k.constant)) * press;
     return true;
@@ -88,7 +76,7 @@ static bool find_stick_limit(const struct fbd_state *state, const struct watcher
     if (!find_limit(state, watcher->index, &f->limit)) return false;
     f->roundings = 8;
     f->constant = f->limit;
-    return add_slot(plan, mode->body, mode->hold_slot, watcher->end == 0 ? 1 : -1, f);
+    return add_along(plan, mode, watcher->end == 0 ? 1 : -1, f);
 }
 
 void affine_find(const struct fbd_state *state, const struct watcher *watcher, struct affine *f)

@@ -20,7 +20,7 @@ bool coupled_scales_init(struct coupled_scales *mechanisms, const struct fbd_mod
                          struct arena *memory)
 {
     *mechanisms = (struct coupled_scales){0};
-    if (!model->tree || model->tree->coupling_count == 0) return true;
+    if (model->tree->coupling_count == 0) return true;
     size_t links = (size_t)model->tree->count, n = (size_t)model->plan.n;
     mechanisms->of = ARENA_ARRAY(memory, links, int);
     mechanisms->members = ARENA_ARRAY(memory, links, struct mechanism);
@@ -75,18 +75,18 @@ void coupled_scales_join(struct coupled_scales *mechanisms, const struct fbd_sta
     if (!mechanisms->of) return;
     const struct tree *tree = state->model->tree;
     const struct instant at = state_instant(state);
-    for (int i = 0; i < tree->count; i++) {
+    for (int i = 0; i < tree->joined; i++) {
         mechanisms->of[i] = i;
         mechanisms->members[i] = (struct mechanism){0};
     }
-    for (int i = 1; i < tree->count; i++)
+    for (int i = 1; i < tree->joined; i++)
         if (tree->links[i].parent > 0) unite(mechanisms->of, i, tree->links[i].parent);
     for (int j = 0; j < tree->row_count; j++)
         if (tree_takes_part(tree, &at, j)) join_row(mechanisms, &state->tree->rows[j]);
-    for (int i = 1; i < tree->count; i++) mechanisms->of[i] = find(mechanisms->of, i);
+    for (int i = 1; i < tree->joined; i++) mechanisms->of[i] = find(mechanisms->of, i);
     for (int j = 0; j < tree->row_count; j++)
         if (tree_takes_part(tree, &at, j)) measure_row(mechanisms, &state->tree->rows[j]);
-    for (int i = 1; i < tree->count; i++) {
+    for (int i = 1; i < tree->joined; i++) {
         struct mechanism *mechanism = mechanism_of(mechanisms, i);
         if (tree->links[i].parent > 0)
             mechanism->arm = fmax(mechanism->arm, vec_norm(state->tree->links[i].d));
@@ -137,9 +137,9 @@ void coupled_scales_set_floors(struct coupled_scales *mechanisms, const struct f
                                struct switcher *stepper)
 {
     if (!mechanisms->of) return;
-    for (int i = 1; i < state->model->tree->count; i++)
+    for (int i = 1; i < state->model->tree->joined; i++)
         if (mechanism_of(mechanisms, i)->coupled) measure_link(mechanisms, state, i);
-    for (int i = 1; i < state->model->tree->count; i++) {
+    for (int i = 1; i < state->model->tree->joined; i++) {
         const struct mechanism *mechanism = mechanism_of(mechanisms, i);
         if (mechanism->coupled) give_floors(mechanisms, mechanism, state, i, stepper);
     }

@@ -21,12 +21,10 @@ struct enclosure_input {
 /* Enclosure of a formula, with the weights of a sliding mode; for at most one such switch in the formula. */
 struct enclosure enclose_formula(const struct enclosure_input *input, const struct formula *formula);
 
-/* Is the sum of forces in a slot of this body a sum of terms that enclose_slot supports? Forces at points,
- * potentials (whose rates are second derivatives) and forces transmitted by joints are not. */
-bool enclosure_is_known(const struct fbd_model *model, int body);
-
-/* The sum of a slot of such a body. */
-struct enclosure enclose_slot(const struct enclosure_input *input, int body, int slot);
+/* The sum of the forces on a body with a scalar equation (plan.h) along its coordinate, and across its line towards
+ * the outside of the surface; without friction. */
+struct enclosure enclose_force(const struct enclosure_input *input, int body);
+struct enclosure enclose_force_across(const struct enclosure_input *input, int body);
 
 /* The normal force of a friction pair, towards the side of the surface. */
 struct enclosure enclose_normal_force(const struct enclosure_input *input, int pair);

@@ -57,9 +57,9 @@ static bool has_slides(const struct fbd_state *state, const struct formula *form
 static bool knows_body(const struct fbd_state *state, int body)
 {
     const struct plan *plan = &state->model->plan;
-    const struct body_terms *terms = &plan->bodies[body];
-    if (!enclosure_is_known(state->model, body)) return false;
-    for (int i = terms->formulas.first; i < terms->formulas.first + terms->formulas.count; i++) {
+    const struct scalar_equation *equation = &plan->equations[body];
+    if (!equation->known) return false;
+    for (int i = equation->formulas.first; i < equation->formulas.first + equation->formulas.count; i++) {
         int slides;
         enclose_filippov(state, &plan->formulas[i].value, &slides);
         if (slides > 1 || (slides == 1 && plan->formulas[i].slot >= plan->n)) return false;
@@ -122,11 +122,10 @@ static void take_force(const struct enclosure_input *input, int coordinate, doub
 {
     const struct fbd_model *model = input->state->model;
     int body = model->scene->coordinates[coordinate].body;
-    const struct body_terms *terms = &model->plan.bodies[body];
-    struct enclosure force =
-        enclosure_add(enclose_slot(input, body, coordinate), friction_of(input, coordinate));
+    const struct scalar_equation *equation = &model->plan.equations[body];
+    struct enclosure force = enclosure_add(enclose_force(input, body), friction_of(input, coordinate));
     e->c[unit] = enclosure_add(e->c[unit], enclosure_scale(factor, force));
-    for (int i = terms->formulas.first; i < terms->formulas.first + terms->formulas.count; i++) {
+    for (int i = equation->formulas.first; i < equation->formulas.first + equation->formulas.count; i++) {
         const struct formula_term *term = &model->plan.formulas[i];
         int slides;
         const struct slide *slide = enclose_filippov(input->state, &term->value, &slides);

@@ -90,7 +90,7 @@ static void add_modes(struct watchers *watchers, const struct plan *plan)
 
 static void add_contacts(struct watchers *watchers, const struct tree *tree)
 {
-    for (int i = 0; tree && i < tree->meeting_count; i++) {
+    for (int i = 0; i < tree->meeting_count; i++) {
         const struct meeting *meeting = &tree->meetings[i];
         for (int probe = 0; probe < meeting->probes; probe++)
             add(&watchers->moving, (struct watcher){watch_gap, i, probe, 0});

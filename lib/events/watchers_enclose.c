@@ -4,7 +4,7 @@
  * instant.
  *
  * They exist for functions of expressions: switches, user events, the speed of a pair on its surface, and the
- * forces on a body without joints or couplings if they are sums of expressions, affine terms and weights.
+ * forces on a body with a scalar equation (plan.h).
  */
 
 #include "dynamics/world_refs.h"
@@ -37,22 +37,14 @@ struct enclosure enclose_centred(const struct enclosure_input *input, struct enc
 
 /* ---- sums of forces */
 
-bool enclosure_is_known(const struct fbd_model *model, int body)
+static struct enclosure enclose_sine(const struct enclosure *q, const struct scalar_equation *equation)
 {
-    const struct body_terms *terms = &model->plan.bodies[body];
-    return model->bodies[body].place.link == 0 && !terms->at_points && terms->potentials.count == 0 &&
-           terms->links.count + terms->drags.count + terms->forces.count == 0 && terms->offset < 0;
-}
-
-static struct enclosure enclose_sine(const struct enclosure_input *input, const struct sine_term *term)
-{
-    const struct enclosure *q = &input->y[term->coordinate];
+    const double s = equation->s, c = equation->c;
     struct interval sine = interval_sin(q->value), cosine = interval_cos(q->value);
-    struct interval slope = interval_subtract(interval_scale(term->s, cosine), interval_scale(term->c, sine));
-    return (struct enclosure){interval_add(interval_scale(term->s, sine), interval_scale(term->c, cosine)),
-                              interval_multiply(slope, q->rate),
-                              interval_add(interval_scale(term->s, interval_sin(q->middle)),
-                                           interval_scale(term->c, interval_cos(q->middle)))};
+    struct interval slope = interval_subtract(interval_scale(s, cosine), interval_scale(c, sine));
+    return (struct enclosure){
+        interval_add(interval_scale(s, sine), interval_scale(c, cosine)), interval_multiply(slope, q->rate),
+        interval_add(interval_scale(s, interval_sin(q->middle)), interval_scale(c, interval_cos(q->middle)))};
 }
 
 static double signed_square(double v)
@@ -61,46 +53,47 @@ static double signed_square(double v)
 }
 
 /* -k |v| v, which falls with the slope -2 k |v|. */
-static struct enclosure enclose_square(const struct enclosure_input *input, const struct square_term *term)
+static struct enclosure enclose_square(const struct enclosure *v, double k)
 {
-    const struct enclosure *v = &input->y[input->state->model->plan.n + term->coordinate];
     struct interval size = interval_hypot(v->value, interval_point(0));
     struct enclosure f = {interval_rising(signed_square, v->value, -HUGE_VAL, HUGE_VAL),
                           interval_multiply(interval_scale(2, size), v->rate),
                           interval_rising(signed_square, v->middle, -HUGE_VAL, HUGE_VAL)};
-    return enclosure_scale(-term->k, f);
+    return enclosure_scale(-k, f);
 }
 
-static struct enclosure enclose_affine(const struct enclosure_input *input, const struct affine_term *term)
-{
-    const struct enclosure *q = &input->y[term->coordinate],
-                           *v = &input->y[input->state->model->plan.n + term->coordinate];
-    struct enclosure f = enclosure_point(term->c0);
-    if (term->kq != 0) f = enclosure_subtract(f, enclosure_scale(term->kq, *q));
-    if (term->kv != 0) f = enclosure_subtract(f, enclosure_scale(term->kv, *v));
-    return f;
-}
-
-struct enclosure enclose_slot(const struct enclosure_input *input, int body, int slot)
+static struct enclosure add_formulas(const struct enclosure_input *input,
+                                     const struct scalar_equation *equation, int slot, struct enclosure sum)
 {
     const struct plan *plan = &input->state->model->plan;
-    const struct body_terms *terms = &plan->bodies[body];
-    struct enclosure sum = enclosure_point(0);
-    for (int i = terms->affine.first; i < terms->affine.first + terms->affine.count; i++)
-        if (plan->affine[i].slot == slot) sum = enclosure_add(sum, enclose_affine(input, &plan->affine[i]));
-    for (int i = terms->across.first; i < terms->across.first + terms->across.count; i++)
-        if (plan->affine[i].slot == slot) sum = enclosure_add(sum, enclosure_point(plan->affine[i].c0));
-    for (int i = terms->sine.first; i < terms->sine.first + terms->sine.count; i++)
-        if (plan->sine[i].slot == slot) sum = enclosure_add(sum, enclose_sine(input, &plan->sine[i]));
-    for (int i = terms->square.first; i < terms->square.first + terms->square.count; i++)
-        if (plan->square[i].slot == slot) sum = enclosure_add(sum, enclose_square(input, &plan->square[i]));
-    for (int i = terms->formulas.first; i < terms->formulas.first + terms->formulas.count; i++) {
+    for (int i = equation->formulas.first; i < equation->formulas.first + equation->formulas.count; i++) {
         const struct formula_term *term = &plan->formulas[i];
         if (term->slot != slot) continue;
         struct enclosure value = enclose_formula(input, &term->value);
         sum = enclosure_add(sum, enclosure_scale(term->scale, value));
     }
     return enclose_centred(input, sum);
+}
+
+struct enclosure enclose_force(const struct enclosure_input *input, int body)
+{
+    const struct fbd_model *model = input->state->model;
+    const struct scalar_equation *equation = &model->plan.equations[body];
+    const int coordinate = model->bodies[body].first;
+    const struct enclosure *q = &input->y[coordinate], *v = &input->y[model->plan.n + coordinate];
+    struct enclosure f = enclosure_point(equation->c0);
+    if (equation->kq != 0) f = enclosure_subtract(f, enclosure_scale(equation->kq, *q));
+    if (equation->kv != 0) f = enclosure_subtract(f, enclosure_scale(equation->kv, *v));
+    if (equation->s != 0 || equation->c != 0) f = enclosure_add(f, enclose_sine(q, equation));
+    if (equation->square != 0) f = enclosure_add(f, enclose_square(v, equation->square));
+    return add_formulas(input, equation, coordinate, f);
+}
+
+struct enclosure enclose_force_across(const struct enclosure_input *input, int body)
+{
+    const struct fbd_model *model = input->state->model;
+    const struct scalar_equation *equation = &model->plan.equations[body];
+    return add_formulas(input, equation, model->bodies[body].normal_slot, enclosure_point(equation->across));
 }
 
 /* ---- friction */
@@ -128,8 +121,7 @@ struct enclosure enclose_normal_force(const struct enclosure_input *input, int p
 {
     const struct mode *mode = &input->state->model->plan.modes[pair];
     if (mode->normal_slot < 0) return enclosure_point(1);
-    struct enclosure sum = enclose_slot(input, mode->body, mode->normal_slot);
-    return enclosure_scale(-input->state->pull[pair], sum);
+    return enclosure_scale(-input->state->pull[pair], enclose_force_across(input, mode->body));
 }
 
 /* max(f, g): the rate is that of one of them, or between both. */
@@ -154,7 +146,7 @@ static void enclose_stick_limits(const struct enclosure_input *input, const stru
     struct enclosure at_rest = enclosure_multiply(enclose_formula(input, &mode->mu_s), press);
     struct enclosure moving = enclosure_multiply(enclose_formula(input, &mode->mu_k), press);
     struct enclosure limit = larger_of(enclose_centred(input, at_rest), enclose_centred(input, moving));
-    struct enclosure push = enclose_slot(input, mode->body, mode->hold_slot);
+    struct enclosure push = enclose_force(input, mode->body);
     /* The same tolerance as by friction_rounding. */
     double rounding = round_off(8, interval_size(push.value) + interval_size(limit.value));
     for (size_t i = 0; i < count; i++) {
@@ -174,13 +166,13 @@ bool watchers_can_enclose(const struct fbd_model *model, const struct watcher *w
         return true;
     if (watcher->kind == watch_lift || watcher->kind == watch_gap || watcher->kind == watch_edge)
         return false;
-    if (watcher->kind == watch_contact) return enclosure_is_known(model, plan->contacts[watcher->index].body);
+    if (watcher->kind == watch_contact) return plan->equations[plan->contacts[watcher->index].body].known;
     const struct mode *mode = &plan->modes[watcher->index];
     if (mode->coupling >= 0) return false;
     if (watcher->kind == watch_slip_stop) return true;
     bool known = watcher->kind != watch_stick_limit ||
                  !mode->surface_speed.expr; /* it would need the second derivative of the surface speed */
-    return known && mode->kind == mode_single && enclosure_is_known(model, mode->body);
+    return known && mode->kind == mode_single && plan->equations[mode->body].known;
 }
 
 static void enclose_kink(const struct watchers *watchers, const struct watcher_set *set,
@@ -236,7 +228,7 @@ static struct enclosure enclose_one(const struct watchers *watchers, const struc
         const struct contact *contact = &model->plan.contacts[index];
         struct enclosure slack = enclosure_point(watchers_contact_slack(model, NULL, contact));
         return enclose_centred(input,
-                               enclosure_subtract(slack, enclose_slot(input, contact->body, contact->slot)));
+                               enclosure_subtract(slack, enclose_force_across(input, contact->body)));
     }
     case watch_normal_turns: return enclose_normal_force(input, index);
     case watch_slip_stop:
@@ -284,23 +276,21 @@ static void mark_formula(const struct formula *formula, bool *used)
     for (size_t k = 0; k < count; k++) used[slots[k] - 1] = true;
 }
 
-static void mark_body(const struct plan *plan, int body, bool *used)
+static void mark_body(const struct fbd_model *model, int body, bool *used)
 {
-    const struct body_terms *terms = &plan->bodies[body];
-    for (int i = terms->affine.first; i < terms->affine.first + terms->affine.count; i++) {
-        used[plan->affine[i].coordinate] |= plan->affine[i].kq != 0;
-        used[plan->n + plan->affine[i].coordinate] |= plan->affine[i].kv != 0;
-    }
-    for (int i = terms->sine.first; i < terms->sine.first + terms->sine.count; i++)
-        used[plan->sine[i].coordinate] = true;
-    for (int i = terms->square.first; i < terms->square.first + terms->square.count; i++)
-        used[plan->n + plan->square[i].coordinate] = true;
-    for (int i = terms->formulas.first; i < terms->formulas.first + terms->formulas.count; i++)
+    const struct plan *plan = &model->plan;
+    const struct scalar_equation *equation = &plan->equations[body];
+    const int coordinate = model->bodies[body].first;
+    if (!equation->known) return;
+    used[coordinate] |= equation->kq != 0 || equation->s != 0 || equation->c != 0;
+    used[plan->n + coordinate] |= equation->kv != 0 || equation->square != 0;
+    for (int i = equation->formulas.first; i < equation->formulas.first + equation->formulas.count; i++)
         mark_formula(&plan->formulas[i].value, used);
 }
 
-static void mark_friction(const struct plan *plan, const struct watcher *watcher, bool *used)
+static void mark_friction(const struct fbd_model *model, const struct watcher *watcher, bool *used)
 {
+    const struct plan *plan = &model->plan;
     const struct mode *mode = &plan->modes[watcher->index];
     mark_formula(&mode->mu_s, used);
     mark_formula(&mode->mu_k, used);
@@ -309,7 +299,7 @@ static void mark_friction(const struct plan *plan, const struct watcher *watcher
         mark_formula(&mode->surface_speed, used);
         return;
     }
-    mark_body(plan, mode->body, used);
+    mark_body(model, mode->body, used);
 }
 
 /* Mark the variables of a sliding mode's switch, and the forces on the bodies of these coordinates. */
@@ -323,7 +313,7 @@ static void mark_share(const struct fbd_model *model, const struct formula *form
         if (slots[k] > 2 * n) continue;
         int coordinate = (slots[k] - 1) % n;
         used[n + coordinate] = true;
-        mark_body(&model->plan, model->scene->coordinates[coordinate].body, used);
+        mark_body(model, model->scene->coordinates[coordinate].body, used);
     }
 }
 
@@ -339,10 +329,10 @@ void watchers_mark_used(const struct fbd_model *model, const struct watcher_set 
             mark_formula(&plan->watches[watcher->index].left, used);
             mark_formula(&plan->watches[watcher->index].right, used);
             break;
-        case watch_contact: mark_body(plan, plan->contacts[watcher->index].body, used); break;
+        case watch_contact: mark_body(model, plan->contacts[watcher->index].body, used); break;
         case watch_slip_stop:
         case watch_stick_limit:
-        case watch_normal_turns: mark_friction(plan, watcher, used); break;
+        case watch_normal_turns: mark_friction(model, watcher, used); break;
         case watch_lift:
         case watch_gap:
         case watch_edge:

@@ -65,7 +65,7 @@ static void count_zeros(const struct watchers *watchers, const struct fbd_state 
                         const struct kink *kink, double t, const double *y, int *zeros)
 {
     struct instant at = state_instant_at(state, t, y);
-    if (state->model->names_places && !state->model->tree) at = instant_extend(state->model, &at);
+    if (state->model->names_places && !tree_joins(state->model->tree)) at = instant_extend(state->model, &at);
     double *margins = watchers->scratch, *roundings = margins + 4 * kink->count;
     const double *still = watchers->place + extended_size(state->model);
     expr_margins(kink->formula.expr, time_dd_at(t), at.y, 0, still, state->branch + kink->formula.branch,
@@ -84,7 +84,7 @@ static bool can_be_asked(const struct fbd_model *model, const struct kink *kink)
 {
     const int *slots;
     size_t count = expr_variables(kink->formula.expr, &slots);
-    return count > 0 && (!model->tree || slots[count - 1] <= (int)plan_size(&model->plan));
+    return count > 0 && (!tree_joins(model->tree) || slots[count - 1] <= (int)plan_size(&model->plan));
 }
 
 static bool any_holds(const struct fbd_state *state)

@@ -247,7 +247,7 @@ static void set_flow(struct view *view, bool forces)
     force_balance_along(state->model, &view->at, &view->flow, slots, slots_along);
     view->slots = slots;
     view->slots_along = slots_along;
-    if (!state->tree) return;
+    if (!tree_joins(state->model->tree)) return;
     view->shared = tree_find_margin(state, &view->at, true, &view->flow, slots, slots_along, &view->arena,
                                     &view->margin);
 }
@@ -364,7 +364,7 @@ static double short_of_side(const struct fbd_state *state, int pair, double v)
     const struct instant at = state_instant(state);
     double fastest = 0;
     if (v >= 0) return 0;
-    for (int i = 1; i < state->model->tree->count; i++)
+    for (int i = 1; i < state->model->tree->joined; i++)
         fastest = fmax(fastest, vec_norm(state->tree->links[i].v));
     double to_its_side = slip_side(state->slip[pair]) * tree_hold_acceleration(state, &at, pair);
     return -v <= rounding * fastest && to_its_side > 0 ? -2 * v : 0;
@@ -412,7 +412,7 @@ static void calm_driven(struct watchers *watchers, const struct fbd_state *state
 void watchers_arm(struct watchers *watchers, struct fbd_state *state, double step)
 {
     const struct plan *plan = &state->model->plan;
-    if (state->tree) calm_driven(watchers, state, step);
+    if (tree_joins(state->model->tree)) calm_driven(watchers, state, step);
     if (plan->watch_count == 0) return;
     const struct instant now = state_instant(state), at = instant_extend(state->model, &now);
     for (size_t i = 0; i < plan->watch_count; i++) {

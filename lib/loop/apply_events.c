@@ -109,13 +109,13 @@ static void one_sided_event(struct run *run, int pair)
     }
     if (refuse_end_of_slot(run, pair) || refuse_jerk(run, pair)) return;
     const struct mode *mode = &run->model->plan.modes[pair];
-    const double before = jointed_kinetic_energy(run->state), taken = run->impact_work[mode->load];
+    const double before = total_kinetic_energy(run->state), taken = run->impact_work[mode->load];
     run->state->slip[pair] = stick;
     run_strike_closed(run);
     state_project_velocity(run->state, false); /* rounding only */
     drop_rounding(run);
     run->snap.pair = pair;
-    run->snap.work = mode->kind == mode_rope ? jointed_kinetic_energy(run->state) - before
+    run->snap.work = mode->kind == mode_rope ? total_kinetic_energy(run->state) - before
                                              : run->impact_work[mode->load] - taken;
 }
 

@@ -17,7 +17,7 @@
 
 static bool has_couplings(const struct run *run)
 {
-    return run->model->tree && run->model->tree->coupling_count > 0;
+    return run->model->tree->coupling_count > 0;
 }
 
 /* The largest change from `from` to `to`, in tolerances relative to the largest value of each number so far. */
@@ -73,7 +73,7 @@ static struct rounding rounding_of_step(struct run *run)
     const struct tree *tree = run->model->tree;
     double mass = 0, most = 0, time = run->state->t - run->step.from;
     state_evaluate_unshared(run->state);
-    for (int i = 1; i < tree->count; i++) {
+    for (int i = 1; i < tree->joined; i++) {
         mass += tree->links[i].mass;
         most = fmax(most, vec_norm(run->state->tree->links[i].F.force) / tree->links[i].mass);
         most = fmax(most, vec_norm(tree->links[i].force) / tree->links[i].mass);
@@ -121,7 +121,7 @@ static double measure(struct run *run)
 {
     const struct tree *tree = run->model->tree;
     double reach = 0, speed = 0;
-    for (int i = 1; i < tree->count; i++) {
+    for (int i = 1; i < tree->joined; i++) {
         const struct tree_state *s = &run->state->tree->links[i];
         reach = larger(reach, vec_norm(s->p));
         speed = larger(speed, vec_norm(s->v));

@@ -269,10 +269,10 @@ static void drop_rounding(struct run *run, int count)
 {
     const struct tree *tree = tree_of(run);
     double given = 0, *rates = run->state->y + run->model->plan.n;
-    for (int k = 1; k < tree->count; k++)
+    for (int k = 1; k < tree->joined; k++)
         if (tree->links[k].kind == motion_planar) given = fmax(given, given_to(run, count, &tree->links[k]));
     double least = (double)count * count * DBL_EPSILON * given;
-    for (int k = 1; k < tree->count; k++) {
+    for (int k = 1; k < tree->joined; k++) {
         const struct tree_link *link = &tree->links[k];
         if (link->kind != motion_planar || given_to(run, count, link) == 0) continue;
         double *own = rates + link->coordinate, radius = sqrt(link->I_O / link->mass);
@@ -289,7 +289,7 @@ static void stop_rounding(struct run *run, int count)
     const struct fbd_model *model = run->model;
     const struct tree *tree = tree_of(run);
     const struct instant at = state_instant(run->state);
-    for (int k = 1; k < tree->count; k++) {
+    for (int k = 1; k < tree->joined; k++) {
         const struct tree_link *link = &tree->links[k];
         if (joint_freedom(link->kind) != 1) continue;
         const struct mode *mode = link->pair < 0 ? NULL : &model->plan.modes[link->pair];
@@ -333,7 +333,7 @@ void contacts_apply_impulses(struct run *run, int count)
     struct contacts_work *work = &run->contacts;
     size_t n = (size_t)run->model->plan.n;
     bool drives = model_is_driven(run->model);
-    double before = drives ? jointed_kinetic_energy(run->state) : 0;
+    double before = drives ? total_kinetic_energy(run->state) : 0;
     for (int i = 0; i < 2 * count; i++) {
         double P = impulse_of(work, i);
         for (size_t k = 0; P != 0 && k < n; k++) run->state->y[n + k] += P * work->answers[(size_t)i * n + k];
@@ -345,7 +345,7 @@ void contacts_apply_impulses(struct run *run, int count)
     double rubbed = end_slips(run, 2 * count);
     drop_rounding(run, count);
     stop_rounding(run, count);
-    if (drives) note_drives(run, count, jointed_kinetic_energy(run->state) - before, rubbed);
+    if (drives) note_drives(run, count, total_kinetic_energy(run->state) - before, rubbed);
 }
 
 static void fail_impact(struct run *run, enum impacts_end end, enum impact_law law)

@@ -88,7 +88,7 @@ bool defect_is_large(struct run *run, struct time_dd end)
     size_t n = (size_t)run->model->plan.n, size = plan_size(&run->model->plan);
     double h = time_dd_since(end, run_start(run)), *slope = run->work.aside, *f = slope + size;
     const struct method *method = run->options.method;
-    bool meets = run->model->tree && run->model->tree->meeting_count > 0;
+    bool meets = run->model->tree->meeting_count > 0;
     bool by_ends = method->multistep && method->implicit && run->options.step == 0;
     if (by_ends && meets && falls_at_once(run, h)) return true;
     bool asked = run->search.wakes && run->options.step == 0 && !structure_is_exact(run->kind);

@@ -51,7 +51,7 @@ static double kinetic_at(struct run *run, double t, const double *y, const int *
     struct instant at = state_instant_at(run->during, t, y);
     double sum = 0;
     at.branch = branch;
-    if (model->tree) tree_move(model, &at);
+    tree_move(model, &at);
     for (size_t b = 0; b < model->body_count; b++) sum += kinetic_energy(&model->bodies[b], &at);
     return sum;
 }
@@ -89,7 +89,7 @@ static double potential_at(struct run *run, double t, const double *y, double *t
     struct instant at = state_instant_at(run->during, t, y);
     double sum = 0;
     at.branch = NULL; /* the same branches at both ends */
-    if (run->model->tree) tree_move(run->model, &at);
+    tree_move(run->model, &at);
     for (size_t i = 0; i < run->model->load_count; i++) {
         double potential = potential_energy(run->model, &run->model->loads[i], &at, run->work.sample);
         sum += potential;

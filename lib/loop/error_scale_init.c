@@ -168,7 +168,7 @@ static struct motion_size largest_motion(const struct run *run, const double *ti
 static double unseen_place(const struct run *run, const struct model_body *body, int k)
 {
     double reach = 0;
-    for (int i = 1; i < run->model->tree->count; i++)
+    for (int i = 1; i < run->model->tree->joined; i++)
         reach = fmax(reach, vec_norm(run->state->tree->links[i].p));
     return DBL_EPSILON / run->options.tolerance * (coordinate_turns(body, k) ? 1 : reach);
 }

@@ -58,14 +58,14 @@ static void measure_turns(struct run *run, const struct instant *at)
     /* With projection onto couplings, directions have the rounding of a radian, turned or not: positions have
      * that accuracy relative to the arms that lead to them. */
     own[0] = tree->row_count > 0 ? 1 : 0;
-    for (int i = 1; i < tree->count; i++) {
+    for (int i = 1; i < tree->joined; i++) {
         const struct model_body *body = &run->model->bodies[tree->links[i].body];
         bool turns = body->kind == motion_pivot || body->kind == motion_planar;
         own[i] =
             own[tree->links[i].parent] + (turns ? fabs(run->state->y[body->first + body->count - 1]) : 0);
     }
     memcpy(sides, own, (size_t)tree->count * sizeof *sides);
-    for (int i = 1; i < tree->count; i++) {
+    for (int i = 1; i < tree->joined; i++) {
         double *parent = &sides[tree->links[i].parent];
         *parent = fmax(*parent, own[i]);
     }
@@ -98,9 +98,10 @@ static void add_cancelled(struct run *run, int body, double force, double arm)
     cancelled[1] += force * arm;
 }
 
-static void cancel_in_tree(struct run *run, const struct instant *at)
+static void measure_cancelled(struct run *run, const struct instant *at)
 {
     const struct tree *tree = run->model->tree;
+    memset(run->roundoff.cancelled, 0, 2 * run->model->body_count * sizeof *run->roundoff.cancelled);
     for (size_t i = 0; i < tree->spring_count; i++) {
         const struct tree_spring *spring = &tree->springs[i];
         double far = fabs(spring->free_length), fast = 0, arm[2];
@@ -115,19 +116,6 @@ static void cancel_in_tree(struct run *run, const struct instant *at)
             if (spring->link[end] > 0)
                 add_cancelled(run, tree->links[spring->link[end]].body, force, arm[end]);
     }
-}
-
-/* Springs to the ground: the force already contains the difference of length and distance of the anchor. */
-static void measure_cancelled(struct run *run, const struct instant *at)
-{
-    const struct plan *plan = &run->model->plan;
-    memset(run->roundoff.cancelled, 0, 2 * run->model->body_count * sizeof *run->roundoff.cancelled);
-    for (size_t i = 0; i < plan->link_count; i++) {
-        const struct link_term *link = &plan->links[i];
-        double far = vec_norm(link->anchor) + fabs(link->free_length);
-        add_cancelled(run, link->body, fabs(link->stiffness) * far, vec_norm(link->point));
-    }
-    if (run->model->tree) cancel_in_tree(run, at);
 }
 
 /* Add the sizes of the terms of the generalized forces of an arrow to `gross`, for a jointed body. A moment
@@ -150,12 +138,12 @@ static void add_gross_forces(struct run *run, int b, const struct instant *at, d
 {
     const struct model_body *body = &run->model->bodies[b];
     int link = body->place.link;
-    size_t count = (link > 0 ? diagram_list : diagram_fill)(run->model, b, at, run->state->a,
+    size_t count = (body->alone ? diagram_fill : diagram_list)(run->model, b, at, run->state->a,
                                                             run->state->slots, run->work.arrows);
     const struct tree *tree = run->model->tree;
-    double angle = tree && link > 0 ? run->roundoff.turned[tree->count + link] : 0;
+    double angle = body->alone ? 0 : run->roundoff.turned[tree->count + link];
     for (size_t i = 0; i < count; i++) {
-        if (link > 0)
+        if (!body->alone)
             add_jointed(body, &at->tree->links[link], angle, &run->work.arrows[i], gross);
         else
             for (int k = 0; k < body->count; k++) gross[k] += fabs(run->work.arrows[i].share[k]);
@@ -187,10 +175,11 @@ static bool add_rounding(const struct run *run, const struct instant *at, size_t
     if (vec_norm(of.force) == 0 && of.couple == 0) return false;
     const struct pose pose = body_pose(body, at);
     const struct vec point = point_motion(body, &pose, load->point).p;
-    if (body->place.link == 0) {
+    if (body->alone) {
         double arm = vec_norm(vec_sub(point, pose.origin)), force = vec_norm(of.force);
         for (int k = 0; k < body->count; k++)
             Q[body->first + k] += coordinate_turns(body, k) ? force * arm + of.couple : force;
+        return true;
     }
     for (int link = body->place.link; link > 0;
          link = load->in_joint ? 0 : run->model->tree->links[link].parent)
@@ -206,7 +195,7 @@ static void add_answer(struct run *run, const struct instant *at, const double *
     force_slots(run->model, at, slots);
     for (int i = 0; i < run->model->plan.n; i++) slots[i] += Q[i];
     tree_accelerations(run->model, at, slots, at->tree->a);
-    for (int link = 1; link < tree->count; link++) {
+    for (int link = 1; link < tree->joined; link++) {
         const struct model_body *body = &run->model->bodies[tree->links[link].body];
         for (int i = body->first; i < body->first + body->count; i++)
             noise[i] += fabs(at->tree->a[i] - run->state->a[i]);
@@ -229,10 +218,10 @@ static void measure_formulas(struct run *run, const struct instant *at)
         if (!any) continue;
         for (size_t b = 0; b < model->body_count; b++) {
             const struct model_body *body = &model->bodies[b];
-            for (int i = body->first; body->place.link == 0 && i < body->first + body->count; i++)
+            for (int i = body->first; body->alone && i < body->first + body->count; i++)
                 noise[i] += fabs(Q[i]) * model->plan.inverse_inertia[i];
         }
-        if (model->tree) add_answer(run, at, Q, noise);
+        if (tree_joins(model->tree)) add_answer(run, at, Q, noise);
     }
 }
 
@@ -255,7 +244,8 @@ void roundoff_changes(struct run *run, const struct instant *at, bool by_time, d
 {
     const struct plan *plan = &run->model->plan;
     struct scratch scratch = state_scratch(run->state);
-    if (by_time && tree_is_bare(run->model)) {
+    const struct tree *tree = run->model->tree;
+    if (by_time && tree_is_bare(run->model) && tree->joined == tree->count) {
         memset(along, 0, plan_rates(plan) * sizeof *along);
         return;
     }
@@ -272,8 +262,8 @@ void roundoff_changes(struct run *run, const struct instant *at, bool by_time, d
 static double roundings_of(const struct fbd_model *model, bool in_tree)
 {
     const double single = 2, jointed = 16, few = 16;
-    if (!in_tree || !model->tree) return single;
-    double links = model->tree->count - 1;
+    if (!in_tree) return single;
+    double links = model->tree->joined - 1;
     return jointed * (1 + fmax(0, log2(links / few)));
 }
 
@@ -294,7 +284,7 @@ static void set_noise(struct run *run)
     const struct instant *at = &here;
     measure_formulas(run, at);
     roundoff_changes(run, at, true, run->roundoff.along);
-    if (run->model->tree) measure_turns(run, at);
+    if (tree_joins(run->model->tree)) measure_turns(run, at);
     measure_cancelled(run, at);
     const double roundings[] = {roundings_of(run->model, false), roundings_of(run->model, true)};
     for (size_t b = 0; b < run->model->body_count; b++) {
@@ -305,7 +295,7 @@ static void set_noise(struct run *run)
             int i = body->first + k;
             double of_time = DBL_EPSILON * fabs(at->t * run->roundoff.along[i]),
                    of_sum =
-                       DBL_EPSILON * roundings[body->place.link > 0] * gross[k] * plan->inverse_inertia[i];
+                       DBL_EPSILON * roundings[!body->alone] * gross[k] * plan->inverse_inertia[i];
             take_noise(run, (size_t)i, of_sum, of_time + run->roundoff.formulas[i]);
         }
     }
@@ -352,7 +342,7 @@ static const unsigned long steps_between = 64;
 unsigned long roundoff_steps(const struct run *run)
 {
     const unsigned long next = run->roundoff.since + 1;
-    if (!run->model->tree) return ULONG_MAX;
+    if (!tree_joins(run->model->tree)) return ULONG_MAX;
     return next < steps_between ? steps_between - next : 0;
 }
 
@@ -364,7 +354,7 @@ void roundoff_renew(struct run *run)
     const unsigned long most_between = 8;
     if (run->options.step > 0) return; /* fixed step size */
     run->roundoff.since++;
-    bool due = (run->model->tree && run->roundoff.since >= steps_between) || has_grown(run);
+    bool due = (tree_joins(run->model->tree) && run->roundoff.since >= steps_between) || has_grown(run);
     bool counts =
         run->roundoff.since >= run->roundoff.pause && switcher_noise_counts(run->stepper, run->step.h);
     if (!due && !counts) return;
@@ -382,7 +372,7 @@ void roundoff_renew(struct run *run)
 
 static size_t links_of(const struct fbd_model *model)
 {
-    return model->tree ? (size_t)model->tree->count : 0;
+    return tree_joins(model->tree) ? (size_t)model->tree->count : 0;
 }
 
 size_t roundoff_size(const struct fbd_model *model)

@@ -138,7 +138,7 @@ static double measure(const struct run *run, double *speed)
     const struct tree *tree = run->model->tree;
     double reach = 0;
     *speed = 0;
-    for (int i = 1; i < tree->count; i++) {
+    for (int i = 1; i < tree->joined; i++) {
         const struct tree_state *link = &run->state->tree->links[i];
         double arm = vec_norm(link->mr) / tree->links[i].mass;
         reach = fmax(reach, vec_norm(link->p) + arm);
@@ -165,7 +165,7 @@ static void set_noise(struct run *run)
         size_t i = (size_t)run->trajectory.component[k];
         if (i < own) run->trajectory.noise[k] = fmax(error, DBL_EPSILON) * run->roundoff.nothing[i];
     }
-    if (!run->model->tree || run->model->tree->coupling_count == 0) return;
+    if (run->model->tree->coupling_count == 0) return;
     double speed, reach = measure(run, &speed);
     for (size_t k = 0; k < run->trajectory.count && reach > 0; k++) {
         size_t i = (size_t)run->trajectory.component[k];
@@ -297,7 +297,7 @@ static double size_of(const struct run *run, size_t i, double reach, double spee
 static void hold_noise(struct run *run)
 {
     const double negligible = 1e-10, roundings = 4;
-    double speed = 0, reach = run->model->tree ? measure(run, &speed) : 0;
+    double speed = 0, reach = tree_joins(run->model->tree) ? measure(run, &speed) : 0;
     for (size_t k = 0; k < run->trajectory.count; k++) {
         int i = run->trajectory.component[k];
         struct enclosure *now = &run->trajectory.now[i];

@@ -368,11 +368,11 @@ void zeno_end_rope_impacts(struct run *run, int count)
     for (int i = 0; i < count; i++) speed = fmax(speed, -work->strikers[i].v_n);
     is_crowd(&work->tugs, speed, unseen);
     if (leaving == 0 || !hurries(&work->tugs) || leaving * (t[0] - t[2]) > unseen) return;
-    double before = jointed_kinetic_energy(run->state);
+    double before = total_kinetic_energy(run->state);
     for (int i = 0; i < count; i++) work->strikers[i].stays = !work->strikers[i].contact;
     zeno_remove_separation(run, count);
     run->impact_work[tree_of(run)->couplings[work->strikers[0].coupling].load] +=
-        jointed_kinetic_energy(run->state) - before;
+        total_kinetic_energy(run->state) - before;
 }
 
 double zeno_rope_limit(const struct run *run)

@@ -266,7 +266,7 @@ int zeno_rest(struct run *run, int strikers)
     const struct tree *tree = tree_of(run);
     struct contacts_work *work = &run->contacts;
     bool *was_touching = work->touching;
-    double before = jointed_kinetic_energy(run->state), above = energy_of_place(run);
+    double before = total_kinetic_energy(run->state), above = energy_of_place(run);
     zeno_remove_separation(run, strikers);
     for (int i = 0; i < tree->coupling_count; i++)
         was_touching[i] = run->state->tree->couplings[i].feature != no_feature;
@@ -279,7 +279,7 @@ int zeno_rest(struct run *run, int strikers)
     impulse_look(run->state);
     int count = contacts_find_strikers(run), last = last_at_rest(run);
     run->impact_work[tree->couplings[tree->meetings[last].first_coupling].load] +=
-        jointed_kinetic_energy(run->state) - before;
+        total_kinetic_energy(run->state) - before;
     book_place(run, last, above);
     for (int i = 0; i < count; i++) {
         double *v = work->v + (ptrdiff_t)2 * i;

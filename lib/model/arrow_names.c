@@ -56,7 +56,7 @@ static int by_text(const void *a, const void *b)
 static size_t most_names(const struct fbd_model *model)
 {
     size_t most = 0;
-    for (int i = 0; i < model->tree->body_count; i++)
+    for (int i = 0; i < model->tree->joined_count; i++)
         most += (size_t)model->bodies[model->tree->bodies[i]].arrow_count;
     return most;
 }
@@ -66,7 +66,7 @@ static void collect(struct fbd_model *model, struct arrow_names *names)
     struct tree *tree = model->tree;
     for (size_t i = 0; i < model->coupled_count; i++) {
         const struct model_load *load = &model->loads[i];
-        if (model->bodies[load->body].place.link == 0) continue;
+        if (model->bodies[load->body].alone) continue;
         add(names, load->body, load->source->name, NULL);
         if (load->partner >= 0) add(names, load->partner, load->source->name, NULL);
     }
@@ -74,7 +74,7 @@ static void collect(struct fbd_model *model, struct arrow_names *names)
         for (int k = 0; k < tree->couplings[i].end_count; k++)
             for (int row = 0; row < 2; row++)
                 add_made(names, tree->couplings[i].end[k].body, &tree->couplings[i].end[k].name[row]);
-    for (int i = 0; i < tree->body_count; i++) {
+    for (int i = 0; i < tree->joined_count; i++) {
         struct model_body *body = &model->bodies[tree->bodies[i]];
         add_made(names, tree->bodies[i], &body->reaction);
         for (int l = body->first_load; l < body->first_load + body->load_count; l++)
@@ -98,7 +98,6 @@ static const char *numbered(struct arena *arena, const struct arrow_names *names
 bool arrows_name(struct fbd_model *model)
 {
     struct arrow_names names = {0};
-    if (!model->tree) return true;
     names.all = calloc(most_names(model) + 1, sizeof *names.all);
     if (!names.all) return false;
     collect(model, &names);

@@ -7,12 +7,11 @@
 
 #include "model/model.h"
 
-/* Affine and sine terms are first summed per slot, then packed. */
+/* Affine terms are first summed per coordinate, then packed. */
 struct builder {
     struct fbd_model *model;
     fbd_errors *errors;
-    struct affine_term *affine; /* slots */
-    struct sine_term *sine;     /* slots */
+    struct affine_term *affine; /* n */
 };
 
 /* Compile a value of the scene; registers its switches. */
@@ -27,19 +26,17 @@ static inline bool formula_given(const struct formula *formula)
     return formula->expr != NULL || formula->constant != 0;
 }
 
-/* The variables of a formula, relative to one body: a set of depends_... bits. */
-unsigned formula_depends(const struct model_body *body, const struct formula *formula);
-
-/* Put one load of a body into the plan's lists. */
-void plan_load(struct builder *builder, struct model_body *body, int index);
-
 /* Add the modes of couplings and of prescribed motion (plan_couplings.c). */
 void plan_couplings(struct builder *builder);
 
-/* Put all loads of a body into the lists and record the ranges of its terms; call `finish` when all bodies
- * are added and the terms by slot are packed. */
-void body_terms_add(struct builder *builder, int b);
-void body_terms_finish(struct builder *builder);
+/* Collect the equations of bodies that stand alone, when all loads have been added (scalar_equations.c). False when
+ * memory is out. */
+bool scalar_equations_collect(struct builder *builder);
+
+/* Is the sum of the forces in a slot constant: along the coordinate; across the line? */
+bool scalar_equation_is_constant(const struct plan *plan, const struct scalar_equation *equation, int slot);
+bool scalar_equation_presses_constantly(const struct plan *plan, const struct scalar_equation *equation,
+                                        int slot);
 
 /* Find the switches on which a sliding mode is possible; the rest of the plan is complete (slides.c). */
 void slides_find(struct fbd_model *model);

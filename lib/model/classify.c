@@ -8,6 +8,24 @@
  */
 #include "model/builder.h"
 
+unsigned formula_slot_depends(const struct model_body *body, int slot)
+{
+    int index = slot - 1;
+    bool own = index >= body->first && index < body->first + body->count;
+    bool own_rate = index >= body->first_rate && index < body->first_rate + body->count;
+    return own ? depends_place : own_rate ? depends_rate : depends_other;
+}
+
+unsigned formula_depends(const struct model_body *body, const struct formula *formula)
+{
+    if (formula_is_constant(formula)) return 0;
+    const int *slots;
+    size_t count = expr_variables(formula->expr, &slots);
+    unsigned on = expr_uses_time(formula->expr) ? depends_time : 0;
+    for (size_t i = 0; i < count; i++) on |= formula_slot_depends(body, slots[i]);
+    return on;
+}
+
 struct verdict {
     enum potential_kind kind;
     const char *why;
@@ -56,7 +74,7 @@ static struct verdict judge_applied(const struct model_body *body, const struct 
 {
     unsigned on = formula_depends(body, &load->value) | formula_depends(body, &load->angle) |
                   formula_depends(body, &load->fx) | formula_depends(body, &load->fy);
-    bool moment = load->source->kind == moment_applied, jointed = body->place.link > 0;
+    bool moment = load->source->kind == moment_applied, jointed = !body->alone;
     bool one_coordinate = body->kind == motion_slide || body->kind == motion_pivot;
     if (on & ~(unsigned)depends_place && !load->source->toward)
         return (struct verdict){potential_none, why_not(on)};

@@ -63,7 +63,7 @@ bool points_meet_on_line(const struct fbd_model *model, struct meeting *meeting)
 void contacts_check(struct builder *builder)
 {
     const struct fbd_model *model = builder->model;
-    for (int i = 0; model->tree && i < model->tree->meeting_count; i++) {
+    for (int i = 0; i < model->tree->meeting_count; i++) {
         const struct meeting *meeting = &model->tree->meetings[i];
         const struct constraint *source = &model->scene->constraints[meeting->constraint];
         if (!meeting_is_of_points(meeting)) continue;

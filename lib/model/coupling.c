@@ -63,7 +63,7 @@ static struct coupling *add_coupling(struct fbd_model *model, int index, int fro
 bool model_has_speeds_given(const struct fbd_model *model)
 {
     if (model_is_driven(model)) return true;
-    for (size_t i = 0; i < model->plan.mode_count && model->tree && model->tree->coupling_count > 0; i++)
+    for (size_t i = 0; i < model->plan.mode_count && model->tree->coupling_count > 0; i++)
         if (model->plan.modes[i].surface_speed.expr) return true;
     return false;
 }

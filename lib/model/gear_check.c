@@ -136,6 +136,6 @@ static void (*const checks[constraint_kinds])(struct builder *builder, const str
 void couplings_check(struct builder *builder)
 {
     const struct tree *tree = builder->model->tree;
-    for (int i = 0; tree && i < tree->coupling_count; i++)
+    for (int i = 0; i < tree->coupling_count; i++)
         if (checks[tree->couplings[i].kind]) checks[tree->couplings[i].kind](builder, &tree->couplings[i]);
 }

@@ -32,7 +32,8 @@ struct model_body {
     struct vec e, n; /* slide: direction of +x; direction that the surface pushes to */
     int normal_slot; /* slide whose normal force is needed: slot of the forces along n, else -1 */
     int friction;    /* index into plan.modes, or -1 */
-    struct placement place;      /* of a jointed body in the tree */
+    struct placement place;      /* in the tree */
+    bool alone;                  /* not jointed, see tree.h */
     int parent;                  /* jointed: the body that it moves on, or -1 for the ground */
     int child, sibling;          /* jointed: the first body that moves on it, the next one beside it; or -1 */
     int drive, drive_pair;       /* prescribed: its entry in the loads, and in plan.modes; else -1 */
@@ -102,7 +103,7 @@ struct fbd_model {
     bool names_places;         /* world positions are used, not only in hand derivations */
     struct vec *output_points; /* scene->output_points, in the frames of their bodies */
     struct plan plan;
-    struct tree *tree; /* the jointed bodies; NULL when there are none */
+    struct tree *tree;
     bool assembles;    /* some start positions follow from couplings */
 };
 
@@ -115,6 +116,10 @@ struct fbd_model *model_compile(struct scene *scene, fbd_errors *errors);
 struct fbd_model *model_compile_again(struct scene *scene, const struct fbd_model *like, fbd_errors *errors);
 
 void model_free(struct fbd_model *model);
+
+/* The variables of a formula, and that of one slot of expressions, relative to one body: a set of depends_... bits. */
+unsigned formula_depends(const struct model_body *body, const struct formula *formula);
+unsigned formula_slot_depends(const struct model_body *body, int slot);
 
 /* ---- by name (find.c); -1 when there is none */
 

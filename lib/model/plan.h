@@ -3,10 +3,9 @@
  * Plan: the effects that the right-hand side computes.
  *
  * Every effect is added to slots. Slot i < n is the generalized force of coordinate i (a force along a slide,
- * a moment about a pivot, ...). The following slots are the sums of the forces across slides whose normal
- * force is needed. For each kind of effect there is one dense list, empty when no body lists it. Constants
- * are folded: on a slide, gravity, constant forces, springs along the line and viscous dampers together are a
- * single affine term.
+ * a moment about a pivot, ...) by the springs, dampers and potentials in the joint. The following slots are the
+ * sums of the forces across slides whose normal force is needed, and the forces of friction. For each kind of
+ * effect there is one dense list, empty when no body lists it. All other loads are in the lists of the tree.
  *
  * Dry friction is not a term: it depends on a mode (stick, slip+, slip-) and on the normal force, so it is
  * computed after the terms.
@@ -31,22 +30,10 @@ static inline bool formula_is_constant(const struct formula *formula)
     return formula->expr == NULL;
 }
 
-/* slot += c0 - kq q - kv v */
+/* A spring, damper or constant force in a joint: Q += c0 - kq q - kv v. */
 struct affine_term {
-    int slot, coordinate;
+    int coordinate, link;
     double c0, kq, kv;
-};
-
-/* slot += s sin(q) + c cos(q): a constant force on a turning body */
-struct sine_term {
-    int slot, coordinate;
-    double s, c;
-};
-
-/* slot -= k |v| v, at most one for each slot */
-struct square_term {
-    int slot, coordinate;
-    double k;
 };
 
 /* slot += scale * value(t, q, v) */
@@ -56,39 +43,16 @@ struct formula_term {
     struct formula value;
 };
 
-/* slot -= dV/dq */
+/* Q -= dV/dq */
 struct potential_term {
-    int slot, coordinate;
+    int coordinate;
     struct formula V;
-};
-
-/* A spring and damper between a point of a body and a point of the ground. */
-struct link_term {
-    int body;
-    struct vec point, anchor;
-    double stiffness, free_length, damping;
-};
-
-/* Drag on a point of a body that moves in the plane. */
-struct drag_term {
-    int body;
-    struct vec point;
-    double linear, quadratic;
-};
-
-/* A force of size `value` in the direction `angle`, in the world or turning with the body, at a point of a
- * body. */
-struct force_term {
-    int body;
-    struct vec point;
-    bool body_frame;
-    struct formula value, angle;
 };
 
 /* The kinds of modes. A one-sided constraint is closed (`stick`) or open (`slip_plus`). */
 enum mode_kind {
-    mode_single,  /* dry friction along the coordinate of an unconnected body: decided independently */
-    mode_joint,   /* dry friction along a coordinate between links: decided with all modes at rest there */
+    mode_single,  /* dry friction along the coordinate of a body that stands alone: decided independently */
+    mode_joint,   /* dry friction along the coordinate of a jointed body: decided with all modes at rest there */
     mode_tangent, /* dry friction along the tangent of a coupling: rolling, contact, capstan */
     mode_rope,    /* one-sided: taut or slack; see coupling.h */
     mode_surface, /* one-sided: a rolling body touches its line or has left it */
@@ -156,13 +120,6 @@ struct pole {
     size_t count;
 };
 
-/* A planar body whose centre of mass is not at the origin of its frame: its three equations are coupled. */
-struct offset_body {
-    int body, first;
-    double mass, I_G;
-    struct vec arm; /* from the origin to G, body frame */
-};
-
 /* A user event: it occurs where left - right crosses zero. */
 struct watch {
     const struct user_event *source;
@@ -182,15 +139,17 @@ struct range {
     int first, count;
 };
 
-/* The terms of one body: its part of every list. The lists are in the order of the bodies. */
-struct body_terms {
-    struct range affine, sine, square, formulas, potentials, links, drags, forces;
-    struct range across; /* the affine term of its normal slot: constants */
-    int friction;        /* index into modes, or -1 */
-    int offset;          /* index into offsets, or -1 */
-    bool at_points;      /* it has links, drags or forces: its pose is needed */
-    bool turns;          /* cosine and sine of its angle are both needed */
-    unsigned depends;    /* variables of the forces on it, friction included */
+/* The equation of motion of a body that stands alone (tree.h) and has one coordinate. Where `known`, the forces along
+ * it are functions of t, q, v and the user states only, and the forces across its line of t and those:
+ *
+ *     q'' = inverse_inertia (c0 - kq q - kv v - square |v| v + s sin q + c cos q + sum of formulas + friction)
+ *
+ * The formulas in its normal slot are beside `across`, the constant part. */
+struct scalar_equation {
+    bool known;
+    double c0, kq, kv, square, s, c;
+    double across;
+    struct range formulas;
 };
 
 struct plan {
@@ -201,24 +160,17 @@ struct plan {
     struct formula *rates;   /* own: their time derivatives */
     double *inverse_inertia; /* n: 1/m, 1/I_O or 1/I_G */
 
-    size_t affine_count, sine_count, square_count, formula_count, potential_count, link_count, drag_count,
-        force_count;
-    struct affine_term *affine;
-    struct sine_term *sine;
-    struct square_term *square;
-    struct formula_term *formulas;
+    size_t affine_count, potential_count;
+    struct affine_term *affine; /* in joints */
     struct potential_term *potentials;
-    struct link_term *links;
-    struct drag_term *drags;
-    struct force_term *forces;
-    struct body_terms *bodies; /* by body */
+    struct scalar_equation *equations; /* by body */
+    struct formula_term *formulas;     /* of the equations */
 
-    size_t mode_count, contact_count, kink_count, pole_count, offset_count, watch_count;
+    size_t mode_count, contact_count, kink_count, pole_count, watch_count;
     struct mode *modes;
     struct contact *contacts;
     struct kink *kinks;
     struct pole *poles;
-    struct offset_body *offsets;
     struct watch *watches;
 
     int branches;        /* ints of a state for the branches of the kinks */

@@ -109,7 +109,7 @@ void plan_couplings(struct builder *builder)
 {
     struct fbd_model *model = builder->model;
     int load = (int)model->coupled_count - 1, last = -1;
-    for (int i = 0; model->tree && i < model->tree->coupling_count; i++) {
+    for (int i = 0; i < model->tree->coupling_count; i++) {
         struct coupling *coupling = &model->tree->couplings[i];
         if (!constraint_has_load(coupling->source)) continue;
         if (coupling->constraint != last)

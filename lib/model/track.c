@@ -65,7 +65,7 @@ static void check_directions(struct builder *builder, const struct model_body *b
 bool tracks_set(struct builder *builder)
 {
     struct fbd_model *model = builder->model;
-    for (int i = 1; model->tree && i < model->tree->count; i++) {
+    for (int i = 1; i < model->tree->count; i++) {
         struct tree_link *link = &model->tree->links[i];
         struct model_body *body = &model->bodies[link->body];
         if (link->kind != motion_track) continue;

@@ -24,7 +24,7 @@ static void mark_jointed(const struct fbd_model *model, bool *jointed)
     for (size_t b = 0; b < scene->body_count; b++) {
         const struct motion *motion = &scene->bodies[b].motion;
         const int parent = motion->parent;
-        jointed[b] = true;
+        if (motion->prescribed.expr || motion->curve || scene->bodies[b].mass.expr) jointed[b] = true;
         if (parent != ground_body) jointed[b] = jointed[parent] = true;
     }
     for (size_t c = 0; c < scene->force_coupling_count; c++)
@@ -53,13 +53,15 @@ static bool find_family(struct fbd_model *model, struct family *family)
     return true;
 }
 
-/* Depth first, each body before those that move on it, so that chains are contiguous in memory. */
-static void order_bodies(const struct fbd_model *model, struct tree *tree, const struct family *family)
+/* Depth first, each body before those that move on it, so that chains are contiguous in memory. Returns the
+ * number of bodies after those that are jointed, or not, have been added to `ordered`. */
+static int order_bodies(const struct fbd_model *model, int *ordered, int number, const struct family *family,
+                        bool jointed)
 {
     int count = (int)model->body_count;
     int b = family->first[count];
     while (b >= 0) {
-        if (family->jointed[b]) tree->bodies[tree->body_count++] = b;
+        if (family->jointed[b] == jointed) ordered[number++] = b;
         int down = family->first[b];
         while (down < 0 && b != ground_body) { /* back up to the next sibling */
             down = family->next[b];
@@ -67,6 +69,7 @@ static void order_bodies(const struct fbd_model *model, struct tree *tree, const
         }
         b = down;
     }
+    return number;
 }
 
 /* ---- places and links */
@@ -141,25 +144,24 @@ bool tree_number(struct fbd_model *model)
 {
     struct family family;
     if (!find_family(model, &family)) return false;
-    size_t count = 0;
-    size_t bulks = 0;
-    for (size_t b = 0; b < model->body_count; b++)
-        count += family.jointed[b], bulks += model->bodies[b].varies;
-    if (count == 0) return true;
+    size_t count = model->body_count, bulks = 0;
+    for (size_t b = 0; b < count; b++) bulks += model->bodies[b].varies;
     struct tree *tree = ARENA_ARRAY(&model->arena, 1, struct tree);
     if (!tree) return false;
     tree->bodies = ARENA_ARRAY(&model->arena, count, int);
     tree->links = ARENA_ARRAY(&model->arena, count + 1, struct tree_link);
     tree->pairs = ARENA_ARRAY(&model->arena, count, int);
-    tree->acting = ARENA_ARRAY(&model->arena, model->body_count, int);
     tree->watched = ARENA_ARRAY(&model->arena, count, int);
     tree->bulks = ARENA_ARRAY(&model->arena, bulks, struct tree_bulk);
     if (model->arena.failed) return false;
-    order_bodies(model, tree, &family);
+    tree->joined_count = order_bodies(model, tree->bodies, 0, &family, true);
+    order_bodies(model, tree->bodies, tree->joined_count, &family, false);
     tree->count = 1;
     tree->links[0] = (struct tree_link){.body = -1, .pair = -1, .normal_slot = -1};
-    for (int i = 0; i < tree->body_count; i++) {
+    for (int i = 0; i < (int)count; i++) {
         struct model_body *body = &model->bodies[tree->bodies[i]];
+        body->alone = i >= tree->joined_count;
+        if (i == tree->joined_count) tree->joined = tree->count;
         if (body->kind == motion_weld) {
             body->place = place_in_parents_link(model, &body->source->motion);
         } else {
@@ -169,6 +171,7 @@ bool tree_number(struct fbd_model *model)
         add_inertia(&tree->links[body->place.link], body);
         if (body->varies) add_bulk(tree, tree->bodies[i], body);
     }
+    if (tree->joined_count == (int)count) tree->joined = tree->count;
     for (int i = 1; i < tree->count; i++) {
         int parent = tree->links[i].parent;
         tree->links[i].root = parent > 0 ? tree->links[parent].root : i;
@@ -414,7 +417,8 @@ static const char *reaction_of(const struct fbd_model *model, const struct model
     case motion_slide:
     case motion_track: return has_normal(model, body) ? NULL : "guide";
     case motion_weld: return "weld";
-    case motion_particle: return twisted || body->parent != ground_body || body->child >= 0 ? "guide" : NULL;
+    case motion_particle:
+        return !body->alone && (twisted || body->parent != ground_body || body->child >= 0) ? "guide" : NULL;
     case motion_planar: break;
     }
     return NULL;
@@ -443,9 +447,10 @@ static void name_reactions(struct fbd_model *model, struct model_body *body, boo
 bool tree_name_reactions(struct fbd_model *model)
 {
     const struct tree *tree = model->tree;
-    const bool *twisted = tree ? find_twisted(model) : NULL;
-    for (int i = 0; twisted && i < tree->body_count; i++) {
-        int b = tree->bodies[tree->body_count - 1 - i]; /* lists of children in the order of the tree */
+    const int count = (int)model->body_count;
+    const bool *twisted = find_twisted(model);
+    for (int i = 0; twisted && i < count; i++) {
+        int b = tree->bodies[count - 1 - i]; /* lists of children in the order of the tree */
         struct model_body *body = &model->bodies[b];
         name_reactions(model, body, twisted[b]);
         if (body->parent == ground_body) continue;
@@ -462,12 +467,23 @@ bool tree_name_reactions(struct fbd_model *model)
 static double mass_ratio(const struct tree *tree)
 {
     double heaviest = 0, lightest = HUGE_VAL;
-    for (int i = 1; i < tree->count; i++) {
+    for (int i = 1; i < tree->joined; i++) {
         const double mass = tree->links[i].mass;
         heaviest = fmax(heaviest, mass);
         if (mass > 0) lightest = fmin(lightest, mass);
     }
     return heaviest / lightest;
+}
+
+static bool is_loaded(const struct tree *tree)
+{
+    bool loaded = tree->bulk_count > 0;
+    for (size_t i = 0; i < tree->spring_count; i++) loaded |= tree->springs[i].link[0] < tree->joined;
+    for (size_t i = 0; i < tree->following_count; i++) loaded |= tree->following[i].link < tree->joined;
+    for (size_t i = 0; i < tree->force_count; i++) loaded |= tree->forces[i].link < tree->joined;
+    for (size_t i = 0; i < tree->moment_count; i++) loaded |= tree->moments[i].link < tree->joined;
+    for (size_t i = 0; i < tree->drag_count; i++) loaded |= tree->drags[i].link < tree->joined;
+    return loaded;
 }
 
 bool tree_finish(struct fbd_model *model)
@@ -478,21 +494,23 @@ bool tree_finish(struct fbd_model *model)
         tree->links[i].normal_slot = model->bodies[tree->links[i].body].normal_slot;
     for (int p = 0; p < (int)plan->mode_count; p++) {
         const struct mode *mode = &plan->modes[p];
-        if (mode->kind == mode_single || mode->coupling >= 0) continue;
+        if (mode->coupling >= 0) continue;
         int link = model->bodies[mode->body].place.link;
         tree->links[link].pair = p;
-        if (mode->normal_slot >= 0) tree->pairs[tree->pair_count++] = link;
+        if (mode->normal_slot >= 0 && !link_is_alone(tree, link)) tree->pairs[tree->pair_count++] = link;
     }
-    for (int i = 1; i < tree->count; i++)
-        if (tree->links[i].normal_slot >= 0 || tree->links[i].pair >= 0)
-            tree->watched[tree->watched_count++] = i;
-    tree->loaded = tree->following_count + tree->force_count + tree->moment_count + tree->spring_count +
-                       tree->drag_count + tree->bulk_count >
-                   0;
+    for (int i = 1; i < tree->count; i++) {
+        if (tree->links[i].normal_slot < 0 && tree->links[i].pair < 0) continue;
+        tree->watched[tree->watched_count++] = i;
+        tree->joined_watched += i < tree->joined;
+    }
+    tree->loaded = is_loaded(tree);
     tree->mass_ratio = mass_ratio(tree);
+    tree->joined_by_pivots = tree->joined_watched == 0 && tree->bulk_count == 0;
     tree->pivots_only = tree->watched_count == 0 && tree->bulk_count == 0;
     for (int i = 1; i < tree->count; i++) {
         if (tree->links[i].kind != motion_pivot) tree->pivots_only = false;
+        if (tree->links[i].kind != motion_pivot && i < tree->joined) tree->joined_by_pivots = false;
         if (tree->links[i].track) tree->curved = true;
     }
     return couplings_order(model);

@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Tree: the jointed bodies, in the form that the recursion of dynamics/tree.h uses.
+ * Tree: all bodies, in the form that the recursion of dynamics/tree.h uses.
  *
- * A body is jointed when it moves on another body, carries one, or is an end of a coupling. A link is a
- * jointed body with all bodies welded to it: one frame, one mass, one moment of inertia. Links are numbered
- * from 1 so that each comes after the one that it moves on; link 0 is the ground. A model without jointed
- * bodies has no tree, and a body that is not jointed is no part of it.
+ * A link is a body with all bodies welded to it: one frame, one mass, one moment of inertia. Links are numbered
+ * from 1 so that each comes after the one that it moves on; link 0 is the ground. A body is jointed when it
+ * moves on another body, carries one, is an end of a coupling, is driven, moves along a curve, or has a mass
+ * that varies. The others stand alone: their links come last,
+ * each is a tree of its own, and no force on one depends on the accelerations of another.
  *
  * The reference point O of a link is the axis of its pivot or the origin of its body's frame. Points of a
  * link are measured from O, in the frame of the link's own body.
@@ -18,9 +19,9 @@
 #include "model/plan.h"
 #include "scene/scene.h"
 
-/* Position of the frame of a jointed body in its link: a point p of the body is shift + R(turn) p. */
+/* Position of the frame of a body in its link: a point p of the body is shift + R(turn) p. */
 struct placement {
-    int link; /* 0: the body is not jointed */
+    int link;
     struct vec shift, turn;
     double angle;
 };
@@ -102,7 +103,8 @@ struct tree_bulk {
 };
 
 struct tree {
-    int count; /* links, the ground included; links[0] is the ground */
+    int count;  /* links, the ground included; links[0] is the ground */
+    int joined; /* the number of the first link that stands alone */
     struct tree_link *links;
     size_t following_count, force_count, moment_count, spring_count, drag_count, bulk_count;
     struct tree_following *following;
@@ -111,16 +113,16 @@ struct tree {
     struct tree_spring *springs;
     struct tree_drag *drags;
     struct tree_bulk *bulks;
-    int acting_count;  /* bodies with terms in the plan: not jointed, or with forces in the joint */
-    int *acting;       /* their numbers */
-    bool loaded;       /* a load of the lists above acts on links */
+    bool loaded;       /* a load of the lists above acts on jointed links */
     bool curved;       /* there are tracks */
-    bool pivots_only;  /* every joint is a pivot, and none has dry friction */
+    bool pivots_only;  /* every joint is a pivot, and none has dry friction; */
+    bool joined_by_pivots; /* the same of the jointed links */
     double mass_ratio; /* heaviest over lightest link */
-    int pair_count;    /* links whose dry friction depends on a normal force */
+    int pair_count;    /* jointed links whose dry friction depends on a normal force */
     int *pairs;        /* their numbers */
     int watched_count; /* links whose joint has a normal force or dry friction */
-    int *watched;      /* their numbers */
+    int *watched;      /* their numbers, in order */
+    int joined_watched; /* those of them that are jointed: they come first */
     int coupling_count, row_count; /* see coupling.h */
     struct coupling *couplings;
     int meeting_count; /* see contact.h */
@@ -131,21 +133,31 @@ struct tree {
     int *first, *reach;   /* of a position: the first coupled one, and one past the last */
     size_t *envelope;     /* start of the entries from first[p] to p */
     size_t envelope_size;
-    int body_count; /* jointed bodies */
-    int *bodies;    /* each after the one that it moves on */
+    int *bodies;      /* all, each after the one that it moves on */
+    int joined_count; /* those that are jointed come first: their number */
 };
+
+/* Are there jointed bodies? */
+static inline bool tree_joins(const struct tree *tree)
+{
+    return tree->joined > 1;
+}
+
+static inline bool link_is_alone(const struct tree *tree, int link)
+{
+    return link >= tree->joined;
+}
 
 struct builder;
 struct fbd_model;
 
-/* Find the jointed bodies, number the links and set the placement of each jointed body. model->tree stays
- * NULL when there are none. False when memory is out. */
+/* Find the jointed bodies, number the links and set the placement of each body. False when memory is out. */
 bool tree_number(struct fbd_model *model);
 
 /* Name the forces in the joints and count the arrows of all diagrams. False when memory is out. */
 bool tree_name_reactions(struct fbd_model *model);
 
-/* Add a load of a jointed body to the lists of the tree and to those of the plan that act in joints. */
+/* Add a load to the lists of the tree and to those of the plan that act in joints. */
 void tree_add_load(struct builder *builder, int index);
 
 /* Compute the constants of the links after all loads are added. False when memory is out. */

@@ -9,7 +9,7 @@
 
 static int row_count(const struct fbd_model *model)
 {
-    return model->tree ? model->tree->row_count : 0;
+    return model->tree->row_count;
 }
 
 /* Rows that are active in the modes of an evaluated state: not those of a slack rope. */

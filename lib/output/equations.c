@@ -140,7 +140,7 @@ static void add_cut_free(struct fbd_equations *all, const struct fbd_state *stat
     const struct vec G = mass_center(body, &at), a_G = mass_center_acceleration(body, &at, state->a);
     const double acceleration[] = {a_G.x, a_G.y, body_angular_acceleration(body, &at, state->a)};
     /* For an unconnected body that does not turn, the moment that prevents it is not computed. */
-    bool straight = body->place.link == 0 && (body->kind == motion_slide || body->kind == motion_particle);
+    bool straight = body->alone && (body->kind == motion_slide || body->kind == motion_particle);
     for (int part = 0; part < (straight ? 2 : 3); part++) {
         bool moment = part == 2;
         const struct equation row = {

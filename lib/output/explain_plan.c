@@ -5,7 +5,7 @@
  */
 #include "output/explain.h"
 
-#include "model/tree.h"
+#include "model/model.h"
 
 static void write_list(struct text *text, size_t count, const char *words)
 {
@@ -14,55 +14,98 @@ static void write_list(struct text *text, size_t count, const char *words)
 
 /* ---- the right-hand side */
 
-static void write_tree(struct text *text, const struct tree *tree)
+static size_t known_equations(const struct fbd_model *model)
 {
-    write_list(text, (size_t)tree->count - 1,
+    size_t count = 0;
+    for (size_t b = 0; b < model->body_count; b++) count += model->plan.equations[b].known;
+    return count;
+}
+
+static void write_terms(struct text *text, const struct fbd_model *model)
+{
+    const struct plan *plan = &model->plan;
+    const struct tree *tree = model->tree;
+    text_add(text, "\nRight-hand side\n");
+    write_list(text, known_equations(model),
+               "body on its own with one coordinate: its equation is a sum of terms along it");
+    write_list(text, (size_t)(tree->count - tree->joined) - known_equations(model), "other body on its own");
+    write_list(text, (size_t)tree->joined - 1,
                "link of jointed bodies, by the articulated-body recursion (constant forces in it)");
-    write_list(text, tree->following_count, "constant force or moment that turns with its link");
-    write_list(text, tree->force_count, "force of a formula at a point of a link");
-    write_list(text, tree->moment_count, "moment of a formula on a link");
-    write_list(text, tree->spring_count, "spring or damper between two points of links or the ground");
-    write_list(text, tree->drag_count, "drag at a point of a link");
+    write_list(text, plan->affine_count, "spring, damper or constant force in a joint");
+    write_list(text, plan->potential_count, "slope of a potential");
+    write_list(text, tree->following_count, "constant force or moment that turns with its body");
+    write_list(text, tree->force_count, "force of a formula at a point of a body");
+    write_list(text, tree->moment_count, "moment of a formula on a body");
+    write_list(text, tree->spring_count, "spring or damper between two points of bodies or the ground");
+    write_list(text, tree->drag_count, "drag at a point of a body");
+    write_list(text, (size_t)plan->own, "state with an equation of its own");
+    write_list(text, plan->mode_count, "dry friction, as modes stick and slip");
     write_list(text, (size_t)tree->pair_count,
                "friction in proportion to the normal force between two links");
     write_list(text, (size_t)tree->row_count,
                "row of couplings: a multiplier each, projected after every step");
 }
 
-static void write_terms(struct text *text, const struct plan *plan, const struct tree *tree)
+/* ---- the variables on which forces depend */
+
+/* Is a slot the slip velocity of the body on its surface? */
+static bool is_own_slip(const struct fbd_model *model, const struct model_body *body, int slot)
 {
-    text_add(text, "\nRight-hand side\n");
-    size_t across = 0;
-    for (size_t i = 0; i < plan->affine_count; i++) across += plan->affine[i].slot >= plan->n;
-    write_list(text, plan->affine_count - across,
-               "affine: c0 - k q - c v (constants, springs along the motion and viscous dampers in one)");
-    write_list(text, across, "constant across a line: for the normal force");
-    write_list(text, plan->sine_count, "sine: s sin q + c cos q (constant forces on a turning body)");
-    write_list(text, plan->square_count, "quadratic drag: k |v| v");
-    write_list(text, plan->formula_count, "formula in a fixed direction");
-    write_list(text, plan->potential_count, "slope of a potential");
-    write_list(text, plan->link_count, "spring or damper between two points");
-    write_list(text, plan->drag_count, "drag in the plane");
-    write_list(text, plan->force_count, "formula whose direction changes");
-    write_list(text, (size_t)plan->own, "state with an equation of its own");
-    write_list(text, plan->mode_count, "dry friction, as modes stick and slip");
-    if (tree) write_tree(text, tree);
-    write_list(text, plan->offset_count, "body whose frame is not at its centre of mass");
-    if (!tree && plan->affine_count + plan->sine_count + plan->square_count + plan->formula_count +
-                         plan->potential_count + plan->link_count + plan->drag_count + plan->force_count +
-                         plan->mode_count + plan->offset_count + (size_t)plan->own ==
-                     0)
-        text_add(text, "  none\n");
+    int first = 1 + (int)plan_size(&model->plan) + hand_slots;
+    const struct absolute *absolute = slot < first ? NULL : &model->scene->absolutes[slot - first];
+    return absolute && absolute->kind == absolute_slip && absolute->roll == 0 &&
+           &model->bodies[absolute->body] == body;
+}
+
+/* Variables of kinetic friction; if its law depends on the slip, also those of the surface speed. */
+static unsigned friction_depends(const struct fbd_model *model, const struct model_body *body,
+                                 const struct mode *mode)
+{
+    if (formula_is_constant(&mode->mu_k)) return 0;
+    const int *slots;
+    size_t count = expr_variables(mode->mu_k.expr, &slots);
+    unsigned on = expr_uses_time(mode->mu_k.expr) ? depends_time : 0;
+    for (size_t i = 0; i < count; i++)
+        on |= is_own_slip(model, body, slots[i]) ? depends_rate | formula_depends(body, &mode->surface_speed)
+                                                 : formula_slot_depends(body, slots[i]);
+    return on;
+}
+
+static unsigned load_depends(const struct fbd_model *model, const struct model_body *body,
+                             const struct model_load *load)
+{
+    const bool turns = body->kind == motion_pivot || body->kind == motion_planar;
+    const struct formula *formulas[] = {&load->value, &load->angle, &load->fx, &load->fy, &load->potential};
+    unsigned on = 0;
+    for (size_t i = 0; i < sizeof formulas / sizeof *formulas; i++) on |= formula_depends(body, formulas[i]);
+    switch (load->source->kind) {
+    case load_gravity: return body->kind == motion_pivot && body->L > 0 ? depends_place : 0;
+    case load_applied: return turns && !load->source->body_frame ? on | depends_place : on;
+    case load_spring:
+    case moment_spring: return load->source->coefficient != 0 ? depends_place | depends_rate : depends_place;
+    case load_damper: return load->linked ? depends_place | depends_rate : depends_rate;
+    case moment_damper: return depends_rate;
+    case load_drag: return turns ? on | depends_place | depends_rate : on | depends_rate;
+    case load_friction:
+    case moment_friction: return friction_depends(model, body, &model->plan.modes[body->friction]);
+    default: return on;
+    }
 }
 
 static size_t bodies_that_depend(const struct fbd_model *model, unsigned on)
 {
     size_t count = 0;
-    for (size_t b = 0; b < model->body_count; b++) count += (model->plan.bodies[b].depends & on) != 0;
+    for (size_t b = 0; b < model->body_count; b++) {
+        const struct model_body *body = &model->bodies[b];
+        unsigned all = 0;
+        for (int i = body->first_load; i < body->first_load + body->load_count; i++)
+            all |= load_depends(model, body, &model->loads[i]);
+        count += (all & on) != 0;
+    }
     return count;
 }
 
-static void write_rows(struct text *text, const struct fbd_model *model, struct rates_census rows)
+static void write_rows(struct text *text, struct rates_census rows)
 {
     text_add(text, "  as it starts, its rows are\n");
     const struct {
@@ -75,10 +118,9 @@ static void write_rows(struct text *text, const struct fbd_model *model, struct 
         {rows.sine, "sine of the angle: one line"},
         {rows.parts, "one power or harmonic of a formula: one line, no program"},
         {rows.formulas, "with formulas"},
-        {rows.particles, "particle with springs, dampers or drag at its points"},
         {rows.own, "rates of the states of the file"},
         {rows.bare, "chains of pivots with constant forces, without their places in the world"},
-        {rows.bodies, model->tree ? "jointed bodies, all together" : "body by the general path"},
+        {rows.whole, "all bodies together, by the recursion"},
     };
     for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++)
         if (kinds[i].count > 0) text_printf(text, "    %3d  %s\n", kinds[i].count, kinds[i].words);
@@ -134,23 +176,23 @@ static void write_events(struct text *text, const struct plan *plan)
 
 /* ---- structure */
 
-static void write_structure(struct text *text, const struct plan *plan, const struct tree *tree)
+static void write_structure(struct text *text, const struct fbd_model *model)
 {
+    const struct tree *tree = model->tree;
+    const size_t alone = (size_t)(tree->count - tree->joined);
     text_add(text, "\nStructure\n");
-    if (tree)
+    if (tree_joins(tree))
         text_add(text, "  jointed bodies form a tree: accelerations by a recursion over it\n");
-    else if (plan->offset_count == 0)
-        text_add(text, "  diagonal mass matrix: each acceleration is a sum of forces over an inertia\n");
-    else
-        text_printf(text, "  the mass matrix has %zu block%s of three, else it is diagonal\n",
-                    plan->offset_count, plan->offset_count == 1 ? "" : "s");
+    if (alone > 0)
+        text_printf(text, "  %zu bod%s on the ground alone: no acceleration depends on another one\n", alone,
+                    alone == 1 ? "y is" : "ies are");
 }
 
 void explain_plan(struct text *text, const struct fbd_model *model, const struct rates *rates)
 {
-    write_terms(text, &model->plan, model->tree);
+    write_terms(text, model);
     write_dependence(text, model);
-    write_rows(text, model, rates_census(rates));
+    write_rows(text, rates_census(rates));
     write_events(text, &model->plan);
-    write_structure(text, &model->plan, model->tree);
+    write_structure(text, model);
 }

@@ -10,7 +10,7 @@
 bool equations_cut_free(const struct fbd_model *model, bool components)
 {
     enum { most_bodies = 100 };
-    return model->body_count <= most_bodies && (components || model->tree);
+    return model->body_count <= most_bodies && (components || tree_joins(model->tree));
 }
 
 /* True if the equations of its coordinates contain the accelerations of G in the world. */
@@ -35,7 +35,7 @@ static bool has_coordinate_along(const struct model_body *body, int part)
 bool body_is_cut_free(const struct fbd_model *model, int b, bool components)
 {
     const struct model_body *body = &model->bodies[b];
-    return components || body->count == 0 || (body->place.link > 0 && equations_cut_free(model, false));
+    return components || body->count == 0 || (!body->alone && equations_cut_free(model, false));
 }
 
 bool equation_is_written(const struct fbd_model *model, int b, bool cut_free, int part, bool components)
@@ -43,7 +43,7 @@ bool equation_is_written(const struct fbd_model *model, int b, bool cut_free, in
     const struct model_body *body = &model->bodies[b];
     const bool ground = is_on_ground(body);
     const bool straight =
-        body->place.link == 0 && (body->kind == motion_slide || body->kind == motion_particle);
+        body->alone && (body->kind == motion_slide || body->kind == motion_particle);
     if (!body_is_cut_free(model, b, components)) return !cut_free;
     if (cut_free && part == 2 && straight)
         return false; /* the moment that keeps it from turning is not computed */

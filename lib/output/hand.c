@@ -139,7 +139,7 @@ static void take_sample(struct hand_check *check, const struct hand *hand, const
     double slope = 0, scale = 1;
     /* Several unknowns in one equation: compare the two sides. */
     bool jointed =
-        body->place.link > 0 || (says & ((unsigned)hand_named_forces | (unsigned)hand_others)) != 0;
+        !body->alone || (says & ((unsigned)hand_named_forces | (unsigned)hand_others)) != 0;
     int part =
         jointed ? -1 : accelerated_part(hand, (int)plan_size(&model->plan), body->count, state->t, y, &slope);
     check->part = part;

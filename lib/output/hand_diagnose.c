@@ -253,7 +253,7 @@ void hand_diagnose(const struct hand_check *check, int slip, struct text *text)
                  blame_inertia(check, slip, text);
     /* Terms are those along the coordinate of an unconnected body. */
     const bool named = (check->says & ((unsigned)hand_named_forces | (unsigned)hand_others)) != 0 ||
-                       check->model->bodies[check->body].place.link > 0;
+                       !check->model->bodies[check->body].alone;
     if (!found && !across && !named) found = blame_term(check, slip, text) || hand_match(check, slip, text);
     if (!found) found = hand_blame(check, slip, text);
     if (!found) text_add(text, "  no single term explains the difference\n");

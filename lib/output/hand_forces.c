@@ -142,7 +142,7 @@ static bool has_couple(const struct naming *naming, size_t i)
     const int joint = naming->symbols[i].joint;
     if (naming->symbols[i].moment) return true;
     return joint >= 0 && naming->model->bodies[joint].kind != motion_pivot &&
-           naming->model->bodies[joint].place.link > 0;
+           !naming->model->bodies[joint].alone;
 }
 
 static void add_letter(const struct naming *naming, size_t i, const char *letter)

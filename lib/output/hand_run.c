@@ -75,7 +75,7 @@ static bool is_of_one_body(const struct fbd_model *model, int load)
     if ((size_t)load < model->coupled_count)
         return model->loads[load].in_joint ? model->bodies[model->loads[load].body].parent < 0
                                            : model->loads[load].partner < 0;
-    for (int i = 0; model->tree && i < model->tree->coupling_count; i++) {
+    for (int i = 0; i < model->tree->coupling_count; i++) {
         const struct coupling *coupling = &model->tree->couplings[i];
         int moving = 0;
         for (int end = 0; end < coupling->end_count; end++) moving += coupling->end[end].body != ground_body;

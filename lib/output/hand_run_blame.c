@@ -224,7 +224,7 @@ static bool comes_from_outside(const struct judge *judge, const struct run_shot 
     const struct fbd_model *model = judge->run->model;
     const struct ensemble *ensemble = judge->run->ensemble;
     for (size_t i = shot->event; i < ensemble->event_count && ensemble->events[i].t == shot->t; i++)
-        for (int k = 0; model->tree && k < model->tree->coupling_count; k++) {
+        for (int k = 0; k < model->tree->coupling_count; k++) {
             const struct coupling *coupling = &model->tree->couplings[k];
             if (!run_event_is_impact(&ensemble->events[i]) || coupling->load != ensemble->events[i].load)
                 continue;

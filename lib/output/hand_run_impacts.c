@@ -222,7 +222,7 @@ static struct hand_impact *impact_new(struct hand_run *run)
 {
     const struct fbd_model *model = run->model;
     const size_t n = (size_t)model->plan.n, slides = model->plan.mode_count,
-                 rows = 2 * (size_t)(model->tree ? model->tree->coupling_count : 0), all = rows + slides;
+                 rows = 2 * (size_t)model->tree->coupling_count, all = rows + slides;
     struct hand_impact *impact = ARENA_NEW(&run->arena, struct hand_impact);
     if (!impact) return NULL;
     *impact = (struct hand_impact){.run = run,
@@ -248,7 +248,7 @@ bool hand_run_add_impact(struct hand_run *run, const double *before, const doubl
     impact->before = before;
     impact->after = after;
     impact->row_count = impact->slide_count = 0;
-    if (model->tree) {
+    if (tree_joins(model->tree)) {
         for (size_t i = 0; i < n; i++) run->state->y[n + i] = (before[i] + after[i]) / 2;
         find_rows(impact);
     }

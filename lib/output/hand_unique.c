@@ -89,7 +89,7 @@ bool hand_is_open(struct hand_check *check, const struct hand *hand, const struc
     const size_t room = hand_room(model);
     struct arena arena = {0};
     struct instant at = state_instant(state);
-    if (!state->tree || !rest_is_open(model, &at)) return false;
+    if (!rest_is_open(model, &at)) return false;
     struct question question = {.check = check, .hand = hand, .named = named, .size = size};
     bool open = false;
     question.before = ARENA_ARRAY(&arena, room, double);

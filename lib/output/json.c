@@ -193,7 +193,7 @@ static void write_events(struct text *text, const fbd_simulation *simulation)
 /* The friction of a rolling body or of a slot with an arrow of this name; NULL for any other force. */
 static const struct coupling *rolling_friction(const struct fbd_model *model, int body, const char *name)
 {
-    for (int i = 0; model->tree && i < model->tree->coupling_count; i++) {
+    for (int i = 0; i < model->tree->coupling_count; i++) {
         const struct coupling *coupling = &model->tree->couplings[i];
         const bool rubs = coupling->kind == constraint_roll || coupling->kind == constraint_groove;
         for (int k = 0; rubs && k < coupling->end_count; k++)
@@ -211,7 +211,7 @@ static void write_friction(struct text *text, struct fbd_state *state, int body,
     if (coupling && pair < 0) text_add(text, ", \"mode\": \"stick\""); /* it never slips */
     if (pair < 0 || (!coupling && arrow->load != model->plan.modes[own].load)) return;
     struct instant at = state_instant(state);
-    state_balance_of(state, body, state->scratch);
+    state_balance(state, state->scratch);
     struct friction_values values = friction_at(model, pair, &at, state->scratch);
     text_printf(text, ", \"mode\": \"%s\", ", state->slip[pair] == stick ? "stick" : "slip");
     double share = fabs(values.force) / values.limit; /* not finite if the limit is almost zero */
@@ -301,10 +301,10 @@ static void write_balances(struct text *text, fbd_result *result, struct fbd_sta
     const struct fbd_model *model = result->ledger.model;
     struct instant at = state_instant(state);
     bool first = true;
-    if (!model->tree) return;
+    if (!tree_joins(model->tree)) return;
     text_add(text, "  \"balance\": {");
     for (size_t b = 0; b < model->body_count; b++) {
-        if (model->bodies[b].place.link == 0) continue;
+        if (model->bodies[b].alone) continue;
         size_t count = diagram_fill(model, (int)b, &at, state->a, state->slots, result->ledger.arrows);
         struct balance balance = balance_of(&model->bodies[b], &at, result->ledger.arrows, count);
         text_add(text, first ? "\n    " : ",\n    ");

@@ -117,7 +117,7 @@ static bool draw_closed(gsl_rng *rng, struct fbd_state *state, struct random_pat
     const struct fbd_model *model = state->model;
     size_t n = model->scene->coordinate_count;
     double *way = path->y + (path_steps + 1) * n, *rates = way + n, depth;
-    if (!model->tree || model->tree->coupling_count == 0) return true;
+    if (model->tree->coupling_count == 0) return true;
     memcpy(rates, state->y + n, n * sizeof *rates);
     memcpy(path->y, path->start->y, n * sizeof *path->y);
     memcpy(state->y, path->y, n * sizeof *path->y);

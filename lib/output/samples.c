@@ -54,7 +54,7 @@ static bool draw(struct fbd_state *state, const struct fbd_state *from, gsl_rng 
     move(state, rng, reach);
     if (other) take_other_modes(state);
     modes_drive(state);
-    if (model->tree && model->tree->coupling_count > 0 && !state_project(state, false)) return false;
+    if (model->tree->coupling_count > 0 && !state_project(state, false)) return false;
     state->settled = true;
     state_evaluate(state);
     for (int i = 0; i < model->plan.n; i++)

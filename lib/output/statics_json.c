@@ -75,7 +75,7 @@ static void write_tensions(struct text *text, const struct fbd_statics *statics)
     const struct tree *tree = statics->model->tree;
     bool any = false;
     text_add(text, "  \"tensions\": [");
-    for (int i = 0; tree && i < tree->coupling_count; i++) {
+    for (int i = 0; i < tree->coupling_count; i++) {
         double tension = rest_tension(statics, i);
         if (isnan(tension)) continue;
         text_add(text, any ? ", {\"coupling\": " : "{\"coupling\": ");

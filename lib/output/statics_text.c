@@ -197,7 +197,7 @@ static void write_members(struct text *text, const struct fbd_statics *statics)
 {
     const struct tree *tree = statics->model->tree;
     bool any = false;
-    for (int i = 0; tree && i < tree->coupling_count; i++) {
+    for (int i = 0; i < tree->coupling_count; i++) {
         double tension = rest_tension(statics, i);
         if (isnan(tension)) continue;
         tension = without_rounding(statics, tension, 1);

@@ -64,7 +64,7 @@ static bool stops_turning(const struct fbd_model *model, const struct coupling *
 
 bool coupling_of_force(const struct fbd_model *model, int b, const char *name, struct coupling_place *place)
 {
-    for (int i = 0; model->tree && i < model->tree->coupling_count; i++) {
+    for (int i = 0; i < model->tree->coupling_count; i++) {
         const struct coupling *coupling = &model->tree->couplings[i];
         for (int k = 0; k < coupling->end_count; k++)
             for (int part = 0; part < 2; part++) {

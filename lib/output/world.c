@@ -70,10 +70,10 @@ static struct vec acceleration(const struct fbd_state *state, const struct model
 {
     struct vec a = mass_center_acceleration(body, at, state->a);
     struct vec r = vec_turn(pose->rotation, vec_sub(point, body->inertia.G));
-    bool turns = body->place.link > 0 || body->kind == motion_pivot || body->kind == motion_planar;
+    bool turns = !body->alone || body->kind == motion_pivot || body->kind == motion_planar;
     if (!turns) return a;
     double alpha =
-        body->place.link > 0 ? tree_angular_acceleration(body, at) : state->a[body->first + body->count - 1];
+        !body->alone ? tree_angular_acceleration(body, at) : state->a[body->first + body->count - 1];
     return vec_add(a, vec_sub(vec_scale(alpha, vec_perp(r)), vec_scale(pose->omega * pose->omega, r)));
 }
 

@@ -22,7 +22,7 @@ static void count_works(struct ledger *ledger)
     const struct fbd_model *model = ledger->model;
     for (size_t i = 0; i < model->load_count; i++)
         ledger->integrated[i] = ledger->counted[i] = model->loads[i].potential_kind == potential_none;
-    for (int i = 0; model->tree && i < model->tree->coupling_count; i++) {
+    for (int i = 0; i < model->tree->coupling_count; i++) {
         int load = model->tree->couplings[i].load;
         if (load >= 0 && model->loads[load].potential_kind == potential_workless)
             ledger->counted[load] = true;
@@ -128,12 +128,7 @@ void ledger_restart(struct ledger *ledger, struct ensemble *ensemble, size_t ind
 void ledger_note(struct ledger *ledger, const struct group *group)
 {
     struct fbd_state *state = group->run->state;
-    struct instant at = state_instant(state);
-    double sum = group->model->tree ? jointed_kinetic_energy(state) : 0;
-    for (size_t b = 0; b < group->model->body_count; b++) {
-        const struct model_body *body = &group->model->bodies[b];
-        if (body->place.link == 0) sum += kinetic_energy(body, &at);
-    }
+    double sum = total_kinetic_energy(state);
     ledger->liveliest = fmax(ledger->liveliest, sum);
     double *lively = &ledger->lively[first_load(ledger, group)];
     *lively = fmax(*lively, sum);

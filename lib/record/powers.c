@@ -15,7 +15,7 @@
 
 #include "dynamics/load_rounding.h"
 #include "dynamics/mass.h"
-#include "model/tree.h"
+#include "dynamics/tree.h"
 #include "numeric/tolerances.h"
 
 /* A body on the ground: go through its integrated loads only; its joint does no work. */
@@ -38,13 +38,13 @@ static void add_powers(struct ledger *ledger, const struct group *group, const s
     struct instant at = state_instant(state);
     for (size_t b = 0; b < model->body_count; b++) {
         const struct model_body *body = &model->bodies[b];
-        bool wanted = body->place.link > 0;
+        bool wanted = !body->alone;
         for (int i = 0; i < body->load_count; i++)
             wanted |= ledger->integrated[group_load(group, body->first_load + i)];
         if (!wanted) continue;
         if (body->carried >= 0)
             powers[group_load(group, body->carried)] += body_carried_power(model, body, &at);
-        if (body->place.link == 0) {
+        if (body->alone) {
             add_powers_on_ground(ledger, group, body, state, powers);
             continue;
         }
@@ -93,7 +93,7 @@ struct panel {
 /* Without friction, switches and joints a power is a function of coordinates, rates and the time. */
 static bool needs_forces(const struct fbd_model *model)
 {
-    return model->tree || model->absolute_count > 0 || model->plan.mode_count > 0 ||
+    return tree_joins(model->tree) || model->absolute_count > 0 || model->plan.mode_count > 0 ||
            model->plan.kink_count > 0;
 }
 
@@ -111,7 +111,7 @@ static bool has_expressions(const struct fbd_model *model)
     for (size_t i = 0; i < model->load_count; i++) has |= is_written(&model->loads[i]);
     for (size_t b = 0; b < model->body_count; b++)
         has |= model->bodies[b].varies || model->bodies[b].drive >= 0;
-    for (int i = 0; model->tree && i < model->tree->coupling_count; i++)
+    for (int i = 0; i < model->tree->coupling_count; i++)
         has |= model->tree->couplings[i].reels;
     for (size_t i = 0; i < model->plan.mode_count; i++) {
         const struct mode *mode = &model->plan.modes[i];
@@ -127,8 +127,10 @@ static bool sample(struct ledger *ledger, struct ensemble *ensemble, const struc
         double *powers = ledger->powers + (size_t)k * ledger->model->load_count;
         for (size_t i = 0; i < group->model->load_count; i++) powers[group_load(group, (int)i)] = 0;
         struct time_dd t = time_dd_after(panel->from, panel->length / 2 * (1 + point[k]));
-        const struct fbd_state *state = ensemble_look_group(ensemble, panel->group, t, panel->forces);
+        struct fbd_state *state = ensemble_look_group(ensemble, panel->group, t, panel->forces);
         if (!state) return false;
+        struct instant at = state_instant(state);
+        if (!panel->forces) tree_move(group->model, &at); /* the powers need poses, which are not looked up */
         add_powers(ledger, group, state, powers);
     }
     return true;

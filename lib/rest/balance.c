@@ -39,7 +39,7 @@ static double slid_size(const struct fbd_state *state, const struct model_body *
     const struct plan *plan = &state->model->plan;
     const struct sliding *s = state_sliding(state);
     double size = 0;
-    for (int unit = 0; s && body->place.link == 0 && unit < s->units; unit++)
+    for (int unit = 0; s && body->alone && unit < s->units; unit++)
         for (int i = body->first; i < body->first + body->count; i++)
             if (plan->inverse_inertia[i] > 0)
                 size += fabs(s->B[unit * plan->n + i]) / plan->inverse_inertia[i];
@@ -53,7 +53,7 @@ static struct sums sums_of(const struct fbd_state *state, int b, struct arrow *a
     const struct instant at = state_instant(state);
     const struct pose pose = body_pose(body, &at);
     const struct vec G = point_motion(body, &pose, body->inertia.G).p;
-    const bool jointed = body->place.link > 0;
+    const bool jointed = !body->alone;
     struct sums sums = {.m_a =
                             vec_scale(body_mass(body, &at), mass_center_acceleration(body, &at, state->a))};
     double alpha = jointed                      ? tree_angular_acceleration(body, &at)
@@ -119,9 +119,8 @@ static struct answer_levels joined_level(const struct fbd_state *state, struct a
 {
     const struct tree *tree = state->model->tree;
     const struct tree_work *work = state->tree;
-    assert(!tree || work);
     double force = 0, reach = 0, away = 0, mass = 0, inertia = 0, a = 0, alpha = 0, v = 0, omega = 0, d = 0;
-    for (int i = 0; tree && i < tree->body_count; i++) {
+    for (int i = 0; i < tree->joined_count; i++) {
         const struct model_body *body = &state->model->bodies[tree->bodies[i]];
         const struct tree_state *link = &work->links[body->place.link];
         struct sums sums = sums_of(state, tree->bodies[i], arrows);
@@ -136,7 +135,7 @@ static struct answer_levels joined_level(const struct fbd_state *state, struct a
         d = fmax(d, vec_norm(link->d));
         omega = fmax(omega, fmax(fabs(link->omega), turn_of_track(state, body)));
     }
-    if (tree && work->shared) force = fmax(force, work->shared_size);
+    if (work->shared) force = fmax(force, work->shared_size);
     force += mass * (a + omega * v + d * (alpha + omega * omega));
     force *= answer_level + (reach > 0 ? 64 * DBL_EPSILON * away / reach : 0);
     double gyration = mass > 0 ? sqrt(inertia / mass) : 0;
@@ -201,7 +200,7 @@ static struct worst find_worst(const struct fbd_state *state, struct arrow *arro
     for (int b = 0; b < (int)state->model->body_count; b++) {
         struct sums sums = sums_of(state, b, arrows);
         double force = answer_level * sums.force;
-        bool jointed = state->model->bodies[b].place.link > 0;
+        bool jointed = !state->model->bodies[b].alone;
         if (jointed) force = fmax(force, joined.force);
         double moment = answer_level * sums.moment + force * sums.reach + 64 * sums.place;
         if (jointed) moment = fmax(moment, joined.moment);
@@ -220,7 +219,7 @@ bool balance_lack(struct fbd_state *state, struct arrow *arrows, struct text *la
 {
     struct instant at = state_instant(state);
     bool used =
-        state->tree && (!state->tree->complete || (!state->tree->shared && rest_is_open(state->model, &at)));
+        !state->tree->complete || (!state->tree->shared && rest_is_open(state->model, &at));
     if (used) state_evaluate(state); /* its scratch was overwritten */
     struct worst worst = find_worst(state, arrows, (struct answer_levels){0, 0}, NULL);
     if (!worst.what) return false; /* nearly always; the levels of jointed bodies are not needed */

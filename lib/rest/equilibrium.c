@@ -397,7 +397,7 @@ static int search(struct resting *balance)
 static double reach_of(const struct fbd_state *state)
 {
     double reach = 0;
-    for (int i = 1; i < state->model->tree->count; i++)
+    for (int i = 1; i < state->model->tree->joined; i++)
         reach = fmax(reach, vec_norm(state->tree->links[i].p));
     return reach > 0 ? reach : 1;
 }
@@ -436,7 +436,7 @@ static int balance_new(struct resting *balance, struct fbd_state *state)
 {
     size_t n = (size_t)state->model->plan.n, size = plan_size(&state->model->plan),
            unknowns = plan_rates(&state->model->plan);
-    bool coupled = state->model->tree && state->model->tree->coupling_count > 0;
+    bool coupled = state->model->tree->coupling_count > 0;
     size_t slots = (size_t)state->model->plan.slots;
     size_t rows = coupled ? (size_t)state->model->tree->row_count : 0;
     *balance = (struct resting){.state = state,

@@ -292,7 +292,7 @@ bool fit_blocked(struct fbd_state *state, struct pos *at, struct text *lack)
 {
     const struct fbd_model *model = state->model;
     const struct tree *tree = model->tree;
-    if (!tree || tree->coupling_count == 0) return false;
+    if (tree->coupling_count == 0) return false;
     state_misfit(state); /* updates the positions of the links */
     for (int i = 0; i < tree->coupling_count; i++) {
         const struct coupling *coupling = &tree->couplings[i];
@@ -314,7 +314,7 @@ bool fit_blocked(struct fbd_state *state, struct pos *at, struct text *lack)
 bool fit_lack(struct fbd_state *state, struct fbd_state *other, struct pos *at, struct text *lack)
 {
     const struct tree *tree = state->model->tree;
-    if (!tree || tree->coupling_count == 0) return false;
+    if (tree->coupling_count == 0) return false;
     struct miss position, velocity;
     find_misses(state, &position, &velocity);
     const struct miss *miss = position.row >= 0 ? &position : &velocity;
@@ -330,7 +330,7 @@ bool fit_unsolved(struct fbd_state *state, bool *masses, struct pos *at, struct 
 {
     const double digits = 1e-6;
     int row;
-    if (!state->model->tree || state->model->tree->coupling_count == 0) return false;
+    if (state->model->tree->coupling_count == 0) return false;
     state_evaluate(state);
     const double miss = state_acceleration_misfit(state, &row), ratio = state->model->tree->mass_ratio;
     if (miss <= digits || row < 0) return false;

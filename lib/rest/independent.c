@@ -51,7 +51,7 @@ void independent_free(struct independent *independent)
 static void set_sizes(struct independent *independent, const struct fbd_state *state)
 {
     double reach = 0;
-    for (int i = 1; state->model->tree && i < state->model->tree->count; i++)
+    for (int i = 1; i < state->model->tree->joined; i++)
         reach = fmax(reach, vec_norm(state->tree->links[i].p));
     for (size_t i = 0; i < independent->n; i++)
         independent->size[i] = state->model->scene->coordinates[i].angle || !(reach > 0) ? 1 : reach;

@@ -21,7 +21,7 @@
 
 static bool is_coupled(const struct fbd_model *model)
 {
-    return model->tree && model->tree->coupling_count > 0;
+    return model->tree->coupling_count > 0;
 }
 
 /* Are there dependent coordinates, by couplings or prescribed? */
@@ -76,7 +76,7 @@ static double size_of_forces(const struct fbd_state *state)
 {
     const struct tree *tree = state->model->tree;
     double most = 0;
-    for (int i = 1; i < tree->count; i++) most += tree->links[i].mass;
+    for (int i = 1; i < tree->joined; i++) most += tree->links[i].mass;
     most *= vec_norm(state->model->scene->gravity);
     for (int j = 0; j < tree->row_count; j++) most = fmax(most, fabs(state->tree->rows[j].lambda));
     return most;

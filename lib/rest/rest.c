@@ -71,7 +71,7 @@ bool statics_refuse_states(const struct fbd_state *state, fbd_errors *errors)
 
 bool equilibrium_refuse_reels(const struct fbd_model *model, fbd_errors *errors)
 {
-    for (int i = 0; model->tree && i < model->tree->coupling_count; i++) {
+    for (int i = 0; i < model->tree->coupling_count; i++) {
         const struct coupling *coupling = &model->tree->couplings[i];
         if (!coupling->reels) continue;
         diag_add(errors, FBD_ERROR, "not-independent",

@@ -87,7 +87,7 @@ static void contradiction_words(const struct fbd_model *model, int pair, const c
 {
     const struct mode *hold = &model->plan.modes[pair];
     bool couples = hold->kind == mode_surface || hold->kind == mode_rope;
-    const struct coupling *coupling = couples && model->tree ? &model->tree->couplings[hold->coupling] : NULL;
+    const struct coupling *coupling = couples ? &model->tree->couplings[hold->coupling] : NULL;
     const char *name = coupling          ? model->scene->constraints[coupling->constraint].name
                        : hold->load >= 0 ? model->loads[hold->load].source->name
                                          : "a hold";
@@ -150,7 +150,7 @@ static bool is_settled(struct fbd_state *state, bool settled, struct lack *lack)
     state->holds = trouble;
     text_free(&lack->text);
     lack->at = (struct pos){0, 0};
-    const double ratio = state->model->tree ? state->model->tree->mass_ratio : 0;
+    const double ratio = tree_joins(state->model->tree) ? state->model->tree->mass_ratio : 0;
     lack->id = ratio > masses_too_far_apart  ? "masses-apart"
                : trouble.found == holds_none ? "no-solution"
                                              : "unsettled";
@@ -261,7 +261,7 @@ bool start_ready(struct fbd_state *state, struct fbd_state *other, const char *w
     if (state->holds.found == holds_no_memory) return false;
     if (!start_fits(state, other, settled, what, lack)) return false;
     /* Settle again: the projection may have changed positions, and speeds of branches. */
-    bool again = !settled || state->model->tree || state->model->plan.kink_count > 0;
+    bool again = !settled || tree_joins(state->model->tree) || state->model->plan.kink_count > 0;
     if (settled) state_project(state, false);
     if (again) settled = modes_settle(state, NULL);
     return start_finite(state, lack) && rubs_against_motion(state, lack) &&

@@ -72,7 +72,7 @@ static const char *limit_name(struct fbd_statics *statics, const struct rest_lim
     int load =
         limit->kind == limit_normal ? plan->contacts[limit->index].load : plan->modes[limit->index].load;
     const char *name = model->loads[load].source->name;
-    for (int i = 0; model->tree && i < model->tree->coupling_count; i++) { /* of a rolling body, or a belt */
+    for (int i = 0; i < model->tree->coupling_count; i++) { /* of a rolling body, or a belt */
         const struct coupling *coupling = &model->tree->couplings[i];
         if (coupling->strands > 0 && coupling->load == load)
             return coupling->end[0].name[plan->contacts[limit->index].slot == coupling->slack_slot[1]];

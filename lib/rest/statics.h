@@ -48,7 +48,7 @@ struct fbd_statics {
 static inline bool rest_turns(const struct model_body *body)
 {
     if (body->kind == motion_particle) return false;
-    return body->place.link > 0 || body->kind == motion_pivot || body->kind == motion_planar;
+    return !body->alone || body->kind == motion_pivot || body->kind == motion_planar;
 }
 
 /* The tension of a rod or a rope; NAN for another coupling, 0 for a slack rope. */

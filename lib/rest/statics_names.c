@@ -95,7 +95,7 @@ bool rest_name_undetermined(struct fbd_statics *statics, const struct rest_syste
     if (system->basis_count == 0) return true;
     statics->undetermined = ARENA_ARRAY(&statics->arena, system->reactions + 1, const char *);
     if (!statics->undetermined) return false;
-    for (int i = 1; i < tree->count; i++) name_joint(statics, system, i);
+    for (int i = 1; i < tree->joined; i++) name_joint(statics, system, i);
     for (size_t j = 0; j < system->m; j++) name_coupling(statics, system, j);
     return !statics->arena.failed;
 }
