@@ -9,12 +9,12 @@
 #include "dynamics/tree.h"
 #include "dynamics/tree_bare.h"
 
-/* Does the body have a scalar equation whose friction, if any, is constant in the present mode? */
-static bool has_row(const struct fbd_state *state, int b)
+/* Does the body have scalar equations whose friction, if any, is constant in the present mode? */
+static bool has_rows(const struct fbd_state *state, int b)
 {
     const struct plan *plan = &state->model->plan;
     const int friction = state->model->bodies[b].friction;
-    if (!plan->equations[b].known) return false;
+    if (!plan->equations[state->model->bodies[b].first].known) return false;
     if (friction < 0) return true;
     const struct mode *mode = &plan->modes[friction];
     if (state->slip[friction] == stick) return formula_is_constant(&mode->surface_speed);
@@ -30,16 +30,8 @@ static double constant_friction(const struct fbd_state *state, int b)
     if (friction < 0) return 0;
     const struct mode *mode = &plan->modes[friction];
     double press = 1;
-    if (mode->normal_slot >= 0) press = fmax(0, -state->pull[friction] * plan->equations[b].across);
+    if (mode->normal_slot >= 0) press = fmax(0, -state->pull[friction] * plan->equations[mode->coordinate].across);
     return state->slip[friction] * mode->mu_k.constant * press;
-}
-
-static void take_formulas(const struct plan *plan, const struct scalar_equation *equation, struct row *row)
-{
-    for (int i = equation->formulas.first; i < equation->formulas.first + equation->formulas.count; i++) {
-        if (plan->formulas[i].slot != row->q) continue;
-        if (row->formula_count++ == 0) row->formulas = &plan->formulas[i];
-    }
 }
 
 /* One formula of one part: F sin(w t) or the like. */
@@ -71,12 +63,12 @@ static void choose(struct row *row)
 }
 
 /* Written in place: a row is large. */
-static void set_row(const struct rates *rates, int b, struct row *row)
+static void set_row(const struct rates *rates, int b, int coordinate, struct row *row)
 {
     const struct fbd_state *state = rates->state;
     const struct plan *plan = &state->model->plan;
-    const struct scalar_equation *equation = &plan->equations[b];
-    const int coordinate = state->model->bodies[b].first, friction = state->model->bodies[b].friction;
+    const struct scalar_equation *equation = &plan->equations[coordinate];
+    const int friction = state->model->bodies[b].friction;
     *row = (struct row){.all = rates,
                         .q = coordinate,
                         .v = plan->n + coordinate,
@@ -92,7 +84,8 @@ static void set_row(const struct rates *rates, int b, struct row *row)
         row->rate = plan->modes[friction].surface_speed.constant;
         return;
     }
-    take_formulas(plan, equation, row);
+    row->formulas = plan->formulas + equation->formulas.first;
+    row->formula_count = equation->formulas.count;
     row->friction = constant_friction(state, b);
     choose(row);
 }
@@ -147,8 +140,10 @@ static bool bind_rows(struct rates *rates)
     else if (tree_joins(tree) || model->names_places)
         return false;
     for (int i = tree->joined; i < tree->count; i++) {
-        if (!has_row(state, tree->links[i].body)) return false;
-        set_row(rates, tree->links[i].body, &rates->rows[rates->count++]);
+        const int b = tree->links[i].body, first = model->bodies[b].first;
+        if (!has_rows(state, b)) return false;
+        for (int k = first; k < first + model->bodies[b].count; k++)
+            set_row(rates, b, k, &rates->rows[rates->count++]);
     }
     return true;
 }

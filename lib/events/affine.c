@@ -17,19 +17,12 @@ static bool add_term(struct affine *f, int component, double factor)
     return true;
 }
 
-static bool has_formulas(const struct plan *plan, const struct scalar_equation *equation, int slot)
-{
-    for (int i = equation->formulas.first; i < equation->formulas.first + equation->formulas.count; i++)
-        if (plan->formulas[i].slot == slot) return true;
-    return false;
-}
-
 /* Add `factor` times the sum of the forces along a coordinate with a scalar equation; false when it is not affine. */
 static bool add_along(const struct plan *plan, const struct mode *mode, double factor, struct affine *f)
 {
-    const struct scalar_equation *equation = &plan->equations[mode->body];
+    const struct scalar_equation *equation = &plan->equations[mode->coordinate];
     if (equation->s != 0 || equation->c != 0 || equation->square != 0) return false;
-    if (has_formulas(plan, equation, mode->coordinate)) return false;
+    if (equation->formulas.count > 0) return false;
     f->constant += factor * equation->c0;
     return add_term(f, mode->coordinate, -factor * equation->kq) &&
            add_term(f, plan->n + mode->coordinate, -factor * equation->kv);
@@ -56,11 +49,11 @@ static bool find_limit(const struct fbd_state *state, int pair, double *limit)
 {
     const struct plan *plan = &state->model->plan;
     const struct mode *mode = &plan->modes[pair];
-    const struct scalar_equation *equation = &plan->equations[mode->body];
+    const struct scalar_equation *equation = &plan->equations[mode->coordinate];
     double press = 1;
     if (mode->mu_s.expr || mode->mu_k.expr) return false;
     if (mode->normal_slot >= 0) {
-        if (has_formulas(plan, equation, mode->normal_slot)) return false;
+        if (equation->across_formulas.count > 0) return false;
         press = fmax(0, -state->pull[pair] * equation->across);
     }
     *limit = fmax(0, fmax(mode->mu_s.constant, mode->mu_k.constant)) * press;

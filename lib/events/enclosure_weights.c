@@ -52,21 +52,30 @@ static bool has_slides(const struct fbd_state *state, const struct formula *form
     return slides > 0;
 }
 
+/* The largest number in one formula. */
+static int most_slides(const struct fbd_state *state, struct range list)
+{
+    int most = 0;
+    for (int i = list.first; i < list.first + list.count; i++) {
+        int slides;
+        enclose_filippov(state, &state->model->plan.formulas[i].value, &slides);
+        if (slides > most) most = slides;
+    }
+    return most;
+}
+
 /* Sliding modes act on a coordinate through terms of its own slot, one in each formula; not through the
  * normal force or the coefficient of its friction. */
-static bool knows_body(const struct fbd_state *state, int body)
+static bool knows_coordinate(const struct fbd_state *state, int coordinate)
 {
     const struct plan *plan = &state->model->plan;
-    const struct scalar_equation *equation = &plan->equations[body];
-    if (!equation->known) return false;
-    for (int i = equation->formulas.first; i < equation->formulas.first + equation->formulas.count; i++) {
-        int slides;
-        enclose_filippov(state, &plan->formulas[i].value, &slides);
-        if (slides > 1 || (slides == 1 && plan->formulas[i].slot >= plan->n)) return false;
-    }
+    const struct scalar_equation *equation = &plan->equations[coordinate];
+    if (!equation->known || most_slides(state, equation->formulas) > 1 ||
+        most_slides(state, equation->across_formulas) > 0)
+        return false;
     for (size_t pair = 0; pair < plan->mode_count; pair++) {
         const struct mode *mode = &plan->modes[pair];
-        if (mode->body != body) continue;
+        if (mode->body != state->model->scene->coordinates[coordinate].body) continue;
         if (mode->kind != mode_single) return false;
         if (mode->surface_speed.expr || has_slides(state, &mode->mu_k)) return false;
     }
@@ -87,7 +96,7 @@ bool enclosure_has_weights(const struct fbd_state *state)
             return false;
         for (size_t k = 0; k < count; k++) {
             if (slots[k] > 2 * n) return false; /* user states and positions */
-            if (!knows_body(state, model->scene->coordinates[(slots[k] - 1) % n].body)) return false;
+            if (!knows_coordinate(state, (slots[k] - 1) % n)) return false;
         }
     }
     return true;
@@ -121,15 +130,14 @@ static void take_force(const struct enclosure_input *input, int coordinate, doub
                        struct equations *e, int unit)
 {
     const struct fbd_model *model = input->state->model;
-    int body = model->scene->coordinates[coordinate].body;
-    const struct scalar_equation *equation = &model->plan.equations[body];
-    struct enclosure force = enclosure_add(enclose_force(input, body), friction_of(input, coordinate));
+    const struct scalar_equation *equation = &model->plan.equations[coordinate];
+    struct enclosure force = enclosure_add(enclose_force(input, coordinate), friction_of(input, coordinate));
     e->c[unit] = enclosure_add(e->c[unit], enclosure_scale(factor, force));
     for (int i = equation->formulas.first; i < equation->formulas.first + equation->formulas.count; i++) {
         const struct formula_term *term = &model->plan.formulas[i];
         int slides;
         const struct slide *slide = enclose_filippov(input->state, &term->value, &slides);
-        if (term->slot != coordinate || !slide) continue;
+        if (!slide) continue;
         struct enclosure jump = enclosure_subtract(enclose_branch(input, &term->value, slide, 1),
                                                    enclose_branch(input, &term->value, slide, -1));
         struct enclosure *C = &e->C[unit][slide->unit];

@@ -62,38 +62,36 @@ static struct enclosure enclose_square(const struct enclosure *v, double k)
     return enclosure_scale(-k, f);
 }
 
-static struct enclosure add_formulas(const struct enclosure_input *input,
-                                     const struct scalar_equation *equation, int slot, struct enclosure sum)
+static struct enclosure add_formulas(const struct enclosure_input *input, struct range list,
+                                     struct enclosure sum)
 {
     const struct plan *plan = &input->state->model->plan;
-    for (int i = equation->formulas.first; i < equation->formulas.first + equation->formulas.count; i++) {
+    for (int i = list.first; i < list.first + list.count; i++) {
         const struct formula_term *term = &plan->formulas[i];
-        if (term->slot != slot) continue;
         struct enclosure value = enclose_formula(input, &term->value);
         sum = enclosure_add(sum, enclosure_scale(term->scale, value));
     }
     return enclose_centred(input, sum);
 }
 
-struct enclosure enclose_force(const struct enclosure_input *input, int body)
+struct enclosure enclose_force(const struct enclosure_input *input, int coordinate)
 {
     const struct fbd_model *model = input->state->model;
-    const struct scalar_equation *equation = &model->plan.equations[body];
-    const int coordinate = model->bodies[body].first;
+    const struct scalar_equation *equation = &model->plan.equations[coordinate];
     const struct enclosure *q = &input->y[coordinate], *v = &input->y[model->plan.n + coordinate];
     struct enclosure f = enclosure_point(equation->c0);
     if (equation->kq != 0) f = enclosure_subtract(f, enclosure_scale(equation->kq, *q));
     if (equation->kv != 0) f = enclosure_subtract(f, enclosure_scale(equation->kv, *v));
     if (equation->s != 0 || equation->c != 0) f = enclosure_add(f, enclose_sine(q, equation));
     if (equation->square != 0) f = enclosure_add(f, enclose_square(v, equation->square));
-    return add_formulas(input, equation, coordinate, f);
+    return add_formulas(input, equation->formulas, f);
 }
 
 struct enclosure enclose_force_across(const struct enclosure_input *input, int body)
 {
     const struct fbd_model *model = input->state->model;
-    const struct scalar_equation *equation = &model->plan.equations[body];
-    return add_formulas(input, equation, model->bodies[body].normal_slot, enclosure_point(equation->across));
+    const struct scalar_equation *equation = &model->plan.equations[model->bodies[body].first];
+    return add_formulas(input, equation->across_formulas, enclosure_point(equation->across));
 }
 
 /* ---- friction */
@@ -146,7 +144,7 @@ static void enclose_stick_limits(const struct enclosure_input *input, const stru
     struct enclosure at_rest = enclosure_multiply(enclose_formula(input, &mode->mu_s), press);
     struct enclosure moving = enclosure_multiply(enclose_formula(input, &mode->mu_k), press);
     struct enclosure limit = larger_of(enclose_centred(input, at_rest), enclose_centred(input, moving));
-    struct enclosure push = enclose_force(input, mode->body);
+    struct enclosure push = enclose_force(input, mode->coordinate);
     /* The same tolerance as by friction_rounding. */
     double rounding = round_off(8, interval_size(push.value) + interval_size(limit.value));
     for (size_t i = 0; i < count; i++) {
@@ -159,6 +157,11 @@ static void enclose_stick_limits(const struct enclosure_input *input, const stru
 
 /* ---- by kind */
 
+static bool has_equation(const struct fbd_model *model, int body)
+{
+    return model->bodies[body].count > 0 && model->plan.equations[model->bodies[body].first].known;
+}
+
 bool watchers_can_enclose(const struct fbd_model *model, const struct watcher *watcher)
 {
     const struct plan *plan = &model->plan;
@@ -166,13 +169,13 @@ bool watchers_can_enclose(const struct fbd_model *model, const struct watcher *w
         return true;
     if (watcher->kind == watch_lift || watcher->kind == watch_gap || watcher->kind == watch_edge)
         return false;
-    if (watcher->kind == watch_contact) return plan->equations[plan->contacts[watcher->index].body].known;
+    if (watcher->kind == watch_contact) return has_equation(model, plan->contacts[watcher->index].body);
     const struct mode *mode = &plan->modes[watcher->index];
     if (mode->coupling >= 0) return false;
     if (watcher->kind == watch_slip_stop) return true;
     bool known = watcher->kind != watch_stick_limit ||
                  !mode->surface_speed.expr; /* it would need the second derivative of the surface speed */
-    return known && mode->kind == mode_single && plan->equations[mode->body].known;
+    return known && mode->kind == mode_single && has_equation(model, mode->body);
 }
 
 static void enclose_kink(const struct watchers *watchers, const struct watcher_set *set,
@@ -276,16 +279,22 @@ static void mark_formula(const struct formula *formula, bool *used)
     for (size_t k = 0; k < count; k++) used[slots[k] - 1] = true;
 }
 
+static void mark_formulas(const struct plan *plan, struct range list, bool *used)
+{
+    for (int i = list.first; i < list.first + list.count; i++) mark_formula(&plan->formulas[i].value, used);
+}
+
 static void mark_body(const struct fbd_model *model, int body, bool *used)
 {
     const struct plan *plan = &model->plan;
-    const struct scalar_equation *equation = &plan->equations[body];
-    const int coordinate = model->bodies[body].first;
-    if (!equation->known) return;
-    used[coordinate] |= equation->kq != 0 || equation->s != 0 || equation->c != 0;
-    used[plan->n + coordinate] |= equation->kv != 0 || equation->square != 0;
-    for (int i = equation->formulas.first; i < equation->formulas.first + equation->formulas.count; i++)
-        mark_formula(&plan->formulas[i].value, used);
+    if (!has_equation(model, body)) return;
+    for (int i = model->bodies[body].first; i < model->bodies[body].first + model->bodies[body].count; i++) {
+        const struct scalar_equation *equation = &plan->equations[i];
+        used[i] |= equation->kq != 0 || equation->s != 0 || equation->c != 0;
+        used[plan->n + i] |= equation->kv != 0 || equation->square != 0;
+        mark_formulas(plan, equation->formulas, used);
+        mark_formulas(plan, equation->across_formulas, used);
+    }
 }
 
 static void mark_friction(const struct fbd_model *model, const struct watcher *watcher, bool *used)

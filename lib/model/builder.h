@@ -33,10 +33,8 @@ void plan_couplings(struct builder *builder);
  * memory is out. */
 bool scalar_equations_collect(struct builder *builder);
 
-/* Is the sum of the forces in a slot constant: along the coordinate; across the line? */
-bool scalar_equation_is_constant(const struct plan *plan, const struct scalar_equation *equation, int slot);
-bool scalar_equation_presses_constantly(const struct plan *plan, const struct scalar_equation *equation,
-                                        int slot);
+/* Is the sum of the forces along the coordinate constant? */
+bool scalar_equation_is_constant(const struct scalar_equation *equation);
 
 /* Find the switches on which a sliding mode is possible; the rest of the plan is complete (slides.c). */
 void slides_find(struct fbd_model *model);

@@ -156,14 +156,13 @@ static void find_constant_slots(struct fbd_model *model)
     struct plan *plan = &model->plan;
     for (size_t b = 0; b < model->body_count; b++) {
         const struct model_body *body = &model->bodies[b];
-        const struct scalar_equation *equation = &plan->equations[b];
-        bool along = scalar_equation_is_constant(plan, equation, body->first);
-        if (!equation->known) continue;
+        const struct scalar_equation *equation = &plan->equations[body->first];
+        if (body->count == 0 || !equation->known) continue;
+        bool along = scalar_equation_is_constant(equation);
         plan->slot_constant[body->first] = along;
         if (body->friction >= 0) plan->slot_constant[plan->modes[body->friction].hold_slot] = along;
         if (body->normal_slot >= 0)
-            plan->slot_constant[body->normal_slot] =
-                scalar_equation_presses_constantly(plan, equation, body->normal_slot);
+            plan->slot_constant[body->normal_slot] = equation->across_formulas.count == 0;
     }
 }
 

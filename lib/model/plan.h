@@ -36,9 +36,8 @@ struct affine_term {
     double c0, kq, kv;
 };
 
-/* slot += scale * value(t, q, v) */
+/* scale * value(t, q, v) */
 struct formula_term {
-    int slot;
     double scale;
     struct formula value;
 };
@@ -139,17 +138,18 @@ struct range {
     int first, count;
 };
 
-/* The equation of motion of a body that stands alone (tree.h) and has one coordinate. Where `known`, the forces along
- * it are functions of t, q, v and the user states only, and the forces across its line of t and those:
+/* The equation of motion of a coordinate of a body that stands alone (tree.h), on a slide, a pivot or as a particle.
+ * Where `known`, the forces along it are functions of t, q, v and other variables of formulas, and so are the forces
+ * across its line:
  *
  *     q'' = inverse_inertia (c0 - kq q - kv v - square |v| v + s sin q + c cos q + sum of formulas + friction)
  *
- * The formulas in its normal slot are beside `across`, the constant part. */
+ * and N = -(across + sum of across_formulas) on a slide. */
 struct scalar_equation {
     bool known;
     double c0, kq, kv, square, s, c;
     double across;
-    struct range formulas;
+    struct range formulas, across_formulas;
 };
 
 struct plan {
@@ -163,7 +163,7 @@ struct plan {
     size_t affine_count, potential_count;
     struct affine_term *affine; /* in joints */
     struct potential_term *potentials;
-    struct scalar_equation *equations; /* by body */
+    struct scalar_equation *equations; /* by coordinate */
     struct formula_term *formulas;     /* of the equations */
 
     size_t mode_count, contact_count, kink_count, pole_count, watch_count;

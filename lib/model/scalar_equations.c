@@ -12,9 +12,16 @@ struct pass {
     bool adds;
 };
 
+/* Of the first coordinate of a link. */
 static struct scalar_equation *equation_of(const struct fbd_model *model, int link)
 {
-    return link > 0 ? &model->plan.equations[model->tree->links[link].body] : NULL;
+    return &model->plan.equations[model->tree->links[link].coordinate];
+}
+
+static void forget(const struct fbd_model *model, int link)
+{
+    const struct model_body *body = &model->bodies[model->tree->links[link].body];
+    for (int k = 0; k < body->count; k++) model->plan.equations[body->first + k].known = false;
 }
 
 static const struct model_body *body_of(const struct fbd_model *model, int link)
@@ -22,21 +29,21 @@ static const struct model_body *body_of(const struct fbd_model *model, int link)
     return &model->bodies[model->tree->links[link].body];
 }
 
-/* Components of a force on a slide: along it, and to the side of its surface. The frame of the body lies along the
- * line. */
+/* Components of a force on a slide, along it and to the side of its surface, and on a particle, along x and y. The
+ * frame of the body on a slide lies along the line; that of a particle does not turn. */
 static struct vec along_and_across(const struct fbd_model *model, int link, struct vec f, bool body_frame)
 {
     const struct model_body *body = body_of(model, link);
+    if (body->kind == motion_particle) return f;
     if (!body_frame) return (struct vec){vec_dot(f, body->e), vec_dot(f, body->n)};
     return (struct vec){f.x, f.y * model->tree->links[link].side};
 }
 
-static void take_formula(const struct pass *pass, struct scalar_equation *equation, int slot, double scale,
-                         const struct formula *value)
+static void take_formula(const struct pass *pass, struct range *list, double scale, const struct formula *value)
 {
     if (scale == 0) return;
-    int place = equation->formulas.first + equation->formulas.count++;
-    if (pass->adds) pass->model->plan.formulas[place] = (struct formula_term){slot, scale, *value};
+    int place = list->first + list->count++;
+    if (pass->adds) pass->model->plan.formulas[place] = (struct formula_term){scale, *value};
 }
 
 static void take_force(const struct pass *pass, const struct tree_force *force)
@@ -46,17 +53,18 @@ static void take_force(const struct pass *pass, const struct tree_force *force)
     if (!equation->known) return;
     bool turns = body->kind == motion_pivot;
     if (!formula_is_constant(&force->angle) || (turns && !force->body_frame)) {
-        equation->known = false;
+        forget(pass->model, force->link);
         return;
     }
     struct vec d = vec_unit(force->angle.constant + (force->body_frame ? force->turn : 0));
     if (turns) {
-        take_formula(pass, equation, body->first, vec_cross(force->point, d), &force->value);
+        take_formula(pass, &equation->formulas, vec_cross(force->point, d), &force->value);
         return;
     }
     struct vec share = along_and_across(pass->model, force->link, d, force->body_frame);
-    take_formula(pass, equation, body->first, share.x, &force->value);
-    if (body->normal_slot >= 0) take_formula(pass, equation, body->normal_slot, share.y, &force->value);
+    take_formula(pass, &equation->formulas, share.x, &force->value);
+    take_formula(pass, body->kind == motion_particle ? &equation[1].formulas : &equation->across_formulas,
+                 share.y, &force->value);
 }
 
 static void take_moment(const struct pass *pass, const struct tree_moment *moment)
@@ -64,7 +72,7 @@ static void take_moment(const struct pass *pass, const struct tree_moment *momen
     const struct model_body *body = body_of(pass->model, moment->link);
     struct scalar_equation *equation = equation_of(pass->model, moment->link);
     if (equation->known && body->kind == motion_pivot)
-        take_formula(pass, equation, body->first, 1, &moment->value);
+        take_formula(pass, &equation->formulas, 1, &moment->value);
 }
 
 static void take_formulas(const struct pass *pass)
@@ -76,24 +84,33 @@ static void take_formulas(const struct pass *pass)
 
 /* ---- constants */
 
+static void take_constant(const struct model_body *body, struct scalar_equation *equation, struct vec share)
+{
+    equation->c0 += share.x;
+    if (body->kind == motion_particle)
+        equation[1].c0 += share.y;
+    else
+        equation->across += share.y;
+}
+
 static void take_following(const struct fbd_model *model, const struct tree_following *following)
 {
     const struct model_body *body = body_of(model, following->link);
     struct scalar_equation *equation = equation_of(model, following->link);
-    if (body->kind == motion_pivot) {
+    if (body->kind == motion_pivot)
         equation->c0 += following->moment;
-    } else {
-        struct vec f = along_and_across(model, following->link, following->force, true);
-        equation->c0 += f.x;
-        equation->across += f.y;
-    }
+    else
+        take_constant(body, equation, along_and_across(model, following->link, following->force, true));
 }
 
-/* At distance r from an axis: v = r omega, M = -r (c + k |v|) v. */
+/* At distance r from an axis: v = r omega, M = -r (c + k |v|) v. The speed of a particle has both components. */
 static void take_drag(const struct fbd_model *model, const struct tree_drag *drag)
 {
     struct scalar_equation *equation = equation_of(model, drag->link);
-    double r = body_of(model, drag->link)->kind == motion_pivot ? vec_norm(drag->point) : 1;
+    const struct model_body *body = body_of(model, drag->link);
+    double r = body->kind == motion_pivot ? vec_norm(drag->point) : 1;
+    if (body->kind == motion_particle) equation[1].kv += drag->linear;
+    if (body->kind == motion_particle && drag->quadratic != 0) forget(model, drag->link);
     equation->kv += drag->linear * r * r;
     equation->square += drag->quadratic * r * r * r;
 }
@@ -101,13 +118,12 @@ static void take_drag(const struct fbd_model *model, const struct tree_drag *dra
 static void take_weights(const struct fbd_model *model, const struct tree_link *link)
 {
     const struct model_body *body = &model->bodies[link->body];
-    struct scalar_equation *equation = &model->plan.equations[link->body];
+    struct scalar_equation *equation = &model->plan.equations[link->coordinate];
     if (body->kind == motion_pivot) {
         equation->s += link->sine;
         equation->c += link->cosine;
     } else {
-        equation->c0 += vec_dot(link->force, body->e);
-        equation->across += vec_dot(link->force, body->n);
+        take_constant(body, equation, along_and_across(model, body->place.link, link->force, false));
     }
 }
 
@@ -115,13 +131,15 @@ static void take_constants(struct builder *builder)
 {
     const struct fbd_model *model = builder->model;
     const struct tree *tree = model->tree;
-    for (int i = tree->joined; i < tree->count; i++) take_weights(model, &tree->links[i]);
-    for (size_t i = 0; i < tree->following_count; i++) take_following(model, &tree->following[i]);
-    for (size_t i = 0; i < tree->drag_count; i++) take_drag(model, &tree->drags[i]);
-    for (size_t b = 0; b < model->body_count; b++) {
-        const struct affine_term *joint = &builder->affine[model->bodies[b].first];
-        struct scalar_equation *equation = &model->plan.equations[b];
-        if (!equation->known) continue;
+    for (int i = tree->joined; i < tree->count; i++)
+        if (equation_of(model, i)->known) take_weights(model, &tree->links[i]);
+    for (size_t i = 0; i < tree->following_count; i++)
+        if (equation_of(model, tree->following[i].link)->known) take_following(model, &tree->following[i]);
+    for (size_t i = 0; i < tree->drag_count; i++)
+        if (equation_of(model, tree->drags[i].link)->known) take_drag(model, &tree->drags[i]);
+    for (int i = 0; i < model->plan.n; i++) {
+        const struct affine_term *joint = &builder->affine[i];
+        struct scalar_equation *equation = &model->plan.equations[i];
         equation->c0 += joint->c0;
         equation->kq += joint->kq;
         equation->kv += joint->kv;
@@ -136,14 +154,22 @@ static void find_known(struct fbd_model *model)
     const struct plan *plan = &model->plan;
     for (size_t b = 0; b < model->body_count; b++) {
         const struct model_body *body = &model->bodies[b];
-        plan->equations[b].known =
-            body->alone && (body->kind == motion_slide || body->kind == motion_pivot);
+        for (int k = 0; k < body->count; k++)
+            plan->equations[body->first + k].known = body->alone && body->kind != motion_planar;
     }
     for (size_t i = 0; i < tree->spring_count; i++)
         for (int end = 0; end < 2; end++)
-            if (tree->springs[i].link[end] > 0) equation_of(model, tree->springs[i].link[end])->known = false;
+            if (tree->springs[i].link[end] > 0) forget(model, tree->springs[i].link[end]);
     for (size_t i = 0; i < plan->potential_count; i++)
-        plan->equations[model->scene->coordinates[plan->potentials[i].coordinate].body].known = false;
+        forget(model, model->bodies[model->scene->coordinates[plan->potentials[i].coordinate].body].place.link);
+}
+
+/* Set the place of a list behind `first` others, to be filled anew; returns the number with it. */
+static int number(struct range *list, int first)
+{
+    const int count = list->count;
+    *list = (struct range){first, 0};
+    return first + count;
 }
 
 static bool number_formulas(struct fbd_model *model)
@@ -151,10 +177,9 @@ static bool number_formulas(struct fbd_model *model)
     struct plan *plan = &model->plan;
     int total = 0;
     take_formulas(&(struct pass){model, false});
-    for (size_t b = 0; b < model->body_count; b++) {
-        plan->equations[b].formulas.first = total;
-        total += plan->equations[b].formulas.count;
-        plan->equations[b].formulas.count = 0;
+    for (int i = 0; i < plan->n; i++) {
+        total = number(&plan->equations[i].formulas, total);
+        total = number(&plan->equations[i].across_formulas, total);
     }
     plan->formulas = ARENA_ARRAY(&model->arena, (size_t)total, struct formula_term);
     if (plan->formulas) take_formulas(&(struct pass){model, true});
@@ -164,28 +189,15 @@ static bool number_formulas(struct fbd_model *model)
 bool scalar_equations_collect(struct builder *builder)
 {
     struct fbd_model *model = builder->model;
-    model->plan.equations = ARENA_ARRAY(&model->arena, model->body_count, struct scalar_equation);
+    model->plan.equations = ARENA_ARRAY(&model->arena, (size_t)model->plan.n, struct scalar_equation);
     if (!model->plan.equations) return false;
     find_known(model);
     take_constants(builder);
     return number_formulas(model);
 }
 
-static bool varies_in(const struct plan *plan, const struct scalar_equation *equation, int slot)
-{
-    for (int i = equation->formulas.first; i < equation->formulas.first + equation->formulas.count; i++)
-        if (plan->formulas[i].slot == slot) return true;
-    return false;
-}
-
-bool scalar_equation_is_constant(const struct plan *plan, const struct scalar_equation *equation, int slot)
+bool scalar_equation_is_constant(const struct scalar_equation *equation)
 {
     return equation->known && equation->kq == 0 && equation->kv == 0 && equation->square == 0 &&
-           equation->s == 0 && equation->c == 0 && !varies_in(plan, equation, slot);
-}
-
-bool scalar_equation_presses_constantly(const struct plan *plan, const struct scalar_equation *equation,
-                                        int slot)
-{
-    return equation->known && !varies_in(plan, equation, slot);
+           equation->s == 0 && equation->c == 0 && equation->formulas.count == 0;
 }

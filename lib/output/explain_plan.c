@@ -17,7 +17,7 @@ static void write_list(struct text *text, size_t count, const char *words)
 static size_t known_equations(const struct fbd_model *model)
 {
     size_t count = 0;
-    for (size_t b = 0; b < model->body_count; b++) count += model->plan.equations[b].known;
+    for (int i = 0; i < model->plan.n; i++) count += model->plan.equations[i].known;
     return count;
 }
 
@@ -27,8 +27,8 @@ static void write_terms(struct text *text, const struct fbd_model *model)
     const struct tree *tree = model->tree;
     text_add(text, "\nRight-hand side\n");
     write_list(text, known_equations(model),
-               "body on its own with one coordinate: its equation is a sum of terms along it");
-    write_list(text, (size_t)(tree->count - tree->joined) - known_equations(model), "other body on its own");
+               "coordinate with an equation of its own: a sum of terms along it");
+    write_list(text, (size_t)(tree->count - tree->joined), "body that no joint or coupling connects with others");
     write_list(text, (size_t)tree->joined - 1,
                "link of jointed bodies, by the articulated-body recursion (constant forces in it)");
     write_list(text, plan->affine_count, "spring, damper or constant force in a joint");

@@ -343,10 +343,9 @@ static void check_census(const struct expectation *want)
     assert_non_null(rates);
     struct rates_census got = rates_census(rates);
     if (memcmp(&got, &want->rows, sizeof got) != 0)
-        fail_msg("%s: %d steady, %d held, %d affine, %d sine, %d of one part, %d with formulas, %d "
-                 "particles, %d bare, %d bodies",
-                 want->name, got.steady, got.held, got.affine, got.sine, got.parts, got.formulas,
-                 got.particles, got.bare, got.bodies);
+        fail_msg("%s: %d steady, %d held, %d affine, %d sine, %d of one part, %d with formulas, %d bare, %d whole",
+                 want->name, got.steady, got.held, got.affine, got.sine, got.parts, got.formulas, got.bare,
+                 got.whole);
     rates_free(rates);
     fbd_state_free(state);
     fbd_model_free(model);
@@ -367,7 +366,7 @@ static void every_scene_gets_the_least_row_that_does(void **unused)
         {"friction under a push across the line that varies",
          BODY(SLIDE, "    initial: {v: 3}\n    forces:\n" ON_SURFACE
                      "      - friction: 0.5\n      - applied: {name: f, value: 2*cos(3*t), angle: 0 deg}\n"),
-         {.bodies = 1}},
+         {.whole = 1}},
         {"spring and quadratic drag",
          BODY(SLIDE, "    forces:\n      - spring: {stiffness: 5}\n      - drag: {quadratic: 1}\n"),
          {.affine = 1}},
@@ -382,7 +381,7 @@ static void every_scene_gets_the_least_row_that_does(void **unused)
          {.formulas = 1}},
         {"a particle on a spring",
          BODY("particle: {}", "    forces:\n      - spring: {stiffness: 5, free_length: 1, to: [0, 3]}\n"),
-         {.particles = 1}},
+         {.whole = 1}},
         {"a pendulum",
          "fbd: 1\nbodies:\n  b:\n    motion: {pivot: {at: [0, 0]}}\n    shape: point\n    mass: 2\n"
          "    center: [0, -1 m]\n    forces: [gravity]\nsimulate: {until: 1}\n",
