@@ -304,6 +304,39 @@ typedef struct fbd_coupling_end {
 /* End `end` of a coupling; past the last one its numbers are NAN. */
 FBD_API fbd_coupling_end fbd_view_coupling_end(const fbd_view *view, size_t index, size_t end);
 
+/* ---------------------------------------------------------------- connections, as a file gives them */
+
+/* An end of a connection, or a point that a rope passes over. */
+typedef struct fbd_connection_end {
+    int body;        /* or FBD_GROUND */
+    bool whole;      /* contact: no point of it, but all of its surface */
+    bool center;     /* its centre of mass; `point` is 0 */
+    double point[2]; /* in the frame of the body */
+    double radius;   /* of the circle there; 0 without, negative for the inside of a ring gear */
+    /* rope: it is wound on a drum there, which it leaves to the left (1), right (2), above (3) or below (4); else 0 */
+    int wound;
+    double spare; /* and so much is wound up at the start; INFINITY: no limit */
+} fbd_connection_end;
+
+enum { FBD_CONNECTION_ENDS = 8 };
+
+/* A coupling or contact, or a spring or damper between two bodies. Texts live as long as the model, and are NULL past the
+ * last one. */
+typedef struct fbd_connection {
+    const char *kind; /* as of fbd_coupling, or "spring", "damper" */
+    const char *name;
+    int line, column;
+    bool friction;                              /* slot, rope: with friction */
+    double length;                              /* of a rod or rope, where the file gives it; else NAN */
+    double stiffness, coefficient, free_length; /* of a spring, of a damper, of a spring */
+    size_t end_count;
+    fbd_connection_end ends[FBD_CONNECTION_ENDS];
+} fbd_connection;
+
+/* The couplings and contacts in the order of the file, then the springs and dampers. */
+FBD_API size_t fbd_model_connection_count(const fbd_model *model);
+FBD_API fbd_connection fbd_model_connection(const fbd_model *model, size_t index);
+
 /* ---------------------------------------------------------------- bodies and forces, for comparison of scenes */
 
 typedef struct fbd_scene {

@@ -23,7 +23,7 @@ const char bad_calls_scene[] = "fbd: 1\n"
 
 /* ---- what has been called */
 
-enum { most_called = 400 };
+enum { most_called = 500 };
 static const char *called[most_called];
 static size_t called_count;
 
@@ -436,6 +436,7 @@ int main(void)
         cmocka_unit_test(methods_and_simplifications),
         cmocka_unit_test(grades),
         cmocka_unit_test(a_key_without_an_answer),
+        cmocka_unit_test(derivations),
         cmocka_unit_test(bodies_and_forces),
         cmocka_unit_test(states_for_comparison),
         cmocka_unit_test(options_have_a_size),
