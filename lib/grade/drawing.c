@@ -14,6 +14,7 @@
 #include "base/text.h"
 #include "document/node_edit.h"
 #include "fbd_grade.h"
+#include "fbd_view.h"
 #include "grade/lines.h"
 
 /* An arrow in units of the drawing. */

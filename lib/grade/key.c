@@ -8,6 +8,7 @@
 
 #include "base/hash.h"
 #include "fbd_grade.h"
+#include "fbd_view.h"
 #include "grade/grade.h"
 #include "study/draws.h"
 

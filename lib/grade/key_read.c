@@ -10,6 +10,7 @@
 #include "base/file.h"
 #include "base/text.h"
 #include "fbd_grade.h"
+#include "fbd_view.h"
 #include "grade/grade.h"
 
 static double points_of(const struct fbd_key *key)

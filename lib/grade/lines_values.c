@@ -5,6 +5,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "fbd_view.h"
 #include "grade/lines.h"
 
 static bool is_of_name(char c)

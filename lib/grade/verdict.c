@@ -8,6 +8,7 @@
 
 #include "base/text.h"
 #include "fbd_grade.h"
+#include "fbd_view.h"
 #include "grade/verdict_work.h"
 
 static const struct pos nowhere = {0, 0};

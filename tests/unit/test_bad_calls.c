@@ -10,6 +10,7 @@
 #include "fbd_export.h"
 #include "fbd_grade.h"
 #include "fbd_study.h"
+#include "fbd_view.h"
 
 const char bad_calls_scene[] = "fbd: 1\n"
                                "parameters: {k: 4 N/m}\n"
