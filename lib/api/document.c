@@ -131,7 +131,7 @@ static bool is_known(void *context, const char *body, const char *name)
     return false;
 }
 
-static void take(void *context, const struct node *node, const char *text)
+static void take_read(void *context, const struct node *node, const char *text)
 {
     const struct reading *reading = context;
     if (strcmp(node->text, text) != 0) reading->take(reading->context, node->at.line, node->at.column, text);
@@ -139,13 +139,13 @@ static void take(void *context, const struct node *node, const char *text)
 
 bool fbd_document_derivations(const fbd_document *document, const fbd_setting *settings, size_t setting_count,
                               const fbd_model *model, const char *const *names, size_t name_count,
-                              fbd_take_derivation *receive, void *context)
+                              fbd_take_derivation *take, void *context)
 {
-    if (!document || !model || !receive || !api_has_settings(settings, setting_count) ||
+    if (!document || !model || !take || !api_has_settings(settings, setting_count) ||
         !api_has_texts(names, name_count))
         return false;
-    struct reading reading = {names, name_count, receive, context};
-    const struct hand_reader reader = {&reading, is_known, take};
+    struct reading reading = {names, name_count, take, context};
+    const struct hand_reader reader = {&reading, is_known, take_read};
     struct document read = {.file = document->file, .root = document->root, .hand_reader = &reader};
     struct arena arena = {0};
     struct override *overrides = overrides_of(settings, setting_count);
