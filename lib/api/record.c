@@ -8,6 +8,7 @@
 #include <time.h>
 
 #include "base/api_check.h"
+#include "fbd_export.h"
 #include "output/run_record.h"
 #include "record/finite_result.h"
 
