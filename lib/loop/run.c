@@ -261,9 +261,12 @@ static bool restart(struct run *run)
 static struct time_dd next_time(struct run *run, bool *found)
 {
     const double stretch = 1.02; /* the stepper may lengthen a step by 1 % to end at its limit */
-    double rest = fmin(zeno_next_rest(run), run->zeno_switches.end), until = fmin(run->options.until, rest);
-    double reach = fmin(until, run->state->t + stretch * run->step.h);
-    int status = scan_interval(&run->search.timed, run->state->t, reach);
+    double until = fmin(run->options.until, run->zeno_switches.end);
+    if (run->model->tree) until = fmin(until, zeno_next_rest(run));
+    int status = 0;
+    if (run->search.timed.count > 0)
+        status = scan_interval(&run->search.timed, run->state->t,
+                               fmin(until, run->state->t + stretch * run->step.h));
     *found = status == 1;
     /* Where functions of time vary too fast for so long a step, it ends where they have been searched. */
     if (status == 2 && run->search.timed.clear > run->state->t) return time_dd_at(run->search.timed.clear);
@@ -274,7 +277,7 @@ static struct time_dd next_time(struct run *run, bool *found)
 }
 
 /* Fail at a coordinate that overflows although its rate is finite; the step is not accepted. */
-static bool is_beyond_numbers(struct run *run, double t)
+static bool fail_beyond_numbers(struct run *run, double t)
 {
     size_t n = (size_t)run->model->plan.n, size = plan_size(&run->model->plan);
     for (size_t i = 0; i < size; i++) {
@@ -299,9 +302,12 @@ static bool is_beyond_numbers(struct run *run, double t)
 static void accept(struct run *run, struct time_dd t)
 {
     size_t size = plan_size(&run->model->plan);
-    double *most = run->recent.anchor + size;
-    if (is_beyond_numbers(run, t.t)) return;
-    for (size_t i = 0; i < size; i++) most[i] = larger(most[i], fabs(run->state->y[i]));
+    double *most = run->recent.anchor + size, probe = 0; /* zero unless a coordinate is not finite */
+    for (size_t i = 0; i < size; i++) {
+        most[i] = larger(most[i], fabs(run->state->y[i]));
+        probe += 0 * run->work.y[i];
+    }
+    if (probe != 0 && fail_beyond_numbers(run, t.t)) return;
     state_set_moment(run->state, t);
     memcpy(run->state->y, run->work.y, size * sizeof *run->work.y);
     if (run->plain) return;
@@ -316,6 +322,7 @@ static void accept(struct run *run, struct time_dd t)
 static bool heed_poles(struct run *run)
 {
     const struct pole *nearest;
+    if (run->poles.count == 0) return true;
     double longest = poles_longest_step(&run->poles, run->state, &nearest);
     run->step.h = fmin(run->step.h, longest);
     bool reached = nearest && longest <= 4 * DBL_EPSILON * fabs(run->state->t);
@@ -342,12 +349,13 @@ struct turn {
     bool moving;          /* other events happen at t */
 };
 
-/* Set the start and the modes of the step; after events the stepper restarts. */
+/* Set the start and the modes of the step, which only events and couplings change; after events the stepper
+ * restarts. */
 static bool begin_step(struct run *run)
 {
     run->step.from = run->state->t;
     run->step.from_rest = run->state->rest;
-    state_copy(run->during, run->state);
+    if (run->step.restart || !run->plain) state_copy(run->during, run->state);
     if (!run->step.restart) return true;
     run_note_sign(run);
     return restart(run);

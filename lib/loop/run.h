@@ -78,9 +78,9 @@ struct stride {
 
 /* Time gained per work: see progress.c. */
 struct progress {
-    double start;   /* the time at which the run began */
-    double t, work; /* at the last check */
-    unsigned long accepted, rejected;
+    double start; /* the time at which the run began */
+    double t;     /* at the last check */
+    unsigned long work, accepted, rejected;
 };
 
 /* Status, and how the run has ended. */
