@@ -333,8 +333,9 @@ static bool set_labels(struct fbd_model *model, bool labels, const struct fbd_mo
     return model->own_labels && (model->labels || !labels);
 }
 
+/* With `memory` the arrays of the model are there, and else in an arena of its own. */
 static struct fbd_model *compile(struct scene *scene, bool labels, const struct fbd_model *like,
-                                 fbd_errors *errors)
+                                 struct arena *memory, fbd_errors *errors)
 {
     struct fbd_model *model = calloc(1, sizeof *model);
     if (!model) {
@@ -344,6 +345,7 @@ static struct fbd_model *compile(struct scene *scene, bool labels, const struct 
     }
     model->scene = scene;
     model->scene_lent = model->arena.much_room = like != NULL;
+    if (memory) model->arena = *memory;
     struct builder builder = {.model = model, .errors = errors};
     bool done = allocate(model);
     for (size_t b = 0; done && b < scene->body_count; b++)
@@ -362,6 +364,10 @@ static struct fbd_model *compile(struct scene *scene, bool labels, const struct 
         if (done) slides_find(model);
     }
     if (!done) diag_out_of_memory(errors);
+    if (memory) {
+        *memory = model->arena;
+        model->arena = (struct arena){0};
+    }
     if (fbd_errors_failed_count(errors) > 0) {
         model_free(model);
         return NULL;
@@ -371,17 +377,17 @@ static struct fbd_model *compile(struct scene *scene, bool labels, const struct 
 
 struct fbd_model *model_compile(struct scene *scene, fbd_errors *errors)
 {
-    return compile(scene, true, NULL, errors);
+    return compile(scene, true, NULL, NULL, errors);
 }
 
-struct fbd_model *model_compile_group(struct scene *scene, fbd_errors *errors)
+struct fbd_model *model_compile_group(struct scene *scene, struct arena *memory, fbd_errors *errors)
 {
-    return compile(scene, false, NULL, errors);
+    return compile(scene, false, NULL, memory, errors);
 }
 
 struct fbd_model *model_compile_again(struct scene *scene, const struct fbd_model *like, fbd_errors *errors)
 {
-    return compile(scene, true, like, errors);
+    return compile(scene, true, like, NULL, errors);
 }
 
 void model_free(struct fbd_model *model)
