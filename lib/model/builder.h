@@ -11,8 +11,9 @@
 struct builder {
     struct fbd_model *model;
     fbd_errors *errors;
-    struct affine_term *affine; /* slots */
-    struct sine_term *sine;     /* slots */
+    struct affine_term *affine;  /* slots */
+    struct sine_term *sine;      /* slots */
+    size_t kink_room, pole_room; /* entries for which the plan has memory */
 };
 
 /* Compile a value of the scene; registers its switches. */

@@ -107,7 +107,8 @@ static void prepare(const struct copy *copy, struct arena *memory)
     to->absolutes = ARENA_ARRAY(&to->arena, selection->absolute_count, struct absolute);
 }
 
-static struct scene *copy_scene(const struct scene *from, const struct selection *selection, struct arena *memory)
+static struct scene *copy_scene(const struct scene *from, const struct selection *selection,
+                                struct arena *memory)
 {
     struct scene *to = calloc(1, sizeof *to);
     if (!to) return NULL;
@@ -149,7 +150,8 @@ static bool copy_labels(struct fbd_model *model, const struct fbd_model *whole,
     return true;
 }
 
-struct fbd_model *model_group(const struct fbd_model *whole, const struct selection *selection, struct arena *memory)
+struct fbd_model *model_group(const struct fbd_model *whole, const struct selection *selection,
+                              struct arena *memory)
 {
     fbd_errors *errors = fbd_errors_new();
     struct scene *scene = errors ? copy_scene(whole->scene, selection, memory) : NULL;
