@@ -198,6 +198,7 @@ struct run *run_new(const struct fbd_model *model, const struct run_options *opt
     run->recent.time = -HUGE_VAL;
     run->recent.interval[0] = run->recent.interval[1] = HUGE_VAL;
     run->memory = memory;
+    run->end.reason = "";
     if (!make_run(run, begin)) {
         run_free(run);
         return NULL;

@@ -86,7 +86,7 @@ struct progress {
 /* Status, and how the run has ended. */
 struct ending {
     fbd_outcome outcome;
-    char reason[reason_size];
+    const char *reason;  /* "" without a failure */
     const char *refusal; /* of a start: id of the reason (start.h), and position; or NULL */
     struct pos refusal_at;
 };
