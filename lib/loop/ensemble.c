@@ -118,7 +118,7 @@ static bool make_maps(struct ensemble *ensemble)
 static bool make_groups(struct ensemble *ensemble)
 {
     ensemble->count = 1;
-    if (ensemble->options.structure) {
+    if (ensemble->options.structure && ensemble->model->body_count > 1) {
         if (!islands_make(&ensemble->division, ensemble->model)) return false;
         if (ensemble->division.count > 1) ensemble->count = ensemble->division.count;
     }

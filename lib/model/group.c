@@ -18,9 +18,23 @@ static void renumber(const struct copy *copy, const struct expr **expr)
         copy->to->arena.failed = true;
 }
 
+static bool reads_coordinates(struct load *load)
+{
+    struct value *formulas[most_formulas_of_a_load];
+    const int *slots;
+    load_formulas(load, formulas);
+    for (size_t k = 0; k < most_formulas_of_a_load; k++)
+        if (formulas[k]->expr && expr_variables(formulas[k]->expr, &slots) > 0) return true;
+    return false;
+}
+
+/* Loads without variables are those of the whole. */
 static void copy_loads(const struct copy *copy, struct body *body)
 {
-    const struct load *from = body->loads;
+    struct load *from = body->loads;
+    bool reads = false;
+    for (size_t i = 0; i < body->load_count; i++) reads |= reads_coordinates(&from[i]);
+    if (!reads) return;
     body->loads = ARENA_ARRAY(&copy->to->arena, body->load_count, struct load);
     if (!body->loads) return;
     for (size_t i = 0; i < body->load_count; i++) {
