@@ -91,8 +91,9 @@ bool linear_pace_init(struct linear_pace *pace, size_t dim, size_t modes);
 void linear_pace_free(struct linear_pace *pace);
 
 /* At a start or after an event; sets pace->now to the matrix, or NULL if it is not available. For the same
- * modes as before, the matrix is reused without a Jacobian; with modes NULL it is always evaluated. */
-void linear_pace_start(struct linear_pace *pace, struct counted_system *system, double t, const double *y,
+ * modes as before, the matrix is reused without a Jacobian; with modes NULL it is always evaluated. False when memory is
+ * out. */
+bool linear_pace_start(struct linear_pace *pace, struct counted_system *system, double t, const double *y,
                        const int *modes);
 
 /* The size of a step from t. */

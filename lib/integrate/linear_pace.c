@@ -71,9 +71,11 @@ static void forget(struct linear_pace *pace, const struct linear_modes *modes)
         if (pace->keys[i].of == modes) pace->keys[i].of = NULL;
 }
 
-/* Analyse pace->jacobian, in place of the oldest matrix. */
+/* Analyse pace->jacobian, in place of the oldest matrix. NULL when memory is out. */
 static struct linear_modes *make_modes(struct linear_pace *pace)
 {
+    gsl_eigen_nonsymm_workspace *eigen = gsl_eigen_nonsymm_alloc(pace->dim);
+    if (!eigen) return NULL;
     struct linear_modes *modes = &pace->kept[pace->oldest];
     size_t dim = pace->dim, size = dim * dim * sizeof *pace->jacobian;
     pace->oldest = (pace->oldest + 1) % linear_most_kept;
@@ -83,25 +85,25 @@ static struct linear_modes *make_modes(struct linear_pace *pace)
     modes->rho = stiffness_rate(dim, modes->A, pace->work);
     gsl_matrix_view matrix = gsl_matrix_view_array(pace->copy, dim, dim);
     gsl_vector_complex_view eigenvalues = gsl_vector_complex_view_array(modes->eigenvalues, dim);
-    gsl_eigen_nonsymm_workspace *eigen = gsl_eigen_nonsymm_alloc(dim);
     /* If the eigenvalues are not found, every mode counts as the fastest. */
-    if (!eigen || gsl_eigen_nonsymm(&matrix.matrix, &eigenvalues.vector, eigen) != GSL_SUCCESS)
+    if (gsl_eigen_nonsymm(&matrix.matrix, &eigenvalues.vector, eigen) != GSL_SUCCESS)
         gsl_vector_complex_set_all(&eigenvalues.vector, gsl_complex_rect(0, modes->rho));
-    if (eigen) gsl_eigen_nonsymm_free(eigen);
+    gsl_eigen_nonsymm_free(eigen);
     return modes;
 }
 
-void linear_pace_start(struct linear_pace *pace, struct counted_system *system, double t, const double *y,
+bool linear_pace_start(struct linear_pace *pace, struct counted_system *system, double t, const double *y,
                        const int *modes)
 {
     double *dfdt = pace->work;
     pace->start = t;
     pace->now = met_in(pace, modes);
-    if (pace->now) return;
-    if (GSL_ODEIV_JA_EVAL(&system->gsl, t, y, pace->jacobian, dfdt) != GSL_SUCCESS) return;
+    if (pace->now) return true;
+    if (GSL_ODEIV_JA_EVAL(&system->gsl, t, y, pace->jacobian, dfdt) != GSL_SUCCESS) return true;
     pace->now = find_modes(pace);
     if (!pace->now) pace->now = make_modes(pace);
-    if (modes) remember(pace, modes);
+    if (modes && pace->now) remember(pace, modes);
+    return pace->now != NULL;
 }
 
 /* The largest measure of an eigenvalue among the modes that have not died out at t. */

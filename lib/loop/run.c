@@ -224,12 +224,16 @@ void run_free(struct run *run)
 
 /* The matrices of a linear system depend on the modes only: branches, slips and pulls, one behind the other;
  * except in a Filippov sliding mode. */
-static void start_linear(struct run *run)
+static bool start_linear(struct run *run)
 {
     const int *modes = state_sliding(run->during) ? NULL : run->during->branch;
-    linear_pace_start(&run->pace, &run->system, run->state->t, run->work.y, modes);
+    if (!linear_pace_start(&run->pace, &run->system, run->state->t, run->work.y, modes)) {
+        run_fail(run, FBD_OUT_OF_MEMORY, "out of memory");
+        return false;
+    }
     const struct linear_modes *now = run->pace.now;
     if (now && isfinite(now->rho)) switcher_set_linear(run->stepper, now->A, now->rho);
+    return true;
 }
 
 /* Start the stepper at the present state. */
@@ -252,7 +256,7 @@ static bool restart(struct run *run)
     watchers_set_rounding(&run->watchers.moving, run->during, run->search.moving.series.rounding);
     if (run->step.first == 0) run->step.first = run->step.h;
     if (structure_is_one_step(run->kind)) run->step.h = run->options.until - run->state->t;
-    if (run->kind == structure_linear) start_linear(run);
+    if (run->kind == structure_linear && !start_linear(run)) return false;
     run->step.restart = false;
     return true;
 }
