@@ -355,7 +355,7 @@ static int linear_apply(void *state, size_t dim, double t, double h, double y[],
     } else if (make_room(s, h)) {
         leap(s, h, y);
     } else {
-        return GSL_ENOMEM;
+        return GSL_ENOMEM; /* a shorter step needs none */
     }
     double probe = 0;
     for (size_t i = 0; i < dim; i++) probe += 0 * y[i];
