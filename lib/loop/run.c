@@ -39,7 +39,7 @@ static bool chooses_structure(const struct run *run)
 static bool make_stepper(struct run *run)
 {
     size_t n = (size_t)run->model->plan.n;
-    bool *angle = ARENA_ARRAY(&run->memory, n, bool);
+    bool *angle = ARENA_ARRAY(run->memory, n, bool);
     if (!angle) return false;
     for (size_t i = 0; i < n; i++) angle[i] = run->model->scene->coordinates[i].angle;
     if (chooses_structure(run)) {
@@ -84,7 +84,7 @@ static double projected_accuracy(const struct run_options *options)
 static bool make_run(struct run *run, const struct state_start *begin)
 {
     const struct plan *plan = &run->model->plan;
-    struct arena *memory = &run->memory;
+    struct arena *memory = run->memory;
     size_t size = plan_size(plan);
     run->state = begin ? state_new_from(run->model, begin) : state_new(run->model);
     run->during = state_new(run->model);
@@ -189,7 +189,7 @@ static void start(struct run *run)
 }
 
 struct run *run_new(const struct fbd_model *model, const struct run_options *options,
-                    const struct state_start *begin)
+                    const struct state_start *begin, struct arena *memory)
 {
     struct run *run = calloc(1, sizeof *run);
     if (!run) return NULL;
@@ -197,7 +197,8 @@ struct run *run_new(const struct fbd_model *model, const struct run_options *opt
     run->options = *options;
     run->recent.time = -HUGE_VAL;
     run->recent.interval[0] = run->recent.interval[1] = HUGE_VAL;
-    run->memory.much_room = true;
+    run->memory = memory;
+    run->end.reason = "";
     if (!make_run(run, begin)) {
         run_free(run);
         return NULL;
@@ -216,7 +217,6 @@ void run_free(struct run *run)
     state_free(run->during);
     rates_free(run->rates);
     free(run->log.events);
-    arena_free(&run->memory);
     free(run);
 }
 
@@ -224,12 +224,16 @@ void run_free(struct run *run)
 
 /* The matrices of a linear system depend on the modes only: branches, slips and pulls, one behind the other;
  * except in a Filippov sliding mode. */
-static void start_linear(struct run *run)
+static bool start_linear(struct run *run)
 {
     const int *modes = state_sliding(run->during) ? NULL : run->during->branch;
-    linear_pace_start(&run->pace, &run->system, run->state->t, run->work.y, modes);
+    if (!linear_pace_start(&run->pace, &run->system, run->state->t, run->work.y, modes)) {
+        run_fail(run, FBD_OUT_OF_MEMORY, "out of memory");
+        return false;
+    }
     const struct linear_modes *now = run->pace.now;
     if (now && isfinite(now->rho)) switcher_set_linear(run->stepper, now->A, now->rho);
+    return true;
 }
 
 /* Start the stepper at the present state. */
@@ -252,7 +256,7 @@ static bool restart(struct run *run)
     watchers_set_rounding(&run->watchers.moving, run->during, run->search.moving.series.rounding);
     if (run->step.first == 0) run->step.first = run->step.h;
     if (structure_is_one_step(run->kind)) run->step.h = run->options.until - run->state->t;
-    if (run->kind == structure_linear) start_linear(run);
+    if (run->kind == structure_linear && !start_linear(run)) return false;
     run->step.restart = false;
     return true;
 }
