@@ -107,7 +107,8 @@ static bool observe(void *context, struct ensemble *ensemble, size_t group)
     /* a single island without stops has no common time to wait for */
     bool alone = ensemble->count == 1 && going->whole;
     tell_progress(going, alone ? ensemble->groups[group].run->state->t : ensemble->t);
-    if (!event_states_note(&result->event_states, ensemble, group)) {
+    if (ensemble->groups[group].run->log.count > 0 &&
+        !event_states_note(&result->event_states, ensemble, group)) {
         ensemble_fail(ensemble, FBD_OUT_OF_MEMORY, "out of memory");
         return false;
     }
