@@ -215,6 +215,11 @@ live-check: live $(BUILD)/.tests
 	ninja -C $(BUILD)
 	FBD_ALL_PAGES=1 FBD_TEST_TIMEOUT=10 .ci/test $(BUILD) --no-rebuild live
 
+# The page of every model of the gallery in Chromium, of which the tests take a twelfth; some minutes.
+pages: $(BUILD)/.tests
+	ninja -C $(BUILD)
+	FBD_ALL_PAGES=1 FBD_TEST_TIMEOUT=10 .ci/test $(BUILD) --no-rebuild page
+
 # A folder that can be served from anywhere: every model live, and these documents.
 SITE = $(BUILD)/site
 site: live
@@ -233,6 +238,12 @@ uninstall:
 # The source as a tarball, of what is committed: $(BUILD)/meson-dist.
 dist: $(BUILD)/build.ninja
 	meson dist -C $(BUILD) --no-tests
+
+# That the tarball builds by itself, installs and goes away again, and that its run enters no function of an effect that
+# is not listed; some two minutes.
+dist-check: $(BUILD)/.tests
+	ninja -C $(BUILD)
+	FBD_DIST=build .ci/test $(BUILD) --no-rebuild dist
 
 # Packages for Debian, of what is committed; `deb-check` also asks lintian, installs them and tries them.
 DEBS = $(BUILD)-debian
@@ -285,5 +296,5 @@ $(BUILD)-count/build.ninja:
 	.ci/install-packages run test lint
 	touch $@
 
-.PHONY: all run satellites mutants generators compare test sanitize tsan valgrind faults cross-check fuzz bench measurements effects instructions error-bars event-bars events late-times implicit tighter methods impacts failures gallery python live live-check site check-format format lint install uninstall dist deb deb-check clean
+.PHONY: all run satellites mutants generators compare test sanitize tsan valgrind faults cross-check fuzz bench measurements effects instructions error-bars event-bars events late-times implicit tighter methods impacts failures gallery python live live-check site check-format format lint install uninstall dist dist-check pages deb deb-check clean
 .SECONDARY:

@@ -4,7 +4,7 @@
 #include <stdarg.h>
 #include <stdio.h>
 
-#include "fbd.h"
+#include "fbd_export.h"
 
 void complain(const char *format, ...)
 {

@@ -11,6 +11,7 @@
 #include "fbd_export.h"
 #include "fbd_grade.h"
 #include "fbd_study.h"
+#include "fbd_view.h"
 #include "fmu.h"
 #include "grading.h"
 #include "live_page.h"

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * fbd: free-body diagrams that run. This header has models, states, equations and runs; fbd_study.h has studies of a model,
- * fbd_grade.h compares derivations and answers with it, fbd_export.h has its outputs, fbd_view.h shows it to other
+ * fbd: free-body diagrams that run. This header has models, states, equations and runs; fbd_study.h the accuracy of runs and
+ * studies of a model, fbd_grade.h derivations and answers, fbd_export.h outputs, fbd_view.h the contents of a model for other
  * programs: drawings, graders, formats; fbd_workers.h sweeps over several processes, fbd_test.h checks for unit tests.
  *
  * Units are those of the model's system (`units: SI` or `US`), angles are in radians, times in seconds. A
@@ -119,13 +119,6 @@ FBD_API const char *fbd_errors_file(const fbd_errors *errors, size_t index);
 /* Write every note as `file:line:col: error: message` and `    hint: ...`. */
 FBD_API void fbd_errors_print(fbd_errors *errors, FILE *stream);
 
-/* Make a text safe to print: characters that a terminal would execute (escape sequences), that change the
- * direction of the text or are invisible are written as `\x1b`, `\u202e`, `\U000e0001`; the rest stays.
- * Titles, paths and other texts of users should be printed so; messages and texts of the library are safe
- * already. Fills `shown` with whole characters and a final zero, as far as there is room; returns the length
- * of the complete text in bytes, without that zero. */
-FBD_API size_t fbd_escape(const char *text, char *shown, size_t room);
-
 /* ---------------------------------------------------------------- models */
 
 /* A compiled scene: constant after it is made, and shareable by threads. */
@@ -148,22 +141,10 @@ FBD_API void fbd_model_free(fbd_model *model);
 /* The title of the file, "" when it has none. */
 FBD_API const char *fbd_model_title(const fbd_model *model);
 
-/* The text of the file as read, not terminated; lives as long as the model. */
-FBD_API const char *fbd_model_source(const fbd_model *model, size_t *length);
-
 FBD_API size_t fbd_model_body_count(const fbd_model *model);
 
 /* The name of a body; NULL past the last one. */
 FBD_API const char *fbd_model_body_name(const fbd_model *model, size_t body);
-
-/* Mass and moments of inertia of a body, in the model's units. I_O (about the axis O) and L (distance from O
- * to the centre of mass G) are 0 except for a pivot. All are NAN past the last body. */
-typedef struct fbd_inertia {
-    double mass, I_G, I_O, L;
-    double G[2]; /* centre of mass in the body frame */
-} fbd_inertia;
-
-FBD_API fbd_inertia fbd_model_inertia(const fbd_model *model, size_t body);
 
 /* A coordinate of the scene: q and its rate v. Names are qualified ("block.x", "block.v"); they live as long
  * as the model, and are NULL past the last coordinate. */
@@ -174,33 +155,6 @@ typedef struct fbd_coordinate {
 
 FBD_API size_t fbd_model_coordinate_count(const fbd_model *model);
 FBD_API fbd_coordinate fbd_model_coordinate(const fbd_model *model, size_t index);
-
-/* A parameter or an input of the file with its value in this model: the value set by the caller, or the
- * file's. Texts live as long as the model. */
-typedef struct fbd_parameter {
-    /* unit: coherent unit of the value; "" for a pure number, and for a number whose dimension follows from its
-     * use */
-    const char *name, *unit;
-    const char *description; /* "" if there is none */
-    double value;
-    bool input;       /* of `inputs`: it may change during the motion */
-    bool derived;     /* defined in the file by other parameters, or gravity */
-    double low, high; /* range of a slider; NAN where the file does not give it */
-} fbd_parameter;
-
-/* The `parameters` in the order of the file, then the `inputs`. Past the last one the name is NULL. */
-FBD_API size_t fbd_model_parameter_count(const fbd_model *model);
-FBD_API fbd_parameter fbd_model_parameter(const fbd_model *model, size_t index);
-
-/* A user state, from `states` of the file: its qualified name ("states.charge"), its unit and that of its
- * rate, "1" for a pure number. The texts live as long as the model, and are NULL past the last one.
- * fbd_state_get and fbd_state_set take that name. */
-typedef struct fbd_own_state {
-    const char *name, *unit, *rate_unit;
-} fbd_own_state;
-
-FBD_API size_t fbd_model_state_count(const fbd_model *model);
-FBD_API fbd_own_state fbd_model_state(const fbd_model *model, size_t index);
 
 /* ---------------------------------------------------------------- states and assembled equations */
 
@@ -214,16 +168,6 @@ FBD_API void fbd_state_free(fbd_state *state);
 /* Copy `from` into `to`. Returns false when they are not of the same model. */
 FBD_API bool fbd_state_copy(fbd_state *to, const fbd_state *from);
 
-/* Write all numbers that determine the further motion: the time, coordinates, rates and user states, the
- * memory of expressions (`hysteresis`), and the start values that couplings keep, for example the length of a rope.
- * Fills at most `room` of them; returns their number. */
-FBD_API size_t fbd_state_pack(const fbd_state *state, double *numbers, size_t room);
-
-/* Put such numbers into a state of the same model, or of a model of the same text with other settings. The
- * next call that needs the modes determines them anew. Returns false, and changes nothing, when the numbers
- * do not fit the state. */
-FBD_API bool fbd_state_unpack(fbd_state *state, const double *numbers, size_t count);
-
 /* Set or get "t", "body.coordinate" or "body.rate" ("block.x", "pendulum.omega"). Returns false for an
  * unknown name or a value that is not finite. The next call that needs the modes determines them anew, as at
  * the start of a run. */
@@ -236,15 +180,6 @@ FBD_API bool fbd_state_set_text(fbd_state *state, const char *name, const char *
 /* As fbd_state_set_text; a plain number for an angle is in degrees, for its rate in degrees per second. */
 FBD_API bool fbd_state_set_text_degrees(fbd_state *state, const char *name, const char *text,
                                         fbd_errors *errors);
-
-/* Evaluate a text with the dimension of `unit` ("N"), "5 lbf" or "2*3[N]", in the units of the model; a plain
- * number is in the model's unit. `name` is its name in messages. Returns false with a note in `errors`. */
-FBD_API bool fbd_model_quantity(const fbd_model *model, const char *name, const char *text, const char *unit,
-                                double *value, fbd_errors *errors);
-
-/* Select degrees for angles and their rates in the texts of the state, of its statics and of its
- * linearisation. Equations, matrices and the numbers of structures stay in radians. */
-FBD_API void fbd_state_show_degrees(fbd_state *state, bool degrees);
 
 /* Make a state admissible as a start: bodies with `assemble` are moved to satisfy their couplings, the others
  * must satisfy theirs to six digits. Returns false with a note in `errors` for a start that a run would
@@ -313,11 +248,6 @@ typedef struct fbd_arrow {
  * `arrows` may be NULL to count only. */
 FBD_API size_t fbd_diagram(fbd_state *state, size_t body, fbd_arrow *arrows, size_t room);
 
-/* The redundant coupling rows at the state: rows that follow from the rows before them (parallel rods, a pin
- * in a direction that a slide constrains already), as "knuckle in y". Fills at most `room` names, which live
- * as long as the model; returns their number. */
-FBD_API size_t fbd_redundant(fbd_state *state, const char **names, size_t room);
-
 /* ---------------------------------------------------------------- simulation */
 
 typedef struct fbd_options {
@@ -326,7 +256,7 @@ typedef struct fbd_options {
     double tolerance;   /* relative error per step; 0 for the file's, else 1e-10 */
     double step;        /* fixed step size, 0 for automatic or the file's */
     const char *method; /* NULL for the file's, else "auto" */
-    bool error_bars;    /* estimate the global errors by a more accurate companion run (see below) */
+    bool error_bars;    /* estimate the global errors by a more accurate companion run: fbd_study.h */
     /* global accuracy that fbd_simulation_run must reach, above 0 and at most 0.1; 0 for the file's, if any.
      * Implies error bars, and excludes `tolerance` and `step` */
     double accuracy;
@@ -424,12 +354,6 @@ FBD_API fbd_simulation *fbd_simulation_new(const fbd_model *model, const fbd_opt
                                            fbd_errors *errors);
 FBD_API void fbd_simulation_free(fbd_simulation *simulation);
 
-/* A simulation at the start that repeats the steps of another one, to evaluate states anywhere in a finished
- * run: at the tolerance that was found where an accuracy was requested, with error bars or without. NULL with
- * a note in `errors` when memory is out. The other simulation may be freed. */
-FBD_API fbd_simulation *fbd_simulation_again(const fbd_simulation *simulation, bool error_bars,
-                                             fbd_errors *errors);
-
 /* A simulation that starts at a state and its time; the modes (sticking, taut, closed) are determined as at
  * the start of a run. The state is copied; its model must outlive the simulation. Where the file requests an
  * accuracy, the tolerance is the first guess for that accuracy. NULL with notes in `errors`: as
@@ -448,42 +372,13 @@ FBD_API fbd_outcome fbd_simulation_advance(fbd_simulation *simulation);
 FBD_API void fbd_simulation_interval(const fbd_simulation *simulation, double *from, double *to);
 FBD_API bool fbd_simulation_state(fbd_simulation *simulation, double t, fbd_state *state);
 
-/* Estimated errors at a time t of the last step, of each coordinate, then of each rate (in the order of
- * fbd_model_coordinate), then of each user state, in their units: twice fbd_model_coordinate_count plus
- * fbd_model_state_count numbers. INFINITY when unknown. Returns false without error bars, for another t, or
- * when memory is out.
- *
- * They are differences from a second run of the same scene with a smaller tolerance (1/5; 1/50 for methods
- * other than that of `auto`) and its own steps and events. See docs/error-bars.md. The trajectory is bitwise
- * the same with and without error bars. */
-FBD_API bool fbd_simulation_errors(fbd_simulation *simulation, double t, double *errors);
-
 FBD_API size_t fbd_simulation_event_count(const fbd_simulation *simulation);
 /* Event `index`, in the order of time; `name` and `detail` live as long as the simulation. */
 FBD_API fbd_event fbd_simulation_event(fbd_simulation *simulation, size_t index);
 FBD_API fbd_stats fbd_simulation_stats(const fbd_simulation *simulation);
 
-/* Drift of a run with couplings: the largest violation of a row at the ends of steps, in position (lengths;
- * for gears the arc) and in velocity, before the projection and after it. `share` is the largest of both
- * divided by the tolerance times the size of the motion (distances of the links from the origin, and their
- * speeds). */
-typedef struct fbd_drift {
-    size_t rows; /* of couplings; if 0 all members are 0 */
-    double position, velocity, share;
-    double left_position, left_velocity, left_share;
-    const char *worst; /* the row with the largest violation, "knuckle in x"; "" if none */
-} fbd_drift;
-
-FBD_API fbd_drift fbd_simulation_drift(const fbd_simulation *simulation);
-
 /* The reason of the end: one sentence with time, body, quantity and a suggestion; "" without an error. */
 FBD_API const char *fbd_simulation_reason(const fbd_simulation *simulation);
-
-/* Check the energy balance from the start to the end of the last step. As fbd_result_balanced without a
- * recording: works are not integrated, so the whole balance is checked for bodies whose forces all have
- * potentials, and for the others the energy lost in impacts. Intended for occasional calls while a run is
- * advanced, and at its end: a call costs about one evaluation of the right-hand side. */
-FBD_API bool fbd_simulation_balanced(fbd_simulation *simulation, double *residual, double *explained);
 
 /* If the simulation was refused at its start, for a reason of fbd_state_close, add that reason to `errors`,
  * with id and position in the file. Returns false, and adds no note, otherwise. */
@@ -516,18 +411,6 @@ typedef struct fbd_recording {
     bool degrees;
 } fbd_recording;
 
-/* A column of the rows of a run: "t", "block.x", with error bars followed by "block.x ±"; and its unit. */
-typedef struct fbd_column {
-    const char *name, *unit;
-} fbd_column;
-
-/* The rows of a run, bitwise the values of the CSV. */
-typedef struct fbd_table {
-    size_t rows, columns;
-    const fbd_column *heads; /* of each column */
-    const double *values;    /* rows x columns, row by row; INFINITY for an unknown error */
-} fbd_table;
-
 /* Energies of the scene, in its unit of energy. work: of the forces without a potential since the start;
  * residual: change of kinetic + potential - work. */
 typedef struct fbd_energy {
@@ -548,43 +431,12 @@ typedef struct fbd_result fbd_result;
 FBD_API fbd_result *fbd_simulation_run(fbd_simulation *simulation, const fbd_recording *recording);
 FBD_API void fbd_result_free(fbd_result *result);
 
-/* The rows of a run recorded with `table`; otherwise there are no rows and columns. Lives as long as the
- * result. */
-FBD_API fbd_table fbd_result_table(const fbd_result *result);
-
 FBD_API fbd_outcome fbd_result_outcome(const fbd_result *result);
 FBD_API fbd_state *fbd_result_state(fbd_result *result); /* the last valid state; owned by the result */
 FBD_API fbd_energy fbd_result_energy(fbd_result *result);
 
-/* The largest residual of the energy [the scene's unit of energy] that tolerance and rounding explain. A
- * larger residual shows that the motion is not that of the scene, whatever the local error estimates: the
- * steps have skipped pulses much shorter than themselves (not every such error shows in the energy). INFINITY
- * for steps of fixed size, NAN with `motion_only`. */
-FBD_API double fbd_result_residual_explained(fbd_result *result);
-
-/* Check the energy balance, in every run, as far as the recording permits: at events the change of kinetic
- * energy against the work of the impacts; over the run the energy of bodies whose forces all have potentials;
- * and that of all bodies where the works of all forces are integrated. `residual` and `explained`, which may
- * be NULL, receive the residual and the largest one that tolerance and rounding explain [the scene's unit of
- * energy]. */
-FBD_API bool fbd_result_balanced(fbd_result *result, double *residual, double *explained);
-
 /* The work of a force or moment on a body since the start; NAN when there is no such name. */
 FBD_API double fbd_result_work(fbd_result *result, const char *body, const char *load);
-
-/* Estimated errors at the end of the run: of "block.x" or "block.v"; of energies (0 for the initial ones); of
- * a work. INFINITY when unknown, NAN without error bars or for an unknown name. */
-FBD_API double fbd_result_error(fbd_result *result, const char *name);
-FBD_API fbd_energy fbd_result_energy_error(fbd_result *result);
-FBD_API double fbd_result_work_error(fbd_result *result, const char *body, const char *load);
-
-/* As fbd_diagram at the end of the run, with the estimated errors of fx, fy, x, y, couple, moment and power.
- * 0 without error bars. */
-FBD_API size_t fbd_result_force_errors(fbd_result *result, size_t body, fbd_arrow *arrows, size_t room);
-
-/* False when the estimated global error exceeds the accuracy requested by options.accuracy or the file, or is
- * unknown because the run failed or was interrupted. */
-FBD_API bool fbd_result_accurate(const fbd_result *result);
 
 FBD_API const char *fbd_version(void);
 

@@ -12,6 +12,19 @@
 extern "C" {
 #endif
 
+/* ---------------------------------------------------------------- texts */
+
+/* Make a text safe to print: characters that a terminal would execute (escape sequences), that change the
+ * direction of the text or are invisible are written as `\x1b`, `\u202e`, `\U000e0001`; the rest stays.
+ * Titles, paths and other texts of users should be printed so; messages and texts of the library are safe
+ * already. Fills `shown` with whole characters and a final zero, as far as there is room; returns the length
+ * of the complete text in bytes, without that zero. */
+FBD_API size_t fbd_escape(const char *text, char *shown, size_t room);
+
+/* Select degrees for angles and their rates in the texts of the state, of its statics and of its
+ * linearisation. Equations, matrices and the numbers of structures stay in radians. */
+FBD_API void fbd_state_show_degrees(fbd_state *state, bool degrees);
+
 /* ---------------------------------------------------------------- equations */
 
 typedef enum fbd_format {
@@ -48,6 +61,22 @@ FBD_API char *fbd_explain(const fbd_model *model, const fbd_options *options);
  * bodies the report is short, unless `full`: totals, events by their kinds, some of the states, the largest
  * forces. */
 FBD_API char *fbd_result_report(fbd_result *result, bool full);
+
+/* A column of the rows of a run: "t", "block.x", with error bars followed by "block.x ±"; and its unit. */
+typedef struct fbd_column {
+    const char *name, *unit;
+} fbd_column;
+
+/* The rows of a run, bitwise the values of the CSV. */
+typedef struct fbd_table {
+    size_t rows, columns;
+    const fbd_column *heads; /* of each column */
+    const double *values;    /* rows x columns, row by row; INFINITY for an unknown error */
+} fbd_table;
+
+/* The rows of a run recorded with `table`; otherwise there are no rows and columns. Lives as long as the
+ * result. */
+FBD_API fbd_table fbd_result_table(const fbd_result *result);
 
 /* The result as one JSON object: docs/output.md. */
 FBD_API char *fbd_result_json(fbd_result *result);

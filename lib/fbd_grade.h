@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * fbd_grade: derivations by hand compared with the assembly, and answers of students compared with a key. The rules of
- * fbd.h apply.
+ * fbd_grade: derivations by hand compared with the assembly, and answers of students compared with a key; and the contents of
+ * model files that other graders need. The rules of fbd.h apply.
  */
 #ifndef FBD_GRADE_H
 #define FBD_GRADE_H
@@ -12,6 +12,42 @@
 extern "C" {
 #endif
 
+/* ---------------------------------------------------------------- models with entries of other files */
+
+/* A model file as a tree of its YAML with the position of each value, so that a model with entries of another file has notes
+ * at their positions there. */
+typedef struct fbd_document fbd_document;
+
+/* Parse a text, which is copied. `name` is its name in messages, or NULL. NULL with notes in `errors` when it is no YAML, or
+ * memory is out. */
+FBD_API fbd_document *fbd_document_parse(const char *text, size_t length, const char *name,
+                                         fbd_errors *errors);
+FBD_API void fbd_document_free(fbd_document *document);
+
+/* Replace the value at a path of `count` keys, as {"bodies", "block", "hand"}, by that of another document, which must outlive
+ * this one; it is removed where the other one has none. Returns false, and changes nothing, if the last key is in no mapping
+ * here, or memory is out. */
+FBD_API bool fbd_document_take(fbd_document *document, const fbd_document *from, const char *const *path,
+                               size_t count);
+
+/* Compile a document as fbd_model_parse does a text, without its derivations unless `derivations`. fbd_model_source of the
+ * model is empty. */
+FBD_API fbd_model *fbd_model_parse_document(const fbd_document *document, const fbd_setting *settings,
+                                            size_t setting_count, bool derivations, fbd_errors *errors);
+
+/* Receives the expressions that a text of a derivation is read as, with its position in the document. */
+typedef void fbd_take_derivation(void *context, int line, int column, const char *text);
+
+/* Read the derivations of a document in the notation of textbooks, without a model of it: they may name the forces of `model`,
+ * and forces that it does not have by one of `names`. Texts that are expressions already, or cannot be read, are left out.
+ * Returns false when memory is out. */
+FBD_API bool fbd_document_derivations(const fbd_document *document, const fbd_setting *settings,
+                                      size_t setting_count, const fbd_model *model, const char *const *names,
+                                      size_t name_count, fbd_take_derivation *take, void *context);
+
+/* True for a name that a file may give to a parameter or force: letters, digits and `_`, and not reserved as `t` or `x`. */
+FBD_API bool fbd_is_name(const char *name);
+
 /* ---------------------------------------------------------------- derivations by hand */
 
 /* Compare every `hand:` derivation of the model with the assembly at many random admissible states (and
@@ -19,6 +55,120 @@ extern "C" {
  * text that confirms each one or shows the differing terms; *differing (may be NULL) is the number of
  * equations that differ. NULL when memory is out. */
 FBD_API char *fbd_check_hand(const fbd_model *model, unsigned seed, size_t *differing);
+
+/* A derivation of a body. Texts live as long as the model; NULL past the last one. */
+typedef struct fbd_derivation {
+    const char *written; /* as in the file */
+    const char *text;    /* the expressions that it is read as */
+    int line, column;
+    /* it is compared with a run: it is a conserved quantity, or names initial values, works, impulses or an impact */
+    bool of_run;
+} fbd_derivation;
+
+FBD_API size_t fbd_model_derivation_count(const fbd_model *model, size_t body);
+FBD_API fbd_derivation fbd_model_derivation(const fbd_model *model, size_t body, size_t index);
+
+/* A derivation at a state: left - right, the sum of the magnitudes of its terms, and the derivatives of left - right by its
+ * unknowns: the accelerations of its body's coordinates, those of others together, each component and couple of a force of a
+ * diagram. If there are too many of them several share a number. All are NAN past the last derivation, and when memory is
+ * out. */
+enum { FBD_UNKNOWNS = 32 };
+
+typedef struct fbd_residual {
+    double value, size, slopes[FBD_UNKNOWNS];
+} fbd_residual;
+
+FBD_API fbd_residual fbd_state_residual(fbd_state *state, size_t body, size_t index);
+
+/* Compares derivations with the mechanics of their models. */
+typedef struct fbd_checker fbd_checker;
+
+/* With a sequence of random numbers that is always the same. NULL when memory is out. */
+FBD_API fbd_checker *fbd_checker_new(void);
+FBD_API void fbd_checker_free(fbd_checker *checker);
+
+/* Unknowns of a derivation beside coordinates 0, 1, 2 of its body, as bits of fbd_comparison.names. */
+enum {
+    FBD_NAMES_NORMAL = 1 << 7,  /* N */
+    FBD_NAMES_OTHERS = 1 << 10, /* accelerations of other bodies or of points */
+    FBD_NAMES_FORCES = 1 << 11, /* forces of diagrams by their names */
+    FBD_NAMES_RUN = 1 << 12,    /* it is compared with a run, and not true for all velocities */
+    FBD_NAMES_ACCELERATIONS = 7 | FBD_NAMES_OTHERS,
+};
+
+typedef struct fbd_comparison {
+    bool compared; /* false for a body with too many forces (40) */
+    /* states at which it was evaluated, and those at which it is true, by the sense in which friction of the body slips:
+     * [0] against +x, [1] not, or without friction, [2] along +x. The whole run counts as one */
+    size_t states[3], agree[3];
+    unsigned names; /* bits: the quantities that it depends on; 0 for an identity */
+    /* its unknowns as a set: two derivations are about the same ones if these are equal, and have some in common if they
+     * share a bit */
+    unsigned long long unknowns;
+    /* of a derivation that is compared with a run: derivatives of left - right by the velocities at times of the run, which
+     * are proportional for equivalent ones. They live until the next comparison */
+    bool of_run;
+    size_t slope_count;
+    const double *slopes;
+} fbd_comparison;
+
+/* Compare a derivation with its model, which was compiled with derivations from a document that still exists: at random
+ * admissible states of it and of eleven models whose parameters differ by up to the fraction `spread`, or with a run. It is
+ * true at a state if left - right is at most `tolerance` times the sum of the magnitudes of its terms; for tolerances above
+ * 1e-6 those are the terms of the assembly. The model must exist until the next comparison. Returns false when memory is
+ * out. */
+FBD_API bool fbd_checker_compare(fbd_checker *checker, const fbd_model *model, size_t body, size_t index,
+                                 double spread, double tolerance, fbd_comparison *comparison);
+
+/* Where the derivation of the last comparison differs, at states with this sense of slip (-1, 0, 1), and by which mistake, if
+ * one explains all of them. NULL when memory is out. */
+FBD_API char *fbd_checker_mistake(const fbd_checker *checker, int slip);
+
+/* ---------------------------------------------------------------- the marks of a file */
+
+/* A parameter with an individual value for each student: a number in [low, high] with this unit. */
+typedef struct fbd_drawn_parameter {
+    const char *name;
+    double low, high;
+    const char *unit;
+    int line, column;
+} fbd_drawn_parameter;
+
+typedef struct fbd_marks {
+    double force, inertia, derivation, superfluous; /* of each; the last one is subtracted */
+} fbd_marks;
+
+/* Position and scale of drawings of answers in the scene. */
+typedef struct fbd_canvas {
+    double origin[2]; /* origin of the scene, in units of the drawing */
+    double unit;      /* length of a unit of the drawing; 0: not given */
+    double angle;     /* tolerance of a direction [rad] */
+    double snap; /* tolerance of a line of action, in units of the drawing; 0: that of the kind of drawing */
+} fbd_canvas;
+
+typedef enum fbd_required {
+    FBD_REACTIONS_ALL,
+    FBD_REACTIONS_NONE,
+    FBD_REACTIONS_NAMED,
+} fbd_required;
+
+/* How answers are graded with a file as the key: `grading`, or its defaults. Texts and lists live as long as the model. */
+typedef struct fbd_grading {
+    bool given;
+    size_t draw_count;
+    const fbd_drawn_parameter *draws;
+    int digits;                      /* decimal digits of drawn values */
+    double tolerance, partial, pass; /* fractions */
+    fbd_marks points;
+    fbd_canvas canvas;
+    fbd_required reactions; /* the reactions that have to be drawn, */
+    bool reactions_given;   /* by the file, */
+    size_t reaction_count;  /* and their names: of couplings, or of their forces in a diagram */
+    const char *const *reaction_names;
+} fbd_grading;
+
+/* All zero without a model. */
+FBD_API fbd_grading fbd_model_grading(const fbd_model *model);
 
 /* ---------------------------------------------------------------- grading */
 

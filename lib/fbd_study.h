@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * fbd_study: equilibria and their linearisation, statics, sweeps over parameters, the costs of accuracy and of effects. The
- * rules of fbd.h apply.
+ * fbd_study: equilibria and their linearisation, statics, sweeps over parameters, the costs of accuracy and of effects, and how
+ * accurate a run is. The rules of fbd.h apply.
  */
 #ifndef FBD_STUDY_H
 #define FBD_STUDY_H
@@ -385,6 +385,75 @@ FBD_API fbd_effect fbd_effects_get(const fbd_effects *effects, size_t index);
 FBD_API char *fbd_effects_text(const fbd_effects *effects);
 FBD_API char *fbd_effects_csv(const fbd_effects *effects);
 FBD_API char *fbd_effects_json(const fbd_effects *effects);
+
+/* ---------------------------------------------------------------- accuracy of a run, and states in it */
+
+/* A simulation at the start that repeats the steps of another one, to evaluate states anywhere in a finished
+ * run: at the tolerance that was found where an accuracy was requested, with error bars or without. NULL with
+ * a note in `errors` when memory is out. The other simulation may be freed. */
+FBD_API fbd_simulation *fbd_simulation_again(const fbd_simulation *simulation, bool error_bars,
+                                             fbd_errors *errors);
+
+/* Estimated errors at a time t of the last step, of each coordinate, then of each rate (in the order of
+ * fbd_model_coordinate), then of each user state, in their units: twice fbd_model_coordinate_count plus
+ * fbd_model_state_count numbers. INFINITY when unknown. Returns false without error bars, for another t, or
+ * when memory is out.
+ *
+ * They are differences from a second run of the same scene with a smaller tolerance (1/5; 1/50 for methods
+ * other than that of `auto`) and its own steps and events. See docs/error-bars.md. The trajectory is bitwise
+ * the same with and without error bars. */
+FBD_API bool fbd_simulation_errors(fbd_simulation *simulation, double t, double *errors);
+
+/* Estimated errors at the end of the run: of "block.x" or "block.v"; of energies (0 for the initial ones); of
+ * a work. INFINITY when unknown, NAN without error bars or for an unknown name. */
+FBD_API double fbd_result_error(fbd_result *result, const char *name);
+FBD_API fbd_energy fbd_result_energy_error(fbd_result *result);
+FBD_API double fbd_result_work_error(fbd_result *result, const char *body, const char *load);
+
+/* As fbd_diagram at the end of the run, with the estimated errors of fx, fy, x, y, couple, moment and power.
+ * 0 without error bars. */
+FBD_API size_t fbd_result_force_errors(fbd_result *result, size_t body, fbd_arrow *arrows, size_t room);
+
+/* False when the estimated global error exceeds the accuracy requested by options.accuracy or the file, or is
+ * unknown because the run failed or was interrupted. */
+FBD_API bool fbd_result_accurate(const fbd_result *result);
+
+/* The largest residual of the energy [the scene's unit of energy] that tolerance and rounding explain. A
+ * larger residual shows that the motion is not that of the scene, whatever the local error estimates: the
+ * steps have skipped pulses much shorter than themselves (not every such error shows in the energy). INFINITY
+ * for steps of fixed size, NAN with `motion_only`. */
+FBD_API double fbd_result_residual_explained(fbd_result *result);
+
+/* Check the energy balance, in every run, as far as the recording permits: at events the change of kinetic
+ * energy against the work of the impacts; over the run the energy of bodies whose forces all have potentials;
+ * and that of all bodies where the works of all forces are integrated. `residual` and `explained`, which may
+ * be NULL, receive the residual and the largest one that tolerance and rounding explain [the scene's unit of
+ * energy]. */
+FBD_API bool fbd_result_balanced(fbd_result *result, double *residual, double *explained);
+
+/* Check the energy balance from the start to the end of the last step. As fbd_result_balanced without a
+ * recording: works are not integrated, so the whole balance is checked for bodies whose forces all have
+ * potentials, and for the others the energy lost in impacts. Intended for occasional calls while a run is
+ * advanced, and at its end: a call costs about one evaluation of the right-hand side. */
+FBD_API bool fbd_simulation_balanced(fbd_simulation *simulation, double *residual, double *explained);
+
+/* Drift of a run with couplings: the largest violation of a row at the ends of steps, in position (lengths;
+ * for gears the arc) and in velocity, before the projection and after it. `share` is the largest of both
+ * divided by the tolerance times the size of the motion (distances of the links from the origin, and their
+ * speeds). */
+typedef struct fbd_drift {
+    size_t rows; /* of couplings; if 0 all members are 0 */
+    double position, velocity, share;
+    double left_position, left_velocity, left_share;
+    const char *worst; /* the row with the largest violation, "knuckle in x"; "" if none */
+} fbd_drift;
+
+FBD_API fbd_drift fbd_simulation_drift(const fbd_simulation *simulation);
+
+/* The redundant coupling rows at the state: rows that follow from the rows before them (parallel rods, a pin
+ * in a direction that a slide constrains already), as "knuckle in y". Fills at most `room` names, which live
+ * as long as the model; returns their number. */
+FBD_API size_t fbd_redundant(fbd_state *state, const char **names, size_t room);
 
 #ifdef __cplusplus
 }

@@ -63,6 +63,36 @@ FBD_API bool fbd_state_derivatives(fbd_state *state, const size_t *variables, si
  * without a name. */
 FBD_API const char *fbd_model_file(const fbd_model *model);
 
+/* The text of the file as read, not terminated; lives as long as the model. */
+FBD_API const char *fbd_model_source(const fbd_model *model, size_t *length);
+
+/* A parameter or an input of the file with its value in this model: the value set by the caller, or the
+ * file's. Texts live as long as the model. */
+typedef struct fbd_parameter {
+    /* unit: coherent unit of the value; "" for a pure number, and for a number whose dimension follows from its
+     * use */
+    const char *name, *unit;
+    const char *description; /* "" if there is none */
+    double value;
+    bool input;       /* of `inputs`: it may change during the motion */
+    bool derived;     /* defined in the file by other parameters, or gravity */
+    double low, high; /* range of a slider; NAN where the file does not give it */
+} fbd_parameter;
+
+/* The `parameters` in the order of the file, then the `inputs`. Past the last one the name is NULL. */
+FBD_API size_t fbd_model_parameter_count(const fbd_model *model);
+FBD_API fbd_parameter fbd_model_parameter(const fbd_model *model, size_t index);
+
+/* A user state, from `states` of the file: its qualified name ("states.charge"), its unit and that of its
+ * rate, "1" for a pure number. The texts live as long as the model, and are NULL past the last one.
+ * fbd_state_get and fbd_state_set take that name. */
+typedef struct fbd_own_state {
+    const char *name, *unit, *rate_unit;
+} fbd_own_state;
+
+FBD_API size_t fbd_model_state_count(const fbd_model *model);
+FBD_API fbd_own_state fbd_model_state(const fbd_model *model, size_t index);
+
 /* A data file that was read for a table of the model. The texts live as long as the model, and are NULL past
  * the last one. */
 typedef struct fbd_data_file {
@@ -86,6 +116,11 @@ typedef struct fbd_unit {
  * model. Returns false for a text that is no unit. */
 FBD_API bool fbd_unit_read(const fbd_model *model, const char *text, size_t length, fbd_unit *unit);
 
+/* Evaluate a text with the dimension of `unit` ("N"), "5 lbf" or "2*3[N]", in the units of the model; a plain
+ * number is in the model's unit. `name` is its name in messages. Returns false with a note in `errors`. */
+FBD_API bool fbd_model_quantity(const fbd_model *model, const char *name, const char *text, const char *unit,
+                                double *value, fbd_errors *errors);
+
 /* An entry of the file for a force or moment of a body, a coupling or a contact: see fbd_model_without. */
 typedef struct fbd_entry {
     const char *body; /* "" for a coupling or contact */
@@ -102,6 +137,16 @@ FBD_API size_t fbd_model_entries(const fbd_model *model, fbd_entry *entries, siz
 /* The model of a state; NULL for NULL. */
 FBD_API const fbd_model *fbd_state_model(const fbd_state *state);
 
+/* Write all numbers that determine the further motion: the time, coordinates, rates and user states, the
+ * memory of expressions (`hysteresis`), and the start values that couplings keep, for example the length of a rope.
+ * Fills at most `room` of them; returns their number. */
+FBD_API size_t fbd_state_pack(const fbd_state *state, double *numbers, size_t room);
+
+/* Put such numbers into a state of the same model, or of a model of the same text with other settings. The
+ * next call that needs the modes determines them anew. Returns false, and changes nothing, when the numbers
+ * do not fit the state. */
+FBD_API bool fbd_state_unpack(fbd_state *state, const double *numbers, size_t count);
+
 /* The outcome of a simulation so far: FBD_GOING until its end. Without any step it is another one where the
  * start is refused. */
 FBD_API fbd_outcome fbd_simulation_outcome(const fbd_simulation *simulation);
@@ -117,6 +162,15 @@ typedef struct fbd_units {
 } fbd_units;
 
 FBD_API fbd_units fbd_model_units(const fbd_model *model);
+
+/* Mass and moments of inertia of a body, in the model's units. I_O (about the axis O) and L (distance from O
+ * to the centre of mass G) are 0 except for a pivot. All are NAN past the last body. */
+typedef struct fbd_inertia {
+    double mass, I_G, I_O, L;
+    double G[2]; /* centre of mass in the body frame */
+} fbd_inertia;
+
+FBD_API fbd_inertia fbd_model_inertia(const fbd_model *model, size_t body);
 
 typedef enum fbd_motion_kind {
     FBD_MOTION_SLIDE,    /* along a line, without rotation */
@@ -304,6 +358,39 @@ typedef struct fbd_coupling_end {
 /* End `end` of a coupling; past the last one its numbers are NAN. */
 FBD_API fbd_coupling_end fbd_view_coupling_end(const fbd_view *view, size_t index, size_t end);
 
+/* ---------------------------------------------------------------- connections, as a file gives them */
+
+/* An end of a connection, or a point that a rope passes over. */
+typedef struct fbd_connection_end {
+    int body;        /* or FBD_GROUND */
+    bool whole;      /* contact: no point of it, but all of its surface */
+    bool center;     /* its centre of mass; `point` is 0 */
+    double point[2]; /* in the frame of the body */
+    double radius;   /* of the circle there; 0 without, negative for the inside of a ring gear */
+    /* rope: it is wound on a drum there, which it leaves to the left (1), right (2), above (3) or below (4); else 0 */
+    int wound;
+    double spare; /* and so much is wound up at the start; INFINITY: no limit */
+} fbd_connection_end;
+
+enum { FBD_CONNECTION_ENDS = 8 };
+
+/* A coupling or contact, or a spring or damper between two bodies. Texts live as long as the model, and are NULL past the
+ * last one. */
+typedef struct fbd_connection {
+    const char *kind; /* as of fbd_coupling, or "spring", "damper" */
+    const char *name;
+    int line, column;
+    bool friction;                              /* slot, rope: with friction */
+    double length;                              /* of a rod or rope, where the file gives it; else NAN */
+    double stiffness, coefficient, free_length; /* of a spring, of a damper, of a spring */
+    size_t end_count;
+    fbd_connection_end ends[FBD_CONNECTION_ENDS];
+} fbd_connection;
+
+/* The couplings and contacts in the order of the file, then the springs and dampers. */
+FBD_API size_t fbd_model_connection_count(const fbd_model *model);
+FBD_API fbd_connection fbd_model_connection(const fbd_model *model, size_t index);
+
 /* ---------------------------------------------------------------- bodies and forces, for comparison of scenes */
 
 typedef struct fbd_scene {
@@ -317,7 +404,7 @@ FBD_API fbd_scene fbd_model_scene(const fbd_model *model);
  * and without friction. */
 FBD_API int fbd_state_slip(fbd_state *state, size_t body);
 
-/* A force or moment of a diagram with its origin. Texts live as long as the model. */
+/* A force or moment of a diagram with its origin; its symbol is in fbd_force. Texts live as long as the model. */
 typedef struct fbd_listed_force {
     fbd_arrow arrow; /* as of fbd_diagram; its name is NULL where there is no force */
     /* of an entry of the file, from here on: the key of its law, "gravity", "spring"; of a law that is

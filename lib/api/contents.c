@@ -5,6 +5,7 @@
 #include <math.h>
 
 #include "base/api_check.h"
+#include "fbd_grade.h"
 #include "fbd_view.h"
 #include "model/model.h"
 
@@ -58,6 +59,11 @@ bool fbd_unit_read(const fbd_model *model, const char *text, size_t length, fbd_
                        .temperature = (double)read.dim.temperature / dim_unit,
                        .factor = read.factor};
     return true;
+}
+
+fbd_grading fbd_model_grading(const fbd_model *model)
+{
+    return model ? model->scene->grading : (fbd_grading){.given = false};
 }
 
 /* ---- entries */

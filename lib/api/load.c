@@ -9,6 +9,7 @@
 #include "dynamics/contact.h"
 #include "dynamics/state.h"
 #include "fbd_export.h"
+#include "fbd_view.h"
 #include "model/model.h"
 #include "output/hand_forces.h"
 #include "scene/schema.h"

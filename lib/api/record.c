@@ -8,6 +8,7 @@
 #include <time.h>
 
 #include "base/api_check.h"
+#include "fbd_export.h"
 #include "output/run_record.h"
 #include "record/finite_result.h"
 
@@ -51,16 +52,18 @@ struct going {
     double slice; /* fraction of the run to the next common time of the islands */
 };
 
-/* After an interruption the islands continue to the end of a slice: a thousandth of the run, or less where a
- * stiff island would need millions of steps for that. Slices start short, and double as long as they take few
- * steps. */
-static const double first_slice = 1e-9, longest_slice = 1e-3;
+/* After an interruption the islands continue to the end of a slice: a thousandth of the run, less where a stiff island
+ * would need millions of steps for that, and more where most islands would make no step: each slice costs a look at
+ * every island. Slices start short, and double as long as they take few steps. */
+static const double first_slice = 1e-9, usual_slice = 1e-3;
 
 static void adapt_slice(struct going *going, unsigned long made)
 {
-    const double most = 1000 * (double)going->result->simulation->ensemble->count;
-    going->slice *= (double)made > most ? most / (double)made : 2;
-    going->slice = fmin(going->slice, longest_slice);
+    const double islands = (double)going->result->simulation->ensemble->count, most = 1000 * islands;
+    if ((double)made > most)
+        going->slice *= most / (double)made;
+    else if (going->slice < usual_slice || (double)made < islands)
+        going->slice *= 2;
 }
 
 /* Report the progress; returns true if the run is to end. */
@@ -104,7 +107,8 @@ static bool observe(void *context, struct ensemble *ensemble, size_t group)
     /* a single island without stops has no common time to wait for */
     bool alone = ensemble->count == 1 && going->whole;
     tell_progress(going, alone ? ensemble->groups[group].run->state->t : ensemble->t);
-    if (!event_states_note(&result->event_states, ensemble, group)) {
+    if (ensemble->groups[group].run->log.count > 0 &&
+        !event_states_note(&result->event_states, ensemble, group)) {
         ensemble_fail(ensemble, FBD_OUT_OF_MEMORY, "out of memory");
         return false;
     }

@@ -7,6 +7,7 @@
 
 #include "api/record.h"
 #include "base/api_check.h"
+#include "fbd_study.h"
 #include "fbd_view.h"
 #include "loop/options.h"
 #include "output/words.h"

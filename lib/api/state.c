@@ -9,6 +9,7 @@
 #include "dynamics/mass.h"
 #include "dynamics/modes.h"
 #include "dynamics/project.h"
+#include "fbd_export.h"
 #include "fbd_view.h"
 #include "output/display_units.h"
 #include "rest/start.h"

@@ -7,6 +7,7 @@
 
 #include "dynamics/constraint.h"
 #include "dynamics/state.h"
+#include "fbd_view.h"
 
 /* Of a coupling: zero, sides, directions and turns of a rope's ends. */
 enum { numbers_of_a_coupling = 9 };

@@ -4,6 +4,7 @@
 #include "base/block_alloc.h"
 #include "base/format.h"
 #include "base/utf8.h"
+#include "fbd_export.h"
 
 #include <stdarg.h>
 #include <stdlib.h>

@@ -28,9 +28,11 @@ static inline struct time_dd time_dd_at(double t)
     return (struct time_dd){t, 0};
 }
 
-/* a - b, rounded once or twice. */
+/* a - b, rounded once or twice. Most times are doubles: with equal rests the rounded difference is exact to
+ * half a unit of its last place, and adding its error would not change it. */
 static inline double time_dd_since(struct time_dd a, struct time_dd b)
 {
+    if (a.rest == b.rest) return a.t - b.t;
     struct double_double d = dd_sum(a.t, -b.t);
     return d.x + (d.rest + (a.rest - b.rest));
 }

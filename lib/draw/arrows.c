@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "draw/panel.h"
+#include "fbd_view.h"
 
 static const double pi = 3.141592653589793, side_step = 2.4, head_length = 3, head_width = 2.2;
 static const double first_radius = 10, next_radius = 3.6, least_sweep = 0.7;

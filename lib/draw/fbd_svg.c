@@ -12,6 +12,7 @@
 #include "base/format.h"
 #include "draw/panel.h"
 #include "fbd_export.h"
+#include "fbd_view.h"
 
 /* A4 minus the margins of printers; lengths in mm. */
 static const double page_width = 190, page_height = 270;

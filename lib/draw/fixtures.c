@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "draw/panel.h"
+#include "fbd_view.h"
 
 static const double pi = 3.141592653589793, body_size = 54, surface_half = 34, free_half = 20,
                     hatch_step = 2.4;

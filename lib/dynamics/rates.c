@@ -166,7 +166,8 @@ void rates_bind(struct rates *rates)
 
 struct rates *rates_new(struct fbd_state *state, enum rates_kind kind)
 {
-    size_t most = (size_t)state->model->plan.n + 2; /* each tree has at least one coordinate */
+    const struct plan *plan = &state->model->plan; /* each tree has at least one coordinate */
+    size_t most = (size_t)(plan->n > 0 ? plan->n : 1) + (plan->own > 0);
     struct rates *rates = block_alloc(sizeof *rates + most * sizeof *rates->rows);
     if (!rates) return NULL;
     rates->state = state;

@@ -9,6 +9,7 @@
 #include "base/api_check.h"
 #include "base/file.h"
 #include "fbd_export.h"
+#include "fbd_view.h"
 #include "fmi/package.h"
 #include "fmi/zip.h"
 

@@ -9,6 +9,7 @@
 
 #include "base/diag.h"
 #include "base/format.h"
+#include "fbd_study.h"
 
 const char *const log_category_names[log_categories] = {"logStatusError", "logStatusWarning", "logEvents"};
 

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/number.h"
+#include "fbd_view.h"
 
 /* ---- XML */
 

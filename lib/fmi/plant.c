@@ -8,6 +8,7 @@
 #include "base/diag.h"
 #include "base/file.h"
 #include "base/format.h"
+#include "fbd_view.h"
 
 static bool fail(struct plant *plant, const char *reason)
 {

@@ -349,7 +349,7 @@ static bool make_sides(struct comparison *comparison)
         if (other.most_forces > most) most = other.most_forces;
         sides->key_count = body.listed;
         sides->count = other.listed;
-        sides->tolerance = comparison->key->scene->grading.tolerance;
+        sides->tolerance = fbd_model_grading(comparison->key).tolerance;
         sides->turns = turns(&body);
         sides->reaction_count = body.most_forces - body.listed;
         sides->key = calloc(sides->key_count + sides->count + sides->reaction_count + 1, sizeof *sides->key);
@@ -456,7 +456,7 @@ static bool same_gravity(const struct comparison *comparison)
     const fbd_scene key = fbd_model_scene(comparison->key), own = fbd_model_scene(comparison->answer);
     const double length = comparison->length;
     double apart = hypot(length * own.gravity[0] - key.gravity[0], length * own.gravity[1] - key.gravity[1]);
-    return apart <= comparison->key->scene->grading.tolerance * hypot(key.gravity[0], key.gravity[1]);
+    return apart <= fbd_model_grading(comparison->key).tolerance * hypot(key.gravity[0], key.gravity[1]);
 }
 
 static void judge_body(struct comparison *comparison, size_t b)

@@ -7,6 +7,7 @@
  * acceleration. The name of a force is replaced by its value; that of a correct unknown by the reaction at
  * the start.
  */
+#include <stdlib.h>
 #include <string.h>
 
 #include "base/text.h"
@@ -57,11 +58,19 @@ static bool add_in_its_place(struct text *text, const struct own_coordinate *own
 
 static bool has_normal(const struct fbd_grade *grade, const char *body)
 {
-    const struct scene *scene = grade->sheet->scene;
-    for (size_t b = 0; b < scene->body_count; b++)
-        for (size_t i = 0; strcmp(scene->bodies[b].name, body) == 0 && i < scene->bodies[b].load_count; i++)
-            if (scene->bodies[b].loads[i].kind == load_normal) return true;
-    return false;
+    size_t b = 0;
+    while (b < fbd_model_body_count(grade->sheet) && strcmp(fbd_model_body_name(grade->sheet, b), body) != 0)
+        b++;
+    const fbd_body seen = fbd_model_body(grade->sheet, b);
+    fbd_state *state = fbd_state_new(grade->sheet);
+    fbd_listed_force *forces = calloc(seen.most_forces + 1, sizeof *forces);
+    size_t count = state && forces ? fbd_state_forces(state, b, forces, seen.most_forces) : 0;
+    bool found = false;
+    for (size_t i = 0; i < seen.listed && i < count; i++)
+        found = found || strcmp(forces[i].law, "normal") == 0;
+    free(forces);
+    fbd_state_free(state);
+    return found;
 }
 
 /* True if the name has another meaning in an equation or in the file. */
@@ -187,19 +196,19 @@ static const struct node *hand_of(const struct node *root, const char *body)
     return lines_value(lines_value(lines_value(root, "bodies"), body), "hand");
 }
 
-static const char *line_of(const struct node *root, const char *body, const struct hand *hand)
+static const char *line_of(const struct node *root, const char *body, const fbd_derivation *hand)
 {
     const struct node *own = hand_of(root, body);
-    return own ? find_text(own, hand->at) : NULL;
+    return own ? find_text(own, (struct pos){hand->line, hand->column}) : NULL;
 }
 
-const char *line_as_written(const struct lines *lines, const char *body, const struct hand *hand)
+const char *line_as_written(const struct lines *lines, const char *body, const fbd_derivation *hand)
 {
     const char *found = line_of(lines->paper, body, hand);
     return found ? found : hand->written;
 }
 
-const char *line_as_read(const struct lines *lines, const char *body, const struct hand *hand)
+const char *line_as_read(const struct lines *lines, const char *body, const fbd_derivation *hand)
 {
     const char *found = line_of(lines->answer, body, hand);
     return found ? found : hand->text;

@@ -14,6 +14,7 @@
 #include "base/text.h"
 #include "document/node_edit.h"
 #include "fbd_grade.h"
+#include "fbd_view.h"
 #include "grade/lines.h"
 
 /* An arrow in units of the drawing. */
@@ -128,7 +129,7 @@ static const char *free_name(struct desk *desk, const char *label)
     const char *word = text.failed ? NULL : arena_text(arena, text.data, text.length), *name = word;
     text_free(&text);
     for (int number = 2; name; number++) {
-        bool taken = name_is_reserved(name);
+        bool taken = !fbd_is_name(name);
         for (const struct sketch *one = desk->grade->sketches; one && !taken; one = one->next)
             taken = one->body == desk->body && strcmp(one->name, name) == 0;
         if (!taken) return name;
@@ -154,10 +155,9 @@ static const char *value_of(const struct desk *desk, const char *label, bool cou
 
 /* ---- entries */
 
-static struct vec in_the_world(const struct grading_canvas *canvas, const struct arrow_drawn *arrow,
-                               struct vec point)
+static struct vec in_the_world(const fbd_canvas *canvas, const struct arrow_drawn *arrow, struct vec point)
 {
-    struct vec place = vec_scale(canvas->unit, vec_sub(point, canvas->origin));
+    struct vec place = vec_scale(canvas->unit, vec_sub(point, vec_of(canvas->origin)));
     if (arrow->down) place.y = -place.y;
     return place;
 }
@@ -176,7 +176,7 @@ static const struct node *entry_of(struct desk *desk, const struct arrow_drawn *
 
 static bool has_canvas(struct desk *desk)
 {
-    if (desk->grade->key->model->scene->grading.canvas.unit > 0) return true;
+    if (desk->grade->key->grading.canvas.unit > 0) return true;
     if (fbd_errors_failed_count(desk->failures) == 0)
         diag_add(desk->failures, FBD_ERROR, "no-canvas", (struct pos){0, 0},
                  "write in the key `grading: {canvas: {origin: [200, 300], unit: 1 cm}}`: the origin of the "
@@ -188,7 +188,7 @@ static bool has_canvas(struct desk *desk)
 static void take_arrow(struct desk *desk, const struct arrow_drawn *arrow)
 {
     struct fbd_grade *grade = desk->grade;
-    const struct grading_canvas *canvas = &grade->key->model->scene->grading.canvas;
+    const fbd_canvas *canvas = &grade->key->grading.canvas;
     const char *label = plain(&grade->arena, arrow->label);
     if (!label || !has_canvas(desk)) return;
     if (!arrow->couple && vec_norm(vec_sub(arrow->tip, arrow->tail)) == 0) {
@@ -420,15 +420,14 @@ static const struct node *over_sheet(struct fbd_grade *grade, const struct node 
 static const struct node *of_only_body(struct fbd_grade *grade, const struct node *drawing)
 {
     struct arena *arena = &grade->arena;
-    const struct scene *scene = grade->sheet->scene;
-    if (scene->body_count != 1) {
+    if (fbd_model_body_count(grade->sheet) != 1) {
         fbd_finding *finding = finding_add(grade, FBD_FINDING_UNREADABLE, "", "", drawing->at);
         finding_say(grade, finding,
                     "the sheet has several bodies: write {\"bodies\": {\"NAME\": {\"drawing\": [...]}}}");
         return drawing;
     }
     const struct node *body = map_with(arena, node_empty_map(arena), "drawing", drawing);
-    body = map_with(arena, node_empty_map(arena), scene->bodies[0].name, body);
+    body = map_with(arena, node_empty_map(arena), fbd_model_body_name(grade->sheet, 0), body);
     return map_with(arena, node_empty_map(arena), "bodies", body);
 }
 

@@ -83,7 +83,7 @@ static bool may_be_symbol(const struct fbd_grade *grade, const struct node *answ
         if (node_find(lines_value(grade->key->root, maps[i]), name) ||
             node_find(lines_value(answer, maps[i]), name))
             return false;
-    return name && scalar_is_name(name) && !name_is_reserved(name) && !name_is_of_equations(name);
+    return name && fbd_is_name(name) && !name_is_of_equations(name);
 }
 
 /* T: cord, of the body itself or of another one. */

@@ -143,7 +143,7 @@ bool fbd_grade_passed(const fbd_grade *grade)
 {
     if (!grade || !grade->submitted || !grade->readable) return false;
     const double rounding = 1e-9;
-    return grade->points >= (grade->key->model->scene->grading.pass - rounding) * grade->key->most;
+    return grade->points >= (grade->key->grading.pass - rounding) * grade->key->most;
 }
 
 size_t fbd_grade_finding_count(const fbd_grade *grade)

@@ -7,18 +7,17 @@
  * notation. Entries that are equal at every state are right; the remaining ones of both sides are paired with
  * the force that was probably meant, to report how they differ. Dependent forces (normal forces, friction)
  * are compared by kind, line of action and coefficients, since their magnitude is off as soon as any other
- * force is. Derivations are evaluated on the key's own mechanics (output/hand.h).
+ * force is. Derivations are evaluated on the key's own mechanics (fbd_checker_compare).
  *
  * Unreadable parts of an answer are marked and left out, and the rest is graded.
  */
 #ifndef FBD_GRADE_GRADE_H
 #define FBD_GRADE_GRADE_H
 
+#include "base/vec.h"
 #include "document/node.h"
 #include "fbd_grade.h"
 #include "fbd_view.h"
-#include "model/model.h"
-#include "scene/names.h"
 
 enum { most_grade_samples = 32 };
 
@@ -29,6 +28,7 @@ struct fbd_key {
     const char *file;
     const struct node *root;
     fbd_model *model; /* with the values of the file */
+    fbd_grading grading;
     fbd_setting *set; /* values from outside */
     size_t set_count;
     double most;  /* points */
@@ -119,9 +119,10 @@ fbd_model *tree_compile(const struct node *root, const char *file, const fbd_set
 fbd_model *grade_compile(struct fbd_grade *grade, const struct node *root, const char *file, bool hands,
                          fbd_errors *errors);
 
-/* Read a tree with derivations that may name the drawn forces of the answer; `take` receives each as an
- * expression. The notes on errors are dropped: they are found again when it is compiled. */
-void grade_read_hands(struct fbd_grade *grade, const struct node *root, const struct hand_reader *reader);
+/* Read a tree with derivations that may name forces of the sheet and these others; `take` receives each as an expression. The
+ * notes on errors are dropped: they are found again when it is compiled. */
+void grade_read_hands(struct fbd_grade *grade, const struct node *root, const char *const *names,
+                      size_t name_count, fbd_take_derivation *take, void *context);
 
 /* ---- findings (findings.c); the texts are copied */
 

@@ -125,8 +125,7 @@ static void write_lists(const struct handout *handout, const struct pair *body, 
 static void write_body(const struct handout *handout, const struct pair *body)
 {
     struct text *text = handout->text;
-    bool asks_inertia = !handout->scene && handout->key->model->scene->grading.points.inertia > 0,
-         hand = false;
+    bool asks_inertia = !handout->scene && handout->key->grading.points.inertia > 0, hand = false;
     text_printf(text, "  %s:\n", body->key);
     for (size_t i = 0; i < body->value->count && body->value->kind == node_map; i++) {
         const struct pair *pair = &body->value->pairs[i];
@@ -171,11 +170,11 @@ static void write_entry(const struct handout *handout, const struct pair *pair)
         write_bodies(handout, pair->value);
 }
 
-void handout_reactions(struct text *text, const struct grading *grading)
+void handout_reactions(struct text *text, const fbd_grading *grading)
 {
-    if (grading->reactions == reactions_all)
+    if (grading->reactions == FBD_REACTIONS_ALL)
         text_add(text, "Draw reactions too: the forces of joints, guides, couplings and contacts.");
-    else if (grading->reactions == reactions_none)
+    else if (grading->reactions == FBD_REACTIONS_NONE)
         text_add(text, "Reactions, the forces of joints, guides, couplings and contacts, need not be drawn.");
     else
         text_add(text, "Of the reactions draw those of: ");
@@ -196,7 +195,7 @@ static void write_head(const struct handout *handout)
                    "#       - applied: {name: F, value: 10 N, angle: 30 deg, at: [0.5 m, 0]}\n"
                    "#       - applied: {name: R, value: unknown, angle: unknown, at: [0, 0]}\n"
                    "# ");
-    handout_reactions(text, &handout->key->model->scene->grading);
+    handout_reactions(text, &handout->key->grading);
     text_add(text, "\n");
     if (handout->key->lines > 0)
         text_add(text, "# Write equations below `hand`, one a line, as\n#       - \"m*a = F - m*g\"\n");

@@ -27,7 +27,7 @@ enum { sheet_lists = '\f', sheet_hand = '\v' };
 bool handout_write(struct handout *handout);
 
 /* Write a sentence on the reactions that have to be drawn. */
-void handout_reactions(struct text *text, const struct grading *grading);
+void handout_reactions(struct text *text, const fbd_grading *grading);
 
 /* NULL with notes in `errors`. */
 fbd_model *solution_model(const struct handout *handout, fbd_errors *errors);

@@ -8,13 +8,14 @@
 
 #include "base/hash.h"
 #include "fbd_grade.h"
+#include "fbd_view.h"
 #include "grade/grade.h"
 #include "study/draws.h"
 
 /* ---- values of a student */
 
-static const char *draw_for_student(struct arena *arena, const struct grading *grading,
-                                    const struct drawn_parameter *drawn, const char *student)
+static const char *draw_for_student(struct arena *arena, const fbd_grading *grading,
+                                    const fbd_drawn_parameter *drawn, const char *student)
 {
     const struct draw_place place = {.seed = 1,
                                      .member = hash_text(drawn->name, strlen(drawn->name)),
@@ -31,7 +32,7 @@ static const char *draw_for_student(struct arena *arena, const struct grading *g
 const char *value_for_student(struct arena *arena, const struct fbd_key *key, const char *name,
                               const char *student)
 {
-    const struct grading *grading = &key->model->scene->grading;
+    const fbd_grading *grading = &key->grading;
     for (size_t i = 0; i < key->set_count; i++)
         if (strcmp(key->set[i].name, name) == 0) return key->set[i].value;
     for (size_t i = 0; student && i < grading->draw_count; i++)

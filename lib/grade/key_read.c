@@ -10,23 +10,23 @@
 #include "base/file.h"
 #include "base/text.h"
 #include "fbd_grade.h"
+#include "fbd_view.h"
 #include "grade/grade.h"
 
 static double points_of(const struct fbd_key *key)
 {
-    const struct scene *scene = key->model->scene;
-    const struct grading_points *points = &scene->grading.points;
+    const fbd_marks *points = &key->grading.points;
     double most = 0;
-    for (size_t b = 0; b < scene->body_count; b++)
-        most += points->force * (double)(scene->bodies[b].load_count + key_asks(key, b)) +
-                points->derivation * (double)scene->bodies[b].hand_count + points->inertia;
+    for (size_t b = 0; b < fbd_model_body_count(key->model); b++)
+        most += points->force * (double)(fbd_model_body(key->model, b).listed + key_asks(key, b)) +
+                points->derivation * (double)fbd_model_derivation_count(key->model, b) + points->inertia;
     return most;
 }
 
 static bool has_points(struct fbd_key *key, fbd_errors *errors)
 {
-    const struct scene *scene = key->model->scene;
-    for (size_t b = 0; b < scene->body_count; b++) key->lines += scene->bodies[b].hand_count;
+    for (size_t b = 0; b < fbd_model_body_count(key->model); b++)
+        key->lines += fbd_model_derivation_count(key->model, b);
     key->most = points_of(key);
     if (key->most > 0) return true;
     diag_add(errors, FBD_ERROR, "nothing-to-grade", (struct pos){0, 0},
@@ -57,8 +57,8 @@ static void add_names(const struct fbd_key *key, size_t b, struct text *text)
 static bool tell_reactions(const struct fbd_key *key, fbd_errors *errors)
 {
     struct text text = {0};
-    if (key->model->scene->grading.reactions_given) return true;
-    for (size_t b = 0; b < key->model->body_count; b++) add_names(key, b, &text);
+    if (key->grading.reactions_given) return true;
+    for (size_t b = 0; b < fbd_model_body_count(key->model); b++) add_names(key, b, &text);
     if (text.length > 0)
         diag_add(errors, FBD_WARNING, "key-differs", (struct pos){0, 0},
                  "write `grading: {reactions: all}` if this is intended, else `none` or the names of those "
@@ -100,7 +100,7 @@ static bool check_itself(struct fbd_key *key, fbd_errors *errors)
 
 static bool find_asked(struct fbd_key *key)
 {
-    size_t count = key->model->body_count;
+    size_t count = fbd_model_body_count(key->model);
     key->asked = ARENA_ARRAY(&key->arena, count + 1, bool *);
     key->asked_count = ARENA_ARRAY(&key->arena, count + 1, size_t);
     bool done = key->asked && key->asked_count && compare_with_itself(key);
@@ -111,6 +111,7 @@ static bool find_asked(struct fbd_key *key)
 static bool compile_key(struct fbd_key *key, fbd_errors *errors)
 {
     key->model = tree_compile(key->root, key->file, key->set, key->set_count, true, errors);
+    key->grading = fbd_model_grading(key->model);
     return key->model && find_asked(key);
 }
 
@@ -181,12 +182,14 @@ fbd_key *fbd_key_read_set(const char *path, const fbd_setting *settings, size_t 
 
 static bool check_source(const fbd_model *model, fbd_errors *errors)
 {
+    size_t length;
+    const char *source = fbd_model_source(model, &length);
     fbd_errors *others = fbd_errors_new(); /* discards warnings already given when the file was read */
-    char *copy = others ? file_copy(model->source, model->source_length, others) : NULL;
-    fbd_key *key = compile_text(copy, model->source_length, model->scene->file, NULL, 0, others);
+    char *copy = others ? file_copy(source, length, others) : NULL;
+    fbd_key *key = compile_text(copy, length, fbd_model_file(model), NULL, 0, others);
     bool lacking = !others || others->out_of_memory;
     if (lacking) diag_out_of_memory(errors);
-    diag_in_file(errors, model->scene->file);
+    diag_in_file(errors, fbd_model_file(model));
     /* A file that needs settings to be a valid model is rejected when it is graded. */
     bool done = key ? check_itself(key, errors) : !lacking;
     fbd_key_free(key);
@@ -198,7 +201,8 @@ bool fbd_model_check_key(const fbd_model *model, fbd_errors *list)
 {
     struct diag_call call;
     fbd_errors *errors = diag_begin(&call, list);
-    bool is_key = model && model->source && model->scene->grading.given;
+    size_t length;
+    bool is_key = fbd_model_source(model, &length) && length > 0 && fbd_model_grading(model).given;
     bool done = is_key ? check_source(model, errors) : model || api_refuse(errors, "there is no model");
     diag_end(&call);
     return done;

@@ -16,77 +16,63 @@
 
 /* ---- one line */
 
-static void count_samples(const struct hand_check *check, double tolerance, struct line *line)
-{
-    memset(line->seen, 0, sizeof line->seen);
-    memset(line->agreed, 0, sizeof line->agreed);
-    for (size_t i = 0; i < check->count; i++) {
-        const struct hand_sample *sample = &check->samples[i];
-        int slip = sample->slip + 1;
-        line->seen[slip]++;
-        double size = tolerance > 1e-6 ? sample->mechanics : sample->size; /* rounding, or rounded numbers */
-        line->agreed[slip] +=
-            !check->elsewhere[0] && isfinite(size) && fabs(sample->lack) <= tolerance * size;
-    }
-}
-
 /* Set the relevant senses of slip: the sampled ones of the motion of the sheet, or all sampled ones if there
  * is none. */
 static void count_slips(struct line *line, unsigned of_motion)
 {
     unsigned seen = 0;
-    for (unsigned slip = 0; slip < slips; slip++) seen |= line->seen[slip] > 0 ? 1U << slip : 0;
+    for (unsigned slip = 0; slip < slips; slip++) seen |= line->is.states[slip] > 0 ? 1U << slip : 0;
     line->counts = (seen & of_motion) != 0 ? seen & of_motion : seen;
 }
 
-static bool sample_line(struct lines *lines, const struct node *root, double spread, double tolerance,
-                        struct line *line)
+/* At random states, with parameters that differ by up to `spread`. */
+static bool sample_line(struct lines *lines, const struct node *root, int body, double spread,
+                        double tolerance, struct line *line)
 {
-    struct document document = {.file = lines->grade->key->file, .split_hands = true};
-    document.root = line_compile(lines, root, lines->check.body);
-    lines->check.model = lines->alone;
-    lines->check.index = 0;
-    if (!lines->alone || !hand_take_samples(&lines->check, &document, lines->rng, spread)) return false;
-    line->says = lines->check.says;
-    line->unknowns = lines->check.unknowns;
-    count_samples(&lines->check, tolerance, line);
-    count_slips(line, lines->slips[lines->check.body]);
+    if (!line_compare(lines, root, body, spread, tolerance, line)) return false;
+    count_slips(line, lines->slips[body]);
     return true;
+}
+
+static size_t states_of(const struct line *line)
+{
+    return line->is.states[0] + line->is.states[1] + line->is.states[2];
 }
 
 /* Set line->dynamic if the line fails under other forces, or if these leave no admissible state. Returns
  * false when memory is out. */
-static bool look_at_pushed(struct lines *lines, double tolerance, struct line *line)
+static bool look_at_pushed(struct lines *lines, int body, double tolerance, struct line *line)
 {
     bool seen_any = false;
     line->dynamic = false;
     for (int k = 0; k < lines_pushes && !line->dynamic; k++) {
-        struct line other = {.says = 0};
+        struct line other = {.counts = 0};
         struct pushed *pushed = &lines->pushed[k];
         lines_push(lines, k);
         if (!pushed->model) {
             line->dynamic = true;
             return !lines->grade->arena.failed;
         }
-        if (!sample_line(lines, pushed->root, 0, tolerance, &other)) return false;
-        size_t seen = other.seen[0] + other.seen[1] + other.seen[2];
+        if (!sample_line(lines, pushed->root, body, 0, tolerance, &other)) return false;
+        size_t seen = states_of(&other);
         seen_any = seen_any || seen > 0;
-        line->dynamic = 2 * (other.agreed[0] + other.agreed[1] + other.agreed[2]) < seen;
+        line->dynamic = 2 * (other.is.agree[0] + other.is.agree[1] + other.is.agree[2]) < seen;
     }
-    if (!seen_any) line->dynamic = line->says != 0;
+    if (!seen_any) line->dynamic = line->is.names != 0;
     return true;
 }
 
 /* Judge for the values of the sheet: to rounding, or to three digits if it has numbers that may be rounded. */
-static bool look_at_values(struct lines *lines, const char *text, double *tolerance, struct line *line)
+static bool look_at_values(struct lines *lines, int body, const char *text, double *tolerance,
+                           struct line *line)
 {
     const struct line general = *line;
     bool rounded = line_has_numbers(text), own = line_has_own_names(lines, text, &rounded);
     if (!rounded && !own) return true;
-    if (!sample_line(lines, lines->root, 0, *tolerance, line)) return false;
+    if (!sample_line(lines, lines->root, body, 0, *tolerance, line)) return false;
     if (!line_agrees(line) && rounded) {
-        *tolerance = 0.3 * lines->model->scene->grading.tolerance;
-        if (!sample_line(lines, lines->root, 0, *tolerance, line)) return false;
+        *tolerance = 0.3 * fbd_model_grading(lines->model).tolerance;
+        if (!sample_line(lines, lines->root, body, 0, *tolerance, line)) return false;
     }
     line->in_numbers = line_agrees(line);
     if (!line->in_numbers) *line = general;
@@ -96,10 +82,10 @@ static bool look_at_values(struct lines *lines, const char *text, double *tolera
 /* Store an equation with forces as a linear form of its unknowns at the start. */
 static bool take_form(struct lines *lines, int body, struct line *line)
 {
-    double size;
-    if (!(line->says & (unsigned)hand_named_forces)) return true;
+    if (!(line->is.names & (unsigned)FBD_NAMES_FORCES)) return true;
     fbd_state *state = fbd_state_new_start(lines->alone);
-    if (state) hand_lack_at(state, body, 0, &size, line->form);
+    const fbd_residual residual = fbd_state_residual(state, (size_t)body, 0);
+    memcpy(line->form, residual.slopes, sizeof line->form);
     fbd_state_free(state);
     return state != NULL;
 }
@@ -107,38 +93,30 @@ static bool take_form(struct lines *lines, int body, struct line *line)
 /* Judge a line of energy or momentum: it is matched by one that is equivalent in the velocities. */
 static bool look_at_run(struct lines *lines, int body, struct line *line)
 {
-    line->checked = true;
     line->dynamic = true;
-    line->seen[1] = 1;
     line->counts = 1U << 1;
-    if (!line_judge_by_run(lines, body, &line->run)) return false;
-    line->agreed[1] = line->run.holds;
-    line->says = line->run.empty ? 0 : (unsigned)line_says_run;
-    return true;
+    return line_compare(lines, lines->root, body, 0, 1, line);
 }
 
 /* Judge a line for all values of the parameters, or for those of the sheet. */
 static bool look_at_line(struct lines *lines, int body, int index, struct line *line)
 {
-    const fbd_model *model = lines->model;
+    const char *name = fbd_model_body_name(lines->model, (size_t)body);
+    const fbd_derivation hand = fbd_model_derivation(lines->model, (size_t)body, (size_t)index);
     double tolerance = 1e-9;
-    *line = (struct line){.says = 0};
-    lines->check.body = body;
+    *line = (struct line){.counts = 0};
     lines->index = index;
-    if (model->scene->bodies[body].hands[index].kind != hand_of_states) return look_at_run(lines, body, line);
-    if (diagram_arrows(model, body) >= most_terms) return true;
-    line->checked = true;
-    if (!sample_line(lines, lines->root, 0.3, tolerance, line) || !take_form(lines, body, line)) return false;
-    if (!line_agrees(line) &&
-        !look_at_values(lines, model->scene->bodies[body].hands[index].text, &tolerance, line))
-        return false;
-    const struct hand *hand = &model->scene->bodies[body].hands[index];
-    const char *text = lines->answer ? line_as_read(lines, model->bodies[body].name, hand) : hand->text;
+    if (hand.of_run) return look_at_run(lines, body, line);
+    if (!sample_line(lines, lines->root, body, 0.3, tolerance, line)) return false;
+    if (!line->is.compared) return true;
+    if (!take_form(lines, body, line)) return false;
+    if (!line_agrees(line) && !look_at_values(lines, body, hand.text, &tolerance, line)) return false;
+    const char *text = lines->answer ? line_as_read(lines, name, &hand) : hand.text;
     bool in_general = line_agrees(line) && !line->in_numbers;
-    if (line->says == 0 && !in_general && !line_is_of_rest(lines, body, text, &line->rest)) return false;
-    if (line_agrees(line)) return look_at_pushed(lines, tolerance, line);
+    if (line->is.names == 0 && !in_general && !line_is_of_rest(lines, body, text, &line->rest)) return false;
+    if (line_agrees(line)) return look_at_pushed(lines, body, tolerance, line);
     struct line again;
-    return sample_line(lines, lines->root, 0.3, 1e-9, &again); /* for the text of the finding */
+    return sample_line(lines, lines->root, body, 0.3, 1e-9, &again); /* for the text of the finding */
 }
 
 /* ---- findings about it */
@@ -147,45 +125,44 @@ static bool look_at_line(struct lines *lines, int body, int index, struct line *
 static bool is_asked(const struct line *line, const struct line *keys, size_t count)
 {
     for (size_t k = 0; k < count; k++)
-        if (!keys[k].dynamic && (line_unknowns(&keys[k]) & line_unknowns(line))) return true;
+        if (!keys[k].dynamic && (keys[k].is.unknowns & line->is.unknowns)) return true;
     return false;
 }
 
 static void note_student_line(struct lines *lines, int body, int index, const struct line *line, bool asked)
 {
     struct fbd_grade *grade = lines->grade;
-    const struct body *source = &lines->model->scene->bodies[body];
-    const struct hand *hand = &source->hands[index];
+    const char *name = fbd_model_body_name(lines->model, (size_t)body);
+    const fbd_derivation hand = fbd_model_derivation(lines->model, (size_t)body, (size_t)index);
     if (line->rest) return;
-    bool good = line_agrees(line), empty = good && !asked && (line->says == 0 || !line->dynamic);
-    size_t seen = line->seen[0] + line->seen[1] + line->seen[2];
+    bool good = line_agrees(line), empty = good && !asked && (line->is.names == 0 || !line->dynamic);
+    const size_t *states = line->is.states, seen = states_of(line);
     if (good && !empty && !line->in_numbers) return;
-    fbd_finding *finding = finding_add(grade, good && !empty ? FBD_FINDING_RIGHT : FBD_FINDING_DERIVATION,
-                                       source->name, line_as_written(lines, source->name, hand), hand->at);
-    line_say(lines, finding, hand,
-             empty                         ? "it is true for any forces and does not check them"
-             : good                        ? "it is right for these numbers"
-             : !line->checked || seen == 0 ? "no admissible state was found for its condition"
-                                           : "it does not agree with the mechanics of the sheet");
+    fbd_finding *finding =
+        finding_add(grade, good && !empty ? FBD_FINDING_RIGHT : FBD_FINDING_DERIVATION, name,
+                    line_as_written(lines, name, &hand), (struct pos){hand.line, hand.column});
+    line_say(lines, finding, &hand,
+             empty       ? "it is true for any forces and does not check them"
+             : good      ? "it is right for these numbers"
+             : seen == 0 ? "no admissible state was found for its condition"
+                         : "it does not agree with the mechanics of the sheet");
     if (good || seen == 0) return;
-    struct text text = {0};
-    if (line->run.verdict)
-        text_add(&text, line->run.verdict);
-    else
-        hand_diagnose(&lines->check, line->seen[1] > 0 ? 0 : line->seen[2] > 0 ? 1 : -1, &text);
-    if (text.failed) grade->arena.failed = true;
-    finding_tell(grade, finding, text.data ? text.data : "");
-    text_free(&text);
+    char *mistake = fbd_checker_mistake(lines->checker, states[1] > 0 ? 0 : states[2] > 0 ? 1 : -1);
+    if (!mistake) grade->arena.failed = true;
+    finding_tell(grade, finding, mistake ? mistake : "");
+    fbd_free(mistake);
 }
 
 static const char *unknown_of(const struct lines *lines, int body, const struct line *key)
 {
-    const struct body *source = &lines->model->scene->bodies[body];
-    const struct coordinate *coordinates = &lines->model->scene->coordinates[source->first];
-    const unsigned asked = key->says;
-    for (int k = 0; k < source->count; k++)
-        if (asked & (1U << k)) return coordinates[k].acceleration_name;
-    return (asked & (1U << hand_N)) != 0 && !(asked & (unsigned)hand_named_forces) ? "N" : NULL;
+    const fbd_body source = fbd_model_body(lines->model, (size_t)body);
+    const unsigned asked = key->is.names;
+    for (size_t i = 0, k = 0; k < source.coordinate_count; i++) {
+        const fbd_variable variable = fbd_model_variable(lines->model, i);
+        if (variable.kind != FBD_VARIABLE_ACCELERATION || variable.index != source.coordinate + k) continue;
+        if (asked & (1U << k++)) return variable.name;
+    }
+    return (asked & (unsigned)FBD_NAMES_NORMAL) && !(asked & (unsigned)FBD_NAMES_FORCES) ? "N" : NULL;
 }
 
 static void say_of_key_line(struct lines *lines, int body, const struct line *key)
@@ -210,10 +187,11 @@ static void note_key_line(struct lines *lines, int body, int index, struct line 
 {
     struct fbd_grade *grade = lines->grade;
     struct text text = {0};
-    key->finding =
-        finding_add(grade, FBD_FINDING_MISSING, lines->model->bodies[body].name, "", (struct pos){0, 0});
-    key->finding->most = grade->key->model->scene->grading.points.derivation;
-    text_printf(&text, "the key has `%s`", grade->sheet->scene->bodies[body].hands[index].text);
+    key->finding = finding_add(grade, FBD_FINDING_MISSING, fbd_model_body_name(lines->model, (size_t)body),
+                               "", (struct pos){0, 0});
+    key->finding->most = grade->key->grading.points.derivation;
+    text_printf(&text, "the key has `%s`",
+                fbd_model_derivation(grade->sheet, (size_t)body, (size_t)index).text);
     finding_tell(grade, key->finding, text.data ? text.data : "");
     if (text.failed) grade->arena.failed = true;
     text_free(&text);
@@ -222,8 +200,7 @@ static void note_key_line(struct lines *lines, int body, int index, struct line 
 
 static bool is_of_motion(const struct line *line)
 {
-    const unsigned accelerations = ((1U << hand_mass) - 1) | (unsigned)hand_others;
-    return line->dynamic && (line->says & accelerations) != 0;
+    return line->dynamic && (line->is.names & (unsigned)FBD_NAMES_ACCELERATIONS) != 0;
 }
 
 /* The fraction of these senses of slip for which a line agrees. */
@@ -289,8 +266,8 @@ static bool look_at_own(struct lines *lines, struct lines *plain, int body, int 
 static bool grade_body(struct lines *lines, struct lines *plain, struct lines *sheet, int body,
                        struct body_lines *found)
 {
-    found->count = lines->model->scene->bodies[body].hand_count;
-    found->key_count = lines->grade->sheet->scene->bodies[body].hand_count;
+    found->count = fbd_model_derivation_count(lines->model, (size_t)body);
+    found->key_count = fbd_model_derivation_count(lines->grade->sheet, (size_t)body);
     found->own = ARENA_ARRAY(&lines->grade->arena, found->count + found->key_count + 1, struct line);
     found->key = found->own ? found->own + found->count : NULL;
     bool done = found->own && look_at_lines(sheet, body, found->key, found->key_count);
@@ -307,7 +284,7 @@ static bool grade_body(struct lines *lines, struct lines *plain, struct lines *s
 
 static bool grade_all(struct lines *lines, struct lines *plain, struct lines *sheet)
 {
-    size_t count = lines->model->body_count;
+    size_t count = fbd_model_body_count(lines->model);
     struct body_lines *bodies = ARENA_ARRAY(&lines->grade->arena, count + 1, struct body_lines);
     bool done = bodies != NULL;
     for (size_t b = 0; done && b < count; b++) done = grade_body(lines, plain, sheet, (int)b, &bodies[b]);
@@ -317,17 +294,15 @@ static bool grade_all(struct lines *lines, struct lines *plain, struct lines *sh
 
 static bool open_lines(struct lines *lines)
 {
-    lines->rng = gsl_rng_alloc(gsl_rng_mt19937);
-    lines->check.samples = calloc(most_samples, sizeof *lines->check.samples);
-    return lines->rng && lines->check.samples;
+    lines->checker = fbd_checker_new();
+    return lines->checker != NULL;
 }
 
 static void close_lines(struct lines *lines)
 {
     for (int k = 0; k < lines_pushes; k++) fbd_model_free(lines->pushed[k].model);
+    fbd_checker_free(lines->checker);
     fbd_model_free(lines->alone);
-    free(lines->check.samples);
-    if (lines->rng) gsl_rng_free(lines->rng);
 }
 
 /* Read the same lines in the coordinates of the sheet, if the answer has others. */

@@ -7,7 +7,6 @@
 
 #include "fbd_grade.h"
 #include "grade/grade.h"
-#include "output/hand.h"
 
 /* A scene with an additional force on every body. */
 struct pushed {
@@ -30,39 +29,23 @@ struct lines {
     const unsigned *slips;     /* of each body: the senses of slip of the motion of the sheet */
     int index;                 /* of the current equation, */
     fbd_model *alone;          /* and the scene with only that one */
-    struct hand_check check;
-    gsl_rng *rng;
+    fbd_checker *checker;
 };
 
 enum { slips = 3 }; /* of a body's friction: back, none, forth */
 
-/* A line of energy or momentum, which is compared with a run. */
-struct line_of_run {
-    bool holds, empty;   /* empty: it is true for all velocities */
-    const char *verdict; /* NULL: it is no such line, */
-    size_t count;
-    const double *slopes; /* derivatives of left - right by velocities, at some times */
-};
-
-/* In addition to the bits of hand_check.says. */
-enum { line_says_run = 4 << hand_slots };
-
 /* The unknowns of one equation, and the cases in which it is true. */
 struct line {
-    unsigned says;
-    size_t seen[slips], agreed[slips];
-    unsigned counts; /* bit k: slip k - 1 is one of the motion of the sheet, or all are */
-    bool checked;
-    bool dynamic;                /* it is false under other forces, so it is not kinematic */
-    unsigned long long unknowns; /* of hand_form_at: bit k */
-    double form[hand_unknowns];  /* at the start, where it names forces */
-    unsigned long long met;      /* the unknowns of the line of the key that it has matched, */
-    const struct line *met_by;   /* and the first of those lines */
-    bool in_numbers;             /* true for the values of the sheet, not for others */
-    const double *rest;          /* an equation of equilibrium (statics.c): its changes with the parameters */
-    double share;                /* of a line of the key: fraction of its cases that are matched */
-    fbd_finding *finding;        /* on a line of the key */
-    struct line_of_run run;      /* of a line that is compared with a run */
+    fbd_comparison is;         /* the slopes of a line that is compared with a run are in the arena */
+    unsigned counts;           /* bit k: slip k - 1 is one of the motion of the sheet, or all are */
+    bool dynamic;              /* it is false under other forces, so it is not kinematic */
+    double form[FBD_UNKNOWNS]; /* at the start, where it names forces */
+    unsigned long long met;    /* the unknowns of the line of the key that it has matched, */
+    const struct line *met_by; /* and the first of those lines */
+    bool in_numbers;           /* true for the values of the sheet, not for others */
+    const double *rest;        /* an equation of equilibrium (statics.c): its changes with the parameters */
+    double share;              /* of a line of the key: fraction of its cases that are matched */
+    fbd_finding *finding;      /* on a line of the key */
 };
 
 /* The lines of a body, in the order of the file: its own, and those of the key. */
@@ -79,9 +62,6 @@ bool line_agrees(const struct line *line);
 
 /* The senses of slip for which a line of the key has to be matched: those for which it is true. */
 unsigned line_wanted_slips(const struct line *key);
-
-/* The unknowns of a line as a set: accelerations, and reactions if it names forces or has no others. */
-unsigned long long line_unknowns(const struct line *line);
 
 /* Compute the matched fraction of each line of the key. False when memory is out. */
 bool lines_meet(struct lines *lines, struct body_lines *found);
@@ -117,8 +97,9 @@ unsigned *lines_slips(struct fbd_grade *grade);
 /* True if the scene has one degree of freedom; requires its pushes (freedom.c). */
 bool lines_one_freedom(struct lines *lines);
 
-/* The tree of that scene; it is compiled as lines->alone, which is NULL where memory is out (lines_run.c). */
-const struct node *line_compile(struct lines *lines, const struct node *root, int body);
+/* Compare equation lines->index of a body in that scene, which is compiled as lines->alone. False when memory is out. */
+bool line_compare(struct lines *lines, const struct node *root, int body, double spread, double tolerance,
+                  struct line *line);
 
 /* ---- the answer's own values (lines_values.c) */
 
@@ -131,11 +112,8 @@ bool line_has_own_names(const struct lines *lines, const char *text, bool *round
 
 /* ---- lines of energy and momentum (lines_run.c) */
 
-/* Judge the equation lines->index of a body. False when memory is out. */
-bool line_judge_by_run(struct lines *lines, int body, struct line_of_run *line);
-
 /* True if both are equivalent in the velocities, or neither is such a line. */
-bool lines_of_run_agree(const struct line_of_run *a, const struct line_of_run *b);
+bool lines_of_run_agree(const fbd_comparison *a, const fbd_comparison *b);
 
 /* ---- equations of equilibrium (statics.c) */
 
@@ -177,10 +155,10 @@ bool name_is_of_equations(const char *name);
 const struct node *lines_as_written(struct lines *lines);
 
 /* A derivation as the student wrote it, and as it was read. */
-const char *line_as_written(const struct lines *lines, const char *body, const struct hand *hand);
-const char *line_as_read(const struct lines *lines, const char *body, const struct hand *hand);
+const char *line_as_written(const struct lines *lines, const char *body, const fbd_derivation *hand);
+const char *line_as_read(const struct lines *lines, const char *body, const fbd_derivation *hand);
 
 /* Add a message on a derivation, with its translation if it was not written as an expression. */
-void line_say(struct lines *lines, fbd_finding *finding, const struct hand *hand, const char *message);
+void line_say(struct lines *lines, fbd_finding *finding, const fbd_derivation *hand, const char *message);
 
 #endif

@@ -11,7 +11,7 @@
 
 bool line_agrees_at(const struct line *line, int slip)
 {
-    return line->seen[slip] > 0 && line->agreed[slip] == line->seen[slip];
+    return line->is.states[slip] > 0 && line->is.agree[slip] == line->is.states[slip];
 }
 
 bool line_agrees(const struct line *line)
@@ -30,16 +30,6 @@ unsigned line_wanted_slips(const struct line *key)
     return wanted ? wanted : key->counts;
 }
 
-unsigned long long line_unknowns(const struct line *line)
-{
-    enum { behind_says = 16 };
-    const unsigned accelerations = ((1U << hand_mass) - 1) | (unsigned)hand_others, says = line->says;
-    const unsigned long long first = says & accelerations, forces = line->unknowns >> hand_unknown_force;
-    if (first && !(says & (unsigned)hand_named_forces)) return first;
-    if (forces) return first | forces << behind_says;
-    return first ? first : says; /* inertia and arms */
-}
-
 /* Lines that have matched one of the key, as forms. */
 struct forms {
     double *base;
@@ -48,25 +38,25 @@ struct forms {
 
 static bool names_forces(const struct line *line)
 {
-    return (line->says & (unsigned)hand_named_forces) != 0;
+    return (line->is.names & (unsigned)FBD_NAMES_FORCES) != 0;
 }
 
 /* One line of the answer matches one line of the key, or several about the same acceleration (for each sense
  * of slip). */
 static bool meets(const struct line *own, const struct line *key, int slip)
 {
-    const unsigned long long asked = line_unknowns(key);
+    const unsigned long long asked = key->is.unknowns;
     const bool single = names_forces(own) || names_forces(key);
     if (own->met != 0 && (single ? own->met_by != key : own->met != asked)) return false;
-    return line_agrees_at(own, slip) && (line_unknowns(own) & asked) && (own->dynamic || !key->dynamic) &&
-           lines_of_run_agree(&own->run, &key->run);
+    return line_agrees_at(own, slip) && (own->is.unknowns & asked) && (own->dynamic || !key->dynamic) &&
+           lines_of_run_agree(&own->is, &key->is);
 }
 
 /* True if a line is linearly independent of the others. */
 static bool take_form(const struct line *own, struct forms *forms)
 {
     if (own->met != 0 || !names_forces(own)) return true;
-    if (!form_is_new(own->form, hand_unknowns, forms->base, forms->count)) return false;
+    if (!form_is_new(own->form, FBD_UNKNOWNS, forms->base, forms->count)) return false;
     forms->count++;
     return true;
 }
@@ -76,10 +66,10 @@ static bool find_line(struct line *own, size_t count, const struct line *key, in
                       struct forms *forms)
 {
     for (size_t i = 0; i < count; i++) {
-        if (!meets(&own[i], key, slip) || (same && line_unknowns(&own[i]) != line_unknowns(key))) continue;
+        if (!meets(&own[i], key, slip) || (same && own[i].is.unknowns != key->is.unknowns)) continue;
         if (!take_form(&own[i], forms)) continue;
         if (own[i].met == 0) own[i].met_by = key;
-        own[i].met = line_unknowns(key);
+        own[i].met = key->is.unknowns;
         return true;
     }
     return false;
@@ -119,7 +109,7 @@ bool lines_meet(struct lines *lines, struct body_lines *found)
 {
     struct arena *arena = &lines->grade->arena;
     double *base = ARENA_ARRAY(arena, (found->key_count + 1) * rest_room, double);
-    struct forms forms = {.base = ARENA_ARRAY(arena, (found->count + 1) * hand_unknowns, double)};
+    struct forms forms = {.base = ARENA_ARRAY(arena, (found->count + 1) * FBD_UNKNOWNS, double)};
     size_t met = 0;
     if (!base || !forms.base) return false;
     for (int others = 0; others < 2; others++)

@@ -9,9 +9,9 @@
 #include "fbd_grade.h"
 #include "grade/lines.h"
 
-/* A text and its translation. */
+/* The text at a position of the answer, as it was read. */
 struct reading {
-    const struct node *node;
+    struct pos at;
     const char *text;
     struct reading *next;
 };
@@ -21,32 +21,35 @@ struct readings {
     struct reading *first;
 };
 
-static bool is_drawn(void *context, const char *body, const char *name)
-{
-    const struct readings *readings = context;
-    (void)body; /* forces on other bodies may be named as well */
-    for (const struct drawn *one = readings->grade->drawn; one; one = one->next)
-        if ((one->symbol && strcmp(one->symbol, name) == 0) || (one->name && strcmp(one->name, name) == 0))
-            return true;
-    return false;
-}
-
-static void take(void *context, const struct node *node, const char *text)
+static void take(void *context, int line, int column, const char *text)
 {
     struct readings *readings = context;
     struct arena *arena = &readings->grade->arena;
-    if (strcmp(node->text, text) == 0) return;
     struct reading *made = ARENA_NEW(arena, struct reading);
     char *kept = arena_text(arena, text, strlen(text));
     if (!made || !kept) return;
-    *made = (struct reading){node, kept, readings->first};
+    *made = (struct reading){{line, column}, kept, readings->first};
     readings->first = made;
+}
+
+/* The names of drawn forces. NULL when memory is out. */
+static const char *const *names_of_drawn(struct fbd_grade *grade, size_t *count)
+{
+    size_t most = 0;
+    for (const struct drawn *one = grade->drawn; one; one = one->next) most += 2;
+    const char **names = ARENA_ARRAY(&grade->arena, most + 1, const char *);
+    *count = 0;
+    for (const struct drawn *one = grade->drawn; names && one; one = one->next) {
+        if (one->symbol) names[(*count)++] = one->symbol;
+        if (one->name) names[(*count)++] = one->name;
+    }
+    return names;
 }
 
 static const char *as_read(struct arena *arena, const struct node *scalar, const void *context)
 {
     for (const struct reading *one = context; one; one = one->next)
-        if (one->node == scalar) return one->text;
+        if (one->at.line == scalar->at.line && one->at.column == scalar->at.column) return one->text;
     return arena_text(arena, scalar->text, scalar->length);
 }
 
@@ -56,8 +59,9 @@ const struct node *lines_of_notation(struct fbd_grade *grade, const struct node 
     struct arena *arena = &grade->arena;
     struct readings readings = {grade, NULL};
     const struct node *bodies = lines_value(answer, "bodies"), *made = bodies;
-    const struct hand_reader reader = {&readings, is_drawn, take};
-    if (root) grade_read_hands(grade, root, &reader);
+    size_t count;
+    const char *const *names = names_of_drawn(grade, &count);
+    if (root && names) grade_read_hands(grade, root, names, count, take, &readings);
     if (!root || grade->arena.failed) return NULL;
     if (!readings.first || !bodies || bodies->kind != node_map) return answer;
     for (size_t b = 0; made && b < bodies->count; b++) {
@@ -71,7 +75,7 @@ const struct node *lines_of_notation(struct fbd_grade *grade, const struct node 
     return made ? node_with(arena, answer, "bodies", made) : NULL;
 }
 
-void line_say(struct lines *lines, fbd_finding *finding, const struct hand *hand, const char *message)
+void line_say(struct lines *lines, fbd_finding *finding, const fbd_derivation *hand, const char *message)
 {
     struct text text = {0};
     const char *read = line_as_read(lines, finding->body, hand);

@@ -120,7 +120,9 @@ static bool leave_out_wrong(struct lines *lines, fbd_errors *errors)
         if (error->severity != FBD_ERROR) continue;
         culprit = find_culprit(root, (struct pos){error->line, error->column});
         if (!culprit.item || culprit.item == before) continue; /* notes are sorted by position */
-        const struct hand here = {.at = culprit.item->at, .written = culprit.item->text};
+        const fbd_derivation here = {.written = culprit.item->text,
+                                     .line = culprit.item->at.line,
+                                     .column = culprit.item->at.column};
         bool scalar = culprit.item->kind == node_scalar;
         finding_of_error(grade, FBD_FINDING_UNREADABLE, culprit.body,
                          scalar ? line_as_written(lines, culprit.body, &here) : "", error);

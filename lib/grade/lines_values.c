@@ -5,6 +5,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "fbd_view.h"
 #include "grade/lines.h"
 
 static bool is_of_name(char c)
@@ -38,9 +39,9 @@ static bool names_it(const char *text, const char *name)
  * not a rounded number. */
 static bool is_of_the_sheet(const struct lines *lines, double value)
 {
-    const struct scene *scene = lines->grade->sheet->scene;
-    for (size_t i = 0; i < scene->parameter_count; i++)
-        if (fabs(scene->parameters[i].value - value) <= 1e-12 * fabs(value)) return true;
+    const fbd_model *sheet = lines->grade->sheet;
+    for (size_t i = 0; i < fbd_model_parameter_count(sheet); i++)
+        if (fabs(fbd_model_parameter(sheet, i).value - value) <= 1e-12 * fabs(value)) return true;
     return false;
 }
 
@@ -48,17 +49,17 @@ static bool is_of_the_sheet(const struct lines *lines, double value)
  * one of them may be a rounded number. */
 bool line_has_own_names(const struct lines *lines, const char *text, bool *rounded)
 {
-    const struct scene *scene = lines->model->scene;
     const struct node *known = lines_value(lines->grade->key->root, "parameters");
     const struct node *own = lines_value(lines->root, "parameters");
     bool found = false;
-    for (size_t i = 0; i < scene->parameter_count; i++) {
-        const char *name = scene->parameters[i].name;
+    for (size_t i = 0; i < fbd_model_parameter_count(lines->model); i++) {
+        const fbd_parameter parameter = fbd_model_parameter(lines->model, i);
+        const char *name = parameter.name;
         if (node_find(known, name) || !names_it(text, name)) continue;
         const struct node *value = lines_value(own, name);
         found = true;
         *rounded = *rounded || (value && value->kind == node_scalar && line_has_numbers(value->text) &&
-                                !is_of_the_sheet(lines, scene->parameters[i].value));
+                                !is_of_the_sheet(lines, parameter.value));
     }
     return found;
 }

@@ -56,9 +56,9 @@ static bool is_named(const struct item *key, const char *name)
     return strncmp(key->name, name, length) == 0 && (key->name[length] == '\0' || key->name[length] == '.');
 }
 
-static bool has_to_be_drawn(const struct grading *grading, const struct sides *sides, const struct item *key)
+static bool has_to_be_drawn(const fbd_grading *grading, const struct sides *sides, const struct item *key)
 {
-    bool named = grading->reactions == reactions_all;
+    bool named = grading->reactions == FBD_REACTIONS_ALL;
     if (!key->name) return false;
     for (size_t i = 0; i < grading->reaction_count; i++)
         named = named || is_named(key, grading->reaction_names[i]);
@@ -70,7 +70,7 @@ bool reactions_note_asked(struct fbd_key *key, size_t b, const struct sides *sid
 {
     bool *asked = ARENA_ARRAY(&key->arena, sides->reaction_count + 1, bool);
     for (size_t i = 0; asked && i < sides->reaction_count; i++)
-        asked[i] = has_to_be_drawn(&key->model->scene->grading, sides, &sides->reactions[i]);
+        asked[i] = has_to_be_drawn(&key->grading, sides, &sides->reactions[i]);
     key->asked[b] = asked;
     key->asked_count[b] = asked ? sides->reaction_count : 0;
     return asked != NULL;

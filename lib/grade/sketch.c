@@ -420,7 +420,7 @@ static void match_rest(const struct sheet *sheet)
 bool sketches_place(const struct fbd_grade *grade, struct sides *sides)
 {
     struct sheet sheet = {.grade = grade, .sides = sides};
-    sheet.angle = grade->key->model->scene->grading.canvas.angle;
+    sheet.angle = grade->key->grading.canvas.angle;
     bool made = make_lines(&sheet) && make_strokes(&sheet);
     if (made && sheet.stroke_count > 0) {
         for (size_t i = 0; i < sheet.stroke_count; i++)

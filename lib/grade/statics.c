@@ -301,9 +301,10 @@ static double rest_beyond(double *a, const double *base, int count)
 static double lack_of(const fbd_model *model, int body, double *size)
 {
     fbd_state *state = model ? fbd_state_new_start(model) : NULL;
-    double lack = state ? hand_lack_at(state, body, 0, size, NULL) : NAN;
+    const fbd_residual residual = fbd_state_residual(state, (size_t)body, 0);
     fbd_state_free(state);
-    return lack;
+    *size = residual.size;
+    return residual.value;
 }
 
 /* Changes of left minus right; false if it cannot be evaluated, or is not zero for the sheet. */
@@ -316,7 +317,7 @@ static bool find_changes(struct lines *lines, int body, const char *text, double
     if (!root || !errors) grade->arena.failed = true;
     if (root && errors) model = grade_compile(grade, root, grade->key->file, true, errors);
     double size = 0, lack = lack_of(model, body, &size);
-    bool done = model && fabs(lack) <= 0.3 * grade->key->model->scene->grading.tolerance * size;
+    bool done = model && fabs(lack) <= 0.3 * grade->key->grading.tolerance * size;
     for (int k = 1; done && k <= lines->rest->draws; k++) {
         fbd_model *changed = changed_model(grade, root, model, true, k);
         double other;
@@ -335,7 +336,7 @@ static bool is_of_sums(const struct lines *lines, const double *changes)
 {
     enum { most_rows = 30, most_draws = 30 };
     const struct rest *rest = lines->rest;
-    const double tolerance = lines->grade->key->model->scene->grading.tolerance, apart = 1e-6, like = 0.01;
+    const double tolerance = lines->grade->key->grading.tolerance, apart = 1e-6, like = 0.01;
     double base[most_rows][most_draws], left[most_draws];
     size_t found = 0, n = (size_t)rest->draws;
     memcpy(left, changes, n * sizeof *left);

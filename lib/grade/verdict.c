@@ -8,13 +8,14 @@
 
 #include "base/text.h"
 #include "fbd_grade.h"
+#include "fbd_view.h"
 #include "grade/verdict_work.h"
 
 static const struct pos nowhere = {0, 0};
 
-static const struct grading *grading_of(const struct fbd_grade *grade)
+static const fbd_grading *grading_of(const struct fbd_grade *grade)
 {
-    return &grade->key->model->scene->grading;
+    return &grade->key->grading;
 }
 
 static bool near(double a, double b, double tolerance)
@@ -27,7 +28,7 @@ static bool near(double a, double b, double tolerance)
 /* A finding on all of a body of the key. */
 static fbd_finding *add_on_body(struct fbd_grade *grade, fbd_finding_kind kind, size_t body, struct pos at)
 {
-    const struct grading_points *points = &grading_of(grade)->points;
+    const fbd_marks *points = &grading_of(grade)->points;
     const fbd_body key = fbd_model_body(grade->sheet, body);
     fbd_finding *finding = finding_add(grade, kind, key.name, "", at);
     finding->most = points->force * (double)(key.listed + key_asks(grade->key, body)) + points->inertia;
@@ -103,7 +104,7 @@ static const char *inertia_fault(const struct fbd_grade *grade, const fbd_body *
 static void compare_inertia(struct fbd_grade *grade, const fbd_body *key, const fbd_body *body,
                             const struct sides *sides, double length, double force)
 {
-    const struct grading_points *points = &grading_of(grade)->points;
+    const fbd_marks *points = &grading_of(grade)->points;
     fbd_finding_kind kind;
     const char *fault = inertia_fault(grade, key, body, sides, length, force, &kind);
     if (!fault && points->inertia == 0) return;

@@ -202,7 +202,7 @@ static bool is_within_reach(const struct reading *reading, const struct item *ke
 static double most_from(const struct reading *reading, size_t from)
 {
     const struct sides *sides = reading->sides;
-    const struct grading *grading = &reading->grade->key->model->scene->grading;
+    const fbd_grading *grading = &reading->grade->key->grading;
     double most = reading->most;
     for (size_t k = 0; k < sides->reaction_count; k++) {
         const struct item *key = reaction_candidate(sides, k);

@@ -139,6 +139,7 @@ void dense_set(struct dense *d, int order, struct time_dd t0, const double *y0, 
     d->y1 = y1;
     d->f1 = f1;
     d->sys = sys;
+    if (step == d->step) return;
     d->step = step;
     d->own = NULL;
     for (size_t i = 0; step && i < sizeof owns / sizeof *owns; i++)

@@ -24,8 +24,14 @@ struct error_norm {
     double *slopes;  /* and y' in the last accepted state */
     double *before;  /* 3 pairs: q, v and a of the last accepted state, */
     double *earlier; /* and of the one before it */
+    double in_noise; /* steps up to this size have no error_norm_roundoff_counts */
     double memory[];
 };
+
+static size_t numbers(size_t pairs, size_t size)
+{
+    return 5 * size + 2 * pairs;
+}
 
 static inline double larger(double a, double b)
 {
@@ -228,6 +234,13 @@ void error_norm_scales(const gsl_odeiv2_control *control, double h, const double
     for (size_t i = n; i < w->size; i++) scales[i] = scale_of(w, i, y[i], motion_of(h, f[i]));
 }
 
+static void exchange_states(struct error_norm *w)
+{
+    double *now = w->earlier;
+    w->earlier = w->before;
+    w->before = now;
+}
+
 void error_norm_update(gsl_odeiv2_control *control, const double *y, const double *f)
 {
     struct error_norm *w = control->state;
@@ -236,11 +249,9 @@ void error_norm_update(gsl_odeiv2_control *control, const double *y, const doubl
     for (size_t i = 2 * n; i < w->size; i++)
         w->fastest[i - 2 * n] = larger(w->fastest[i - 2 * n], fabs(f[i]));
     memcpy(w->slopes, f + 2 * n, (w->size - 2 * n) * sizeof *f);
-    double *now = w->earlier;
-    w->earlier = w->before;
-    w->before = now;
-    memcpy(now, y, 2 * n * sizeof *y);
-    memcpy(now + 2 * n, f + n, n * sizeof *f);
+    exchange_states(w);
+    memcpy(w->before, y, 2 * n * sizeof *y);
+    memcpy(w->before + 2 * n, f + n, n * sizeof *f);
 }
 
 void error_norm_set_floor(gsl_odeiv2_control *control, size_t i, double floor)
@@ -256,16 +267,32 @@ void error_norm_set_roundoff(gsl_odeiv2_control *control, size_t i, double noise
     struct error_norm *w = control->state;
     w->noise[i] = noise;
     w->passing[i] = smaller(passing, noise);
+    w->in_noise = 0;
+}
+
+/* The largest h for which no error that noise allows can exceed the tolerances: scales only grow. */
+static double longest_in_noise(const struct error_norm *w)
+{
+    const double share = 0.9;
+    double longest = INFINITY;
+    size_t n = w->pairs;
+    for (size_t i = 0; i < n; i++) /* a lower bound of the scale: no amplitude */
+        longest = smaller(scale_of_v(w, i, w->scale[n + i], 0) / allowed_by_noise(w, i, 1), longest);
+    for (size_t i = 2 * n; i < w->size; i++)
+        longest = smaller(w->scale[i] / allowed_by_noise(w, i - n, 1), longest);
+    return share * w->tolerance * longest;
 }
 
 bool error_norm_roundoff_counts(const gsl_odeiv2_control *control, double h)
 {
-    const struct error_norm *w = control->state;
+    struct error_norm *w = control->state;
     size_t n = w->pairs;
     const double *q = w->before, *v = q + n, *a = v + n;
+    if (h <= w->in_noise) return false;
+    w->in_noise = longest_in_noise(w);
     for (size_t i = 0; i < n; i++) {
         double allowed = allowed_by_noise(w, i, h), scale = w->scale[n + i];
-        if (!(allowed > w->tolerance * scale_of_v(w, i, scale, 0))) continue; /* lower bound: no amplitude */
+        if (!(allowed > w->tolerance * scale_of_v(w, i, scale, 0))) continue;
         double swing = amplitude(w, w->earlier, i, q[i], v[i], a[i]);
         if (allowed > w->tolerance * scale_of_v(w, i, scale, swing)) return true;
     }
@@ -302,6 +329,15 @@ void error_norm_settle(gsl_odeiv2_control *control, const struct stepper_state_v
     memcpy(w->scale, view->scale, 2 * bytes);
     memcpy(w->before, view->last, 3 * bytes);
     memcpy(w->earlier, view->before, 3 * bytes);
+}
+
+void error_norm_follow(gsl_odeiv2_control *control, const gsl_odeiv2_control *other)
+{
+    struct error_norm *w = control->state;
+    const struct error_norm *from = other->state;
+    memcpy(w->memory, from->memory, numbers(w->pairs, w->size) * sizeof *w->memory);
+    if (w->before - w->memory != from->before - from->memory) exchange_states(w);
+    w->in_noise = 0;
 }
 
 /* The largest scale among the components of the same group (q, v or x) as `i`: a replacement for a scale of
@@ -411,7 +447,7 @@ static struct error_norm *error_norm_state(const struct layout *layout)
 {
     size_t pairs = layout->pairs, size = layout_size(layout);
     if (size == 0 || size > (SIZE_MAX - sizeof(struct error_norm)) / (8 * sizeof(double))) return NULL;
-    struct error_norm *w = block_alloc(sizeof *w + (5 * size + 2 * pairs) * sizeof(double));
+    struct error_norm *w = block_alloc(sizeof *w + numbers(pairs, size) * sizeof(double));
     if (!w) return NULL;
     w->pairs = pairs;
     w->size = size;

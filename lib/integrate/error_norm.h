@@ -122,4 +122,8 @@ bool error_norm_view(const gsl_odeiv2_control *control, struct stepper_state_vie
 /* Copy the control's part back from `view`. */
 void error_norm_settle(gsl_odeiv2_control *control, const struct stepper_state_view *view);
 
+/* Copy scales, round-off levels and the last states from another control of the same layout; both keep their
+ * tolerances and laws. */
+void error_norm_follow(gsl_odeiv2_control *control, const gsl_odeiv2_control *other);
+
 #endif

@@ -26,8 +26,8 @@ struct linear {
     struct powers_piece piece;
     int degree;     /* of that piece; below zero: none */
     double *A;      /* dim x dim */
-    int made;       /* doublings computed for this matrix */
-    double *ladder; /* for each, dim x dim: Phi and the exponential */
+    int made, room; /* doublings computed for this matrix, and that there is memory for */
+    double *ladder; /* for each, dim x dim: Phi and the exponential; NULL until a step needs them */
     double memory[];
 };
 
@@ -35,26 +35,24 @@ static void *linear_alloc(size_t dim)
 {
     const size_t most = 2 * (size_t)linear_most_pairs;
     if (dim == 0 || dim > most) return NULL;
-    size_t numbers = (2 + works + terms + power_room + dim) * dim, matrices = 2 * (size_t)rungs * dim * dim;
-    struct linear *s = malloc(sizeof *s + (numbers + matrices) * sizeof(double));
+    size_t numbers = (2 + works + terms + power_room + dim) * dim;
+    struct linear *s = malloc(sizeof *s + numbers * sizeof(double));
     if (!s) return NULL;
-    *s =
-        (struct linear){.dim = dim,
-                        .rho =
-                            NAN}; /* rho of no matrix; the doublings are not cleared, most scenes need none */
+    *s = (struct linear){.dim = dim, .rho = NAN}; /* rho of no matrix */
     s->y0 = s->memory;
     s->f0 = s->y0 + dim;
     s->work = s->f0 + dim;
     s->term = s->work + works * dim;
     s->power = s->term + terms * dim;
     s->A = s->power + power_room * dim;
-    s->ladder = s->A + dim * dim;
     return s;
 }
 
 static void linear_free(void *state)
 {
-    free(state);
+    struct linear *s = state;
+    free(s->ladder);
+    free(s);
 }
 
 static int linear_reset(void *state, size_t dim)
@@ -159,6 +157,28 @@ static void set_next(struct linear *s, int rung)
     multiply(dim, exponential, phi, twice);
     for (size_t i = 0; i < size; i++) twice[i] += phi[i];
     multiply(dim, exponential, exponential, exponential_of(s, rung));
+}
+
+/* The index of the longest doubling within a step of size h, 1 at least: that of index 0 takes both to compute. */
+static int rung_of(const struct linear *s, double h)
+{
+    int rung;
+    frexp(h * s->rho / lowest_rung, &rung);
+    return rung > rungs ? rungs - 1 : rung > 1 ? rung - 1 : 1;
+}
+
+/* Memory for the doublings of a step of size h. False when there is none. */
+static bool make_room(struct linear *s, double h)
+{
+    enum { at_once = 16 };
+    int rung = rung_of(s, h);
+    if (rung < s->room) return true;
+    int room = (rung / at_once + 1) * at_once;
+    double *ladder = realloc(s->ladder, 2 * (size_t)room * s->dim * s->dim * sizeof *ladder);
+    if (!ladder) return false;
+    s->ladder = ladder;
+    s->room = room;
+    return true;
 }
 
 static void need_rung(struct linear *s, int rung)
@@ -268,10 +288,8 @@ static void leap(struct linear *s, double h, double *y)
 {
     size_t dim = s->dim;
     double *f = s->work, *step = f + dim, *rise = step + 2 * dim, rest = h;
-    int rung;
-    frexp(h * s->rho / lowest_rung, &rung);
-    rung = rung > rungs ? rungs - 1 : rung > 0 ? rung - 1 : 0;
-    need_rung(s, rung > 0 ? rung : 1);
+    int rung = rung_of(s, h);
+    need_rung(s, rung);
     memcpy(f, s->f0, dim * sizeof *f);
     memset(rise, 0, dim * sizeof *rise);
     double height = height_of(s, rung);
@@ -334,8 +352,10 @@ static int linear_apply(void *state, size_t dim, double t, double h, double y[],
     if (h * s->rho <= series_reach) {
         set_terms(s);
         sum_terms(s, 1, y);
-    } else {
+    } else if (make_room(s, h)) {
         leap(s, h, y);
+    } else {
+        return GSL_ENOMEM; /* a shorter step needs none */
     }
     double probe = 0;
     for (size_t i = 0; i < dim; i++) probe += 0 * y[i];

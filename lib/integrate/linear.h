@@ -26,7 +26,6 @@
 #ifndef FBD_INTEGRATE_LINEAR_H
 #define FBD_INTEGRATE_LINEAR_H
 
-#include <gsl/gsl_eigen.h>
 #include <gsl/gsl_odeiv2.h>
 #include <stdbool.h>
 
@@ -61,21 +60,20 @@ struct linear_modes;
 struct linear_pace {
     size_t dim;
     double start;              /* time of the last start */
-    struct linear_modes *kept; /* linear_most_kept: of the latest matrices */
+    struct linear_modes *kept; /* linear_most_kept: of the latest matrices; the block with all other lists */
     struct linear_modes *now;
     size_t oldest;
     size_t modes;            /* number of ints that identify the matrix */
     struct linear_key *keys; /* linear_most_keys */
     size_t oldest_key;
     double *jacobian, *copy, *work; /* dim dim, dim dim, 3 dim */
-    gsl_eigen_nonsymm_workspace *eigen;
 };
 
 /* A matrix with its eigenvalues. A scene alternates between a few: sticks, slips, sticks ... */
 struct linear_modes {
     double *A; /* dim dim */
     double rho;
-    gsl_vector_complex *eigenvalues;
+    double *eigenvalues; /* 2 dim: real and imaginary parts */
 };
 
 /* Modes, and their matrix; NULL: none yet. Several modes may share a matrix, as of a block that slips in both
@@ -93,8 +91,9 @@ bool linear_pace_init(struct linear_pace *pace, size_t dim, size_t modes);
 void linear_pace_free(struct linear_pace *pace);
 
 /* At a start or after an event; sets pace->now to the matrix, or NULL if it is not available. For the same
- * modes as before, the matrix is reused without a Jacobian; with modes NULL it is always evaluated. */
-void linear_pace_start(struct linear_pace *pace, struct counted_system *system, double t, const double *y,
+ * modes as before, the matrix is reused without a Jacobian; with modes NULL it is always evaluated. False when memory is
+ * out. */
+bool linear_pace_start(struct linear_pace *pace, struct counted_system *system, double t, const double *y,
                        const int *modes);
 
 /* The size of a step from t. */

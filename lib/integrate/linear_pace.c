@@ -1,49 +1,40 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <gsl/gsl_complex_math.h>
+#include <gsl/gsl_eigen.h>
 #include <gsl/gsl_errno.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/block_alloc.h"
 #include "integrate/linear.h"
 #include "integrate/stiffness.h"
 #include "numeric/tolerances.h"
 
-static bool modes_init(struct linear_modes *modes, size_t dim)
-{
-    modes->A = calloc(dim * dim + 1, sizeof *modes->A);
-    modes->rho = NAN; /* of no matrix */
-    modes->eigenvalues = gsl_vector_complex_calloc(dim);
-    return modes->A && modes->eigenvalues;
-}
-
+/* One block: structures, doubles, ints. */
 bool linear_pace_init(struct linear_pace *pace, size_t dim, size_t modes)
 {
     *pace = (struct linear_pace){.dim = dim, .modes = modes};
-    pace->kept = calloc(linear_most_kept, sizeof *pace->kept);
-    pace->keys = calloc(linear_most_keys, sizeof *pace->keys + modes * sizeof(int));
-    pace->jacobian = calloc(2 * dim * dim + 3 * dim + 1, sizeof *pace->jacobian);
-    pace->eigen = gsl_eigen_nonsymm_alloc(dim);
-    if (!pace->kept || !pace->keys || !pace->jacobian || !pace->eigen) return false;
+    size_t of_modes = dim * dim + 2 * dim, doubles = linear_most_kept * of_modes + 2 * dim * dim + 3 * dim;
+    size_t structures = linear_most_kept * sizeof *pace->kept + linear_most_keys * sizeof *pace->keys;
+    pace->kept = block_alloc(structures + doubles * sizeof(double) + linear_most_keys * modes * sizeof(int));
+    if (!pace->kept) return false;
+    pace->keys = (struct linear_key *)(pace->kept + linear_most_kept);
+    double *next = (double *)(pace->keys + linear_most_keys);
+    for (size_t i = 0; i < linear_most_kept; i++, next += of_modes)
+        pace->kept[i] =
+            (struct linear_modes){.A = next, .rho = NAN, .eigenvalues = next + dim * dim}; /* of no matrix */
+    pace->jacobian = next;
     pace->copy = pace->jacobian + dim * dim;
     pace->work = pace->copy + dim * dim;
-    for (size_t i = 0; i < linear_most_kept; i++)
-        if (!modes_init(&pace->kept[i], dim)) return false;
-    int *behind = (int *)(pace->keys + linear_most_keys);
+    int *behind = (int *)(pace->work + 3 * dim);
     for (size_t i = 0; i < linear_most_keys; i++) pace->keys[i].modes = behind + i * modes;
     return true;
 }
 
 void linear_pace_free(struct linear_pace *pace)
 {
-    for (size_t i = 0; pace->kept && i < linear_most_kept; i++) {
-        free(pace->kept[i].A);
-        if (pace->kept[i].eigenvalues) gsl_vector_complex_free(pace->kept[i].eigenvalues);
-    }
-    if (pace->eigen) gsl_eigen_nonsymm_free(pace->eigen);
     free(pace->kept);
-    free(pace->keys);
-    free(pace->jacobian);
     *pace = (struct linear_pace){0};
 }
 
@@ -80,9 +71,11 @@ static void forget(struct linear_pace *pace, const struct linear_modes *modes)
         if (pace->keys[i].of == modes) pace->keys[i].of = NULL;
 }
 
-/* Analyse pace->jacobian, in place of the oldest matrix. */
+/* Analyse pace->jacobian, in place of the oldest matrix. NULL when memory is out. */
 static struct linear_modes *make_modes(struct linear_pace *pace)
 {
+    gsl_eigen_nonsymm_workspace *eigen = gsl_eigen_nonsymm_alloc(pace->dim);
+    if (!eigen) return NULL;
     struct linear_modes *modes = &pace->kept[pace->oldest];
     size_t dim = pace->dim, size = dim * dim * sizeof *pace->jacobian;
     pace->oldest = (pace->oldest + 1) % linear_most_kept;
@@ -91,23 +84,26 @@ static struct linear_modes *make_modes(struct linear_pace *pace)
     memcpy(pace->copy, pace->jacobian, size);
     modes->rho = stiffness_rate(dim, modes->A, pace->work);
     gsl_matrix_view matrix = gsl_matrix_view_array(pace->copy, dim, dim);
+    gsl_vector_complex_view eigenvalues = gsl_vector_complex_view_array(modes->eigenvalues, dim);
     /* If the eigenvalues are not found, every mode counts as the fastest. */
-    if (gsl_eigen_nonsymm(&matrix.matrix, modes->eigenvalues, pace->eigen) != GSL_SUCCESS)
-        gsl_vector_complex_set_all(modes->eigenvalues, gsl_complex_rect(0, modes->rho));
+    if (gsl_eigen_nonsymm(&matrix.matrix, &eigenvalues.vector, eigen) != GSL_SUCCESS)
+        gsl_vector_complex_set_all(&eigenvalues.vector, gsl_complex_rect(0, modes->rho));
+    gsl_eigen_nonsymm_free(eigen);
     return modes;
 }
 
-void linear_pace_start(struct linear_pace *pace, struct counted_system *system, double t, const double *y,
+bool linear_pace_start(struct linear_pace *pace, struct counted_system *system, double t, const double *y,
                        const int *modes)
 {
     double *dfdt = pace->work;
     pace->start = t;
     pace->now = met_in(pace, modes);
-    if (pace->now) return;
-    if (GSL_ODEIV_JA_EVAL(&system->gsl, t, y, pace->jacobian, dfdt) != GSL_SUCCESS) return;
+    if (pace->now) return true;
+    if (GSL_ODEIV_JA_EVAL(&system->gsl, t, y, pace->jacobian, dfdt) != GSL_SUCCESS) return true;
     pace->now = find_modes(pace);
     if (!pace->now) pace->now = make_modes(pace);
-    if (modes) remember(pace, modes);
+    if (modes && pace->now) remember(pace, modes);
+    return pace->now != NULL;
 }
 
 /* The largest measure of an eigenvalue among the modes that have not died out at t. */
@@ -116,7 +112,8 @@ static double fastest(const struct linear_pace *pace, double t, double (*measure
     const double died_out = 40;
     double most = 0;
     for (size_t i = 0; pace->now && i < pace->dim; i++) {
-        gsl_complex l = gsl_vector_complex_get(pace->now->eigenvalues, i);
+        const double *value = pace->now->eigenvalues + 2 * i;
+        gsl_complex l = gsl_complex_rect(value[0], value[1]);
         if (-GSL_REAL(l) * (t - pace->start) < died_out) most = fmax(most, measure(l));
     }
     return most;

@@ -10,6 +10,7 @@
 
 #include "base/block_alloc.h"
 #include "integrate/nystrom_sums.h"
+#include "integrate/system.h"
 
 struct nystrom {
     size_t n; /* pairs */
@@ -78,7 +79,7 @@ static int nystrom_set_driver(void *state, const gsl_odeiv2_driver *driver)
 /* Stage i, whose argument is ready. */
 static inline int evaluate(struct nystrom *s, int i, const gsl_odeiv2_system *sys)
 {
-    int status = GSL_ODEIV_FN_EVAL(sys, s->t + nystrom_c[i] * s->h, s->argument, s->slopes);
+    int status = counted_system_eval(sys, 2 * s->n, s->t + nystrom_c[i] * s->h, s->argument, s->slopes);
     if (status != GSL_SUCCESS) return status;
     for (size_t m = 0; m < s->n; m++) s->k[m * row + (size_t)i] = s->slopes[s->n + m];
     return GSL_SUCCESS;

@@ -12,6 +12,7 @@
 #include "integrate/dop853_table.h"
 #include "integrate/pair8_sums.h"
 #include "integrate/rk8pd_table.h"
+#include "integrate/system.h"
 
 enum { dense_terms = 8 };
 
@@ -100,7 +101,7 @@ INLINE int evaluate(struct pair8 *s, const struct tableau *tableau, size_t n, in
                     const gsl_odeiv2_system *sys)
 {
     double *argument = vector_of(s, n, v_argument);
-    return GSL_ODEIV_FN_EVAL(sys, s->t + tableau->c[i] * s->h, argument, vector_of(s, n, i));
+    return counted_system_eval(sys, n, s->t + tableau->c[i] * s->h, argument, vector_of(s, n, i));
 }
 
 /* u = y + h sum a_ij k_j, the argument of stage i of the row `row`; `rest`, if not NULL, is the rounding
@@ -149,7 +150,7 @@ INLINE int stage_13(struct pair8 *s, const struct tableau *tableau, size_t n, co
                     const gsl_odeiv2_system *sys)
 {
     set_argument(s, n, tableau->a[13], 13, y, vector_of(s, n, v_rest));
-    return GSL_ODEIV_FN_EVAL(sys, s->t + s->h, vector_of(s, n, v_argument), vector_of(s, n, v_stage_13));
+    return counted_system_eval(sys, n, s->t + s->h, vector_of(s, n, v_argument), vector_of(s, n, v_stage_13));
 }
 
 /* The error estimate of dop853 from its two parts. The test is `!= 0`, so that a NaN is passed to the

@@ -352,6 +352,11 @@ void stepper_set_linear(struct stepper *s, const double *A, double rho)
     if (s->step->type == step_linear) linear_set_matrix(s->step, A, rho);
 }
 
+const struct stepper_counts *stepper_get_counts(const struct stepper *s)
+{
+    return &s->counts;
+}
+
 double stepper_h_rate(const struct stepper *s)
 {
     return s->rate > 0 ? time_dd_since(s->t1, s->t0) * s->rate : INFINITY;
@@ -360,16 +365,6 @@ double stepper_h_rate(const struct stepper *s)
 const double *stepper_jacobian(const struct stepper *s)
 {
     return s->stepped ? rodas5p_jacobian(s->step) : NULL;
-}
-
-void stepper_note(struct stepper *s, const double *y, const double *f)
-{
-    error_norm_update(s->control, y, f);
-}
-
-const struct stepper_counts *stepper_get_counts(const struct stepper *s)
-{
-    return &s->counts;
 }
 
 bool stepper_lend(const struct stepper *s, struct stepper_state_view *view)

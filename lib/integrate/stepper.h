@@ -123,9 +123,6 @@ double stepper_h_rate(const struct stepper *stepper);
 /* The Jacobian at the start of the last step, row by row, if rodas5p evaluated it; else NULL. */
 const double *stepper_jacobian(const struct stepper *stepper);
 
-/* Update the scales of the error norm by a state that another stepper has reached. */
-void stepper_note(struct stepper *stepper, const double *y, const double *f);
-
 const struct stepper_counts *stepper_get_counts(const struct stepper *stepper);
 
 /* Copy the data that the next step depends on to `view`, for another integrator, and copy them back; the next

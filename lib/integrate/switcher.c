@@ -59,7 +59,6 @@ int switcher_reset(struct switcher *s, struct counted_system *system, struct tim
                    double *f, struct time_dd t_limit, double *h)
 {
     stiffness_forget(&s->stiffness);
-    if (s->steppers[1]) stepper_note(s->steppers[!s->now], y, f);
     return stepper_reset(s->steppers[s->now], system, t, y, f, t_limit, h);
 }
 
@@ -88,6 +87,12 @@ static double attempt(struct switcher *s, struct counted_system *system, struct 
     return stepper_attempt(s->steppers[!s->now], system, s->steppers[s->now], size);
 }
 
+/* Give the error norm of the other method the states that this one has reached. */
+static void follow(struct switcher *s)
+{
+    error_norm_follow(stepper_control(s->steppers[!s->now]), stepper_control(s->steppers[s->now]));
+}
+
 /* Let the other method attempt the step that has just been made, and switch to it if it is better. */
 static enum stepper_status consider(struct switcher *s, struct counted_system *system, struct time_dd t0,
                                     struct time_dd t, const double *y, double *f, double *h,
@@ -95,6 +100,7 @@ static enum stepper_status consider(struct switcher *s, struct counted_system *s
 {
     int other = !s->now, order = s->methods[other]->estimate_order;
     double size = stiffness_stride(&s->stiffness) * time_dd_since(t, t0);
+    follow(s);
     double ratio = attempt(s, system, t0, t_limit, size);
     if (ratio == 0 && is_confined(s)) ratio = DBL_MIN;
     if (stiffness_doubts(&s->stiffness, ratio, order))
@@ -121,6 +127,7 @@ static enum stepper_status step_explicitly(struct switcher *s, struct counted_sy
                                            struct time_dd t_limit)
 {
     double first;
+    follow(s);
     if (stepper_reset(s->steppers[0], system, *t, y, f, t_limit, &first) != GSL_SUCCESS)
         return stepper_underflow;
     enum stepper_status status = stepper_step(s->steppers[0], system, t, y, f, &first, t_limit);
@@ -139,9 +146,12 @@ enum stepper_status switcher_step(struct switcher *s, struct counted_system *sys
     if (status == stepper_underflow && s->steppers[1] && s->now == 1)
         status = step_explicitly(s, system, t, y, f, h, t_limit);
     s->made = s->now;
-    if (status != stepper_ok || !s->steppers[1]) return status;
-    stepper_note(s->steppers[!s->now], y, f);
-    if (time_dd_since(t_limit, *t) > 0 && stiffness_due(&s->stiffness, stepper_h_rate(s->steppers[s->now])))
+    if (status != stepper_ok || !s->steppers[1] || !(time_dd_since(t_limit, *t) > 0)) return status;
+    if (s->stiffness.wait > 1) { /* as stiffness_due, without the rate */
+        s->stiffness.wait--;
+        return status;
+    }
+    if (stiffness_due(&s->stiffness, stepper_h_rate(s->steppers[s->now])))
         return consider(s, system, t0, *t, y, f, h, t_limit);
     return status;
 }
@@ -181,33 +191,20 @@ int switcher_walk(struct switcher *s, struct time_dd t, double *y, double *f)
     return stepper_walk(s->steppers[s->made], t, y, f);
 }
 
-/* Do both methods have the same scales and the same last state? */
-static bool agree(const struct stepper_state_view *a, const struct stepper_state_view *b)
-{
-    bool same = true;
-    for (size_t i = 0; i < 2 * a->pairs; i++) same &= a->scale[i] == b->scale[i];
-    for (size_t i = 0; i < 3 * a->pairs; i++) same &= a->last[i] == b->last[i];
-    return same;
-}
-
-/* The other method is notified of every step, so it has the same scales and states from the second step on. */
 bool switcher_lend(const struct switcher *s, struct stepper_state_view *view)
 {
-    struct stepper_state_view other;
     if (s->now != 0 || s->made != 0 || !stepper_lend(s->steppers[0], view)) return false;
     view->steps = INFINITY;
     if (!s->steppers[1]) return true;
     view->steps = s->stiffness.wait - 1;
-    return view->steps > 0 && error_norm_view(stepper_control(s->steppers[1]), &other) && agree(view, &other);
+    return view->steps > 0;
 }
 
 void switcher_settle(struct switcher *s, const struct stepper_state_view *view)
 {
     if (view->accepted == 0) return;
     stepper_settle(s->steppers[0], view);
-    if (!s->steppers[1]) return;
-    error_norm_settle(stepper_control(s->steppers[1]), view);
-    s->stiffness.wait -= (int)view->accepted;
+    if (s->steppers[1]) s->stiffness.wait -= (int)view->accepted;
 }
 
 unsigned long switcher_rejected(const struct switcher *s, enum rejection why)
@@ -244,8 +241,7 @@ void switcher_set_linear(struct switcher *s, const double *A, double rho)
 
 void switcher_set_noise(struct switcher *s, size_t rate, double noise, double passing)
 {
-    for (int k = 0; k < 2; k++)
-        if (s->steppers[k]) error_norm_set_roundoff(stepper_control(s->steppers[k]), rate, noise, passing);
+    error_norm_set_roundoff(stepper_control(s->steppers[s->now]), rate, noise, passing);
 }
 
 bool switcher_noise_counts(const struct switcher *s, double h)
@@ -255,7 +251,6 @@ bool switcher_noise_counts(const struct switcher *s, double h)
 
 void switcher_set_floor(struct switcher *s, size_t component, double floor)
 {
-    if (!(floor > 0 && floor < INFINITY)) return;
-    for (int k = 0; k < 2; k++)
-        if (s->steppers[k]) error_norm_set_floor(stepper_control(s->steppers[k]), component, floor);
+    if (floor > 0 && floor < INFINITY)
+        error_norm_set_floor(stepper_control(s->steppers[s->now]), component, floor);
 }

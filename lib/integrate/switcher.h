@@ -52,7 +52,7 @@ unsigned long switcher_stiff_steps(const struct switcher *switcher);
 void switcher_set_linear(struct switcher *switcher, const double *A, double rho);
 
 /* See error_norm_set_floor, where a floor that is not positive and finite has no effect, and
- * error_norm_set_roundoff; for both methods. */
+ * error_norm_set_roundoff. The other method takes over both with the states, when it is tried. */
 void switcher_set_floor(struct switcher *switcher, size_t component, double floor);
 void switcher_set_noise(struct switcher *switcher, size_t rate, double noise, double passing);
 

@@ -20,6 +20,7 @@
 #include "base/number.h"
 #include "fbd_export.h"
 #include "fbd_study.h"
+#include "fbd_view.h"
 #include "live/live.h"
 
 struct controls {

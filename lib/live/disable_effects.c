@@ -10,6 +10,7 @@
 #include "base/api_check.h"
 #include "base/diag.h"
 #include "fbd_export.h"
+#include "fbd_view.h"
 #include "live/live.h"
 
 /* Replace the bytes `from` to before `to` by `with`. */

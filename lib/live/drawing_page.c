@@ -100,7 +100,7 @@ static bool make_data(struct drawing_page *page, bool exam, fbd_errors *errors)
         diag_out_of_memory(errors);
         return false;
     }
-    handout_reactions(&reactions, &page->key->model->scene->grading);
+    handout_reactions(&reactions, &page->key->grading);
     text_add(text, "{");
     json_text_member(text, "title", fbd_model_title(page->key->model));
     json_text_member(text, "student", page->student);

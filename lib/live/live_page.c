@@ -12,6 +12,7 @@
 #include "base/json.h"
 #include "draw/page.h"
 #include "fbd_export.h"
+#include "fbd_view.h"
 #include "live/live.h"
 
 /* Maximum sizes. The page without its numbers takes some 900 KB, and base 64 makes four bytes of three. */

@@ -85,13 +85,14 @@ static bool falls_at_once(struct run *run, double h)
 bool defect_is_large(struct run *run, struct time_dd end)
 {
     const double shares[] = {0.31, 0.72};
+    const struct method *method = run->options.method;
+    bool by_ends = method->multistep && method->implicit;
+    if (run->options.step > 0 || !(by_ends || run->search.wakes)) return false;
     size_t n = (size_t)run->model->plan.n, size = plan_size(&run->model->plan);
     double h = time_dd_since(end, run_start(run)), *slope = run->work.aside, *f = slope + size;
-    const struct method *method = run->options.method;
     bool meets = run->model->tree->meeting_count > 0;
-    bool by_ends = method->multistep && method->implicit && run->options.step == 0;
     if (by_ends && meets && falls_at_once(run, h)) return true;
-    bool asked = run->search.wakes && run->options.step == 0 && !structure_is_exact(run->kind);
+    bool asked = run->search.wakes && !structure_is_exact(run->kind);
     if (!asked || switcher_made_implicitly(run->stepper)) return false;
     for (size_t k = 0; k < sizeof shares / sizeof *shares; k++) {
         if (!take_slopes(run, shares[k], h, slope, f)) return false;

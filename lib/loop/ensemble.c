@@ -22,7 +22,7 @@ static void part_of_start(const struct ensemble *ensemble, const struct group *g
 }
 
 /* A run that begins at the start of the ensemble. */
-static struct run *run_from_start(const struct ensemble *ensemble, const struct group *group)
+static struct run *run_from_start(struct ensemble *ensemble, const struct group *group)
 {
     const struct plan *plan = &group->model->plan;
     double *y = calloc(plan_size(plan) + 1, sizeof *y);
@@ -32,7 +32,7 @@ static struct run *run_from_start(const struct ensemble *ensemble, const struct 
         const struct fbd_state *whole = ensemble->options.start;
         const struct state_start part = {whole->t, y, branch, whole};
         part_of_start(ensemble, group, y, branch);
-        run = run_new(group->model, &ensemble->options, &part);
+        run = run_new(group->model, &ensemble->options, &part, &ensemble->memory);
     }
     free(y);
     free(branch);
@@ -42,7 +42,7 @@ static struct run *run_from_start(const struct ensemble *ensemble, const struct 
 bool ensemble_make_run(struct ensemble *ensemble, struct group *group)
 {
     group->run = ensemble->options.start ? run_from_start(ensemble, group)
-                                         : run_new(group->model, &ensemble->options, NULL);
+                                         : run_new(group->model, &ensemble->options, NULL, &ensemble->memory);
     return group->run && group->run->end.outcome != FBD_OUT_OF_MEMORY;
 }
 
@@ -118,7 +118,7 @@ static bool make_maps(struct ensemble *ensemble)
 static bool make_groups(struct ensemble *ensemble)
 {
     ensemble->count = 1;
-    if (ensemble->options.structure) {
+    if (ensemble->options.structure && ensemble->model->body_count > 1) {
         if (!islands_make(&ensemble->division, ensemble->model)) return false;
         if (ensemble->division.count > 1) ensemble->count = ensemble->division.count;
     }
@@ -132,7 +132,7 @@ static bool make_groups(struct ensemble *ensemble)
         group->model = ensemble->model;
         if (!divided) continue;
         group->selection = &ensemble->division.selections[p];
-        group->model = group->owned = model_group(ensemble->model, group->selection);
+        group->model = group->owned = model_group(ensemble->model, group->selection, &ensemble->memory);
         if (!group->model) return false;
     }
     if (divided && !make_maps(ensemble)) return false;
@@ -146,6 +146,7 @@ struct ensemble *ensemble_new(const struct fbd_model *model, const struct run_op
     struct ensemble *ensemble = block_alloc(sizeof *ensemble);
     if (!ensemble) return NULL;
     ensemble->model = model;
+    ensemble->memory.much_room = true;
     ensemble->options = *options;
     ensemble->reason = "";
     ensemble->from = ensemble->t = options->start ? options->start->t : 0;
@@ -176,6 +177,7 @@ void ensemble_free(struct ensemble *ensemble)
     }
     state_free(ensemble->state);
     islands_free(&ensemble->division);
+    arena_free(&ensemble->memory);
     free(ensemble->groups);
     free(ensemble->maps);
     free(ensemble->arrows);

@@ -54,6 +54,7 @@ struct ensemble {
     const struct fbd_model *model;
     struct run_options options;
     struct islands division;
+    struct arena memory; /* of the islands: arrays of their runs, their models and the scenes of these */
     size_t count;
     struct group *groups;
     int *maps;     /* memory of the islands' maps */

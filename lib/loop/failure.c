@@ -15,10 +15,13 @@ void run_fail(struct run *run, fbd_outcome outcome, const char *format, ...)
 {
     if (run->end.outcome != FBD_GOING && run->end.outcome != FBD_STOPPED) return; /* keep the first reason */
     run->end.outcome = outcome;
+    char *reason = arena_take(run->memory, reason_size, 1, false);
+    run->end.reason = reason ? reason : "out of memory";
+    if (!reason) return;
     va_list args;
     va_start(args, format);
     /* NOLINTNEXTLINE(clang-analyzer-valist.Uninitialized): it is, a line above */
-    format_list(run->end.reason, sizeof run->end.reason, format, args);
+    format_list(reason, reason_size, format, args);
     va_end(args);
 }
 

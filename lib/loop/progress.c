@@ -25,18 +25,17 @@ static void check_crawl(struct run *run)
 }
 
 /* Work in evaluations times components: right-hand sides and event samples count 1, Jacobians and events 16. */
-static double work_done(const struct run *run)
+static unsigned long work_done(const struct run *run)
 {
-    const double price = 16;
-    double samples = (double)run->search.moving.samples + (double)run->search.timed.samples;
-    double evaluations = (double)run->system.rhs + samples;
-    evaluations += price * ((double)run->system.jacobians + (double)run->log.count);
-    return evaluations * (double)plan_size(&run->model->plan);
+    const unsigned long price = 16;
+    unsigned long samples = (unsigned long)(run->search.moving.samples + run->search.timed.samples);
+    unsigned long dear = run->system.jacobians + run->log.count;
+    return (run->system.rhs + samples + price * dear) * plan_size(&run->model->plan);
 }
 
 /* Work between checks: some tenths of a second to some seconds of processor time, depending on the right-hand
  * side. The cost of a check is negligible. */
-static const double window = 1e7;
+static const unsigned long window = 10000000;
 
 /* Each is a fraction of time gained in a window; its inverse is the number of windows left:
  *     - to double the elapsed time would take ten million windows;
@@ -59,7 +58,7 @@ void run_check_progress(struct run *run)
 {
     struct progress *progress = &run->progress;
     check_crawl(run);
-    const double work = work_done(run);
+    const unsigned long work = work_done(run);
     if (work - progress->work < window) return;
     const struct stepper_counts counts = switcher_counts(run->stepper);
     unsigned long rejected = 0;

@@ -39,7 +39,7 @@ static bool chooses_structure(const struct run *run)
 static bool make_stepper(struct run *run)
 {
     size_t n = (size_t)run->model->plan.n;
-    bool *angle = ARENA_ARRAY(&run->memory, n, bool);
+    bool *angle = ARENA_ARRAY(run->memory, n, bool);
     if (!angle) return false;
     for (size_t i = 0; i < n; i++) angle[i] = run->model->scene->coordinates[i].angle;
     if (chooses_structure(run)) {
@@ -84,7 +84,7 @@ static double projected_accuracy(const struct run_options *options)
 static bool make_run(struct run *run, const struct state_start *begin)
 {
     const struct plan *plan = &run->model->plan;
-    struct arena *memory = &run->memory;
+    struct arena *memory = run->memory;
     size_t size = plan_size(plan);
     run->state = begin ? state_new_from(run->model, begin) : state_new(run->model);
     run->during = state_new(run->model);
@@ -189,7 +189,7 @@ static void start(struct run *run)
 }
 
 struct run *run_new(const struct fbd_model *model, const struct run_options *options,
-                    const struct state_start *begin)
+                    const struct state_start *begin, struct arena *memory)
 {
     struct run *run = calloc(1, sizeof *run);
     if (!run) return NULL;
@@ -197,7 +197,8 @@ struct run *run_new(const struct fbd_model *model, const struct run_options *opt
     run->options = *options;
     run->recent.time = -HUGE_VAL;
     run->recent.interval[0] = run->recent.interval[1] = HUGE_VAL;
-    run->memory.much_room = true;
+    run->memory = memory;
+    run->end.reason = "";
     if (!make_run(run, begin)) {
         run_free(run);
         return NULL;
@@ -216,7 +217,6 @@ void run_free(struct run *run)
     state_free(run->during);
     rates_free(run->rates);
     free(run->log.events);
-    arena_free(&run->memory);
     free(run);
 }
 
@@ -224,12 +224,16 @@ void run_free(struct run *run)
 
 /* The matrices of a linear system depend on the modes only: branches, slips and pulls, one behind the other;
  * except in a Filippov sliding mode. */
-static void start_linear(struct run *run)
+static bool start_linear(struct run *run)
 {
     const int *modes = state_sliding(run->during) ? NULL : run->during->branch;
-    linear_pace_start(&run->pace, &run->system, run->state->t, run->work.y, modes);
+    if (!linear_pace_start(&run->pace, &run->system, run->state->t, run->work.y, modes)) {
+        run_fail(run, FBD_OUT_OF_MEMORY, "out of memory");
+        return false;
+    }
     const struct linear_modes *now = run->pace.now;
     if (now && isfinite(now->rho)) switcher_set_linear(run->stepper, now->A, now->rho);
+    return true;
 }
 
 /* Start the stepper at the present state. */
@@ -252,7 +256,7 @@ static bool restart(struct run *run)
     watchers_set_rounding(&run->watchers.moving, run->during, run->search.moving.series.rounding);
     if (run->step.first == 0) run->step.first = run->step.h;
     if (structure_is_one_step(run->kind)) run->step.h = run->options.until - run->state->t;
-    if (run->kind == structure_linear) start_linear(run);
+    if (run->kind == structure_linear && !start_linear(run)) return false;
     run->step.restart = false;
     return true;
 }
@@ -261,9 +265,12 @@ static bool restart(struct run *run)
 static struct time_dd next_time(struct run *run, bool *found)
 {
     const double stretch = 1.02; /* the stepper may lengthen a step by 1 % to end at its limit */
-    double rest = fmin(zeno_next_rest(run), run->zeno_switches.end), until = fmin(run->options.until, rest);
-    double reach = fmin(until, run->state->t + stretch * run->step.h);
-    int status = scan_interval(&run->search.timed, run->state->t, reach);
+    double until = fmin(run->options.until, run->zeno_switches.end);
+    if (run->model->tree) until = fmin(until, zeno_next_rest(run));
+    int status = 0;
+    if (run->search.timed.count > 0)
+        status = scan_interval(&run->search.timed, run->state->t,
+                               fmin(until, run->state->t + stretch * run->step.h));
     *found = status == 1;
     /* Where functions of time vary too fast for so long a step, it ends where they have been searched. */
     if (status == 2 && run->search.timed.clear > run->state->t) return time_dd_at(run->search.timed.clear);
@@ -274,7 +281,7 @@ static struct time_dd next_time(struct run *run, bool *found)
 }
 
 /* Fail at a coordinate that overflows although its rate is finite; the step is not accepted. */
-static bool is_beyond_numbers(struct run *run, double t)
+static bool fail_beyond_numbers(struct run *run, double t)
 {
     size_t n = (size_t)run->model->plan.n, size = plan_size(&run->model->plan);
     for (size_t i = 0; i < size; i++) {
@@ -299,9 +306,12 @@ static bool is_beyond_numbers(struct run *run, double t)
 static void accept(struct run *run, struct time_dd t)
 {
     size_t size = plan_size(&run->model->plan);
-    double *most = run->recent.anchor + size;
-    if (is_beyond_numbers(run, t.t)) return;
-    for (size_t i = 0; i < size; i++) most[i] = larger(most[i], fabs(run->state->y[i]));
+    double *most = run->recent.anchor + size, probe = 0; /* zero unless a coordinate is not finite */
+    for (size_t i = 0; i < size; i++) {
+        most[i] = larger(most[i], fabs(run->state->y[i]));
+        probe += 0 * run->work.y[i];
+    }
+    if (probe != 0 && fail_beyond_numbers(run, t.t)) return;
     state_set_moment(run->state, t);
     memcpy(run->state->y, run->work.y, size * sizeof *run->work.y);
     if (run->plain) return;
@@ -316,6 +326,7 @@ static void accept(struct run *run, struct time_dd t)
 static bool heed_poles(struct run *run)
 {
     const struct pole *nearest;
+    if (run->poles.count == 0) return true;
     double longest = poles_longest_step(&run->poles, run->state, &nearest);
     run->step.h = fmin(run->step.h, longest);
     bool reached = nearest && longest <= 4 * DBL_EPSILON * fabs(run->state->t);
@@ -342,12 +353,13 @@ struct turn {
     bool moving;          /* other events happen at t */
 };
 
-/* Set the start and the modes of the step; after events the stepper restarts. */
+/* Set the start and the modes of the step, which only events and couplings change; after events the stepper
+ * restarts. */
 static bool begin_step(struct run *run)
 {
     run->step.from = run->state->t;
     run->step.from_rest = run->state->rest;
-    state_copy(run->during, run->state);
+    if (run->step.restart || !run->plain) state_copy(run->during, run->state);
     if (!run->step.restart) return true;
     run_note_sign(run);
     return restart(run);

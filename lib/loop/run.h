@@ -78,15 +78,15 @@ struct stride {
 
 /* Time gained per work: see progress.c. */
 struct progress {
-    double start;   /* the time at which the run began */
-    double t, work; /* at the last check */
-    unsigned long accepted, rejected;
+    double start; /* the time at which the run began */
+    double t;     /* at the last check */
+    unsigned long work, accepted, rejected;
 };
 
 /* Status, and how the run has ended. */
 struct ending {
     fbd_outcome outcome;
-    char reason[reason_size];
+    const char *reason;  /* "" without a failure */
     const char *refusal; /* of a start: id of the reason (start.h), and position; or NULL */
     struct pos refusal_at;
 };
@@ -151,7 +151,7 @@ struct recent {
 };
 
 struct run {
-    struct arena memory; /* for data that live as long as the run */
+    struct arena *memory; /* of all runs of an ensemble: for data from the start to the end of the run */
     const struct fbd_model *model;
     struct run_options options;
     enum structure kind;      /* in use: general unless options.structure and options.automatic */
@@ -191,9 +191,10 @@ struct run {
     struct run_work work;
 };
 
-/* A run at the start of the model, with modes settled and events of t = 0 applied. NULL when memory is out. */
+/* A run at the start of the model, with modes settled and events of t = 0 applied. Its arrays are in `memory`, which must
+ * outlive it. NULL when memory is out. */
 struct run *run_new(const struct fbd_model *model, const struct run_options *options,
-                    const struct state_start *begin);
+                    const struct state_start *begin, struct arena *memory);
 void run_free(struct run *run);
 
 /* Evaluate forces and accelerations of run->state if they are stale. */

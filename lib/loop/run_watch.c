@@ -386,7 +386,7 @@ static bool mark_reads(struct run *run, bool *used, size_t size)
     const struct watcher_set *set = &run->watchers.moving;
     const struct trajectory *trajectory = &run->trajectory;
     bool *reads = run->search.reads =
-        ARENA_ARRAY(&run->memory, (set->group_count + 1) * trajectory->count, bool);
+        ARENA_ARRAY(run->memory, (set->group_count + 1) * trajectory->count, bool);
     run->search.wanted = reads ? reads + set->group_count * trajectory->count : NULL;
     for (size_t g = 0; reads && g < set->group_count; g++) {
         const struct root_group *group = &set->groups[g];
@@ -400,13 +400,14 @@ static bool mark_reads(struct run *run, bool *used, size_t size)
 
 static bool make_course(struct run *run)
 {
+    if (run->watchers.moving.count == 0) return true; /* without functions that read it */
     size_t size = extended_size(run->model);
-    bool *used = ARENA_ARRAY(&run->memory, size, bool);
+    bool *used = ARENA_ARRAY(run->memory, size, bool);
     if (!used) return false;
     watchers_mark_used(run->model, &run->watchers.moving, used);
     mark_paced(run, used);
     for (size_t i = plan_size(&run->model->plan); i < size; i++) run->search.follows_places |= used[i];
-    return trajectory_init(&run->trajectory, size, used, &run->memory) && mark_reads(run, used, size);
+    return trajectory_init(&run->trajectory, size, used, run->memory) && mark_reads(run, used, size);
 }
 
 static bool use_enclosures(struct run *run)
@@ -449,10 +450,10 @@ bool run_make_scans(struct run *run)
 {
     double tolerance = run->options.tolerance;
     bool multistep = run->options.method->multistep;
-    if (!watchers_init(&run->watchers, run->model, tolerance, multistep, &run->memory)) return false;
+    if (!watchers_init(&run->watchers, run->model, tolerance, multistep, run->memory)) return false;
     const struct watcher_set *timed = &run->watchers.timed, *moving = &run->watchers.moving;
-    if (!scan_init(&run->search.timed, timed->count, sample_timed, run, &run->memory)) return false;
-    if (!scan_init(&run->search.moving, moving->count, sample_moving, run, &run->memory)) return false;
+    if (!scan_init(&run->search.timed, timed->count, sample_timed, run, run->memory)) return false;
+    if (!scan_init(&run->search.moving, moving->count, sample_moving, run, run->memory)) return false;
     run->search.wakes = any_wakes(run);
     run->search.leads_speeds = any_turns(run);
     for (size_t i = 0; i < run->model->plan.mode_count; i++) {

@@ -15,10 +15,10 @@ bool zeno_switch_init(struct run *run)
     struct zeno_switches *zeno_switches = &run->zeno_switches;
     zeno_switches->end = HUGE_VAL;
     if (plan->slide_count == 0) return true;
-    zeno_switches->list = ARENA_ARRAY(&run->memory, (size_t)plan->branches, struct passage);
+    zeno_switches->list = ARENA_ARRAY(run->memory, (size_t)plan->branches, struct passage);
     for (int i = 0; zeno_switches->list && i < plan->branches; i++) zeno_switches->list[i].left.t = -HUGE_VAL;
-    zeno_switches->sticks = ARENA_ARRAY(&run->memory, plan->mode_count, bool);
-    return !run->memory.failed;
+    zeno_switches->sticks = ARENA_ARRAY(run->memory, plan->mode_count, bool);
+    return !run->memory->failed;
 }
 
 static bool may_end(const struct run *run, const struct kink *kink, int part)

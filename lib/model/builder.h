@@ -11,7 +11,8 @@
 struct builder {
     struct fbd_model *model;
     fbd_errors *errors;
-    struct affine_term *affine; /* n */
+    struct affine_term *affine;  /* n */
+    size_t kink_room, pole_room; /* entries for which the plan has memory */
 };
 
 /* Compile a value of the scene; registers its switches. */
@@ -54,8 +55,8 @@ void contacts_check(struct builder *builder);
 /* Give the arrows of each diagram distinct names (arrow_names.c). False when memory is out. */
 bool arrows_name(struct fbd_model *model);
 
-/* As model_compile; the caller makes the labels. */
-struct fbd_model *model_compile_group(struct scene *scene, fbd_errors *errors);
+/* As model_compile; the caller makes the labels. The arrays of the model are in `memory`. */
+struct fbd_model *model_compile_group(struct scene *scene, struct arena *memory, fbd_errors *errors);
 
 /* Fill the plan from the bodies and loads of the model. False when memory is out. */
 bool plan_build(struct builder *builder);

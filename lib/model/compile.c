@@ -2,6 +2,7 @@
 #include "model/builder.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 #include "numeric/tolerances.h"
 #include "scene/start_angle.h"
@@ -9,6 +10,34 @@
 struct formula formula_constant(double value)
 {
     return (struct formula){.constant = value};
+}
+
+/* The list with room for one more entry, a copy of twice the size where it is full; as it is when memory is out. */
+static void *make_room(struct arena *arena, void *list, size_t count, size_t *room, size_t size)
+{
+    if (count < *room) return list;
+    size_t more = *room > 0 ? 2 * *room : 1;
+    void *copy = arena_take(arena, more, size, false);
+    if (!copy) return list;
+    if (count > 0) memcpy(copy, list, count * size);
+    *room = more;
+    return copy;
+}
+
+static void add_kink(struct builder *builder, const struct kink *kink)
+{
+    struct plan *plan = &builder->model->plan;
+    plan->kinks =
+        make_room(&builder->model->arena, plan->kinks, plan->kink_count, &builder->kink_room, sizeof *kink);
+    if (plan->kink_count < builder->kink_room) plan->kinks[plan->kink_count++] = *kink;
+}
+
+static void add_pole(struct builder *builder, const struct pole *pole)
+{
+    struct plan *plan = &builder->model->plan;
+    plan->poles =
+        make_room(&builder->model->arena, plan->poles, plan->pole_count, &builder->pole_room, sizeof *pole);
+    if (plan->pole_count < builder->pole_room) plan->poles[plan->pole_count++] = *pole;
 }
 
 static struct formula make_formula(struct builder *builder, const struct value *value, int body, int load,
@@ -23,10 +52,10 @@ static struct formula make_formula(struct builder *builder, const struct value *
     if (switches > 0) {
         formula.branch = plan->branches;
         plan->branches += (int)switches;
-        plan->kinks[plan->kink_count++] = (struct kink){formula, body, load, own, switches, false, 0};
+        add_kink(builder, &(struct kink){formula, body, load, own, switches, false, 0});
     }
     if (poles > 0 && (body >= 0 || own >= 0))
-        plan->poles[plan->pole_count++] = (struct pole){formula, body, load, own, poles};
+        add_pole(builder, &(struct pole){formula, body, load, own, poles});
     return formula;
 }
 
@@ -243,8 +272,7 @@ static bool set_carried(struct builder *builder)
         body->mass = builder_formula(builder, &body->source->mass, (int)b, (int)next);
         const struct formula inverse = {.expr = body->source->inverse_mass.expr,
                                         .branch = -1}; /* unchanged */
-        model->plan.poles[model->plan.pole_count++] =
-            (struct pole){inverse, (int)b, (int)next, -1, expr_poles(inverse.expr)};
+        add_pole(builder, &(struct pole){inverse, (int)b, (int)next, -1, expr_poles(inverse.expr)});
     }
     return true;
 }
@@ -291,12 +319,8 @@ static bool allocate(struct fbd_model *model)
                              (size_t)(scene->bodies[b].mass.expr != NULL);
     model->bodies = ARENA_ARRAY(&model->arena, model->body_count, struct model_body);
     model->loads = ARENA_ARRAY(&model->arena, model->load_count, struct model_load);
-    size_t formulas = most_formulas_of_a_load * model->load_count + 2 * scene->event_count +
-                      scene->own_count + 3 * scene->body_count;
     model->plan.rates = ARENA_ARRAY(&model->arena, scene->own_count, struct formula);
     model->plan.watches = ARENA_ARRAY(&model->arena, scene->event_count, struct watch);
-    model->plan.kinks = arena_take(&model->arena, formulas, sizeof(struct kink), false);
-    model->plan.poles = arena_take(&model->arena, formulas, sizeof(struct pole), false);
     return !model->arena.failed;
 }
 
@@ -333,8 +357,9 @@ static bool set_labels(struct fbd_model *model, bool labels, const struct fbd_mo
     return model->own_labels && (model->labels || !labels);
 }
 
+/* With `memory` the arrays of the model are there, and else in an arena of its own. */
 static struct fbd_model *compile(struct scene *scene, bool labels, const struct fbd_model *like,
-                                 fbd_errors *errors)
+                                 struct arena *memory, fbd_errors *errors)
 {
     struct fbd_model *model = calloc(1, sizeof *model);
     if (!model) {
@@ -344,6 +369,7 @@ static struct fbd_model *compile(struct scene *scene, bool labels, const struct 
     }
     model->scene = scene;
     model->scene_lent = model->arena.much_room = like != NULL;
+    if (memory) model->arena = *memory;
     struct builder builder = {.model = model, .errors = errors};
     bool done = allocate(model);
     for (size_t b = 0; done && b < scene->body_count; b++)
@@ -360,8 +386,13 @@ static struct fbd_model *compile(struct scene *scene, bool labels, const struct 
         set_watches(&builder);
         if (done) done = slips_find(model);
         if (done) slides_find(model);
+        done = done && !model->arena.failed;
     }
     if (!done) diag_out_of_memory(errors);
+    if (memory) {
+        *memory = model->arena;
+        model->arena = (struct arena){0};
+    }
     if (fbd_errors_failed_count(errors) > 0) {
         model_free(model);
         return NULL;
@@ -371,17 +402,17 @@ static struct fbd_model *compile(struct scene *scene, bool labels, const struct 
 
 struct fbd_model *model_compile(struct scene *scene, fbd_errors *errors)
 {
-    return compile(scene, true, NULL, errors);
+    return compile(scene, true, NULL, NULL, errors);
 }
 
-struct fbd_model *model_compile_group(struct scene *scene, fbd_errors *errors)
+struct fbd_model *model_compile_group(struct scene *scene, struct arena *memory, fbd_errors *errors)
 {
-    return compile(scene, false, NULL, errors);
+    return compile(scene, false, NULL, memory, errors);
 }
 
 struct fbd_model *model_compile_again(struct scene *scene, const struct fbd_model *like, fbd_errors *errors)
 {
-    return compile(scene, true, like, errors);
+    return compile(scene, true, like, NULL, errors);
 }
 
 void model_free(struct fbd_model *model)

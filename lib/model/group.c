@@ -18,9 +18,23 @@ static void renumber(const struct copy *copy, const struct expr **expr)
         copy->to->arena.failed = true;
 }
 
+static bool reads_coordinates(struct load *load)
+{
+    struct value *formulas[most_formulas_of_a_load];
+    const int *slots;
+    load_formulas(load, formulas);
+    for (size_t k = 0; k < most_formulas_of_a_load; k++)
+        if (formulas[k]->expr && expr_variables(formulas[k]->expr, &slots) > 0) return true;
+    return false;
+}
+
+/* Loads without variables are those of the whole. */
 static void copy_loads(const struct copy *copy, struct body *body)
 {
-    const struct load *from = body->loads;
+    struct load *from = body->loads;
+    bool reads = false;
+    for (size_t i = 0; i < body->load_count; i++) reads |= reads_coordinates(&from[i]);
+    if (!reads) return;
     body->loads = ARENA_ARRAY(&copy->to->arena, body->load_count, struct load);
     if (!body->loads) return;
     for (size_t i = 0; i < body->load_count; i++) {
@@ -89,12 +103,12 @@ static void copy_absolute(const struct copy *copy, const struct absolute *from)
 }
 
 /* Allocate the arrays of the copy. */
-static void prepare(const struct copy *copy)
+static void prepare(const struct copy *copy, struct arena *memory)
 {
     struct scene *to = copy->to;
     const struct selection *selection = copy->selection;
     size_t coordinates = 0;
-    to->arena = (struct arena){0};
+    to->arena = *memory; /* lent until the copy is complete */
     to->body_count = to->event_count = to->coordinate_count = 0;
     to->force_coupling_count = to->constraint_count = to->absolute_count = 0;
     for (size_t i = 0; i < selection->body_count; i++)
@@ -107,7 +121,8 @@ static void prepare(const struct copy *copy)
     to->absolutes = ARENA_ARRAY(&to->arena, selection->absolute_count, struct absolute);
 }
 
-static struct scene *copy_scene(const struct scene *from, const struct selection *selection)
+static struct scene *copy_scene(const struct scene *from, const struct selection *selection,
+                                struct arena *memory)
 {
     struct scene *to = calloc(1, sizeof *to);
     if (!to) return NULL;
@@ -116,7 +131,7 @@ static struct scene *copy_scene(const struct scene *from, const struct selection
     to->table_count = 0;
     to->output_point_count = 0; /* written for the whole only */
     struct copy copy = {from, to, selection};
-    prepare(&copy);
+    prepare(&copy, memory);
     for (size_t i = 0; !to->arena.failed && i < selection->body_count; i++)
         copy_body(&copy, &from->bodies[selection->bodies[i]]);
     for (size_t i = 0; !to->arena.failed && i < selection->event_count; i++)
@@ -127,16 +142,18 @@ static struct scene *copy_scene(const struct scene *from, const struct selection
         copy_constraint(&copy, &from->constraints[selection->constraints[i]]);
     for (size_t i = 0; !to->arena.failed && i < selection->absolute_count; i++)
         copy_absolute(&copy, &from->absolutes[selection->absolutes[i]]);
-    if (!to->arena.failed) return to;
+    *memory = to->arena;
+    to->arena = (struct arena){0};
+    if (!memory->failed) return to;
     scene_free(to);
     return NULL;
 }
 
 /* Copy those of the whole, so that messages of a group name things as the file does. */
 static bool copy_labels(struct fbd_model *model, const struct fbd_model *whole,
-                        const struct selection *selection)
+                        const struct selection *selection, struct arena *memory)
 {
-    struct label *labels = ARENA_ARRAY(&model->arena, (size_t)model->plan.n, struct label);
+    struct label *labels = ARENA_ARRAY(memory, (size_t)model->plan.n, struct label);
     if (!labels) return false;
     struct label *next = labels;
     for (size_t i = 0; i < selection->body_count; i++) {
@@ -147,13 +164,14 @@ static bool copy_labels(struct fbd_model *model, const struct fbd_model *whole,
     return true;
 }
 
-struct fbd_model *model_group(const struct fbd_model *whole, const struct selection *selection)
+struct fbd_model *model_group(const struct fbd_model *whole, const struct selection *selection,
+                              struct arena *memory)
 {
     fbd_errors *errors = fbd_errors_new();
-    struct scene *scene = errors ? copy_scene(whole->scene, selection) : NULL;
-    struct fbd_model *model = scene ? model_compile_group(scene, errors) : NULL;
+    struct scene *scene = errors ? copy_scene(whole->scene, selection, memory) : NULL;
+    struct fbd_model *model = scene ? model_compile_group(scene, memory, errors) : NULL;
     fbd_errors_free(errors);
-    if (!model || copy_labels(model, whole, selection)) return model;
+    if (!model || copy_labels(model, whole, selection, memory)) return model;
     model_free(model);
     return NULL;
 }

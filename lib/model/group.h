@@ -19,7 +19,9 @@ struct selection {
 };
 
 /* The model of a group whose expressions refer to its own bodies only. It refers to `whole`, which must
- * outlive it, has no hand derivations, and is freed with model_free. NULL when memory is out. */
-struct fbd_model *model_group(const struct fbd_model *whole, const struct selection *selection);
+ * outlive it, has no hand derivations, and is freed with model_free before `memory`, which holds its arrays. NULL when memory
+ * is out. */
+struct fbd_model *model_group(const struct fbd_model *whole, const struct selection *selection,
+                              struct arena *memory);
 
 #endif

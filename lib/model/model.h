@@ -90,6 +90,7 @@ struct fbd_model {
     bool scene_lent; /* the scene is borrowed */
     char *source;    /* the file's text, owned: hand derivations are checked under changed parameters */
     size_t source_length;
+    const struct node *root; /* the tree that it was made of by fbd_model_parse_document; else NULL */
     size_t body_count;
     size_t load_count;    /* the loads that bodies list, then the couplings that are springs and dampers */
     size_t listed_count;  /* the former */

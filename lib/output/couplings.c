@@ -2,6 +2,7 @@
 #include "output/couplings.h"
 
 #include "dynamics/tree_system.h"
+#include "fbd_study.h"
 #include "output/equations.h"
 #include "output/words.h"
 

@@ -19,6 +19,7 @@
 #include "dynamics/mass.h"
 #include "dynamics/modes.h"
 #include "dynamics/tree.h"
+#include "fbd_study.h"
 #include "output/words.h"
 #include "record/result.h"
 

@@ -42,9 +42,11 @@ static enum structure structure_of_group(const struct fbd_model *model, const st
                                          size_t index)
 {
     if (division->count <= 1) return structure_as_it_lies(model);
-    struct fbd_model *group = model_group(model, &division->selections[index]);
+    struct arena memory = {0};
+    struct fbd_model *group = model_group(model, &division->selections[index], &memory);
     enum structure structure = group ? structure_as_it_lies(group) : structure_kinds;
     model_free(group);
+    arena_free(&memory);
     return structure;
 }
 

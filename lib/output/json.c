@@ -7,6 +7,7 @@
 #include "dynamics/diagram.h"
 #include "dynamics/mass.h"
 #include "fbd_export.h"
+#include "fbd_study.h"
 #include "output/couplings.h"
 #include "output/display_units.h"
 #include "output/equations.h"
@@ -35,46 +36,49 @@ static const char *outcome_name(fbd_outcome outcome)
     return "";
 }
 
-/* Write the user states. */
-static void write_own(struct text *text, const struct fbd_model *model, const double *values,
-                      const char *before)
+/* Component i of y in display units, or its error bar. */
+static void component(struct text *text, const fbd_result *result, const struct fbd_state *state,
+                      struct bars *bars, size_t i, const char *name, bool last)
 {
+    const double value = bars ? bars_component(bars, state, i) : state->y[i];
+    member(text, name, value / display_of_component(state->model, i, result->degrees).size, last);
+}
+
+/* Write the coordinates and rates of each body, then the user states; or their error bars. */
+static void write_components(struct text *text, const fbd_result *result, const struct fbd_state *state,
+                             struct bars *bars, const char *before)
+{
+    const struct fbd_model *model = state->model;
+    const size_t own = plan_own_place(&model->plan);
+    for (size_t b = 0; b < model->body_count; b++) {
+        const struct model_body *body = &model->bodies[b];
+        text_add(text, b ? ",\n    " : before);
+        text_json_key(text, body->name);
+        text_add(text, "{");
+        for (int k = 0; k < 2 * body->count; k++) {
+            const bool rate = k >= body->count;
+            const int i = k % body->count, place = (rate ? body->first_rate : body->first) + i;
+            const struct coordinate *c = &model->scene->coordinates[body->first + i];
+            component(text, result, state, bars, (size_t)place, rate ? c->rate_name : c->name,
+                      k + 1 == 2 * body->count);
+        }
+        text_add(text, "}");
+    }
     if (model->plan.own == 0) return;
-    text_add(text, before);
+    text_add(text, ",\n    ");
     text_json_key(text, "states");
     text_add(text, "{");
     for (int i = 0; i < model->plan.own; i++)
-        member(text, model->scene->own[i].name, values[i], i + 1 == model->plan.own);
+        component(text, result, state, bars, own + (size_t)i, model->scene->own[i].name,
+                  i + 1 == model->plan.own);
     text_add(text, "}");
-}
-
-/* A component of y in display units. */
-static void component(struct text *text, const fbd_result *result, const struct fbd_state *state, int i,
-                      const char *name, bool last)
-{
-    member(text, name, state->y[i] / display_of_component(state->model, (size_t)i, result->degrees).size,
-           last);
 }
 
 static void write_final(struct text *text, const fbd_result *result, const struct fbd_state *state)
 {
-    const struct fbd_model *model = state->model;
     text_add(text, "  \"final\": {");
     member(text, "t", state->t, true);
-    for (size_t b = 0; b < model->body_count; b++) {
-        const struct model_body *body = &model->bodies[b];
-        text_add(text, ",\n    ");
-        text_json_key(text, body->name);
-        text_add(text, "{");
-        for (int k = 0; k < body->count; k++)
-            component(text, result, state, body->first + k, model->scene->coordinates[body->first + k].name,
-                      false);
-        for (int k = 0; k < body->count; k++)
-            component(text, result, state, body->first_rate + k,
-                      model->scene->coordinates[body->first + k].rate_name, k + 1 == body->count);
-        text_add(text, "}");
-    }
-    write_own(text, model, state->y + plan_own_place(&model->plan), ",\n    ");
+    write_components(text, result, state, NULL, ",\n    ");
     text_add(text, "\n  },\n");
 }
 
@@ -97,44 +101,13 @@ static void write_points(struct text *text, const struct fbd_model *model, const
     text_add(text, "\n  },\n");
 }
 
-static void write_own_errors(struct text *text, struct bars *bars, const struct fbd_state *state)
-{
-    const struct plan *plan = &state->model->plan;
-    if (plan->own == 0) return;
-    text_add(text, ",\n    ");
-    text_json_key(text, "states");
-    text_add(text, "{");
-    for (int i = 0; i < plan->own; i++)
-        member(text, state->model->scene->own[i].name,
-               bars_component(bars, state, plan_own_place(plan) + (size_t)i), i + 1 == plan->own);
-    text_add(text, "}");
-}
-
 /* As `final`, without the time. */
 static void write_final_errors(struct text *text, const fbd_result *result)
 {
     const fbd_simulation *simulation = result->simulation;
-    const struct fbd_model *model = simulation->ensemble->model;
-    const struct fbd_state *state = ensemble_state(simulation->ensemble);
     if (!simulation->bars) return;
     text_add(text, "  \"final_error\": {");
-    for (size_t b = 0; b < model->body_count; b++) {
-        const struct model_body *body = &model->bodies[b];
-        text_add(text, b ? ",\n    " : "\n    ");
-        text_json_key(text, body->name);
-        text_add(text, "{");
-        for (int k = 0; k < 2 * body->count; k++) {
-            bool rate = k >= body->count;
-            int i = k % body->count, place = (rate ? body->first_rate : body->first) + i;
-            const struct coordinate *c = &model->scene->coordinates[body->first + i];
-            member(text, rate ? c->rate_name : c->name,
-                   bars_component(simulation->bars, state, (size_t)place) /
-                       display_of_component(model, (size_t)place, result->degrees).size,
-                   k + 1 == 2 * body->count);
-        }
-        text_add(text, "}");
-    }
-    write_own_errors(text, simulation->bars, state);
+    write_components(text, result, ensemble_state(simulation->ensemble), simulation->bars, "\n    ");
     text_add(text, "\n  },\n");
 }
 

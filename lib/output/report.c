@@ -8,6 +8,7 @@
 #include "dynamics/diagram.h"
 #include "dynamics/mass.h"
 #include "fbd_export.h"
+#include "fbd_study.h"
 #include "output/couplings.h"
 #include "output/display_units.h"
 #include "output/equations_write.h"

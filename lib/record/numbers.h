@@ -6,7 +6,7 @@
 #define FBD_RECORD_NUMBERS_H
 
 #include "base/text.h"
-#include "fbd.h"
+#include "fbd_export.h"
 
 struct numbers {
     struct text names; /* of the heads, each zero-terminated */

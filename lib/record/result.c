@@ -3,6 +3,7 @@
  * Result of a run, and its cost.
  */
 #include "record/result.h"
+#include "fbd_study.h"
 
 #include "integrate/switcher.h"
 #include "loop/options.h"

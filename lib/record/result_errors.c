@@ -4,6 +4,7 @@
  */
 #include <stdlib.h>
 
+#include "fbd_study.h"
 #include "record/result.h"
 
 bool simulation_match_events(fbd_simulation *simulation)

@@ -125,7 +125,7 @@ struct grading_keys {
     double digits;
     const struct node *draw, *points, *canvas;
     const struct node *reactions;
-    struct grading grading;
+    fbd_grading grading;
 };
 
 struct table_keys {

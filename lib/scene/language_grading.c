@@ -2,14 +2,14 @@
 #include "scene/language.h"
 
 static const struct field points_fields[] = {
-    FIELD_NUMBER(offsetof(struct grading, points.force), "force", a_number, not_negative,
+    FIELD_NUMBER(offsetof(fbd_grading, points.force), "force", a_number, not_negative,
                  "of each force and moment of the sheet; default 1"),
     FIELD_NUMBER(
-        offsetof(struct grading, points.inertia), "inertia", a_number, not_negative,
+        offsetof(fbd_grading, points.inertia), "inertia", a_number, not_negative,
         "of mass, centre of mass and moment of inertia of a body, where they are required; default 0"),
-    FIELD_NUMBER(offsetof(struct grading, points.derivation), "derivation", a_number, not_negative,
+    FIELD_NUMBER(offsetof(fbd_grading, points.derivation), "derivation", a_number, not_negative,
                  "of each line of `hand`; default 2"),
-    FIELD_NUMBER(offsetof(struct grading, points.superfluous), "superfluous", a_number, not_negative,
+    FIELD_NUMBER(offsetof(fbd_grading, points.superfluous), "superfluous", a_number, not_negative,
                  "deducted for each force that does not exist, and for a wrong inertia; default 1"),
 };
 
@@ -18,13 +18,13 @@ static const struct group points_group = {"`points`", NULL, FIELDS(points_fields
 
 static const struct field canvas_fields[] = {
     FIELD_VECTOR(
-        offsetof(struct grading_canvas, origin), "origin", a_number,
+        offsetof(fbd_canvas, origin), "origin", a_number,
         "where the origin of the scene lies, in units of the drawing (pixels, from the upper left corner)"),
-    FIELD_NUMBER(offsetof(struct grading_canvas, unit), "unit", a_length, required | positive,
+    FIELD_NUMBER(offsetof(fbd_canvas, unit), "unit", a_length, required | positive,
                  "the length that one unit (pixel) of the drawing stands for"),
-    FIELD_NUMBER(offsetof(struct grading_canvas, angle), "angle", an_angle, positive,
+    FIELD_NUMBER(offsetof(fbd_canvas, angle), "angle", an_angle, positive,
                  "tolerance of a drawn direction; default 5 deg"),
-    FIELD_NUMBER(offsetof(struct grading_canvas, snap), "snap", a_number, positive,
+    FIELD_NUMBER(offsetof(fbd_canvas, snap), "snap", a_number, positive,
                  "tolerance of a drawn line of action, in units of the drawing; default 10 pixels of "
                  "`pl-drawing`, and 0.2 of Meclib"),
 };

@@ -51,13 +51,13 @@ static bool read_values(struct reader *reader, const struct node *ends, const st
     return true;
 }
 
-static bool read_draw(struct reader *reader, const struct pair *pair, struct drawn_parameter *drawn)
+static bool read_draw(struct reader *reader, const struct pair *pair, fbd_drawn_parameter *drawn)
 {
     const struct node *ends = pair->value;
     const char *unit;
     const struct parameter *parameter = find_parameter(reader, pair->key);
     if (!parameter) return refuse(reader, pair->at, pair->key, "name one of the parameters of the file");
-    *drawn = (struct drawn_parameter){.name = pair->key, .at = pair->at};
+    *drawn = (fbd_drawn_parameter){.name = pair->key, .line = pair->at.line, .column = pair->at.column};
     if (ends->kind != node_list || ends->count != 2 || !read_end(ends->items[0], &drawn->low, &drawn->unit) ||
         !read_end(ends->items[1], &drawn->high, &unit))
         return refuse(reader, ends->at, pair->key, "write [low, high], as [20 deg, 40 deg]");
@@ -68,13 +68,14 @@ static bool read_draw(struct reader *reader, const struct pair *pair, struct dra
     return read_values(reader, ends, parameter);
 }
 
-static bool read_draws(struct reader *reader, const struct node *map, struct grading *grading)
+static bool read_draws(struct reader *reader, const struct node *map, fbd_grading *grading)
 {
     bool fine = true;
-    grading->draws = ARENA_ARRAY(reader->arena, map->count, struct drawn_parameter);
-    if (!grading->draws) return false;
+    fbd_drawn_parameter *draws = ARENA_ARRAY(reader->arena, map->count, fbd_drawn_parameter);
+    grading->draws = draws;
+    if (!draws) return false;
     for (size_t i = 0; i < map->count; i++)
-        if (read_draw(reader, &map->pairs[i], &grading->draws[grading->draw_count]))
+        if (read_draw(reader, &map->pairs[i], &draws[grading->draw_count]))
             grading->draw_count++;
         else
             fine = false;
@@ -82,16 +83,16 @@ static bool read_draws(struct reader *reader, const struct node *map, struct gra
 }
 
 /* `all`, `none`, or names of couplings and of their forces. */
-static bool read_reactions(struct reader *reader, const struct node *node, struct grading *grading)
+static bool read_reactions(struct reader *reader, const struct node *node, fbd_grading *grading)
 {
     bool fine = node->kind == node_list;
     grading->reactions_given = true;
     if (node->kind == node_scalar && strcmp(node->text, "all") == 0) return true;
     if (node->kind == node_scalar && strcmp(node->text, "none") == 0) {
-        grading->reactions = reactions_none;
+        grading->reactions = FBD_REACTIONS_NONE;
         return true;
     }
-    grading->reactions = reactions_named;
+    grading->reactions = FBD_REACTIONS_NAMED;
     const char **names = ARENA_ARRAY(reader->arena, node->count + 1, const char *);
     for (size_t i = 0; fine && names && i < node->count; i++) {
         fine = node->items[i]->kind == node_scalar && node->items[i]->length > 0;
@@ -119,14 +120,14 @@ bool grading_read(struct reader *reader, const struct node *node)
 {
     const struct pair *pair = node_find(reader->root, "grading");
     struct grading_keys keys;
-    struct grading *grading = &keys.grading;
+    fbd_grading *grading = &keys.grading;
     memset(&keys, 0, sizeof keys); /* also padding: scenes are compared word by word (patch.c) */
     keys.digits = 2;
     grading->given = node != NULL;
     grading->tolerance = 0.01;
     grading->partial = 0.5;
     grading->pass = 1;
-    grading->points = (struct grading_points){.force = 1, .derivation = 2, .superfluous = 1};
+    grading->points = (fbd_marks){.force = 1, .derivation = 2, .superfluous = 1};
     grading->canvas.angle = 5 * 0.017453292519943295;
     bool fine = !node || fields_read(reader, &grading_group, node, pair->at, &reader->constants, &keys);
     if (fine && keys.points)

@@ -13,6 +13,7 @@
 #ifndef FBD_SCENE_SCENE_H
 #define FBD_SCENE_SCENE_H
 
+#include "fbd_grade.h"
 #include "scene/constraint.h"
 #include "scene/law.h"
 #include "scene/loads.h"
@@ -199,46 +200,6 @@ struct simulate {
     const char *method; /* NULL without `simulate` */
 };
 
-/* A parameter with an individual value for each student: a number in [low, high] with the unit `unit`. */
-struct drawn_parameter {
-    const char *name;
-    struct pos at;
-    double low, high;
-    const char *unit;
-};
-
-struct grading_points {
-    double force, inertia, derivation, superfluous;
-};
-
-/* Position and scale of drawings of answers in the scene. */
-struct grading_canvas {
-    struct vec origin; /* origin of the scene, in units of the drawing */
-    double unit;       /* length of a unit of the drawing; 0: not given */
-    double angle;      /* tolerance of a direction [rad] */
-    double
-        snap; /* tolerance of a line of action, in units of the drawing; 0: default of the kind of drawing */
-};
-
-/* How answers are graded with this file as the key (lib/grade). */
-struct grading {
-    bool given; /* `grading` is given; else all values are defaults */
-    size_t draw_count;
-    struct drawn_parameter *draws;
-    int digits;                      /* decimal digits of drawn values */
-    double tolerance, partial, pass; /* shares */
-    struct grading_points points;
-    struct grading_canvas canvas;
-    enum {
-        reactions_all,
-        reactions_none,
-        reactions_named
-    } reactions; /* the reactions that have to be drawn */
-    size_t reaction_count;
-    const char *const *reaction_names; /* of couplings, or of their forces in a diagram */
-    bool reactions_given;
-};
-
 struct scene {
     struct arena arena;
     const char *file, *title; /* title "" when not given */
@@ -253,7 +214,7 @@ struct scene {
     struct force_coupling *force_couplings;
     struct constraint *constraints;
     struct simulate simulate;
-    struct grading grading;
+    fbd_grading grading; /* how answers are graded with this file as the key */
     size_t output_point_count;
     struct output_point *output_points;
     bool hands_left; /* derivations were skipped that name forces of the model (struct document) */

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/diag.h"
+#include "fbd_view.h"
 #include "study/stopwatch.h"
 
 fbd_options setting_options(const struct setting *setting, double until)

@@ -20,21 +20,25 @@ void *__libc_realloc(void *memory, size_t size);
 void *__libc_memalign(size_t alignment, size_t size);
 void __libc_free(void *memory);
 
-/* ---- blocks in use: a hash table by address, with linear probing */
+/* ---- blocks in use: a hash table by address, with linear probing
+ *
+ * Neighbours in memory are neighbours in the table, so that a run touches few of its pages: each run is a fork, to which
+ * every page comes anew. */
 
-enum { table_bits = 18, table_size = 1 << table_bits };
+enum { table_size = 1 << 18 };
 
 struct block {
     const void *memory, *caller;
 };
 
 static struct block table[table_size];
+static long in_use; /* how many are in it */
 static bool noting;
 static atomic_flag lock = ATOMIC_FLAG_INIT;
 
 static size_t home(const void *memory)
 {
-    return (size_t)((uintptr_t)memory / 16 * UINT64_C(0x9E3779B97F4A7C15) >> (64 - table_bits));
+    return (uintptr_t)memory / 16 % table_size;
 }
 
 static size_t next(size_t place)
@@ -50,6 +54,7 @@ static void *note(void *memory, const void *caller)
     size_t place = home(memory);
     while (table[place].memory) place = next(place);
     table[place] = (struct block){memory, caller};
+    in_use++;
     atomic_flag_clear(&lock);
     return memory;
 }
@@ -64,6 +69,7 @@ static void close_gap(size_t gap)
         gap = place;
     }
     table[gap].memory = NULL;
+    in_use--;
 }
 
 static void forget(const void *memory)
@@ -84,8 +90,11 @@ void layer_memory_begin(void)
 
 const void *layer_memory_left(long *place)
 {
-    for (; *place < table_size; ++*place)
-        if (table[*place].memory) return table[(*place)++].caller;
+    for (; in_use > 0 && *place < table_size; ++*place) {
+        if (!table[*place].memory) continue;
+        in_use--;
+        return table[(*place)++].caller;
+    }
     return NULL;
 }
 

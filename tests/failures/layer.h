@@ -47,7 +47,7 @@ bool layer_refuses(enum layer_kind kind, const char *what, const void *caller);
 /* From now on calls count; what has been allocated before is not asked back. */
 void layer_memory_begin(void);
 
-/* Who has asked for the first block from `*place` on that is left, or NULL; *place moves behind it. */
+/* At the end: who has asked for the first block from `*place` on that is left, or NULL; *place moves behind it. */
 const void *layer_memory_left(long *place);
 
 /* Standard input and output are as able to fail as any file. */

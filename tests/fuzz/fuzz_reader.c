@@ -3,7 +3,7 @@
  * The reader and the compiler: any bytes are a model, or are refused by notes that can be printed.
  */
 #include "claims.h"
-#include "fbd.h"
+#include "fbd_view.h"
 #include "fuzz.h"
 
 enum { most_seconds = 10 }; /* of the processor, for an input that is invented */

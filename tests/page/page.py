@@ -225,7 +225,7 @@ def check_joined(browser, folder):
 def check_couplings(browser, folder):
     """What is drawn of a coupling is what changes in the picture when the page forgets it."""
     unseen, loud = {}, {}
-    every = 1 if os.environ.get("FBD_ALL_PAGES") else 2
+    every = 1 if os.environ.get("FBD_ALL_PAGES") else 4
     shown = sorted((MODELS / "couplings").glob("*.yaml"))[::every]
     for model in sorted({*shown, *(MODELS / f"couplings/{name}.yaml" for name in ("atwood", "rope_pendulum"))}):
         path = folder / f"{model.stem}.html"
@@ -279,10 +279,10 @@ def check_early_end(browser, folder):
 
 
 def check_all(browser, folder):
-    """Every model has a page that plays, and a run of no length has one as well. A sixth of them in the tests: a page
-    takes half a second. All with FBD_ALL_PAGES=1, as after a change of the page."""
+    """Every model has a page that plays, and a run of no length has one as well. A twelfth of them in the tests: a
+    page takes a second. All with FBD_ALL_PAGES=1 (`make pages`), as after a change of the page."""
     gallery = [(model, []) for model in sorted(MODELS.glob("*/*.yaml")) if model.parent.name != "hard"]
-    gallery = gallery if os.environ.get("FBD_ALL_PAGES") else gallery[::6]
+    gallery = gallery if os.environ.get("FBD_ALL_PAGES") else gallery[::12]
     wrong, crowded = {}, {}
     for model, options in [*gallery, (INCLINE, ["--until", "0"]), (INCLINE, ["--until", "1e9"])]:
         path = folder / f"{model.stem}.html"
@@ -331,7 +331,7 @@ def check_many(browser, folder):
     browser.open(path)
     with claim("it plays"):
         browser.run("fbd.player.frames = 0; fbd.player.drawing = 0; fbd.setPlaying(true);")
-        wait_for(browser, "fbd.player.frames > 30")
+        wait_for(browser, f"fbd.player.frames > {30 if os.environ.get('FBD_ALL_PAGES') else 10}")
         spent = browser.run("fbd.setPlaying(false); return fbd.player.drawing / fbd.player.frames;")
         print(f"# 200 bodies: {spent:.2f} ms of drawing a frame (60 frames a second leave 16.7)")
     with claim("a choice of bodies brings their equations and plots"):

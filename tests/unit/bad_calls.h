@@ -71,6 +71,9 @@ void contents(void **context);
 /* bad_calls_view.c */
 void views(void **context);
 
+/* bad_calls_derivations.c */
+void derivations(void **context);
+
 /* bad_calls_bodies.c */
 void bodies_and_forces(void **context);
 void states_for_comparison(void **context);

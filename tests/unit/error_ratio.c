@@ -6,6 +6,8 @@
 #include <string.h>
 
 #include "api/record.h"
+#include "fbd_study.h"
+#include "fbd_view.h"
 
 enum { grid = 1000, late = grid - 1, most_arrows = 32, energies = 3 };
 

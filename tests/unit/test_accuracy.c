@@ -12,6 +12,7 @@
 
 #include "exact_motions.h"
 #include "fbd_export.h"
+#include "fbd_study.h"
 #include "gallery.h"
 #include "rows.h"
 #include "scenes.h"

@@ -10,6 +10,7 @@
 #include "fbd_export.h"
 #include "fbd_grade.h"
 #include "fbd_study.h"
+#include "fbd_view.h"
 
 const char bad_calls_scene[] = "fbd: 1\n"
                                "parameters: {k: 4 N/m}\n"
@@ -23,7 +24,7 @@ const char bad_calls_scene[] = "fbd: 1\n"
 
 /* ---- what has been called */
 
-enum { most_called = 400 };
+enum { most_called = 500 };
 static const char *called[most_called];
 static size_t called_count;
 
@@ -436,6 +437,7 @@ int main(void)
         cmocka_unit_test(methods_and_simplifications),
         cmocka_unit_test(grades),
         cmocka_unit_test(a_key_without_an_answer),
+        cmocka_unit_test(derivations),
         cmocka_unit_test(bodies_and_forces),
         cmocka_unit_test(states_for_comparison),
         cmocka_unit_test(options_have_a_size),

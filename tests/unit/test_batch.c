@@ -28,18 +28,19 @@ static const unsigned seed = 1738;
 
 struct twins {
     fbd_model *model;
+    struct arena memory; /* of both runs */
     struct run *run, *alone;
     char text[900], told[120];
     unsigned long abreast; /* steps in lanes */
 };
 
-static struct run *start(const fbd_model *model, const fbd_options *given)
+static struct run *start(const fbd_model *model, const fbd_options *given, struct arena *memory)
 {
     struct run_options options;
     fbd_errors *errors = fbd_errors_new();
     assert_true(errors && options_choose(model, given, &options, errors));
     fbd_errors_free(errors);
-    struct run *run = run_new(model, &options, NULL);
+    struct run *run = run_new(model, &options, NULL, memory);
     assert_non_null(run);
     return run;
 }
@@ -51,14 +52,15 @@ static void open_twins(struct twins *twins, const char *text, const fbd_options 
     snprintf(twins->told, sizeof twins->told, "tolerance %.17g until %.17g", options->tolerance,
              options->until);
     twins->model = model_from(text);
-    twins->run = start(twins->model, options);
-    twins->alone = start(twins->model, options);
+    twins->run = start(twins->model, options, &twins->memory);
+    twins->alone = start(twins->model, options, &twins->memory);
 }
 
 static void close_twins(struct twins *twins)
 {
     run_free(twins->run);
     run_free(twins->alone);
+    arena_free(&twins->memory);
     fbd_model_free(twins->model);
 }
 
@@ -316,12 +318,14 @@ static void check_refused(const char *what, const char *body, const fbd_options 
     snprintf(text, sizeof text,
              "fbd: 1\nbodies:\n  b:\n    mass: 1\n    center: [0, -1]\n    motion: pivot\n    %s\n", body);
     fbd_model *model = model_from(text);
-    struct run *run = start(model, options);
+    struct arena memory = {0};
+    struct run *run = start(model, options, &memory);
     while (run->end.outcome == FBD_GOING) {
         if (batch_put(batch, 0, run)) fail_msg("%s is put into a lane", what);
         run_advance(run);
     }
     run_free(run);
+    arena_free(&memory);
     fbd_model_free(model);
     batch_free(batch);
 }

@@ -9,6 +9,7 @@
 
 #include <cmocka.h>
 
+#include "fbd_view.h"
 #include "gallery.h"
 #include "random_numbers.h"
 #include "thorough.h"

@@ -11,6 +11,7 @@
 #include <cmocka.h>
 
 #include "fbd_export.h"
+#include "fbd_study.h"
 #include "gallery.h"
 
 #include <stdlib.h>

@@ -14,8 +14,8 @@
 
 #include <cmocka.h>
 
-#include "draw/labelling.h"
 #include "api/pack.h"
+#include "draw/labelling.h"
 #include "draw/shapes.h"
 #include "fbd_export.h"
 #include "random_numbers.h"

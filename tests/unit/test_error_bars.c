@@ -11,6 +11,8 @@
 #include <cmocka.h>
 
 #include "error_ratio.h"
+#include "fbd_study.h"
+#include "fbd_view.h"
 #include "gallery.h"
 #include "random_numbers.h"
 #include "rows.h"

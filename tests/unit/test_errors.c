@@ -16,6 +16,7 @@
 
 #include "fbd_export.h"
 #include "fbd_study.h"
+#include "fbd_view.h"
 #include "scenes.h"
 
 static const char right[] = "fbd: 1\n"

@@ -10,6 +10,8 @@
 
 #include <cmocka.h>
 
+#include "fbd_study.h"
+#include "fbd_view.h"
 #include "gallery.h"
 
 #include <math.h>

@@ -16,6 +16,7 @@
 #include <stdio.h>
 
 #include "assemblies.h"
+#include "fbd_study.h"
 #include "gallery.h"
 #include "random_numbers.h"
 #include "thorough.h"

@@ -13,6 +13,7 @@
 #include <complex.h>
 #undef I
 
+#include "fbd_study.h"
 #include "random_numbers.h"
 #include "run_checks.h"
 #include "thorough.h"

@@ -10,6 +10,8 @@
 
 #include <cmocka.h>
 
+#include "fbd_export.h"
+#include "fbd_study.h"
 #include "gallery.h"
 #include "rows.h"
 #include "scenes.h"

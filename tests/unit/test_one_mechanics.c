@@ -20,6 +20,7 @@
 
 #include "dynamics/modes.h"
 #include "fbd_export.h"
+#include "fbd_view.h"
 #include "random_numbers.h"
 
 static size_t compared, states_compared;

@@ -13,6 +13,7 @@
 #include <cmocka.h>
 
 #include "fbd_study.h"
+#include "fbd_view.h"
 #include "gallery.h"
 #include "random_numbers.h"
 #include "scene/patch.h"

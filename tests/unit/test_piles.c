@@ -19,6 +19,7 @@
 #include <string.h>
 #include <time.h>
 
+#include "fbd_export.h"
 #include "gallery.h"
 #include "piles.h"
 #include "random_numbers.h"

@@ -15,6 +15,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "fbd_study.h"
 #include "gallery.h"
 #include "random_numbers.h"
 #include "thorough.h"

@@ -10,6 +10,7 @@
 #include <cmocka.h>
 
 #include "fbd_study.h"
+#include "fbd_view.h"
 #include "gallery.h"
 
 static const double g = 9.81, pi = 3.14159265358979323846;

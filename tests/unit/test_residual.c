@@ -12,6 +12,7 @@
 
 #include <cmocka.h>
 
+#include "fbd_study.h"
 #include "joined_checks.h"
 #include "thorough.h"
 

@@ -17,6 +17,7 @@
 
 #include "dynamics/rates.h"
 #include "fbd_study.h"
+#include "fbd_view.h"
 #include "random_numbers.h"
 #include "run_checks.h"
 

@@ -20,6 +20,7 @@
 
 #include <stdio.h>
 
+#include "fbd_study.h"
 #include "gallery.h"
 #include "random_numbers.h"
 #include "thorough.h"
