@@ -21,15 +21,24 @@ static size_t doubles_of(const struct fbd_model *model)
     return 4 * tree->envelope_size + 9 * (size_t)tree_unknowns(tree) + 5 * (size_t)model->plan.n + borne;
 }
 
+static size_t pushes_of(const struct tree *tree)
+{
+    size_t count = 0;
+    for (int i = 0; i < tree->coupling_count; i++)
+        count += (size_t)tree->couplings[i].row_count * (size_t)tree_path_size(tree, &tree->couplings[i]);
+    return count;
+}
+
 size_t tree_work_size(const struct fbd_model *model)
 {
     const struct tree *tree = model->tree;
     size_t links = (size_t)tree->count, unknowns = (size_t)tree_unknowns(tree);
-    size_t ints = (links + 5 * unknowns + 2) / 2 * 2;
+    size_t ints = (links + 6 * unknowns + 3) / 2 * 2;
     size_t link = sizeof(struct tree_state) + 2 * sizeof(struct tree_rhs) + sizeof(struct tree_variation) +
                   sizeof(struct tree_bare);
     return links * link + (size_t)tree->row_count * sizeof(struct row) +
-           (size_t)tree->coupling_count * sizeof(struct coupling_state) + doubles_of(model) * sizeof(double) +
+           (size_t)tree->coupling_count * sizeof(struct coupling_state) +
+           pushes_of(tree) * sizeof(struct tree_push) + doubles_of(model) * sizeof(double) +
            unknowns * sizeof(size_t) + ints * sizeof(int);
 }
 
@@ -44,7 +53,8 @@ void tree_work_init(struct tree_work *work, const struct fbd_model *model, void 
     work->bare = (struct tree_bare *)(work->variation + links);
     work->rows = (struct row *)(work->bare + links);
     work->couplings = (struct coupling_state *)(work->rows + tree->row_count);
-    work->lower = (double *)(work->couplings + tree->coupling_count);
+    work->pushes = (struct tree_push *)(work->couplings + tree->coupling_count);
+    work->lower = (double *)(work->pushes + pushes_of(tree));
     work->upper = work->lower + tree->envelope_size;
     work->diagonal = work->upper + tree->envelope_size;
     work->inverse = work->diagonal + unknowns;
@@ -71,6 +81,7 @@ void tree_work_init(struct tree_work *work, const struct fbd_model *model, void 
     work->reach = work->first + unknowns;
     work->place = work->reach + unknowns;
     work->rank = work->place + unknowns;
+    work->push_end = work->rank + unknowns + 1;
     work->is_loop = tree_loop_find(model, &work->loop);
     work->damping = 1e-6;
     work->accuracy = 1e-10;

@@ -68,6 +68,14 @@ struct tree_variation {
     double held;
 };
 
+/* The force on the joint of a link by a wrench on a link behind it, as u and uf of struct tree_rhs, and the
+ * acceleration that it would have alone. */
+struct tree_push {
+    int link;
+    double u, alone;
+    struct vec uf, alone_f; /* of a free joint, else 0 */
+};
+
 struct tree_bare;
 struct row;
 struct coupling_state;
@@ -87,6 +95,8 @@ struct tree_work {
     struct tree_rhs *sum;           /* tree.count, and n: results before a correction */
     double *sum_unit;
     int *mark;                       /* count: the unknown to which the results of a tree belong */
+    struct tree_push *pushes;        /* of the active rows, in steps of a symmetric system: */
+    int *push_end;                   /* row_count + 1: after those of a place, the first at 1 */
     size_t *envelope;                /* of the active unknowns, see constraint_solve.c: */
     int *unknown_at, *first, *reach; /* as in struct tree, which has them for all unknowns */
     int *place;                      /* of an unknown, or -1 */
@@ -106,7 +116,7 @@ struct tree_work {
     struct tree_loop loop;
     bool placed;        /* the places of the unknowns are final: there are no modes */
     bool apart;         /* masses differ so much that solutions are refined by accelerations */
-    bool symmetric;     /* there is no friction in the system */
+    bool symmetric;     /* there is no friction in the system: it has been assembled by pushes */
     bool direct;        /* factored without a shift: its solution needs no corrections */
     bool shared;        /* indeterminate forces have been distributed, see rest_system.h */
     double shared_size; /* then: the largest force before that, as the scale of rounding */
@@ -193,6 +203,11 @@ void tree_factor(const struct tree *tree, struct tree_work *work);
 /* Links from `from` up to `to` (not included), which are whole trees. */
 void tree_inward(const struct tree *tree, struct tree_work *work, int from, int to);
 void tree_outward(const struct tree *tree, struct tree_work *work, int from, int to, double *a);
+
+/* Inward along the paths from `count` links, at[], to the ground: the forces on their joints by wrenches p[] on
+ * these links (minus the applied ones), from the last link to the first. Returns their number; overwrites both. */
+int tree_push(const struct tree *tree, const struct tree_work *work, int *at, struct wrench *p, int count,
+              struct tree_push *pushes);
 
 /* All sweeps at once for a tree of free pivots, tree->pivots_only (tree_pivots.c). */
 void tree_pivots(const struct fbd_model *model, const struct instant *at, const double *slots, double *a);

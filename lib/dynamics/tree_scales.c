@@ -28,6 +28,13 @@ static double mobility(const struct tree *tree, const struct tree_work *work, in
     return 0;
 }
 
+/* Has a row, as of the same pin, been evaluated with the same port? */
+static bool has_arm(const struct row *row, int port, int link, struct vec arm)
+{
+    const struct port *other = &row->ports[port];
+    return port < row->port_count && other->link == link && other->arm.x == arm.x && other->arm.y == arm.y;
+}
+
 /* The ratio of masses up to which two corrections compensate the shift. */
 static const double masses_near = 1e3;
 
@@ -52,6 +59,9 @@ void tree_set_scales(const struct tree *tree, struct tree_work *work)
             if (work->place[j] < 0) continue;
             for (int k = 0; k < row->port_count; k++) {
                 int link = row->ports[k].link;
+                if (j > first && work->place[first] >= 0 &&
+                    has_arm(&work->rows[first], k, link, row->ports[k].arm))
+                    continue;
                 scale = fmax(scale, mobility(tree, work, link, row->ports[k].arm));
                 if (link > 0) lightest = fmin(lightest, tree->links[link].mass);
             }

@@ -175,6 +175,46 @@ void tree_inward(const struct tree *tree, struct tree_work *work, int from, int 
         inward(tree, work, from, to, false);
 }
 
+/* Pass a wrench on a link to its parent; sets the force on the joint between them. */
+static inline __attribute__((always_inline)) void push_link(const struct tree *tree, int i,
+                                                            const struct tree_state *s, struct wrench *p,
+                                                            struct tree_push *push)
+{
+    const struct tree_link *link = &tree->links[i];
+    struct tree_rhs x = {.p = *p}, parent = {.p = {0, {0, 0}}};
+    inward_link(link, s, &x, &parent, tree->curved);
+    *p = parent.p;
+    push->link = i;
+    push->u = x.u;
+    push->alone = s->D * x.u;
+    push->uf = push->alone_f = (struct vec){0, 0};
+    if (joint_freedom(link->kind) == 1) return;
+    push->uf = x.uf;
+    push->alone_f = (struct vec){s->inverse[0] * x.uf.x + s->inverse[1] * x.uf.y,
+                                 s->inverse[1] * x.uf.x + s->inverse[2] * x.uf.y};
+}
+
+int tree_push(const struct tree *tree, const struct tree_work *work, int *at, struct wrench *p, int count,
+              struct tree_push *pushes)
+{
+    int made = 0;
+    for (;;) {
+        int last = 0;
+        for (int k = 1; k < count; k++)
+            if (at[k] > at[last]) last = k;
+        int i = at[last];
+        if (i <= 0) return made;
+        for (int k = 0; k < count; k++) {
+            if (k == last || at[k] != i) continue;
+            p[last] = (struct wrench){p[last].moment + p[k].moment, vec_add(p[last].force, p[k].force)};
+            at[k] = 0;
+        }
+        push_link(tree, i, &work->links[i], &p[last], &pushes[made]);
+        if (!work->links[i].locked) made++;
+        at[last] = tree->links[i].parent;
+    }
+}
+
 /* ---- accelerations outward */
 
 static void outward_free(const struct tree_link *link, const struct tree_state *s, struct tree_rhs *x,

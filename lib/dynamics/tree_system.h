@@ -10,6 +10,9 @@
 
 int tree_unknowns(const struct tree *tree);
 
+/* The largest number of forces on joints by a row of the coupling. */
+int tree_path_size(const struct tree *tree, const struct coupling *coupling);
+
 /* Set up and factor the system from the rows' ports and the factored tree. Overwrites work->x. */
 void tree_system_factor(const struct fbd_model *model, const struct instant *at);
 
