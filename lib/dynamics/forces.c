@@ -51,7 +51,8 @@ void force_slots(const struct fbd_model *model, const struct instant *at, double
     for (size_t i = 0; i < plan->potential_count; i++) {
         const struct potential_term *term = &plan->potentials[i];
         double slope;
-        expr_eval_slot(term->V.expr, at->t, at->y, 1 + term->coordinate, formula_branches(&term->V, at), &slope);
+        expr_eval_slot(term->V.expr, at->t, at->y, 1 + term->coordinate, formula_branches(&term->V, at),
+                       &slope);
         slots[term->coordinate] -= slope;
     }
 }

@@ -195,7 +195,8 @@ static bool settle(struct fbd_state *state, const struct decided *decided)
         if (plan->mode_count > 0) same = settle_slips(state, decided, &flow) && same;
         if (state->holds.found >= holds_none) return false;
         if (same && (!first || tells_at_once(state))) {
-            if (modes_hold_settling(state) || tree_joins(state->model->tree) || state_sliding(state)) state_evaluate(state);
+            if (modes_hold_settling(state) || tree_joins(state->model->tree) || state_sliding(state))
+                state_evaluate(state);
             return state->holds.found < holds_none;
         }
         first = false;

@@ -30,7 +30,8 @@ static double constant_friction(const struct fbd_state *state, int b)
     if (friction < 0) return 0;
     const struct mode *mode = &plan->modes[friction];
     double press = 1;
-    if (mode->normal_slot >= 0) press = fmax(0, -state->pull[friction] * plan->equations[mode->coordinate].across);
+    if (mode->normal_slot >= 0)
+        press = fmax(0, -state->pull[friction] * plan->equations[mode->coordinate].across);
     return state->slip[friction] * mode->mu_k.constant * press;
 }
 
@@ -198,10 +199,10 @@ struct rates_census rates_census(const struct rates *rates)
     struct rates_census census = {0};
     for (int i = 0; i < rates->count; i++) {
         rates_function *function = rates->rows[i].function;
-        int *count = function == own_row                                   ? &census.own
-                     : function == steady_row                              ? &census.steady
-                     : function == held_row                                ? &census.held
-                     : function == affine_row                              ? &census.affine
+        int *count = function == own_row                             ? &census.own
+                     : function == steady_row                        ? &census.steady
+                     : function == held_row                          ? &census.held
+                     : function == affine_row                        ? &census.affine
                      : function == sine_row || function == swing_row ? &census.sine
                      : function == part_row                          ? &census.parts
                      : function == formulas_row                      ? &census.formulas

@@ -40,7 +40,8 @@ static void take_sizes(struct question *q)
     const struct plan *plan = &state->model->plan;
     const struct instant at = state_instant(state);
     for (int i = 0; i < plan->n; i++) q->most = fmax(q->most, fabs(state->a[i]));
-    if (q->count > 0 && tree_joins(state->model->tree)) q->most = fmax(q->most, tree_coupled_acceleration(state));
+    if (q->count > 0 && tree_joins(state->model->tree))
+        q->most = fmax(q->most, tree_coupled_acceleration(state));
     if (q->count == 0 || plan->mode_count == 0) return;
     force_balance(state->model, &at, state->scratch);
     for (int pair = 0; pair < (int)plan->mode_count; pair++) {

@@ -111,7 +111,8 @@ static void add_applied(const struct fbd_model *model, const struct instant *at,
     const struct tree_link *link = &model->tree->links[i];
     const struct tree_state *s = &at->tree->links[i];
     if (link->normal_slot >= 0)
-        slots_along[link->normal_slot] -= vec_dot(tree_normal(model->tree, at->tree, i), at->tree->x[i].p.force);
+        slots_along[link->normal_slot] -=
+            vec_dot(tree_normal(model->tree, at->tree, i), at->tree->x[i].p.force);
     if (link->pair < 0) return;
     const struct mode *mode = &model->plan.modes[link->pair];
     double d = joint_share(link, s, at->tree->x[i].p);

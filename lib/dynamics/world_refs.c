@@ -112,7 +112,7 @@ struct instant instant_extend(const struct fbd_model *model, const struct instan
 
 /* The variation of a point. */
 static struct motion_of_point point_along(const struct model_body *body, const struct instant *at,
-                                            struct vec point)
+                                          struct vec point)
 {
     const struct tree_state *s = &at->tree->links[body->place.link];
     const struct tree_variation *d = &at->tree->variation[body->place.link];

@@ -150,8 +150,7 @@ static const char *one_place(struct emitter *emitter, size_t k, struct text *lin
     const char *name = emitter->body[absolute->body];
     if (absolute->kind == absolute_slip) return slip_of(emitter, absolute);
     const struct absolute *source = &emitter->model->scene->absolutes[k];
-    const char *link =
-        !body->alone ? emitter->body[emitter->model->tree->links[body->place.link].body] : "";
+    const char *link = !body->alone ? emitter->body[emitter->model->tree->links[body->place.link].body] : "";
     if (absolute->kind == absolute_angle) return angle_of(emitter, absolute, link);
     const char *point = source->point.kind == point_fixed
                             ? emit_vector(emitter, emit_join(emitter, name, "point"), absolute->point,
@@ -160,8 +159,7 @@ static const char *one_place(struct emitter *emitter, size_t k, struct text *lin
     if (body->kind == motion_pivot) point = emit_printf(emitter, "vec_sub(%s, c->%s.pin)", point, name);
     const char *pose = emit_printf(emitter, "%s_pose", name);
     if (!lines->data || !strstr(lines->data, emit_printf(emitter, "struct pose %s =", pose))) {
-        const char *call = body->alone
-                               ? emit_printf(emitter, "%s(s, y)", emit_pose(emitter, absolute->body))
+        const char *call = body->alone ? emit_printf(emitter, "%s(s, y)", emit_pose(emitter, absolute->body))
                            : body->kind == motion_weld
                                ? emit_printf(emitter, "pose_of_weld(&l.%s, &c->%s.place)", link, name)
                                : emit_printf(emitter, "pose_of_link(&l.%s)", link);

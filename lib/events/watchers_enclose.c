@@ -42,9 +42,10 @@ static struct enclosure enclose_sine(const struct enclosure *q, const struct sca
     const double s = equation->s, c = equation->c;
     struct interval sine = interval_sin(q->value), cosine = interval_cos(q->value);
     struct interval slope = interval_subtract(interval_scale(s, cosine), interval_scale(c, sine));
-    return (struct enclosure){
-        interval_add(interval_scale(s, sine), interval_scale(c, cosine)), interval_multiply(slope, q->rate),
-        interval_add(interval_scale(s, interval_sin(q->middle)), interval_scale(c, interval_cos(q->middle)))};
+    return (struct enclosure){interval_add(interval_scale(s, sine), interval_scale(c, cosine)),
+                              interval_multiply(slope, q->rate),
+                              interval_add(interval_scale(s, interval_sin(q->middle)),
+                                           interval_scale(c, interval_cos(q->middle)))};
 }
 
 static double signed_square(double v)
@@ -230,8 +231,7 @@ static struct enclosure enclose_one(const struct watchers *watchers, const struc
     case watch_contact: {
         const struct contact *contact = &model->plan.contacts[index];
         struct enclosure slack = enclosure_point(watchers_contact_slack(model, NULL, contact));
-        return enclose_centred(input,
-                               enclosure_subtract(slack, enclose_force_across(input, contact->body)));
+        return enclose_centred(input, enclosure_subtract(slack, enclose_force_across(input, contact->body)));
     }
     case watch_normal_turns: return enclose_normal_force(input, index);
     case watch_slip_stop:

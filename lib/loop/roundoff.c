@@ -139,7 +139,7 @@ static void add_gross_forces(struct run *run, int b, const struct instant *at, d
     const struct model_body *body = &run->model->bodies[b];
     int link = body->place.link;
     size_t count = (body->alone ? diagram_fill : diagram_list)(run->model, b, at, run->state->a,
-                                                            run->state->slots, run->work.arrows);
+                                                               run->state->slots, run->work.arrows);
     const struct tree *tree = run->model->tree;
     double angle = body->alone ? 0 : run->roundoff.turned[tree->count + link];
     for (size_t i = 0; i < count; i++) {
@@ -294,8 +294,7 @@ static void set_noise(struct run *run)
         for (int k = 0; k < body->count; k++) {
             int i = body->first + k;
             double of_time = DBL_EPSILON * fabs(at->t * run->roundoff.along[i]),
-                   of_sum =
-                       DBL_EPSILON * roundings[!body->alone] * gross[k] * plan->inverse_inertia[i];
+                   of_sum = DBL_EPSILON * roundings[!body->alone] * gross[k] * plan->inverse_inertia[i];
             take_noise(run, (size_t)i, of_sum, of_time + run->roundoff.formulas[i]);
         }
     }

@@ -66,7 +66,8 @@ static bool asks_forces(const struct run *run)
     if (plan->kink_count > 0 || run->poles.count > 0) return true;
     for (size_t i = 0; i < plan->mode_count; i++) {
         const struct mode *mode = &plan->modes[i];
-        if (mode->kind != mode_single || tree_joins(run->model->tree) || (mode->two_sided && mode->normal_slot >= 0))
+        if (mode->kind != mode_single || tree_joins(run->model->tree) ||
+            (mode->two_sided && mode->normal_slot >= 0))
             return true;
     }
     return false;

@@ -105,7 +105,7 @@ struct fbd_model {
     struct vec *output_points; /* scene->output_points, in the frames of their bodies */
     struct plan plan;
     struct tree *tree;
-    bool assembles;    /* some start positions follow from couplings */
+    bool assembles; /* some start positions follow from couplings */
 };
 
 /* Compile a scene; the model takes ownership of the scene, also on failure. NULL with notes in `errors`, for

@@ -14,8 +14,7 @@ static void add_potential(struct builder *builder, const struct model_body *body
     for (size_t k = 0; k < count; k++) {
         int coordinate = slots[k] - 1;
         if (coordinate >= body->first && coordinate < body->first + body->count)
-            plan->potentials[plan->potential_count++] =
-                (struct potential_term){coordinate, load->potential};
+            plan->potentials[plan->potential_count++] = (struct potential_term){coordinate, load->potential};
     }
 }
 

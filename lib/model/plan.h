@@ -50,8 +50,8 @@ struct potential_term {
 
 /* The kinds of modes. A one-sided constraint is closed (`stick`) or open (`slip_plus`). */
 enum mode_kind {
-    mode_single,  /* dry friction along the coordinate of a body that stands alone: decided independently */
-    mode_joint,   /* dry friction along the coordinate of a jointed body: decided with all modes at rest there */
+    mode_single, /* dry friction along the coordinate of a body that stands alone: decided independently */
+    mode_joint, /* dry friction along the coordinate of a jointed body: decided with all modes at rest there */
     mode_tangent, /* dry friction along the tangent of a coupling: rolling, contact, capstan */
     mode_rope,    /* one-sided: taut or slack; see coupling.h */
     mode_surface, /* one-sided: a rolling body touches its line or has left it */

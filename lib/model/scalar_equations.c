@@ -39,7 +39,8 @@ static struct vec along_and_across(const struct fbd_model *model, int link, stru
     return (struct vec){f.x, f.y * model->tree->links[link].side};
 }
 
-static void take_formula(const struct pass *pass, struct range *list, double scale, const struct formula *value)
+static void take_formula(const struct pass *pass, struct range *list, double scale,
+                         const struct formula *value)
 {
     if (scale == 0) return;
     int place = list->first + list->count++;
@@ -161,7 +162,8 @@ static void find_known(struct fbd_model *model)
         for (int end = 0; end < 2; end++)
             if (tree->springs[i].link[end] > 0) forget(model, tree->springs[i].link[end]);
     for (size_t i = 0; i < plan->potential_count; i++)
-        forget(model, model->bodies[model->scene->coordinates[plan->potentials[i].coordinate].body].place.link);
+        forget(model,
+               model->bodies[model->scene->coordinates[plan->potentials[i].coordinate].body].place.link);
 }
 
 /* Set the place of a list behind `first` others, to be filled anew; returns the number with it. */

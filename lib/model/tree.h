@@ -113,16 +113,16 @@ struct tree {
     struct tree_spring *springs;
     struct tree_drag *drags;
     struct tree_bulk *bulks;
-    bool loaded;       /* a load of the lists above acts on jointed links */
-    bool curved;       /* there are tracks */
-    bool pivots_only;  /* every joint is a pivot, and none has dry friction; */
-    bool joined_by_pivots; /* the same of the jointed links */
-    double mass_ratio; /* heaviest over lightest link */
-    int pair_count;    /* jointed links whose dry friction depends on a normal force */
-    int *pairs;        /* their numbers */
-    int watched_count; /* links whose joint has a normal force or dry friction */
-    int *watched;      /* their numbers, in order */
-    int joined_watched; /* those of them that are jointed: they come first */
+    bool loaded;                   /* a load of the lists above acts on jointed links */
+    bool curved;                   /* there are tracks */
+    bool pivots_only;              /* every joint is a pivot, and none has dry friction; */
+    bool joined_by_pivots;         /* the same of the jointed links */
+    double mass_ratio;             /* heaviest over lightest link */
+    int pair_count;                /* jointed links whose dry friction depends on a normal force */
+    int *pairs;                    /* their numbers */
+    int watched_count;             /* links whose joint has a normal force or dry friction */
+    int *watched;                  /* their numbers, in order */
+    int joined_watched;            /* those of them that are jointed: they come first */
     int coupling_count, row_count; /* see coupling.h */
     struct coupling *couplings;
     int meeting_count; /* see contact.h */

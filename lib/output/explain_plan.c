@@ -28,7 +28,8 @@ static void write_terms(struct text *text, const struct fbd_model *model)
     text_add(text, "\nRight-hand side\n");
     write_list(text, known_equations(model),
                "coordinate with an equation of its own: a sum of terms along it");
-    write_list(text, (size_t)(tree->count - tree->joined), "body that no joint or coupling connects with others");
+    write_list(text, (size_t)(tree->count - tree->joined),
+               "body that no joint or coupling connects with others");
     write_list(text, (size_t)tree->joined - 1,
                "link of jointed bodies, by the articulated-body recursion (constant forces in it)");
     write_list(text, plan->affine_count, "spring, damper or constant force in a joint");

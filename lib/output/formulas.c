@@ -42,8 +42,7 @@ bool equation_is_written(const struct fbd_model *model, int b, bool cut_free, in
 {
     const struct model_body *body = &model->bodies[b];
     const bool ground = is_on_ground(body);
-    const bool straight =
-        body->alone && (body->kind == motion_slide || body->kind == motion_particle);
+    const bool straight = body->alone && (body->kind == motion_slide || body->kind == motion_particle);
     if (!body_is_cut_free(model, b, components)) return !cut_free;
     if (cut_free && part == 2 && straight)
         return false; /* the moment that keeps it from turning is not computed */

@@ -138,8 +138,7 @@ static void take_sample(struct hand_check *check, const struct hand *hand, const
     for (int k = 0; k < hand_unknowns; k++) check->unknowns |= form[k] != 0 ? 1ULL << k : 0;
     double slope = 0, scale = 1;
     /* Several unknowns in one equation: compare the two sides. */
-    bool jointed =
-        !body->alone || (says & ((unsigned)hand_named_forces | (unsigned)hand_others)) != 0;
+    bool jointed = !body->alone || (says & ((unsigned)hand_named_forces | (unsigned)hand_others)) != 0;
     int part =
         jointed ? -1 : accelerated_part(hand, (int)plan_size(&model->plan), body->count, state->t, y, &slope);
     check->part = part;

@@ -218,8 +218,7 @@ static struct worst find_worst(const struct fbd_state *state, struct arrow *arro
 bool balance_lack(struct fbd_state *state, struct arrow *arrows, struct text *lack)
 {
     struct instant at = state_instant(state);
-    bool used =
-        !state->tree->complete || (!state->tree->shared && rest_is_open(state->model, &at));
+    bool used = !state->tree->complete || (!state->tree->shared && rest_is_open(state->model, &at));
     if (used) state_evaluate(state); /* its scratch was overwritten */
     struct worst worst = find_worst(state, arrows, (struct answer_levels){0, 0}, NULL);
     if (!worst.what) return false; /* nearly always; the levels of jointed bodies are not needed */

@@ -343,9 +343,10 @@ static void check_census(const struct expectation *want)
     assert_non_null(rates);
     struct rates_census got = rates_census(rates);
     if (memcmp(&got, &want->rows, sizeof got) != 0)
-        fail_msg("%s: %d steady, %d held, %d affine, %d sine, %d of one part, %d with formulas, %d bare, %d whole",
-                 want->name, got.steady, got.held, got.affine, got.sine, got.parts, got.formulas, got.bare,
-                 got.whole);
+        fail_msg(
+            "%s: %d steady, %d held, %d affine, %d sine, %d of one part, %d with formulas, %d bare, %d whole",
+            want->name, got.steady, got.held, got.affine, got.sine, got.parts, got.formulas, got.bare,
+            got.whole);
     rates_free(rates);
     fbd_state_free(state);
     fbd_model_free(model);
