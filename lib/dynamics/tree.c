@@ -129,11 +129,10 @@ void tree_alone_slots(const struct fbd_model *model, const struct instant *at, d
 {
     const struct tree *tree = model->tree;
     const struct tree_work *work = at->tree;
-    for (int k = 0; k < tree->watched_count; k++) {
+    for (int k = tree->joined_watched; k < tree->watched_count; k++) {
         int i = tree->watched[k];
         const struct tree_link *link = &tree->links[i];
         const struct tree_state *s = &work->links[i];
-        if (!link_is_alone(tree, i)) continue;
         if (link->normal_slot >= 0)
             slots[link->normal_slot] = -vec_dot(tree_normal(tree, work, i), work->x[i].p.force);
         if (link->pair < 0) continue;
@@ -147,11 +146,10 @@ void tree_slots(const struct fbd_model *model, const struct instant *at, double 
 {
     const struct tree *tree = model->tree;
     struct tree_work *work = at->tree;
-    for (int k = 0; k < tree->watched_count; k++) {
+    for (int k = 0; k < tree->joined_watched; k++) {
         int i = tree->watched[k];
         const struct tree_link *link = &tree->links[i];
         const struct tree_state *s = &work->links[i];
-        if (link_is_alone(tree, i)) continue;
         if (link->normal_slot >= 0)
             slots[link->normal_slot] = -vec_dot(tree_normal(tree, work, i), s->F.force);
         if (link->pair < 0) continue;
@@ -339,11 +337,13 @@ void tree_accelerations(const struct fbd_model *model, const struct instant *at,
     work->complete = work->shared = false;
     work->fastest = -1;
     if (tree->watched_count + tree->coupling_count == 0) return;
-    if (work->rates_only && tree->watched_count == 0)
-        add_accelerations(tree, work);
-    else
-        tree_complete(model, work);
     if (!work->rates_only) tree_alone_slots(model, at, slots);
+    if (tree->joined_watched + tree->coupling_count > 0) {
+        if (work->rates_only && tree->joined_watched == 0)
+            add_accelerations(tree, work);
+        else
+            tree_complete(model, work);
+    }
     if (tree->coupling_count > 0 || tree_slips(tree, at)) close_system(model, at, a);
     bool holds = false;
     for (int k = 0; k < tree->watched_count; k++) {

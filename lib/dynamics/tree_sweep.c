@@ -99,7 +99,7 @@ factor_link(const struct tree_link *link, int i, struct tree_state *s, struct tr
         factor_track(s, &rest);
     else
         factor_free(link, s, &rest);
-    inertia_add(&parent->I, &rest, s->d);
+    if (link->parent > 0) inertia_add(&parent->I, &rest, s->d);
 }
 
 /* ---- one right-hand side inward */
@@ -130,7 +130,7 @@ static inline __attribute__((always_inline)) void inward_link(const struct tree_
         x->u = x->g - rest.moment; /* planar: the moment about its centre */
         if (link->kind == motion_planar) rest.moment = x->g;
     }
-    wrench_add(&parent->p, rest, s->d);
+    if (link->parent > 0) wrench_add(&parent->p, rest, s->d);
 }
 
 static inline __attribute__((always_inline)) void factor(const struct tree *tree, struct tree_work *work,

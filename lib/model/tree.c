@@ -319,19 +319,23 @@ static struct tree_bulk *bulk_of(struct builder *builder, int b)
     return bulk;
 }
 
+static void add_gravity(struct builder *builder, int b)
+{
+    const struct model_body *body = &builder->model->bodies[b];
+    const struct vec g = builder->model->scene->gravity;
+    if (body->varies)
+        bulk_of(builder, b)->g = g;
+    else
+        add_world_force(builder, body, body->inertia.G, vec_scale(body->inertia.mass, g));
+}
+
 void tree_add_load(struct builder *builder, int index)
 {
     const struct model_load *load = &builder->model->loads[index];
     const struct model_body *body = &builder->model->bodies[load->body];
     const struct load *source = load->source;
     switch (source->kind) {
-    case load_gravity:
-        if (body->varies)
-            bulk_of(builder, load->body)->g = builder->model->scene->gravity;
-        else
-            add_world_force(builder, body, body->inertia.G,
-                            vec_scale(body->inertia.mass, builder->model->scene->gravity));
-        break;
+    case load_gravity: add_gravity(builder, load->body); break;
     case load_applied: add_applied(builder, body, load); break;
     case load_spring:
     case load_damper: add_spring(builder, body, load); break;

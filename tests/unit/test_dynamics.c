@@ -154,7 +154,11 @@ static double potential_after(fbd_state *state, const struct model_load *load, d
     }
     struct instant at = state_instant(state);
     at.y = y;
-    return potential_energy(state->model, load, &at, scratch);
+    tree_move(state->model, &at);
+    double V = potential_energy(state->model, load, &at, scratch);
+    at = state_instant(state);
+    tree_move(state->model, &at);
+    return V;
 }
 
 static void check_power(const struct named_scene *scene, fbd_state *state)

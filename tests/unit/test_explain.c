@@ -92,7 +92,8 @@ static void events_and_structure_are_those_of_the_plan(void **unused)
     expect(text, "1  friction: stopping, sticking, breaking away");
     expect(text, "1  switch in an expression");
     expect(text, "not watched: 1 normal force is constant");
-    expect(text, "diagonal");
+    expect(text, "2  coordinate with an equation of its own");
+    expect(text, "2 bodies are on the ground alone");
     expect(text, "forces change with time on 1 of 2 bodies");
     expect(text, "forces change with the place on 1 of 2 bodies");
     expect(text, "1  held by friction: nothing to compute");
