@@ -143,7 +143,8 @@ typedef struct fbd_canvas {
     double origin[2]; /* origin of the scene, in units of the drawing */
     double unit;      /* length of a unit of the drawing; 0: not given */
     double angle;     /* tolerance of a direction [rad] */
-    double snap; /* tolerance of a line of action, in units of the drawing; 0: that of the kind of drawing */
+    /* largest distance between lines of action that counts as none, in units of the drawing; 0: 10 pixels, 0.2 in Meclib */
+    double snap;
 } fbd_canvas;
 
 typedef enum fbd_required {

@@ -62,7 +62,7 @@ bool trajectory_init(struct trajectory *trajectory, size_t size, const bool *use
 
 void trajectory_start(struct trajectory *trajectory)
 {
-    memset(trajectory->scale, 0, trajectory->count * sizeof *trajectory->scale);
+    if (trajectory->count > 0) memset(trajectory->scale, 0, trajectory->count * sizeof *trajectory->scale);
     trajectory->length = HUGE_VAL;
 }
 

@@ -24,7 +24,7 @@ struct error_norm {
     double *slopes;  /* and y' in the last accepted state */
     double *before;  /* 3 pairs: q, v and a of the last accepted state, */
     double *earlier; /* and of the one before it */
-    double in_noise; /* steps up to this size have no error_norm_roundoff_counts */
+    double in_noise; /* a step size up to which error_norm_roundoff_counts is known to be false */
     double memory[];
 };
 

@@ -27,8 +27,9 @@ bool linear_pace_init(struct linear_pace *pace, size_t dim, size_t modes)
     pace->jacobian = next;
     pace->copy = pace->jacobian + dim * dim;
     pace->work = pace->copy + dim * dim;
-    int *behind = (int *)(pace->work + 3 * dim);
-    for (size_t i = 0; i < linear_most_keys; i++) pace->keys[i].modes = behind + i * modes;
+    void *behind = pace->work + 3 * dim;
+    int *numbers = behind;
+    for (size_t i = 0; i < linear_most_keys; i++) pace->keys[i].modes = numbers + i * modes;
     return true;
 }
 

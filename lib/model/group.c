@@ -103,7 +103,7 @@ static void copy_absolute(const struct copy *copy, const struct absolute *from)
 }
 
 /* Allocate the arrays of the copy. */
-static void prepare(const struct copy *copy, struct arena *memory)
+static void prepare(const struct copy *copy, const struct arena *memory)
 {
     struct scene *to = copy->to;
     const struct selection *selection = copy->selection;

@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "record/numbers.h"
-#include "fbd_export.h"
 
 #include <stdint.h>
 #include <stdlib.h>

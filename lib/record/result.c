@@ -3,8 +3,8 @@
  * Result of a run, and its cost.
  */
 #include "record/result.h"
-#include "fbd_study.h"
 
+#include "fbd_study.h"
 #include "integrate/switcher.h"
 #include "loop/options.h"
 
