@@ -39,22 +39,35 @@ void add_force(const struct model_body *body, const struct pose *pose, struct mo
     own[1] += f.y;
 }
 
-void force_slots(const struct fbd_model *model, const struct instant *at, double *slots)
+static void add_joint_forces(const struct plan *plan, const struct instant *at,
+                             const struct link_loads *loads, double *slots)
 {
-    const struct plan *plan = &model->plan;
     const double *q = at->y, *v = at->y + plan->n;
-    memset(slots, 0, (size_t)plan->slots * sizeof *slots);
-    for (size_t i = 0; i < plan->affine_count; i++) {
+    const struct range affine = loads->of[list_affine], potentials = loads->of[list_potentials];
+    for (int i = affine.first; i < range_end(affine); i++) {
         const struct affine_term *term = &plan->affine[i];
         slots[term->coordinate] += term->c0 - term->kq * q[term->coordinate] - term->kv * v[term->coordinate];
     }
-    for (size_t i = 0; i < plan->potential_count; i++) {
+    for (int i = potentials.first; i < range_end(potentials); i++) {
         const struct potential_term *term = &plan->potentials[i];
         double slope;
         expr_eval_slot(term->V.expr, at->t, at->y, 1 + term->coordinate, formula_branches(&term->V, at),
                        &slope);
         slots[term->coordinate] -= slope;
     }
+}
+
+void force_slots(const struct fbd_model *model, const struct instant *at, double *slots)
+{
+    memset(slots, 0, (size_t)model->plan.slots * sizeof *slots);
+    add_joint_forces(&model->plan, at, &model->tree->loads, slots);
+}
+
+void force_slots_alone(const struct fbd_model *model, const struct instant *at, int link, double *slots)
+{
+    const struct model_body *body = &model->bodies[model->tree->links[link].body];
+    for (int k = body->first; k < body->first + body->count; k++) slots[k] = 0;
+    add_joint_forces(&model->plan, at, tree_alone_loads(model->tree, link), slots);
 }
 
 void force_slots_along(const struct fbd_model *model, const struct instant *at, const struct direction *along,

@@ -10,7 +10,10 @@
 /* slots[plan.slots]: the forces in the joints along the n coordinates, then zeros. */
 void force_slots(const struct fbd_model *model, const struct instant *at, double *slots);
 
-/* Their variation along a direction (exact, no differences). */
+/* Those of a link that stands alone; other slots are left as they are. */
+void force_slots_alone(const struct fbd_model *model, const struct instant *at, int link, double *slots);
+
+/* The variation of all along a direction (exact, no differences). */
 void force_slots_along(const struct fbd_model *model, const struct instant *at, const struct direction *along,
                        double *variation);
 

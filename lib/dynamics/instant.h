@@ -33,6 +33,7 @@ struct instant {
     struct tree_work *tree; /* scratch and results */
     double *extended; /* scratch of world_refs.h; NULL when no expression refers to positions in the world */
     struct sliding *sliding; /* switches in a sliding mode; NULL when there are none */
+    bool moved;              /* the links have just been moved to it (world_refs.h) */
 };
 
 /* A direction of variation: (dt, dy). */

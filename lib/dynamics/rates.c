@@ -91,6 +91,12 @@ static void set_row(const struct rates *rates, int b, int coordinate, struct row
     choose(row);
 }
 
+static struct row row_of_link(const struct rates *rates, int link)
+{
+    const int first = rates->state->model->tree->links[link].coordinate;
+    return (struct row){.function = alone_row, .all = rates, .q = first, .link = link};
+}
+
 static struct row row_of_bare_tree(const struct rates *rates)
 {
     const struct fbd_model *model = rates->state->model;
@@ -125,6 +131,19 @@ static struct row row_of_loop(const struct rates *rates)
     return row;
 }
 
+/* A row for each coordinate of a link that stands alone, or one for the link. */
+static void bind_alone(struct rates *rates, int link)
+{
+    const int b = rates->state->model->tree->links[link].body;
+    const struct model_body *body = &rates->state->model->bodies[b];
+    if (!has_rows(rates->state, b)) {
+        rates->rows[rates->count++] = row_of_link(rates, link);
+        return;
+    }
+    for (int k = body->first; k < body->first + body->count; k++)
+        set_row(rates, b, k, &rates->rows[rates->count++]);
+}
+
 /* A row for each tree: false where one of them needs the recursion. */
 static bool bind_rows(struct rates *rates)
 {
@@ -140,12 +159,7 @@ static bool bind_rows(struct rates *rates)
         rates->rows[rates->count++] = row_of_bare_tree(rates);
     else if (tree_joins(tree) || model->names_places)
         return false;
-    for (int i = tree->joined; i < tree->count; i++) {
-        const int b = tree->links[i].body, first = model->bodies[b].first;
-        if (!has_rows(state, b)) return false;
-        for (int k = first; k < first + model->bodies[b].count; k++)
-            set_row(rates, b, k, &rates->rows[rates->count++]);
-    }
+    for (int i = tree->joined; i < tree->count; i++) bind_alone(rates, i);
     return true;
 }
 
@@ -206,6 +220,7 @@ struct rates_census rates_census(const struct rates *rates)
                      : function == sine_row || function == swing_row ? &census.sine
                      : function == part_row                          ? &census.parts
                      : function == formulas_row                      ? &census.formulas
+                     : function == alone_row                         ? &census.alone
                      : rates->rows[i].links                          ? &census.bare
                                                                      : &census.whole;
         (*count)++;

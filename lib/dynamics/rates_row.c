@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "base/sine.h"
-#include "dynamics/laws.h"
+#include "dynamics/friction.h"
 #include "dynamics/tree.h"
 #include "dynamics/user_states.h"
 
@@ -96,11 +96,19 @@ int part_row(double t, const double y[], double dydt[], void *params)
     return 0;
 }
 
+/* No switch is in a sliding mode where there are rows. */
+static struct instant smooth_instant(const struct fbd_state *state, double t, const double *y)
+{
+    struct instant at = state_instant_at(state, t, y);
+    at.sliding = NULL;
+    return at;
+}
+
 int formulas_row(double t, const double y[], double dydt[], void *params)
 {
     const struct row *row = params;
     const struct fbd_state *state = row->all->state;
-    struct instant at = {t, y, state->branch, state->slip, state->pull, state->tree, state->extended, NULL};
+    struct instant at = smooth_instant(state, t, y);
     double q = y[row->q], v = y[row->v], sum = affine_sum(row, q, v);
     if (row->s != 0 || row->c != 0) sum += sine_sum(row, q);
     if (row->square != 0) sum -= row->square * fabs(v) * v;
@@ -109,6 +117,26 @@ int formulas_row(double t, const double y[], double dydt[], void *params)
     if (row->friction != 0) sum -= row->friction;
     dydt[row->q] = v;
     dydt[row->v] = row->inverse * sum;
+    return 0;
+}
+
+int alone_row(double t, const double y[], double dydt[], void *params)
+{
+    const struct row *row = params;
+    const struct fbd_state *state = row->all->state;
+    const struct fbd_model *model = state->model;
+    const struct tree_link *link = &model->tree->links[row->link];
+    const struct instant at = smooth_instant(state, t, y);
+    const int n = model->plan.n, count = joint_freedom(link->kind);
+    at.tree->rates_only = true;
+    at.tree->complete = false;
+    force_slots_alone(model, &at, row->link, state->slots);
+    tree_accelerate_alone(model, &at, row->link, state->slots, dydt + n);
+    at.tree->rates_only = false;
+    for (int k = row->q; k < row->q + count; k++) dydt[k] = y[n + k];
+    double acceleration;
+    if (at.tree->links[row->link].locked)
+        dydt[row->q] = friction_surface_speed(&model->plan.modes[link->pair], &at, &acceleration);
     return 0;
 }
 
@@ -174,7 +202,7 @@ int driven_loop_row(double t, const double y[], double dydt[], void *params)
 {
     const struct row *row = params;
     const struct fbd_state *state = row->all->state;
-    struct instant at = {t, y, state->branch, state->slip, state->pull, state->tree, state->extended, NULL};
+    struct instant at = smooth_instant(state, t, y);
     double f[3];
     force_slots(state->model, &at, state->slots);
     tree_loop_forces(row->loop, &at, state->slots, f);
@@ -188,7 +216,7 @@ int own_row(double t, const double y[], double dydt[], void *params)
 {
     const struct row *row = params;
     const struct fbd_state *state = row->all->state;
-    struct instant at = {t, y, state->branch, state->slip, state->pull, state->tree, state->extended, NULL};
+    struct instant at = smooth_instant(state, t, y);
     user_state_rates(state->model, &at, dydt + row->q);
     return 0;
 }

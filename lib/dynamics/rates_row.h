@@ -13,6 +13,7 @@ struct row {
     rates_function *function;
     const struct rates *all;
     int q, v;       /* indices of the coordinate and its rate in y */
+    int link;       /* alone: its number */
     double inverse; /* 1/m, 1/I_O or 1/I_G */
     double c0, kq, kv;
     double s, c;
@@ -40,7 +41,7 @@ struct rates {
 };
 
 rates_function steady_row, held_row, no_row, affine_row, sine_row, swing_row, part_row, formulas_row,
-    whole_row, bare_row, pole_row, two_pivots_row, three_pivots_row, loop_row, driven_loop_row, own_row,
-    all_rows;
+    alone_row, whole_row, bare_row, pole_row, two_pivots_row, three_pivots_row, loop_row, driven_loop_row,
+    own_row, all_rows;
 
 #endif

@@ -112,7 +112,8 @@ static inline struct sliding *state_sliding(const struct fbd_state *state)
 static inline struct instant state_instant_at(const struct fbd_state *state, double t, const double *y)
 {
     return (struct instant){t,           y,           state->branch,   state->slip,
-                            state->pull, state->tree, state->extended, state_sliding(state)};
+                            state->pull, state->tree, state->extended, state_sliding(state),
+                            false};
 }
 
 static inline struct time_dd state_moment(const struct fbd_state *state)

@@ -67,13 +67,6 @@ void state_free(struct fbd_state *state)
     free(state);
 }
 
-/* Links that stand alone are few numbers; those of jointed bodies are left to the next evaluation. */
-static void copy_alone(const struct tree *tree, struct tree_work *to, const struct tree_work *from)
-{
-    const size_t first = (size_t)tree->joined, count = (size_t)tree->count - first;
-    if (count > 0) memcpy(to->links + first, from->links + first, count * sizeof *to->links);
-}
-
 void state_copy(struct fbd_state *to, const struct fbd_state *from)
 {
     const struct plan *plan = &from->model->plan;
@@ -84,7 +77,6 @@ void state_copy(struct fbd_state *to, const struct fbd_state *from)
     memcpy(to->y, from->y, (size_t)(from->scratch - from->y) * sizeof *to->y); /* with a and slots */
     if (modes > 0) memcpy(to->branch, from->branch, modes * sizeof *to->branch);
     if (to->sliding) sliding_copy(from->model, to->sliding, from->sliding);
-    copy_alone(from->model->tree, to->tree, from->tree);
     if (from->model->tree->coupling_count > 0)
         memcpy(to->tree->couplings, from->tree->couplings, coupling_bytes(from->model));
 }

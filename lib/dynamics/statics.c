@@ -37,8 +37,9 @@ static void transmit(const struct fbd_model *model, const struct instant *at, co
     struct tree_work *work = at->tree;
     for (int i = 0; i < tree->count; i++) work->x[i].p = (struct wrench){0, {0, 0}};
     if (loads) {
-        tree_bias(tree, at, model->plan.n); /* at rest these are the constant forces only */
-        tree_load(tree, at);
+        tree_bias(tree, at, model->plan.n, tree->count); /* at rest these are the constant forces only */
+        tree_load(tree, at, &tree->loads);
+        if (tree->bulk_count > 0) tree_weights(tree, at);
     }
     add_ports(work, tree->row_count, lambda);
     for (int i = tree->count - 1; i > 0; i--) {
@@ -113,7 +114,7 @@ void rest_forces(const struct fbd_model *model, const struct instant *given, con
     for (int i = 1; i < model->tree->count; i++)
         leave_over(&model->tree->links[i], &at.tree->links[i], slots, Q);
     tree_slots(model, &at, slots);
-    tree_alone_slots(model, &at, slots);
+    for (int i = model->tree->joined; i < model->tree->count; i++) tree_alone_slots(model, &at, i, slots);
     if (!loads) drop_preloads(model->tree, slots);
     add_slipping(model, &at, slots, loads, Q);
     if (loads) stand_still(model, &at, slots);

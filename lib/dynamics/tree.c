@@ -91,6 +91,7 @@ void tree_work_init(struct tree_work *work, const struct fbd_model *model, void 
         s->mass = tree->links[i].mass;
         s->I_O = tree->links[i].I_O;
         s->across = tree->links[i].across;
+        if (link_is_alone(tree, i)) tree_begin_alone(&tree->links[i], s);
     }
 }
 
@@ -123,23 +124,6 @@ static void set_strands(const struct fbd_model *model, const struct tree_work *w
     double tension[2];
     belt_tensions(model, work, index, tension);
     for (int k = 0; k < 2; k++) slots[model->tree->couplings[index].slack_slot[k]] = -tension[k];
-}
-
-void tree_alone_slots(const struct fbd_model *model, const struct instant *at, double *slots)
-{
-    const struct tree *tree = model->tree;
-    const struct tree_work *work = at->tree;
-    for (int k = tree->joined_watched; k < tree->watched_count; k++) {
-        int i = tree->watched[k];
-        const struct tree_link *link = &tree->links[i];
-        const struct tree_state *s = &work->links[i];
-        if (link->normal_slot >= 0)
-            slots[link->normal_slot] = -vec_dot(tree_normal(tree, work, i), work->x[i].p.force);
-        if (link->pair < 0) continue;
-        const struct mode *mode = &model->plan.modes[link->pair];
-        double inertial = s->locked ? mode->inertia * s->held : 0; /* part of the wrench of a locked joint */
-        slots[mode->hold_slot] = slots[link->coordinate] - joint_share(link, s, work->x[i].p) + inertial;
-    }
 }
 
 void tree_slots(const struct fbd_model *model, const struct instant *at, double *slots)
@@ -179,7 +163,7 @@ void tree_add_unit(const struct tree *tree, const struct tree_work *work, double
 static void lock(const struct fbd_model *model, const struct instant *at)
 {
     const struct tree *tree = model->tree;
-    for (int k = 0; k < tree->watched_count; k++) {
+    for (int k = 0; k < tree->joined_watched; k++) {
         const struct tree_link *link = &tree->links[tree->watched[k]];
         struct tree_state *s = &at->tree->links[tree->watched[k]];
         s->locked = link->pair >= 0 && at->slip[link->pair] == stick;
@@ -187,28 +171,13 @@ static void lock(const struct fbd_model *model, const struct instant *at)
     }
 }
 
-/* The force of kinetic friction along the joint of link i; a slide must stand alone, so that its normal force is
- * that of the applied forces. */
-static double kinetic_friction(const struct fbd_model *model, const struct instant *at, int i)
-{
-    const struct tree_link *link = &model->tree->links[i];
-    const int side = slip_side(at->slip[link->pair]);
-    double mu = formula_value(&model->plan.modes[link->pair].mu_k, at), press = 1;
-    if (side == 0) return 0;
-    if (model->plan.modes[link->pair].normal_slot >= 0) {
-        double N = vec_dot(tree_normal(model->tree, at->tree, i), at->tree->x[i].p.force);
-        press = fmax(0, at->pull[link->pair] * N);
-    }
-    return -side * mu * press;
-}
-
-/* Set the generalized forces in the joints, including dry friction in bearings and of links that stand alone. */
+/* Set the generalized forces in the joints, including dry friction in bearings. */
 static void set_joint_forces(const struct fbd_model *model, const struct instant *at, const double *slots)
 {
     const struct tree *tree = model->tree;
     const struct tree_state *links = at->tree->links;
     struct tree_rhs *x = at->tree->x;
-    for (int i = 1; i < tree->count; i++) {
+    for (int i = 1; i < tree->joined; i++) {
         const struct tree_link *link = &tree->links[i];
         const double *own = slots + link->coordinate;
         if (joint_freedom(link->kind) == 1) {
@@ -218,11 +187,11 @@ static void set_joint_forces(const struct fbd_model *model, const struct instant
             x[i].g = link->kind == motion_planar ? own[2] : 0;
         }
     }
-    for (int k = 0; k < tree->watched_count; k++) {
+    for (int k = 0; k < tree->joined_watched; k++) {
         const struct tree_link *link = &tree->links[tree->watched[k]];
-        bool decoupled = link->kind == motion_pivot || link_is_alone(tree, tree->watched[k]);
-        if (link->pair >= 0 && decoupled && at->slip[link->pair] != stick)
-            x[tree->watched[k]].g += kinetic_friction(model, at, tree->watched[k]);
+        if (link->pair >= 0 && link->kind == motion_pivot && at->slip[link->pair] != stick)
+            x[tree->watched[k]].g -=
+                slip_side(at->slip[link->pair]) * formula_value(&model->plan.modes[link->pair].mu_k, at);
     }
 }
 
@@ -319,34 +288,38 @@ static void close_system(const struct fbd_model *model, const struct instant *at
     constraints_evaluate(model, at, NULL); /* with the resulting accelerations */
 }
 
-void tree_accelerations(const struct fbd_model *model, const struct instant *at, double *slots, double *a)
+/* Those of jointed links. */
+static void accelerate_joined(const struct fbd_model *model, const struct instant *at, const double *slots,
+                              double *a)
 {
     const struct tree *tree = model->tree;
     struct tree_work *work = at->tree;
-    if (tree->pivots_only) {
+    if (tree->joined_by_pivots) {
         tree_pivots(model, at, slots, a);
-    } else {
-        if (tree->watched_count > 0) lock(model, at);
-        tree_move(model, at);
-        tree_bias(tree, at, model->plan.n);
-        tree_load(tree, at);
-        set_joint_forces(model, at, slots);
-        tree_factor(tree, work);
-        tree_outward(tree, work, 1, tree->count, a);
+        return;
     }
-    work->complete = work->shared = false;
-    work->fastest = -1;
-    if (tree->watched_count + tree->coupling_count == 0) return;
-    if (!work->rates_only) tree_alone_slots(model, at, slots);
-    if (tree->joined_watched + tree->coupling_count > 0) {
-        if (work->rates_only && tree->joined_watched == 0)
-            add_accelerations(tree, work);
-        else
-            tree_complete(model, work);
-    }
+    lock(model, at);
+    if (!at->moved) tree_move_joined(model, at);
+    tree_bias(tree, at, model->plan.n, tree->joined);
+    tree_load(tree, at, &tree->joined_loads);
+    if (tree->bulk_count > 0) tree_weights(tree, at);
+    set_joint_forces(model, at, slots);
+    tree_factor(tree, work, tree->joined);
+    tree_outward(tree, work, 1, tree->joined, a);
+}
+
+/* Constraints, friction that depends on forces in the joints, and joints that stick. */
+static void constrain(const struct fbd_model *model, const struct instant *at, double *slots, double *a)
+{
+    const struct tree *tree = model->tree;
+    struct tree_work *work = at->tree;
+    if (work->rates_only && tree->joined_watched == 0)
+        add_accelerations(tree, work);
+    else
+        tree_complete(model, work);
     if (tree->coupling_count > 0 || tree_slips(tree, at)) close_system(model, at, a);
     bool holds = false;
-    for (int k = 0; k < tree->watched_count; k++) {
+    for (int k = 0; k < tree->joined_watched; k++) {
         const struct tree_state *s = &work->links[tree->watched[k]];
         if (!s->locked) continue;
         a[tree->links[tree->watched[k]].coordinate] = s->held;
@@ -354,4 +327,15 @@ void tree_accelerations(const struct fbd_model *model, const struct instant *at,
     }
     if (holds) tree_rest(model, at, false, a);
     if (!work->rates_only) tree_slots(model, at, slots);
+}
+
+void tree_accelerations(const struct fbd_model *model, const struct instant *at, double *slots, double *a)
+{
+    const struct tree *tree = model->tree;
+    struct tree_work *work = at->tree;
+    if (tree_joins(tree)) accelerate_joined(model, at, slots, a);
+    for (int i = tree->joined; i < tree->count; i++) tree_accelerate_alone(model, at, i, slots, a);
+    work->complete = work->shared = false;
+    work->fastest = -1;
+    if (tree->joined_watched + tree->coupling_count > 0) constrain(model, at, slots, a);
 }

@@ -147,10 +147,8 @@ void tree_rest(const struct fbd_model *model, const struct instant *at, bool alo
 /* After tree_accelerations: set A of the links to their accelerations, and F to the wrenches of their joints. */
 void tree_complete(const struct fbd_model *model, struct tree_work *work);
 
-/* Compute the slots behind the n again from complete results; slots[n] hold the forces in the joints. Not those of
- * links that stand alone, whose slots are the sums of the applied forces, across and along the line, in each mode;
- * they result from the wrenches x.p, see below. */
-void tree_alone_slots(const struct fbd_model *model, const struct instant *at, double *slots);
+/* Compute the slots behind the n again from complete results; slots[n] hold the forces in the joints. Those of
+ * a link that stands alone are set by tree_alone_slots. */
 void tree_slots(const struct fbd_model *model, const struct instant *at, double *slots);
 
 /* The variation of tree_accelerations along a direction, at the same instant and right after it. On entry
@@ -172,6 +170,9 @@ double tree_more(const struct model_body *body, const struct instant *at);
 /* Kinematics only: positions, velocities and inertias of the links. */
 void tree_move(const struct fbd_model *model, const struct instant *at);
 
+void tree_move_joined(const struct fbd_model *model, const struct instant *at);
+void tree_move_alone(const struct fbd_model *model, const struct instant *at);
+
 /* The same for a tree of pivots and slides, given cosine and sine of the angles. */
 void tree_move_turned(const struct fbd_model *model, const struct instant *at, const struct vec *turns);
 
@@ -180,14 +181,14 @@ void tree_move_turned(const struct fbd_model *model, const struct instant *at, c
 /* The variation of positions and velocities of the links (tree_motion.c). */
 void tree_move_along(const struct fbd_model *model, const struct instant *at, const struct direction *along);
 
-/* The bias accelerations and p of the links without applied loads; their variation at fixed accelerations
- * a[n] of the joints (tree_bias.c). */
-void tree_bias(const struct tree *tree, const struct instant *at, int n);
+/* The bias accelerations and p of the links up to `to` (not included) without applied loads; the variation of all
+ * at fixed accelerations a[n] of the joints (tree_bias.c). */
+void tree_bias(const struct tree *tree, const struct instant *at, int n, int to);
 void tree_bias_along(const struct tree *tree, const struct instant *at, const struct direction *along, int n,
                      const double *a);
 
-/* Subtract the applied loads from p of the links; their variation (tree_loads.c). */
-void tree_load(const struct tree *tree, const struct instant *at);
+/* Subtract applied loads from p of their links; the variation of all (tree_loads.c). */
+void tree_load(const struct tree *tree, const struct instant *at, const struct link_loads *loads);
 void tree_load_along(const struct tree *tree, const struct instant *at, const struct direction *along);
 
 /* Variable masses (tree_mass.c): inertias of the links at this instant, the weights of such bodies, and the
@@ -196,9 +197,17 @@ void tree_weigh(const struct tree *tree, const struct instant *at);
 void tree_weights(const struct tree *tree, const struct instant *at);
 void tree_bulk_along(const struct tree *tree, const struct instant *at, const struct direction *along);
 
-/* The sweeps (tree_sweep.c). Inward with the inertias, once for an instant; then inward for any number of
- * right-hand sides in work->x. Outward: accelerations of the joints to a[n]. */
-void tree_factor(const struct tree *tree, struct tree_work *work);
+/* One link that stands alone (tree_alone.c), without sweeps: what does not change of its state; its position; its
+ * accelerations, and unless work->rates_only its slots, which are the sums of the applied forces across and along
+ * its line in each mode. */
+void tree_begin_alone(const struct tree_link *link, struct tree_state *s);
+void tree_accelerate_alone(const struct fbd_model *model, const struct instant *at, int i, double *slots,
+                           double *a);
+void tree_alone_slots(const struct fbd_model *model, const struct instant *at, int i, double *slots);
+
+/* The sweeps (tree_sweep.c), up to the link `to` (not included). Inward with the inertias, once for an instant;
+ * then inward for any number of right-hand sides in work->x. Outward: accelerations of the joints to a[n]. */
+void tree_factor(const struct tree *tree, struct tree_work *work, int to);
 
 /* Links from `from` up to `to` (not included), which are whole trees. */
 void tree_inward(const struct tree *tree, struct tree_work *work, int from, int to);
@@ -209,7 +218,7 @@ void tree_outward(const struct tree *tree, struct tree_work *work, int from, int
 int tree_push(const struct tree *tree, const struct tree_work *work, int *at, struct wrench *p, int count,
               struct tree_push *pushes);
 
-/* All sweeps at once for a tree of free pivots, tree->pivots_only (tree_pivots.c). */
+/* All sweeps at once where jointed links are free pivots, tree->joined_by_pivots (tree_pivots.c). */
 void tree_pivots(const struct fbd_model *model, const struct instant *at, const double *slots, double *a);
 
 /* Does any slide slip whose friction depends on its normal force? */
@@ -239,7 +248,10 @@ static inline struct inertia_about_O tree_last_pivot(double across, struct vec m
 }
 
 /* The outward normal of the surface of the slide of link i. */
-struct vec tree_normal(const struct tree *tree, const struct tree_work *work, int i);
+static inline struct vec tree_normal(const struct tree *tree, const struct tree_work *work, int i)
+{
+    return vec_scale(tree->links[i].side, vec_perp(work->links[i].e));
+}
 
 /* The normal force at the slide of link i for the right-hand side solved last. */
 double tree_normal_in(const struct tree *tree, const struct tree_work *work, int i);

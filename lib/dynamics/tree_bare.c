@@ -20,11 +20,8 @@ bool tree_is_in_chains(const struct tree *tree)
 bool tree_is_bare(const struct fbd_model *model)
 {
     const struct tree *tree = model->tree;
-    const struct plan *plan = &model->plan;
     if (!tree_joins(tree) || tree->loaded || tree->coupling_count + tree->joined_watched > 0) return false;
-    for (size_t i = 0; i < plan->potential_count; i++)
-        if (!model->bodies[model->scene->coordinates[plan->potentials[i].coordinate].body].alone)
-            return false;
+    if (tree->joined_loads.of[list_potentials].count > 0) return false;
     return tree_is_in_chains(tree);
 }
 

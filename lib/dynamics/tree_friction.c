@@ -21,11 +21,6 @@ double tree_slip_share(const struct fbd_model *model, const struct instant *at, 
     return side == 0 ? 0 : side * at->pull[pair] * formula_value(&model->plan.modes[pair].mu_k, at);
 }
 
-struct vec tree_normal(const struct tree *tree, const struct tree_work *work, int i)
-{
-    return vec_scale(tree->links[i].side, vec_perp(work->links[i].e));
-}
-
 double tree_normal_in(const struct tree *tree, const struct tree_work *work, int i)
 {
     struct wrench F = inertia_wrench(&work->links[i].I, work->x[i].A, work->x[i].p);

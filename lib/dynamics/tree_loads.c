@@ -80,7 +80,9 @@ static void spring_along(const struct tree_spring *spring, const struct tree_wor
 static void force(const struct tree_force *force, const struct instant *at)
 {
     const struct tree_state *s = &at->tree->links[force->link];
-    struct vec d = vec_unit(formula_value(&force->angle, at) + (force->body_frame ? force->turn : 0));
+    struct vec d = formula_is_constant(&force->angle)
+                       ? force->direction
+                       : vec_unit(formula_value(&force->angle, at) + force->turn);
     if (force->body_frame) d = vec_turn(s->turn, d);
     apply(&at->tree->x[force->link], vec_turn(s->turn, force->point),
           vec_scale(formula_value(&force->value, at), d));
@@ -93,7 +95,7 @@ static void force_along(const struct tree_force *force, const struct instant *at
     const struct tree_variation *variation = &at->tree->variation[force->link];
     double d_angle, d_value, angle = formula_along(&force->angle, at, along, &d_angle);
     double value = formula_along(&force->value, at, along, &d_value);
-    struct vec u = vec_unit(angle + (force->body_frame ? force->turn : 0));
+    struct vec u = vec_unit(angle + force->turn);
     if (force->body_frame) {
         u = vec_turn(s->turn, u);
         d_angle += variation->angle;
@@ -106,26 +108,28 @@ static void force_along(const struct tree_force *force, const struct instant *at
 
 /* ---- all loads */
 
-void tree_load(const struct tree *tree, const struct instant *at)
+void tree_load(const struct tree *tree, const struct instant *at, const struct link_loads *loads)
 {
     const struct tree_state *links = at->tree->links;
     struct tree_rhs *x = at->tree->x;
-    for (size_t i = 0; i < tree->following_count; i++) {
+    const struct range *of = loads->of;
+    if (!loads->any) return;
+    for (int i = of[list_following].first; i < range_end(of[list_following]); i++) {
         const struct tree_following *f = &tree->following[i];
         x[f->link].p.force = vec_sub(x[f->link].p.force, vec_turn(links[f->link].turn, f->force));
         x[f->link].p.moment -= f->moment;
     }
-    for (size_t i = 0; i < tree->force_count; i++) force(&tree->forces[i], at);
-    for (size_t i = 0; i < tree->moment_count; i++)
+    for (int i = of[list_forces].first; i < range_end(of[list_forces]); i++) force(&tree->forces[i], at);
+    for (int i = of[list_moments].first; i < range_end(of[list_moments]); i++)
         x[tree->moments[i].link].p.moment -= formula_value(&tree->moments[i].value, at);
-    for (size_t i = 0; i < tree->spring_count; i++) spring(&tree->springs[i], links, x);
-    for (size_t i = 0; i < tree->drag_count; i++) {
+    for (int i = of[list_springs].first; i < range_end(of[list_springs]); i++)
+        spring(&tree->springs[i], links, x);
+    for (int i = of[list_drags].first; i < range_end(of[list_drags]); i++) {
         const struct tree_drag *drag = &tree->drags[i];
         struct arm arm = arm_of(&links[drag->link], drag->point);
         struct drag_law law = {drag->linear, drag->quadratic};
         apply(&x[drag->link], arm.r, drag_force(&law, arm.at.v));
     }
-    if (tree->bulk_count > 0) tree_weights(tree, at);
 }
 
 void tree_load_along(const struct tree *tree, const struct instant *at, const struct direction *along)

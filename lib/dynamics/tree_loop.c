@@ -169,7 +169,7 @@ void tree_loop_forces(const struct tree_loop *loop, const struct instant *at, co
         const struct tree_force *force = &tree->forces[i];
         const struct tree_link *link = &tree->links[force->link];
         const struct tree_loop_link *own = loop->of[force->link];
-        double angle = formula_value(&force->angle, at) + (force->body_frame ? force->turn + link->along : 0);
+        double angle = formula_value(&force->angle, at) + force->turn + (force->body_frame ? link->along : 0);
         f[own - l] += own->unit * formula_value(&force->value, at) * vec_dot(link->e, vec_unit(angle));
     }
 }

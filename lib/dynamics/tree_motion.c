@@ -63,13 +63,13 @@ static void move_free(const struct tree_link *link, const struct tree_state *par
 }
 
 static inline __attribute__((always_inline)) void
-move_all(const struct fbd_model *model, const struct instant *at, bool curved, const struct vec *turns)
+move_links(const struct fbd_model *model, const struct instant *at, bool curved, const struct vec *turns)
 {
     const struct tree *tree = model->tree;
     int n = model->plan.n;
     struct tree_state *links = at->tree->links;
     links[0].turn = (struct vec){1, 0};
-    for (int i = 1; i < tree->count; i++) {
+    for (int i = 1; i < tree->joined; i++) {
         const struct tree_link *link = &tree->links[i];
         const struct tree_state *parent = &links[link->parent];
         struct tree_state *s = &links[i];
@@ -93,18 +93,24 @@ move_all(const struct fbd_model *model, const struct instant *at, bool curved, c
     }
 }
 
-void tree_move(const struct fbd_model *model, const struct instant *at)
+void tree_move_joined(const struct fbd_model *model, const struct instant *at)
 {
     if (model->tree->curved)
-        move_all(model, at, true, NULL);
+        move_links(model, at, true, NULL);
     else
-        move_all(model, at, false, NULL);
+        move_links(model, at, false, NULL);
     if (model->tree->bulk_count > 0) tree_weigh(model->tree, at);
+}
+
+void tree_move(const struct fbd_model *model, const struct instant *at)
+{
+    if (tree_joins(model->tree)) tree_move_joined(model, at);
+    tree_move_alone(model, at);
 }
 
 void tree_move_turned(const struct fbd_model *model, const struct instant *at, const struct vec *turns)
 {
-    move_all(model, at, false, turns);
+    move_links(model, at, false, turns);
 }
 
 /* d(R a) = dangle k x R a. */

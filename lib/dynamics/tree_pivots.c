@@ -36,7 +36,7 @@ static void sweep_courses(const struct fbd_model *model, const struct instant *a
     const struct tree *tree = model->tree;
     struct tree_work *work = at->tree;
     const double *q = at->y, *v = at->y + model->plan.n;
-    for (int i = 1; i < tree->count; i++) {
+    for (int i = 1; i < tree->joined; i++) {
         const struct tree_link *link = &tree->links[i];
         int k = link->coordinate;
         set_out(link, &work->links[link->parent], q[k], v[k], &work->links[i], &work->x[i]);
@@ -72,7 +72,7 @@ static void sweep_inward(const struct tree *tree, struct tree_work *work)
 {
     struct passed passed = {{0, {0, 0}, 0, 0, 0}, {0, {0, 0}}};
     int to = 0;
-    for (int i = tree->count - 1; i > 0; i--) {
+    for (int i = tree->joined - 1; i > 0; i--) {
         struct tree_state *s = &work->links[i];
         struct tree_rhs *x = &work->x[i];
         bool last = to != i; /* a leaf */
@@ -99,7 +99,7 @@ static void sweep_outward(const struct tree *tree, struct tree_work *work, doubl
 {
     struct tree_rhs *xs = work->x;
     struct acceleration A = {0, {0, 0}};
-    for (int i = 1; i < tree->count; i++) {
+    for (int i = 1; i < tree->joined; i++) {
         const struct tree_link *link = &tree->links[i];
         const struct tree_state *s = &work->links[i];
         if (link->parent != i - 1) A = xs[link->parent].A;
@@ -119,7 +119,7 @@ void tree_pivots(const struct fbd_model *model, const struct instant *at, const 
     work->x[0].p = (struct wrench){0, {0, 0}};
     work->x[0].A = (struct acceleration){0, {0, 0}};
     sweep_courses(model, at, slots);
-    tree_load(model->tree, at);
+    tree_load(model->tree, at, &model->tree->joined_loads);
     sweep_inward(model->tree, work);
     sweep_outward(model->tree, work, a);
 }

@@ -105,7 +105,8 @@ struct instant instant_extend(const struct fbd_model *model, const struct instan
     if (!model->names_places) return extended;
     if (at->y != at->extended) memcpy(at->extended, at->y, plan_size(&model->plan) * sizeof *at->extended);
     extended.y = at->extended;
-    tree_move(model, &extended);
+    extended.moved = model->names_poses || tree_joins(model->tree); /* the slip of a row needs poses */
+    if (extended.moved) tree_move(model, &extended);
     world_refs_write(model, &extended, at->extended);
     return extended;
 }

@@ -18,7 +18,7 @@ static inline size_t extended_size(const struct fbd_model *model)
     return plan_size(&model->plan) + (model->absolute_count > 0 ? hand_slots + model->absolute_count : 0);
 }
 
-/* The instant with its y extended, in at->extended. Moves the links. */
+/* The instant with its y extended, in at->extended. Moves the links if positions of bodies are referred to. */
 struct instant instant_extend(const struct fbd_model *model, const struct instant *at);
 
 /* The same for the right-hand side, without unneeded copies: extended into `room`, or unchanged. */

@@ -289,6 +289,7 @@ static bool set_absolutes(struct fbd_model *model)
             absolute->body, point, absolute->kind, model->bodies[absolute->body].first + absolute->part, -1,
             false};
         model->names_places |= absolute->moves;
+        model->names_poses |= absolute->moves && absolute->kind != absolute_slip;
     }
     return model->absolutes != NULL;
 }

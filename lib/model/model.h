@@ -101,7 +101,8 @@ struct fbd_model {
     const struct own_label *own_labels; /* of the user states */
     size_t absolute_count;
     struct model_absolute *absolutes;
-    bool names_places;         /* world positions are used, not only in hand derivations */
+    bool names_places;         /* world positions are used, not only in hand derivations; */
+    bool names_poses;          /* others than the speeds at which bodies slip */
     struct vec *output_points; /* scene->output_points, in the frames of their bodies */
     struct plan plan;
     struct tree *tree;

@@ -14,7 +14,8 @@ static void add_potential(struct builder *builder, const struct model_body *body
     for (size_t k = 0; k < count; k++) {
         int coordinate = slots[k] - 1;
         if (coordinate >= body->first && coordinate < body->first + body->count)
-            plan->potentials[plan->potential_count++] = (struct potential_term){coordinate, load->potential};
+            plan->potentials[plan->potential_count++] =
+                (struct potential_term){coordinate, body->place.link, load->potential};
     }
 }
 
@@ -58,16 +59,28 @@ static void add_friction(struct builder *builder, struct model_body *body, int i
     plan->modes[plan->mode_count++] = mode;
 }
 
-/* Loads are added to the tree, except those within a joint. */
-static void add_load(struct builder *builder, struct model_body *body, int index)
+/* Potentials and dry friction of a body, in the order of the file. */
+static void add_joint_loads(struct builder *builder, struct model_body *body)
 {
-    const struct model_load *load = &builder->model->loads[index];
-    switch (load->source->kind) {
-    case load_potential:
-    case moment_potential: add_potential(builder, body, load); break;
-    case load_friction:
-    case moment_friction: add_friction(builder, body, index); break;
-    default: tree_add_load(builder, index);
+    for (int i = body->first_load; i < body->first_load + body->load_count; i++) {
+        const struct model_load *load = &builder->model->loads[i];
+        switch (load->source->kind) {
+        case load_potential:
+        case moment_potential: add_potential(builder, body, load); break;
+        case load_friction:
+        case moment_friction: add_friction(builder, body, i); break;
+        default: break; /* add_other_loads */
+        }
+    }
+}
+
+/* All others, of bodies in the order of the tree. */
+static void add_other_loads(struct builder *builder, int from, int to)
+{
+    const struct fbd_model *model = builder->model;
+    for (int i = from; i < to; i++) {
+        const struct model_body *body = &model->bodies[model->tree->bodies[i]];
+        for (int k = 0; k < body->load_count; k++) tree_add_load(builder, body->first_load + k);
     }
 }
 
@@ -171,14 +184,14 @@ bool plan_build(struct builder *builder)
     if (!allocate(builder)) return false;
     plan_normals(model);
     plan_inertias(model);
-    for (size_t b = 0; b < model->body_count; b++) {
-        struct model_body *body = &model->bodies[b];
-        for (int i = 0; i < body->load_count; i++) add_load(builder, body, body->first_load + i);
-    }
+    for (size_t b = 0; b < model->body_count; b++) add_joint_loads(builder, &model->bodies[b]);
+    const int joined = model->tree->joined_count;
+    add_other_loads(builder, 0, joined);
     for (size_t i = model->listed_count; i < model->coupled_count; i++) tree_add_load(builder, (int)i);
     plan_couplings(builder);
+    couplings_check(builder); /* adds loads on jointed links, which come first */
+    add_other_loads(builder, joined, (int)model->body_count);
     pack(builder);
-    couplings_check(builder);
     contacts_check(builder);
     if (!tree_finish(model) || !scalar_equations_collect(builder)) return false;
     find_constant_slots(model);

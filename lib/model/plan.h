@@ -44,7 +44,7 @@ struct formula_term {
 
 /* Q -= dV/dq */
 struct potential_term {
-    int coordinate;
+    int coordinate, link;
     struct formula V;
 };
 
@@ -137,6 +137,12 @@ enum {
 struct range {
     int first, count;
 };
+
+/* One past its last. */
+static inline int range_end(struct range range)
+{
+    return range.first + range.count;
+}
 
 /* The equation of motion of a coordinate of a body that stands alone (tree.h), on a slide, a pivot or as a particle.
  * Where `known`, the forces along it are functions of t, q, v and other variables of formulas, and so are the forces

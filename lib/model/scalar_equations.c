@@ -57,7 +57,7 @@ static void take_force(const struct pass *pass, const struct tree_force *force)
         forget(pass->model, force->link);
         return;
     }
-    struct vec d = vec_unit(force->angle.constant + (force->body_frame ? force->turn : 0));
+    const struct vec d = force->direction;
     if (turns) {
         take_formula(pass, &equation->formulas, vec_cross(force->point, d), &force->value);
         return;
@@ -161,9 +161,7 @@ static void find_known(struct fbd_model *model)
     for (size_t i = 0; i < tree->spring_count; i++)
         for (int end = 0; end < 2; end++)
             if (tree->springs[i].link[end] > 0) forget(model, tree->springs[i].link[end]);
-    for (size_t i = 0; i < plan->potential_count; i++)
-        forget(model,
-               model->bodies[model->scene->coordinates[plan->potentials[i].coordinate].body].place.link);
+    for (size_t i = 0; i < plan->potential_count; i++) forget(model, plan->potentials[i].link);
 }
 
 /* Set the place of a list behind `first` others, to be filled anew; returns the number with it. */

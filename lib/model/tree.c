@@ -225,12 +225,15 @@ static void add_varying(struct builder *builder, const struct model_body *body, 
                         bool body_frame, const struct formula *value, struct formula angle)
 {
     struct tree *tree = builder->model->tree;
-    tree->forces[tree->force_count++] = (struct tree_force){body->place.link,
-                                                            placement_point(&body->place, load->point),
-                                                            body->place.angle,
-                                                            body_frame,
-                                                            *value,
-                                                            angle};
+    const double turn = body_frame ? body->place.angle : 0;
+    tree->forces[tree->force_count++] =
+        (struct tree_force){.link = body->place.link,
+                            .point = placement_point(&body->place, load->point),
+                            .turn = turn,
+                            .body_frame = body_frame,
+                            .value = *value,
+                            .angle = angle,
+                            .direction = vec_unit(angle.constant + turn)};
 }
 
 /* A force of given size in a constant direction. */

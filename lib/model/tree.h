@@ -68,9 +68,10 @@ struct tree_following {
 struct tree_force {
     int link;
     struct vec point;
-    double turn;     /* the angle of its body in the link, when it turns with the body */
+    double turn;     /* the angle of its body in the link when it turns with the body, else 0 */
     bool body_frame; /* it turns with the body */
     struct formula value, angle;
+    struct vec direction; /* for a constant angle: in the world, or in the link when it turns with it */
 };
 
 struct tree_moment {
@@ -102,6 +103,24 @@ struct tree_bulk {
     bool last;    /* the last of its link */
 };
 
+/* The lists of loads of a tree, and those of plan.h of the terms in joints. */
+enum load_list {
+    list_following,
+    list_forces,
+    list_moments,
+    list_springs,
+    list_drags,
+    list_affine,
+    list_potentials,
+    load_lists
+};
+
+/* Their parts that act on a link, or on several. */
+struct link_loads {
+    bool any; /* there is an entry in a list of the tree, not only in the joint */
+    struct range of[load_lists];
+};
+
 struct tree {
     int count;  /* links, the ground included; links[0] is the ground */
     int joined; /* the number of the first link that stands alone */
@@ -113,17 +132,19 @@ struct tree {
     struct tree_spring *springs;
     struct tree_drag *drags;
     struct tree_bulk *bulks;
-    bool loaded;                   /* a load of the lists above acts on jointed links */
-    bool curved;                   /* there are tracks */
-    bool pivots_only;              /* every joint is a pivot, and none has dry friction; */
-    bool joined_by_pivots;         /* the same of the jointed links */
-    double mass_ratio;             /* heaviest over lightest link */
-    int pair_count;                /* jointed links whose dry friction depends on a normal force */
-    int *pairs;                    /* their numbers */
-    int watched_count;             /* links whose joint has a normal force or dry friction */
-    int *watched;                  /* their numbers, in order */
-    int joined_watched;            /* those of them that are jointed: they come first */
-    int coupling_count, row_count; /* see coupling.h */
+    struct link_loads loads;        /* the lists above as a whole */
+    struct link_loads joined_loads; /* those that act on jointed links, which come first */
+    struct link_loads *alone_loads; /* of each link that stands alone, from `joined` on */
+    bool loaded;                    /* a load of the lists above acts on jointed links */
+    bool curved;                    /* there are tracks */
+    bool joined_by_pivots;          /* every joint of jointed links is a pivot without dry friction */
+    double mass_ratio;              /* heaviest over lightest link */
+    int pair_count;                 /* jointed links whose dry friction depends on a normal force */
+    int *pairs;                     /* their numbers */
+    int watched_count;              /* links whose joint has a normal force or dry friction */
+    int *watched;                   /* their numbers, in order */
+    int joined_watched;             /* those of them that are jointed: they come first */
+    int coupling_count, row_count;  /* see coupling.h */
     struct coupling *couplings;
     int meeting_count; /* see contact.h */
     struct meeting *meetings;
@@ -146,6 +167,12 @@ static inline bool tree_joins(const struct tree *tree)
 static inline bool link_is_alone(const struct tree *tree, int link)
 {
     return link >= tree->joined;
+}
+
+/* Of a link that stands alone. */
+static inline const struct link_loads *tree_alone_loads(const struct tree *tree, int link)
+{
+    return &tree->alone_loads[link - tree->joined];
 }
 
 struct builder;

@@ -16,15 +16,39 @@ static double mass_ratio(const struct tree *tree)
     return heaviest / lightest;
 }
 
-static bool is_loaded(const struct tree *tree)
+/* ---- which loads act on which link: those of jointed links come first, then link by link those of the others */
+
+static void take_into(struct link_loads *loads, enum load_list list, int index)
 {
-    bool loaded = tree->bulk_count > 0;
-    for (size_t i = 0; i < tree->spring_count; i++) loaded |= tree->springs[i].link[0] < tree->joined;
-    for (size_t i = 0; i < tree->following_count; i++) loaded |= tree->following[i].link < tree->joined;
-    for (size_t i = 0; i < tree->force_count; i++) loaded |= tree->forces[i].link < tree->joined;
-    for (size_t i = 0; i < tree->moment_count; i++) loaded |= tree->moments[i].link < tree->joined;
-    for (size_t i = 0; i < tree->drag_count; i++) loaded |= tree->drags[i].link < tree->joined;
-    return loaded;
+    struct range *range = &loads->of[list];
+    if (range->count++ == 0) range->first = index;
+    if (list <= list_drags) loads->any = true;
+}
+
+static void take(struct tree *tree, enum load_list list, int link, int index)
+{
+    bool alone = link_is_alone(tree, link);
+    take_into(&tree->loads, list, index);
+    take_into(alone ? &tree->alone_loads[link - tree->joined] : &tree->joined_loads, list, index);
+}
+
+static bool share_loads(struct fbd_model *model)
+{
+    struct tree *tree = model->tree;
+    const struct plan *plan = &model->plan;
+    tree->alone_loads =
+        ARENA_ARRAY(&model->arena, (size_t)(tree->count - tree->joined) + 1, struct link_loads);
+    if (!tree->alone_loads) return false;
+    for (int i = 0; i < (int)tree->following_count; i++)
+        take(tree, list_following, tree->following[i].link, i);
+    for (int i = 0; i < (int)tree->force_count; i++) take(tree, list_forces, tree->forces[i].link, i);
+    for (int i = 0; i < (int)tree->moment_count; i++) take(tree, list_moments, tree->moments[i].link, i);
+    for (int i = 0; i < (int)tree->spring_count; i++) take(tree, list_springs, tree->springs[i].link[0], i);
+    for (int i = 0; i < (int)tree->drag_count; i++) take(tree, list_drags, tree->drags[i].link, i);
+    for (int i = 0; i < (int)plan->affine_count; i++) take(tree, list_affine, plan->affine[i].link, i);
+    for (int i = 0; i < (int)plan->potential_count; i++)
+        take(tree, list_potentials, plan->potentials[i].link, i);
+    return true;
 }
 
 bool tree_finish(struct fbd_model *model)
@@ -45,13 +69,12 @@ bool tree_finish(struct fbd_model *model)
         tree->watched[tree->watched_count++] = i;
         tree->joined_watched += i < tree->joined;
     }
-    tree->loaded = is_loaded(tree);
+    if (!share_loads(model)) return false;
+    tree->loaded = tree->joined_loads.any || tree->bulk_count > 0;
     tree->mass_ratio = mass_ratio(tree);
     tree->joined_by_pivots = tree->joined_watched == 0 && tree->bulk_count == 0;
-    tree->pivots_only = tree->watched_count == 0 && tree->bulk_count == 0;
-    for (int i = 1; i < tree->count; i++) {
-        if (tree->links[i].kind != motion_pivot) tree->pivots_only = false;
-        if (tree->links[i].kind != motion_pivot && i < tree->joined) tree->joined_by_pivots = false;
+    for (int i = 1; i < tree->joined; i++) {
+        if (tree->links[i].kind != motion_pivot) tree->joined_by_pivots = false;
         if (tree->links[i].track) tree->curved = true;
     }
     return couplings_order(model);

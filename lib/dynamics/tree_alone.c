@@ -1,0 +1,183 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * A link that stands alone, by the equations of tree_sweep.c with the ground as the parent, which is at rest: there
+ * is nothing to pass on, and one function does all of its sweeps. With the wrench p of the velocities minus the
+ * applied loads, g the force in the joint and u = g - S . p:
+ *
+ *     slide      q'' = u / m
+ *     pivot      q'' = u / I_O
+ *     particle   a_O = (g - p_f) / m
+ *     planar     I_G alpha = u with the moment of p about G,  a_O = (g - p_f - alpha k x m r) / m
+ *
+ * A scene has as many of them as it likes, each with its own part of the lists of loads. All that the variation of
+ * accelerations and the diagrams read of a link is set here as by the sweeps.
+ */
+#include "base/sine.h"
+#include "dynamics/friction.h"
+#include "dynamics/tree.h"
+
+/* ---- the state of the link */
+
+/* A slide and a particle do not turn, and their inertias are constant. */
+void tree_begin_alone(const struct tree_link *link, struct tree_state *s)
+{
+    s->angle = link->along;
+    s->turn = link->tilt;
+    s->e = link->e;
+    s->d = s->p = link->at;
+    s->mr = vec_turn(s->turn, link->moment);
+    s->I = (struct inertia_about_O){link->I_O, vec_perp(s->mr), link->mass, 0, link->mass};
+    s->inverse[0] = s->inverse[2] = 1 / link->mass;
+    s->inverse[1] = 0;
+    s->U = vec_scale(1 / link->mass, s->I.h);
+    switch (link->kind) {
+    case motion_pivot: s->D = link->inverse_I_O; break;
+    case motion_planar: s->D = 1 / link->I_G; break;
+    case motion_slide:
+        s->D = 1 / link->mass;
+        s->U = vec_scale(link->mass, s->e);
+        s->Uh = vec_dot(s->I.h, s->e);
+        break;
+    case motion_particle:
+    case motion_weld:
+    case motion_track: break;
+    }
+}
+
+static void turn_to(const struct tree_link *link, double angle, double omega, struct tree_state *s)
+{
+    s->angle = angle;
+    s->omega = omega;
+    s->turn = unit_by_sine(angle);
+    s->mr = vec_turn(s->turn, link->moment);
+    s->I.h = vec_perp(s->mr);
+    if (link->kind == motion_planar) s->U = vec_scale(s->inverse[0], s->I.h);
+}
+
+static inline void move(const struct tree_link *link, const double *q, const double *v, struct tree_state *s)
+{
+    if (link->kind == motion_pivot) {
+        turn_to(link, q[0], v[0], s);
+        return;
+    }
+    if (link->kind == motion_slide) {
+        s->d = vec_add(link->at, vec_scale(q[0], s->e));
+        s->v = vec_scale(v[0], s->e);
+    } else {
+        s->d = (struct vec){link->at.x + q[0], link->at.y + q[1]};
+        s->v = (struct vec){v[0], v[1]};
+        if (link->kind == motion_planar) turn_to(link, q[2], v[2], s);
+    }
+    s->p = s->d;
+}
+
+void tree_move_alone(const struct fbd_model *model, const struct instant *at)
+{
+    const struct tree *tree = model->tree;
+    const double *q = at->y, *v = at->y + model->plan.n;
+    for (int i = tree->joined; i < tree->count; i++) {
+        const struct tree_link *link = &tree->links[i];
+        move(link, q + link->coordinate, v + link->coordinate, &at->tree->links[i]);
+    }
+}
+
+/* ---- forces */
+
+/* The wrench of the velocities and of constant forces; minus the latter. */
+static inline struct wrench bias(const struct tree_link *link, const struct tree_state *s)
+{
+    const double w2 = s->omega * s->omega;
+    return (struct wrench){-link->sine * s->turn.y - link->cosine * s->turn.x,
+                           {-w2 * s->mr.x - link->force.x, -w2 * s->mr.y - link->force.y}};
+}
+
+/* With the acceleration of a surface to which it sticks, and its wrench. */
+static void lock(const struct fbd_model *model, const struct instant *at, const struct tree_link *link,
+                 struct tree_state *s, struct wrench *p)
+{
+    s->locked = at->slip[link->pair] == stick;
+    if (!s->locked) return;
+    friction_surface_speed(&model->plan.modes[link->pair], at, &s->held);
+    s->A = link->kind == motion_pivot ? (struct acceleration){s->held, {0, 0}}
+                                      : (struct acceleration){0, vec_scale(s->held, s->e)};
+    *p = inertia_wrench(&s->I, s->A, *p);
+}
+
+void tree_alone_slots(const struct fbd_model *model, const struct instant *at, int i, double *slots)
+{
+    const struct tree_link *link = &model->tree->links[i];
+    const struct tree_state *s = &at->tree->links[i];
+    const struct wrench p = at->tree->x[i].p;
+    if (link->normal_slot >= 0)
+        slots[link->normal_slot] = -vec_dot(tree_normal(model->tree, at->tree, i), p.force);
+    if (link->pair < 0) return;
+    const struct mode *mode = &model->plan.modes[link->pair];
+    double inertial = s->locked ? mode->inertia * s->held : 0; /* part of the wrench of a locked joint */
+    slots[mode->hold_slot] = slots[link->coordinate] - joint_share(link, s, p) + inertial;
+}
+
+/* Kinetic friction along the joint, in the direction e; the normal force is that of the applied forces. */
+static double kinetic_friction(const struct fbd_model *model, const struct instant *at,
+                               const struct tree_link *link, struct vec e, struct vec p)
+{
+    const int side = slip_side(at->slip[link->pair]);
+    if (side == 0) return 0;
+    const struct mode *mode = &model->plan.modes[link->pair];
+    const double mu = formula_value(&mode->mu_k, at);
+    if (mode->normal_slot < 0) return -side * mu;
+    const double N = at->pull[link->pair] * link->side * vec_cross(e, p);
+    return N > 0 ? -side * mu * N : 0;
+}
+
+/* ---- accelerations */
+
+static inline void accelerate_free(const struct tree_link *link, const struct tree_state *s,
+                                   const double *own, struct tree_rhs *x, double *a)
+{
+    x->gf = (struct vec){own[0], own[1]};
+    x->uf = vec_sub(x->gf, x->p.force);
+    x->A = (struct acceleration){0, vec_scale(s->inverse[0], x->uf)};
+    if (link->kind == motion_planar) {
+        x->g = own[2];
+        x->u = x->g - x->p.moment - vec_dot(s->U, x->uf);
+        x->A.alpha = a[2] = s->D * x->u;
+        x->A.a = vec_scale(s->inverse[0], vec_sub(x->uf, vec_scale(a[2], s->I.h)));
+    }
+    a[0] = x->A.a.x;
+    a[1] = x->A.a.y;
+}
+
+/* With one coordinate. */
+static inline void accelerate_along(const struct tree_link *link, const struct tree_state *s,
+                                    struct tree_rhs *x, double *a)
+{
+    x->u = x->g - (link->kind == motion_pivot ? x->p.moment : vec_dot(s->e, x->p.force));
+    const double own = s->locked ? 0 : s->D * x->u;
+    *a = s->locked ? s->held : own;
+    x->A = link->kind == motion_pivot ? (struct acceleration){own, {0, 0}}
+                                      : (struct acceleration){0, vec_scale(own, s->e)};
+}
+
+void tree_accelerate_alone(const struct fbd_model *model, const struct instant *at, int i, double *slots,
+                           double *a)
+{
+    const struct tree *tree = model->tree;
+    const struct tree_link *link = &tree->links[i];
+    const struct link_loads *loads = tree_alone_loads(tree, i);
+    const double *q = at->y + link->coordinate;
+    struct tree_state *s = &at->tree->links[i];
+    struct tree_rhs *x = &at->tree->x[i];
+    if (!at->moved) move(link, q, q + model->plan.n, s);
+    s->A = (struct acceleration){0, {0, 0}};
+    x->p = bias(link, s);
+    if (link->pair >= 0) lock(model, at, link, s, &x->p);
+    if (loads->any) tree_load(tree, at, loads);
+    if (joint_freedom(link->kind) > 1) {
+        accelerate_free(link, s, slots + link->coordinate, x, a + link->coordinate);
+        return;
+    }
+    x->g = slots[link->coordinate];
+    if (link->pair >= 0 && !s->locked) x->g += kinetic_friction(model, at, link, s->e, x->p.force);
+    accelerate_along(link, s, x, a + link->coordinate);
+    if (!at->tree->rates_only) tree_alone_slots(model, at, i, slots);
+}
