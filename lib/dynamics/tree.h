@@ -178,18 +178,19 @@ void tree_move_turned(const struct fbd_model *model, const struct instant *at, c
 
 /* ---- parts, for the files of the tree */
 
-/* The variation of positions and velocities of the links (tree_motion.c). */
+/* The variation of positions and velocities of jointed links (tree_motion.c). */
 void tree_move_along(const struct fbd_model *model, const struct instant *at, const struct direction *along);
 
-/* The bias accelerations and p of the links up to `to` (not included) without applied loads; the variation of all
- * at fixed accelerations a[n] of the joints (tree_bias.c). */
+/* The bias accelerations and p of the links up to `to` (not included) without applied loads; the variation of
+ * those of jointed links at fixed accelerations a[n] of the joints (tree_bias.c). */
 void tree_bias(const struct tree *tree, const struct instant *at, int n, int to);
 void tree_bias_along(const struct tree *tree, const struct instant *at, const struct direction *along, int n,
                      const double *a);
 
-/* Subtract applied loads from p of their links; the variation of all (tree_loads.c). */
+/* Subtract applied loads from p of their links; their variation (tree_loads.c). */
 void tree_load(const struct tree *tree, const struct instant *at, const struct link_loads *loads);
-void tree_load_along(const struct tree *tree, const struct instant *at, const struct direction *along);
+void tree_load_along(const struct tree *tree, const struct instant *at, const struct direction *along,
+                     const struct link_loads *loads);
 
 /* Variable masses (tree_mass.c): inertias of the links at this instant, the weights of such bodies, and the
  * variation of both. */
@@ -197,13 +198,19 @@ void tree_weigh(const struct tree *tree, const struct instant *at);
 void tree_weights(const struct tree *tree, const struct instant *at);
 void tree_bulk_along(const struct tree *tree, const struct instant *at, const struct direction *along);
 
-/* One link that stands alone (tree_alone.c), without sweeps: what does not change of its state; its position; its
+/* One link that stands alone (tree_alone.c), without sweeps: first all of its state that does not change. Its
  * accelerations, and unless work->rates_only its slots, which are the sums of the applied forces across and along
- * its line in each mode. */
+ * its line in each mode. The variation of both. */
 void tree_begin_alone(const struct tree_link *link, struct tree_state *s);
 void tree_accelerate_alone(const struct fbd_model *model, const struct instant *at, int i, double *slots,
                            double *a);
 void tree_alone_slots(const struct fbd_model *model, const struct instant *at, int i, double *slots);
+void tree_vary_alone(const struct fbd_model *model, const struct instant *at, const struct direction *along,
+                     int i, const double *slots, double *slots_along, double *a_along);
+
+/* The variation of positions and velocities of all of them. */
+void tree_move_alone_along(const struct fbd_model *model, const struct instant *at,
+                           const struct direction *along);
 
 /* The sweeps (tree_sweep.c), up to the link `to` (not included). Inward with the inertias, once for an instant;
  * then inward for any number of right-hand sides in work->x. Outward: accelerations of the joints to a[n]. */

@@ -152,8 +152,7 @@ static inline void accelerate_along(const struct tree_link *link, const struct t
                                     struct tree_rhs *x, double *a)
 {
     x->u = x->g - (link->kind == motion_pivot ? x->p.moment : vec_dot(s->e, x->p.force));
-    const double own = s->locked ? 0 : s->D * x->u;
-    *a = s->locked ? s->held : own;
+    const double own = *a = s->locked ? 0 : s->D * x->u;
     x->A = link->kind == motion_pivot ? (struct acceleration){own, {0, 0}}
                                       : (struct acceleration){0, vec_scale(own, s->e)};
 }
@@ -179,5 +178,119 @@ void tree_accelerate_alone(const struct fbd_model *model, const struct instant *
     x->g = slots[link->coordinate];
     if (link->pair >= 0 && !s->locked) x->g += kinetic_friction(model, at, link, s->e, x->p.force);
     accelerate_along(link, s, x, a + link->coordinate);
+    if (s->locked) a[link->coordinate] = s->held;
     if (!at->tree->rates_only) tree_alone_slots(model, at, i, slots);
+}
+
+/* ---- their variation, as in tree_along.c
+ *
+ * The ground does not vary, nor does the direction of a line; so from the wrench p of the link, with the acceleration
+ * alpha that it has, and the variation `held` of that of its surface,
+ *
+ *     dp_f = held m e + alpha k x d(m r) - 2 omega domega m r - omega^2 d(m r),   d(m r) = dangle k x m r
+ */
+
+static void move_along(const struct tree_link *link, const struct tree_state *s, const double *dq,
+                       const double *dv, struct tree_variation *d)
+{
+    const int turn = link->kind == motion_pivot ? 0 : 2;
+    const bool turns = link->kind == motion_pivot || link->kind == motion_planar;
+    d->angle = turns ? dq[turn] : 0;
+    d->omega = turns ? dv[turn] : 0;
+    d->d = d->v = (struct vec){0, 0};
+    if (link->kind == motion_slide) {
+        d->d = vec_scale(dq[0], s->e);
+        d->v = vec_scale(dv[0], s->e);
+    } else if (link->kind != motion_pivot) {
+        d->d = (struct vec){dq[0], dq[1]};
+        d->v = (struct vec){dv[0], dv[1]};
+    }
+    d->p = d->d;
+}
+
+void tree_move_alone_along(const struct fbd_model *model, const struct instant *at,
+                           const struct direction *along)
+{
+    const struct tree *tree = model->tree;
+    for (int i = tree->joined; i < tree->count; i++) {
+        const struct tree_link *link = &tree->links[i];
+        const double *dq = along->dy + link->coordinate;
+        move_along(link, &at->tree->links[i], dq, dq + model->plan.n, &at->tree->variation[i]);
+    }
+}
+
+static struct wrench bias_along(const struct tree_link *link, const struct tree_state *s,
+                                const struct tree_variation *d)
+{
+    const struct vec dmr = vec_scale(d->angle, vec_perp(s->mr));
+    const double twice = 2 * s->omega * d->omega, w2 = s->omega * s->omega;
+    struct vec f = vec_scale(s->A.alpha, vec_perp(dmr));
+    f = vec_sub(f, vec_add(vec_scale(twice, s->mr), vec_scale(w2, dmr)));
+    const double weight = (link->sine * s->turn.x - link->cosine * s->turn.y) * d->angle;
+    return (struct wrench){vec_cross(dmr, s->A.a) - weight, f};
+}
+
+static void lock_along(const struct fbd_model *model, const struct instant *at, const struct direction *along,
+                       const struct tree_link *link, const struct tree_state *s, struct tree_variation *d,
+                       struct wrench *p)
+{
+    d->held = friction_surface_jerk(&model->plan.modes[link->pair], at) * along->dt;
+    d->A = link->kind == motion_pivot ? (struct acceleration){d->held, {0, 0}}
+                                      : (struct acceleration){0, vec_scale(d->held, s->e)};
+    *p = inertia_wrench(&s->I, d->A, *p);
+}
+
+static double kinetic_friction_along(const struct fbd_model *model, const struct instant *at,
+                                     const struct direction *along, const struct tree_link *link,
+                                     const struct vec normal, const struct vec dp, const double *slots)
+{
+    const struct mode *mode = &model->plan.modes[link->pair];
+    const int side = slip_side(at->slip[link->pair]), pull = at->pull[link->pair];
+    double d_mu, mu = formula_along(&mode->mu_k, at, along, &d_mu);
+    if (mode->normal_slot < 0) return -side * d_mu;
+    const double press = fmax(0, -pull * slots[mode->normal_slot]);
+    return -side * (d_mu * press + mu * pull * vec_dot(normal, dp));
+}
+
+/* Of the sums of applied forces across and along the line. */
+static void slots_along_line(const struct fbd_model *model, const struct instant *at, int i,
+                             double *slots_along)
+{
+    const struct tree_link *link = &model->tree->links[i];
+    const struct tree_state *s = &at->tree->links[i];
+    const struct wrench dp = at->tree->x[i].p;
+    if (link->normal_slot >= 0)
+        slots_along[link->normal_slot] -= vec_dot(tree_normal(model->tree, at->tree, i), dp.force);
+    if (link->pair < 0) return;
+    const struct mode *mode = &model->plan.modes[link->pair];
+    double d = joint_share(link, s, dp);
+    if (s->locked) d -= mode->inertia * at->tree->variation[i].held;
+    slots_along[mode->hold_slot] += slots_along[link->coordinate] - d;
+}
+
+void tree_vary_alone(const struct fbd_model *model, const struct instant *at, const struct direction *along,
+                     int i, const double *slots, double *slots_along, double *a_along)
+{
+    const struct tree *tree = model->tree;
+    const struct tree_link *link = &tree->links[i];
+    const struct link_loads *loads = tree_alone_loads(tree, i);
+    const double *dq = along->dy + link->coordinate;
+    const struct tree_state *s = &at->tree->links[i];
+    struct tree_variation *d = &at->tree->variation[i];
+    struct tree_rhs *x = &at->tree->x[i];
+    double *own = a_along + link->coordinate;
+    move_along(link, s, dq, dq + model->plan.n, d);
+    x->p = bias_along(link, s, d);
+    if (s->locked) lock_along(model, at, along, link, s, d, &x->p);
+    if (loads->any) tree_load_along(tree, at, along, loads);
+    if (joint_freedom(link->kind) > 1) {
+        accelerate_free(link, s, slots_along + link->coordinate, x, own);
+        return;
+    }
+    x->g = slots_along[link->coordinate];
+    if (link->pair >= 0 && !s->locked)
+        x->g +=
+            kinetic_friction_along(model, at, along, link, tree_normal(tree, at->tree, i), x->p.force, slots);
+    accelerate_along(link, s, x, own);
+    slots_along_line(model, at, i, slots_along);
 }

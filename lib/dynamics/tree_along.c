@@ -13,7 +13,7 @@
 static void vary_held(const struct fbd_model *model, const struct instant *at, const struct direction *along)
 {
     const struct tree *tree = model->tree;
-    for (int k = 0; k < tree->watched_count; k++) {
+    for (int k = 0; k < tree->joined_watched; k++) {
         int i = tree->watched[k], pair = tree->links[i].pair;
         if (!at->tree->links[i].locked) continue;
         double jerk = friction_surface_jerk(&model->plan.modes[pair], at);
@@ -24,7 +24,7 @@ static void vary_held(const struct fbd_model *model, const struct instant *at, c
 /* Does friction lock a joint? */
 static bool holds(const struct tree *tree, const struct tree_work *work)
 {
-    for (int k = 0; k < tree->watched_count; k++)
+    for (int k = 0; k < tree->joined_watched; k++)
         if (work->links[tree->watched[k]].locked) return true;
     return false;
 }
@@ -32,24 +32,8 @@ static bool holds(const struct tree *tree, const struct tree_work *work)
 /* The wrench of a joint has a varying arm about the parent's O. */
 static void vary_arms(const struct tree *tree, struct tree_work *work)
 {
-    for (int i = 1; i < tree->count; i++)
+    for (int i = 1; i < tree->joined; i++)
         work->x[tree->links[i].parent].p.moment += vec_cross(work->variation[i].d, work->links[i].F.force);
-}
-
-/* The variation of kinetic friction in a bearing, or on a slide that stands alone, whose directions are constant. */
-static double kinetic_friction_along(const struct fbd_model *model, const struct instant *at,
-                                     const struct direction *along, int i, const double *slots)
-{
-    const struct tree *tree = model->tree;
-    const struct mode *mode = &model->plan.modes[tree->links[i].pair];
-    const int side = at->slip[tree->links[i].pair];
-    double d_mu, mu = formula_along(&mode->mu_k, at, along, &d_mu), press = 1, d_press = 0;
-    if (mode->normal_slot >= 0) {
-        const int pull = at->pull[tree->links[i].pair];
-        press = fmax(0, -pull * slots[mode->normal_slot]);
-        d_press = pull * vec_dot(tree_normal(tree, at->tree, i), at->tree->x[i].p.force);
-    }
-    return -side * (d_mu * press + mu * d_press);
 }
 
 /* The forces in the joints vary, and so do their directions. */
@@ -58,7 +42,7 @@ static void vary_joint_forces(const struct fbd_model *model, const struct instan
 {
     const struct tree *tree = model->tree;
     struct tree_work *work = at->tree;
-    for (int i = 1; i < tree->count; i++) {
+    for (int i = 1; i < tree->joined; i++) {
         const struct tree_link *link = &tree->links[i];
         const double *own = slots + link->coordinate, *d = slots_along + link->coordinate;
         if (link->kind == motion_pivot) {
@@ -71,11 +55,12 @@ static void vary_joint_forces(const struct fbd_model *model, const struct instan
             work->x[i].g = link->kind == motion_planar ? d[2] : 0;
         }
     }
-    for (int k = 0; k < tree->watched_count; k++) {
+    for (int k = 0; k < tree->joined_watched; k++) {
         const struct tree_link *link = &tree->links[tree->watched[k]];
-        bool decoupled = link->kind == motion_pivot || link_is_alone(tree, tree->watched[k]);
-        if (link->pair >= 0 && decoupled && at->slip[link->pair] != stick)
-            work->x[tree->watched[k]].g += kinetic_friction_along(model, at, along, tree->watched[k], slots);
+        double d_mu;
+        if (link->pair < 0 || link->kind != motion_pivot || at->slip[link->pair] == stick) continue;
+        formula_along(&model->plan.modes[link->pair].mu_k, at, along, &d_mu);
+        work->x[tree->watched[k]].g -= at->slip[link->pair] * d_mu;
     }
 }
 
@@ -105,35 +90,16 @@ static double friction_along_base(const struct fbd_model *model, const struct in
     return -at->slip[pair] * at->pull[pair] * (mu * dN + d_mu * N);
 }
 
-/* On a link that stands alone: the variations of the applied forces across and along its joint (tree_alone_slots). */
-static void add_applied(const struct fbd_model *model, const struct instant *at, int i, double *slots_along)
-{
-    const struct tree_link *link = &model->tree->links[i];
-    const struct tree_state *s = &at->tree->links[i];
-    if (link->normal_slot >= 0)
-        slots_along[link->normal_slot] -=
-            vec_dot(tree_normal(model->tree, at->tree, i), at->tree->x[i].p.force);
-    if (link->pair < 0) return;
-    const struct mode *mode = &model->plan.modes[link->pair];
-    double d = joint_share(link, s, at->tree->x[i].p);
-    if (s->locked) d -= mode->inertia * at->tree->variation[i].held;
-    slots_along[mode->hold_slot] += slots_along[link->coordinate] - d;
-}
-
 /* Add the solution to the slots behind the n. `first`: also the parts that are independent of solutions. */
 static void add_slots(const struct fbd_model *model, const struct instant *at, bool first,
                       double *slots_along)
 {
     const struct tree *tree = model->tree;
     const struct tree_work *work = at->tree;
-    for (int k = 0; k < tree->watched_count; k++) {
+    for (int k = 0; k < tree->joined_watched; k++) {
         int i = tree->watched[k];
         const struct tree_link *link = &tree->links[i];
         const struct tree_state *s = &work->links[i];
-        if (link_is_alone(tree, i)) {
-            if (first) add_applied(model, at, i, slots_along);
-            continue;
-        }
         if (link->normal_slot >= 0)
             slots_along[link->normal_slot] -=
                 normal_along(tree, work, i) + (first ? normal_turned(tree, work, i) : 0);
@@ -146,28 +112,53 @@ static void add_slots(const struct fbd_model *model, const struct instant *at, b
     }
 }
 
-void tree_accelerations_along(const struct fbd_model *model, const struct instant *at,
-                              const struct direction *along, const double *slots, const double *a,
-                              double *slots_along, double *a_along)
+/* Those of couplings. */
+static void set_coupling_slots(const struct tree *tree, const struct plan *plan, const double *z,
+                               double *slots_along)
+{
+    for (int i = 0; i < tree->coupling_count; i++) {
+        const struct coupling *coupling = &tree->couplings[i];
+        if (coupling->strands > 0) {
+            double both = coupling->row_count > 1 ? z[coupling->first_row + 1] : 0,
+                   half = z[coupling->first_row] / 2;
+            slots_along[coupling->slack_slot[0]] = both + half;
+            slots_along[coupling->slack_slot[1]] = both - half;
+        }
+        if (!coupling_presses(coupling)) continue;
+        slots_along[coupling->normal_slot] = -z[coupling->first_row];
+        if (coupling->pair >= 0)
+            slots_along[plan->modes[coupling->pair].hold_slot] = -z[coupling->first_row + 1];
+    }
+}
+
+static void vary_joined(const struct fbd_model *model, const struct instant *at,
+                        const struct direction *along, const double *slots, const double *a,
+                        double *slots_along, double *a_along)
 {
     const struct tree *tree = model->tree;
     struct tree_work *work = at->tree;
-    tree_complete(model, work);
-    if (tree->watched_count > 0) vary_held(model, at, along);
+    vary_held(model, at, along);
     tree_move_along(model, at, along);
     tree_bias_along(tree, at, along, model->plan.n, a);
-    tree_load_along(tree, at, along);
+    tree_load_along(tree, at, along, &tree->joined_loads);
+    if (tree->bulk_count > 0) tree_bulk_along(tree, at, along);
     vary_arms(tree, work);
     vary_joint_forces(model, at, along, slots, slots_along);
     if (tree->coupling_count > 0) {
         constraints_evaluate(model, at, along);
         tree_apply_variations(model, at, along);
     }
-    tree_inward(tree, work, 1, tree->count);
-    tree_outward(tree, work, 1, tree->count, a_along);
-    if (tree->watched_count + tree->coupling_count == 0) return;
-    add_slots(model, at, true, slots_along);
-    if (tree->coupling_count == 0 && !tree_slips(tree, at)) return;
+    tree_inward(tree, work, 1, tree->joined);
+    tree_outward(tree, work, 1, tree->joined, a_along);
+    if (tree->joined_watched > 0) add_slots(model, at, true, slots_along);
+}
+
+/* By constraints and by friction that depends on forces in the joints. */
+static void vary_answers(const struct fbd_model *model, const struct instant *at,
+                         const struct direction *along, double *slots_along, double *a_along)
+{
+    const struct tree *tree = model->tree;
+    struct tree_work *work = at->tree;
     for (int j = 0; j < tree->row_count; j++) work->z[j] = -(work->rows[j].g.d2 + tree_row_answer(work, j));
     for (int k = 0; k < tree->pair_count; k++)
         work->z[tree->row_count + k] = friction_along_base(model, at, along, tree->pairs[k]);
@@ -175,17 +166,18 @@ void tree_accelerations_along(const struct fbd_model *model, const struct instan
     tree_add_unit(tree, work, a_along);
     if (holds(tree, work)) tree_rest(model, at, true, a_along);
     add_slots(model, at, false, slots_along);
-    for (int i = 0; i < tree->coupling_count; i++) {
-        const struct coupling *coupling = &tree->couplings[i];
-        if (coupling->strands > 0) {
-            double both = coupling->row_count > 1 ? work->z[coupling->first_row + 1] : 0,
-                   half = work->z[coupling->first_row] / 2;
-            slots_along[coupling->slack_slot[0]] = both + half;
-            slots_along[coupling->slack_slot[1]] = both - half;
-        }
-        if (!coupling_presses(coupling)) continue;
-        slots_along[coupling->normal_slot] = -work->z[coupling->first_row];
-        if (coupling->pair >= 0)
-            slots_along[model->plan.modes[coupling->pair].hold_slot] = -work->z[coupling->first_row + 1];
-    }
+    set_coupling_slots(tree, &model->plan, work->z, slots_along);
+}
+
+void tree_accelerations_along(const struct fbd_model *model, const struct instant *at,
+                              const struct direction *along, const double *slots, const double *a,
+                              double *slots_along, double *a_along)
+{
+    const struct tree *tree = model->tree;
+    tree_complete(model, at->tree);
+    for (int i = tree->joined; i < tree->count; i++)
+        tree_vary_alone(model, at, along, i, slots, slots_along, a_along);
+    if (tree_joins(tree)) vary_joined(model, at, along, slots, a, slots_along, a_along);
+    if (tree->coupling_count > 0 || tree_slips(tree, at))
+        vary_answers(model, at, along, slots_along, a_along);
 }

@@ -110,7 +110,7 @@ void tree_bias_along(const struct tree *tree, const struct instant *at, const st
     const struct tree_state *links = at->tree->links;
     struct tree_variation *variation = at->tree->variation;
     struct tree_rhs *x = at->tree->x;
-    for (int i = 1; i < tree->count; i++) {
+    for (int i = 1; i < tree->joined; i++) {
         const struct tree_link *link = &tree->links[i];
         const struct tree_state *s = &links[i], *parent = &links[link->parent];
         const struct tree_variation *dp = &variation[link->parent];

@@ -183,9 +183,9 @@ int rope_load(const struct fbd_model *model, int b, const struct arrow *arrow)
 /* ---- reactions */
 
 /* The force across a slide, and the couple about its point, from the total wrench of its joint minus the
- * listed forces in the joint. */
+ * listed forces in the joint: `listed`, or NULL where they are not known yet. */
 static struct arrow slide_reaction(const struct fbd_model *model, const struct model_body *body,
-                                   const struct instant *at, const double *slots)
+                                   const struct instant *at, const double *slots, const struct arrow *listed)
 {
     const struct tree_state *s = link_of(body, at);
     struct vec across = vec_perp(s->e), P = guide_point(body, at);
@@ -193,7 +193,7 @@ static struct arrow slide_reaction(const struct fbd_model *model, const struct m
     double couple = s->F.moment + vec_cross(vec_sub(s->p, P), s->F.force);
     for (int i = body->first_load; i < body->first_load + body->load_count; i++) {
         if (!model->loads[i].in_joint || model->loads[i].source->kind == load_normal) continue;
-        struct arrow arrow = load_arrow(model, i, at, slots);
+        struct arrow arrow = listed ? listed[i - body->first_load] : load_arrow(model, i, at, slots);
         couple -= arrow_moment(&arrow, P);
     }
     /* The reaction that turns a body along a curve has no power: a force along the track belongs to the
@@ -279,7 +279,7 @@ static void reaction_fill(const struct fbd_model *model, int b, const struct ins
     const struct model_body *body = &model->bodies[b];
     const struct tree_state *s = link_of(body, at);
     if (is_guided(body))
-        *arrow = slide_reaction(model, body, at, slots);
+        *arrow = slide_reaction(model, body, at, slots, NULL);
     else if (body->kind == motion_weld)
         *arrow = weld_reaction(model, b, at, slots);
     else if (body->kind == motion_particle) /* it does not turn */
@@ -302,7 +302,7 @@ static size_t fill_child(const struct fbd_model *model, int c, const struct inst
         if (!load->in_joint) continue;
         struct arrow arrow = load_arrow(model, i, at, slots);
         if (load->source->kind == load_normal) {
-            arrow = slide_reaction(model, child, at, slots);
+            arrow = slide_reaction(model, child, at, slots, NULL);
             arrow.load = i;
         }
         arrows[count++] = opposite(arrow, load->name_on_parent);
@@ -323,10 +323,10 @@ size_t tree_diagram_add(const struct fbd_model *model, int index, const struct i
     size_t count = (size_t)body->load_count;
     for (size_t i = 0; i < count; i++) {
         if (model->loads[arrows[i].load].source->kind != load_normal) continue;
-        const struct arrow listed = arrows[i];
-        arrows[i] = slide_reaction(model, body, at, slots);
-        arrows[i].name = listed.name;
-        arrows[i].load = listed.load;
+        struct arrow reaction = slide_reaction(model, body, at, slots, arrows);
+        reaction.name = arrows[i].name;
+        reaction.load = arrows[i].load;
+        arrows[i] = reaction;
     }
     for (size_t i = model->listed_count; i < model->coupled_count; i++) {
         const struct model_load *load = &model->loads[i];

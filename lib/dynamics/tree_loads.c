@@ -132,24 +132,28 @@ void tree_load(const struct tree *tree, const struct instant *at, const struct l
     }
 }
 
-void tree_load_along(const struct tree *tree, const struct instant *at, const struct direction *along)
+void tree_load_along(const struct tree *tree, const struct instant *at, const struct direction *along,
+                     const struct link_loads *loads)
 {
     const struct tree_state *links = at->tree->links;
     const struct tree_variation *variation = at->tree->variation;
     struct tree_rhs *x = at->tree->x;
-    for (size_t i = 0; i < tree->following_count; i++) {
+    const struct range *of = loads->of;
+    for (int i = of[list_following].first; i < range_end(of[list_following]); i++) {
         const struct tree_following *f = &tree->following[i];
         struct vec turned = vec_perp(vec_turn(links[f->link].turn, f->force));
         x[f->link].p.force = vec_sub(x[f->link].p.force, vec_scale(variation[f->link].angle, turned));
     }
-    for (size_t i = 0; i < tree->force_count; i++) force_along(&tree->forces[i], at, along);
-    for (size_t i = 0; i < tree->moment_count; i++) {
+    for (int i = of[list_forces].first; i < range_end(of[list_forces]); i++)
+        force_along(&tree->forces[i], at, along);
+    for (int i = of[list_moments].first; i < range_end(of[list_moments]); i++) {
         double variation_of_moment;
         formula_along(&tree->moments[i].value, at, along, &variation_of_moment);
         x[tree->moments[i].link].p.moment -= variation_of_moment;
     }
-    for (size_t i = 0; i < tree->spring_count; i++) spring_along(&tree->springs[i], at->tree);
-    for (size_t i = 0; i < tree->drag_count; i++) {
+    for (int i = of[list_springs].first; i < range_end(of[list_springs]); i++)
+        spring_along(&tree->springs[i], at->tree);
+    for (int i = of[list_drags].first; i < range_end(of[list_drags]); i++) {
         const struct tree_drag *drag = &tree->drags[i];
         struct arm arm = arm_of(&links[drag->link], drag->point);
         struct arm d = arm_along(&links[drag->link], &variation[drag->link], &arm);
@@ -157,5 +161,4 @@ void tree_load_along(const struct tree *tree, const struct instant *at, const st
         apply_along(&x[drag->link], &arm, &d, drag_force(&law, arm.at.v),
                     drag_variation(&law, arm.at.v, d.at.v));
     }
-    if (tree->bulk_count > 0) tree_bulk_along(tree, at, along);
 }

@@ -125,7 +125,7 @@ void tree_move_along(const struct fbd_model *model, const struct instant *at, co
     int n = model->plan.n;
     const struct tree_state *links = at->tree->links;
     struct tree_variation *variation = at->tree->variation;
-    for (int i = 1; i < tree->count; i++) {
+    for (int i = 1; i < tree->joined; i++) {
         const struct tree_link *link = &tree->links[i];
         const struct tree_state *s = &links[i], *parent = &links[link->parent];
         const struct tree_variation *dp = &variation[link->parent];

@@ -146,6 +146,7 @@ struct direction direction_extend(const struct fbd_model *model, const struct in
     double *dy = at->extended + extended_size(model);
     if (along->dy != dy) memcpy(dy, along->dy, size * sizeof *dy);
     tree_move_along(model, at, along);
+    tree_move_alone_along(model, at, along);
     const struct direction extended = {along->dt, dy};
     for (int rates = 0; rates < 2; rates++) /* rates of masses depend on all others */
         for (size_t k = 0; k < model->absolute_count; k++)

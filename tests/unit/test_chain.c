@@ -33,7 +33,7 @@ static struct findings find(struct fbd_state *state, bool pivots)
     struct findings found = {calloc(n, sizeof(double)), calloc(size * (size + 1), sizeof(double)),
                              calloc(count, sizeof(struct tree_state))};
     assert_true(found.a && found.jacobian && found.links);
-    state->model->tree->pivots_only = pivots;
+    state->model->tree->joined_by_pivots = pivots;
     struct instant at = state_instant(state);
     state_jacobian(state->model, &at, state->scratch, found.jacobian, found.jacobian + size * size);
     state_evaluate(state);
@@ -75,7 +75,7 @@ static void pivots_move_as_in_the_general_recursion(void **unused)
         free(text);
         struct fbd_state *state = state_new(model);
         assert_non_null(state);
-        assert_true(model->tree->pivots_only);
+        assert_true(model->tree->joined_by_pivots);
         size_t n = (size_t)model->plan.n;
         for (size_t i = 0; i < 2 * n; i++) state->y[i] = random_between(&numbers, -2, 2);
         struct findings own = find(state, true), general = find(state, false);
@@ -112,7 +112,7 @@ static void other_joints_and_dry_bearings_take_the_general_recursion(void **unus
         char text[400];
         snprintf(text, sizeof text, "%s%s", head, tails[k]);
         fbd_model *model = model_from(text);
-        assert_int_equal(model->tree->pivots_only, k == 0);
+        assert_int_equal(model->tree->joined_by_pivots, k == 0);
         fbd_model_free(model);
     }
 }

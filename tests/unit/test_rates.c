@@ -343,10 +343,10 @@ static void check_census(const struct expectation *want)
     assert_non_null(rates);
     struct rates_census got = rates_census(rates);
     if (memcmp(&got, &want->rows, sizeof got) != 0)
-        fail_msg(
-            "%s: %d steady, %d held, %d affine, %d sine, %d of one part, %d with formulas, %d bare, %d whole",
-            want->name, got.steady, got.held, got.affine, got.sine, got.parts, got.formulas, got.bare,
-            got.whole);
+        fail_msg("%s: %d steady, %d held, %d affine, %d sine, %d of one part, %d with formulas, %d alone, %d "
+                 "bare, %d whole",
+                 want->name, got.steady, got.held, got.affine, got.sine, got.parts, got.formulas, got.alone,
+                 got.bare, got.whole);
     rates_free(rates);
     fbd_state_free(state);
     fbd_model_free(model);
@@ -367,7 +367,7 @@ static void every_scene_gets_the_least_row_that_does(void **unused)
         {"friction under a push across the line that varies",
          BODY(SLIDE, "    initial: {v: 3}\n    forces:\n" ON_SURFACE
                      "      - friction: 0.5\n      - applied: {name: f, value: 2*cos(3*t), angle: 0 deg}\n"),
-         {.whole = 1}},
+         {.alone = 1}},
         {"spring and quadratic drag",
          BODY(SLIDE, "    forces:\n      - spring: {stiffness: 5}\n      - drag: {quadratic: 1}\n"),
          {.affine = 1}},
@@ -382,7 +382,7 @@ static void every_scene_gets_the_least_row_that_does(void **unused)
          {.formulas = 1}},
         {"a particle on a spring",
          BODY("particle: {}", "    forces:\n      - spring: {stiffness: 5, free_length: 1, to: [0, 3]}\n"),
-         {.whole = 1}},
+         {.alone = 1}},
         {"a pendulum",
          "fbd: 1\nbodies:\n  b:\n    motion: {pivot: {at: [0, 0]}}\n    shape: point\n    mass: 2\n"
          "    center: [0, -1 m]\n    forces: [gravity]\nsimulate: {until: 1}\n",
