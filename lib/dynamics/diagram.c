@@ -270,14 +270,42 @@ size_t diagram_list(const struct fbd_model *model, int index, const struct insta
     return tree_diagram_add(model, index, at, slots, arrows);
 }
 
-double load_power(const struct fbd_model *model, int index, const struct pose *pose, const struct instant *at,
-                  const double *slots)
+bool load_is_of_motion(const struct fbd_model *model, int index)
 {
-    struct arrow arrow;
-    int body = model->loads[index].body;
-    pose_arrow(model, index, pose, at, slots, &arrow);
-    set_share(model, body, at, &arrow);
-    return power_of(&model->bodies[body], at, &arrow);
+    switch (model->loads[index].source->kind) {
+    case load_drive:
+    case load_rope:
+    case load_belt:
+    case load_contact:
+    case load_normal:
+    case load_friction:
+    case moment_friction: return false;
+    case load_carried:
+    case load_gravity:
+    case load_applied:
+    case load_spring:
+    case load_damper:
+    case load_drag:
+    case load_potential:
+    case moment_potential:
+    case moment_applied:
+    case moment_spring:
+    case moment_damper: break;
+    }
+    return true;
+}
+
+double load_power(const struct fbd_model *model, int index, const struct instant *at, const double *slots)
+{
+    const struct model_load *load = &model->loads[index];
+    const struct model_body *body = &model->bodies[load->body];
+    struct arrow arrow = load_arrow(model, index, at, slots);
+    double power = power_of(body, at, &arrow);
+    if (load->in_joint && body->parent != ground_body)
+        power -= power_of(&model->bodies[body->parent], at, &arrow);
+    if (load->partner < 0) return power;
+    arrow.point = other_end(model, load, at).p;
+    return power - power_of(&model->bodies[load->partner], at, &arrow);
 }
 
 size_t diagram_fill(const struct fbd_model *model, int index, const struct instant *at, const double *a,

@@ -34,9 +34,12 @@ size_t diagram_most_arrows(const struct fbd_model *model);
 size_t diagram_fill(const struct fbd_model *model, int index, const struct instant *at, const double *a,
                     const double *slots, struct arrow *arrows);
 
-/* The power of one load, as in diagram_fill; of bodies on the ground, and not for a reaction (`normal`). */
-double load_power(const struct fbd_model *model, int index, const struct pose *pose, const struct instant *at,
-                  const double *slots);
+/* Does the force of a load follow from positions and velocities, without accelerations? */
+bool load_is_of_motion(const struct fbd_model *model, int index);
+
+/* The power of such a load, of one between two bodies the sum of those on both; or of friction on a body that stands
+ * alone, with the slots of diagram_fill. The links have been moved. */
+double load_power(const struct fbd_model *model, int index, const struct instant *at, const double *slots);
 
 /* As diagram_fill, with forces, points and couples only. */
 size_t diagram_list(const struct fbd_model *model, int index, const struct instant *at, const double *a,

@@ -37,6 +37,18 @@ void force_balance(const struct fbd_model *model, const struct instant *given, d
     tree_accelerations(model, at, slots, at->tree->a);
 }
 
+void force_balance_of(const struct fbd_model *model, int b, const struct instant *given, double *slots)
+{
+    if (!model->bodies[b].alone) {
+        force_balance(model, given, slots);
+        return;
+    }
+    struct instant room;
+    const struct instant *at = instant_with_places(model, given, &room);
+    force_slots_alone(model, at, model->bodies[b].place.link, slots);
+    tree_accelerate_alone(model, at, model->bodies[b].place.link, slots, at->tree->a);
+}
+
 void force_balance_along(const struct fbd_model *model, const struct instant *given,
                          const struct direction *direction, const double *slots, double *slots_along)
 {

@@ -11,6 +11,9 @@
  * friction by the motion in the present modes (tree.h). */
 void force_balance(const struct fbd_model *model, const struct instant *given, double *slots);
 
+/* The same in the slots of body b only where it stands alone; else in all slots. */
+void force_balance_of(const struct fbd_model *model, int b, const struct instant *given, double *slots);
+
 /* The variation of force_balance along a direction, right after it. */
 void force_balance_along(const struct fbd_model *model, const struct instant *given,
                          const struct direction *direction, const double *slots, double *slots_along);

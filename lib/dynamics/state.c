@@ -36,9 +36,9 @@ void state_evaluate(struct fbd_state *state)
     share_out(state, state->slots);
 }
 
-void state_balance(struct fbd_state *state, double *slots)
+void state_balance_of(struct fbd_state *state, int b, double *slots)
 {
     struct instant at = state_instant(state);
-    force_balance(state->model, &at, slots);
-    share_out(state, slots);
+    force_balance_of(state->model, b, &at, slots);
+    if (!state->model->bodies[b].alone) share_out(state, slots);
 }

@@ -139,7 +139,7 @@ void state_evaluate(struct fbd_state *state);
 /* The same with any solution for indeterminate reactions, if no force is read. */
 void state_evaluate_unshared(struct fbd_state *state);
 
-/* Right after state_evaluate: force_balance with the chosen reactions. */
-void state_balance(struct fbd_state *state, double *slots);
+/* Right after state_evaluate: force_balance_of body b with the chosen reactions. */
+void state_balance_of(struct fbd_state *state, int b, double *slots);
 
 #endif

@@ -37,7 +37,9 @@ static void transmit(const struct fbd_model *model, const struct instant *at, co
     struct tree_work *work = at->tree;
     for (int i = 0; i < tree->count; i++) work->x[i].p = (struct wrench){0, {0, 0}};
     if (loads) {
-        tree_bias(tree, at, model->plan.n, tree->count); /* at rest these are the constant forces only */
+        tree_bias(tree, at, model->plan.n); /* at rest these are the constant forces only */
+        for (int i = tree->joined; i < tree->count; i++)
+            work->x[i].p = tree_alone_weight(&tree->links[i], &work->links[i]);
         tree_load(tree, at, &tree->loads);
         if (tree->bulk_count > 0) tree_weights(tree, at);
     }

@@ -97,10 +97,10 @@ void tree_work_init(struct tree_work *work, const struct fbd_model *model, void 
 
 /* ---- results */
 
-/* Add the accelerations of the links and the wrenches of the joints to the present ones. */
+/* Add the accelerations of jointed links and the wrenches of their joints to the present ones. */
 static void add_result(const struct tree *tree, struct tree_work *work)
 {
-    for (int i = 1; i < tree->count; i++) {
+    for (int i = 1; i < tree->joined; i++) {
         struct tree_state *s = &work->links[i];
         const struct tree_rhs *x = &work->x[i];
         struct wrench F = inertia_wrench(&s->I, x->A, x->p);
@@ -114,7 +114,7 @@ static void add_result(const struct tree *tree, struct tree_work *work)
 void tree_complete(const struct fbd_model *model, struct tree_work *work)
 {
     if (work->complete) return;
-    for (int i = 0; i < model->tree->count; i++) work->links[i].F = (struct wrench){0, {0, 0}};
+    for (int i = 0; i < model->tree->joined; i++) work->links[i].F = (struct wrench){0, {0, 0}};
     add_result(model->tree, work);
     work->complete = true;
 }
@@ -244,7 +244,7 @@ static void drop_rounding(const struct tree *tree, struct tree_work *work, doubl
 /* The accelerations of the links without multipliers. */
 static void add_accelerations(const struct tree *tree, struct tree_work *work)
 {
-    for (int i = 1; i < tree->count; i++) {
+    for (int i = 1; i < tree->joined; i++) {
         struct tree_state *s = &work->links[i];
         s->A.alpha += work->x[i].A.alpha;
         s->A.a = vec_add(s->A.a, work->x[i].A.a);
@@ -300,7 +300,7 @@ static void accelerate_joined(const struct fbd_model *model, const struct instan
     }
     lock(model, at);
     if (!at->moved) tree_move_joined(model, at);
-    tree_bias(tree, at, model->plan.n, tree->joined);
+    tree_bias(tree, at, model->plan.n);
     tree_load(tree, at, &tree->joined_loads);
     if (tree->bulk_count > 0) tree_weights(tree, at);
     set_joint_forces(model, at, slots);

@@ -181,9 +181,8 @@ void tree_move_turned(const struct fbd_model *model, const struct instant *at, c
 /* The variation of positions and velocities of jointed links (tree_motion.c). */
 void tree_move_along(const struct fbd_model *model, const struct instant *at, const struct direction *along);
 
-/* The bias accelerations and p of the links up to `to` (not included) without applied loads; the variation of
- * those of jointed links at fixed accelerations a[n] of the joints (tree_bias.c). */
-void tree_bias(const struct tree *tree, const struct instant *at, int n, int to);
+/* The bias accelerations and p of jointed links without applied loads; the variation at fixed accelerations a[n] of the joints (tree_bias.c). */
+void tree_bias(const struct tree *tree, const struct instant *at, int n);
 void tree_bias_along(const struct tree *tree, const struct instant *at, const struct direction *along, int n,
                      const double *a);
 
@@ -198,10 +197,11 @@ void tree_weigh(const struct tree *tree, const struct instant *at);
 void tree_weights(const struct tree *tree, const struct instant *at);
 void tree_bulk_along(const struct tree *tree, const struct instant *at, const struct direction *along);
 
-/* One link that stands alone (tree_alone.c), without sweeps: first all of its state that does not change. Its
- * accelerations, and unless work->rates_only its slots, which are the sums of the applied forces across and along
- * its line in each mode. The variation of both. */
+/* One link that stands alone (tree_alone.c), without sweeps: first all of its state that does not change, and minus
+ * the wrench of its constant forces. Its accelerations; unless work->rates_only also its A and F, and its slots, which
+ * are the sums of the applied forces across and along its line in each mode. The variation of both. */
 void tree_begin_alone(const struct tree_link *link, struct tree_state *s);
+struct wrench tree_alone_weight(const struct tree_link *link, const struct tree_state *s);
 void tree_accelerate_alone(const struct fbd_model *model, const struct instant *at, int i, double *slots,
                            double *a);
 void tree_alone_slots(const struct fbd_model *model, const struct instant *at, int i, double *slots);

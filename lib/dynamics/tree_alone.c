@@ -83,12 +83,19 @@ void tree_move_alone(const struct fbd_model *model, const struct instant *at)
 
 /* ---- forces */
 
-/* The wrench of the velocities and of constant forces; minus the latter. */
-static inline struct wrench bias(const struct tree_link *link, const struct tree_state *s)
+/* The moment about O of a force in the centre of mass. */
+static inline double moment_of(const struct tree_state *s, struct vec force)
 {
-    const double w2 = s->omega * s->omega;
-    return (struct wrench){-link->sine * s->turn.y - link->cosine * s->turn.x,
-                           {-w2 * s->mr.x - link->force.x, -w2 * s->mr.y - link->force.y}};
+    return vec_cross(s->mr, force) / s->mass;
+}
+
+/* A planar body turns about its centre of mass, with moments about it that are not differences. */
+struct wrench tree_alone_weight(const struct tree_link *link, const struct tree_state *s)
+{
+    const struct vec force = {-link->force.x, -link->force.y};
+    double moment = -link->sine * s->turn.y - link->cosine * s->turn.x;
+    if (link->kind == motion_planar) moment += moment_of(s, force);
+    return (struct wrench){moment, force};
 }
 
 /* With the acceleration of a surface to which it sticks, and its wrench. */
@@ -131,20 +138,34 @@ static double kinetic_friction(const struct fbd_model *model, const struct insta
 
 /* ---- accelerations */
 
-static inline void accelerate_free(const struct tree_link *link, const struct tree_state *s,
-                                   const double *own, struct tree_rhs *x, double *a)
+/* With x and y, and an angular acceleration alpha. */
+static inline void accelerate_free(const struct tree_state *s, const double *own, double alpha,
+                                   struct tree_rhs *x, double *a)
 {
     x->gf = (struct vec){own[0], own[1]};
     x->uf = vec_sub(x->gf, x->p.force);
-    x->A = (struct acceleration){0, vec_scale(s->inverse[0], x->uf)};
-    if (link->kind == motion_planar) {
-        x->g = own[2];
-        x->u = x->g - x->p.moment - vec_dot(s->U, x->uf);
-        x->A.alpha = a[2] = s->D * x->u;
-        x->A.a = vec_scale(s->inverse[0], vec_sub(x->uf, vec_scale(a[2], s->I.h)));
-    }
+    x->A = (struct acceleration){alpha, vec_scale(s->inverse[0], vec_sub(x->uf, vec_scale(alpha, s->I.h)))};
     a[0] = x->A.a.x;
     a[1] = x->A.a.y;
+}
+
+/* The rest of p of a planar link is that of its velocity, a force in its centre of mass. */
+static inline void accelerate_planar(const struct tree_state *s, const double *own, struct tree_rhs *x,
+                                     double *a)
+{
+    x->g = own[2];
+    const double of_joint = x->g - moment_of(s, (struct vec){own[0], own[1]}); /* its force acts in O */
+    a[2] = s->D * (of_joint - (x->p.moment - moment_of(s, x->p.force)));
+    x->p.force = vec_sub(x->p.force, vec_scale(s->omega * s->omega, s->mr));
+    accelerate_free(s, own, a[2], x, a);
+    x->u = x->g - x->p.moment - vec_dot(s->U, x->uf);
+}
+
+/* The whole acceleration, and the wrench of the joint. */
+static void complete(struct tree_state *s, const struct tree_rhs *x)
+{
+    s->F = inertia_wrench(&s->I, x->A, x->p);
+    s->A = (struct acceleration){s->A.alpha + x->A.alpha, vec_add(s->A.a, x->A.a)};
 }
 
 /* With one coordinate. */
@@ -168,18 +189,24 @@ void tree_accelerate_alone(const struct fbd_model *model, const struct instant *
     struct tree_rhs *x = &at->tree->x[i];
     if (!at->moved) move(link, q, q + model->plan.n, s);
     s->A = (struct acceleration){0, {0, 0}};
-    x->p = bias(link, s);
+    x->p = tree_alone_weight(link, s);
     if (link->pair >= 0) lock(model, at, link, s, &x->p);
     if (loads->any) tree_load(tree, at, loads);
-    if (joint_freedom(link->kind) > 1) {
-        accelerate_free(link, s, slots + link->coordinate, x, a + link->coordinate);
-        return;
+    double *own = a + link->coordinate;
+    if (link->kind == motion_planar) {
+        accelerate_planar(s, slots + link->coordinate, x, own);
+    } else if (link->kind == motion_particle) {
+        accelerate_free(s, slots + link->coordinate, 0, x, own);
+    } else {
+        x->p.force = vec_sub(x->p.force, vec_scale(s->omega * s->omega, s->mr));
+        x->g = slots[link->coordinate];
+        if (link->pair >= 0 && !s->locked) x->g += kinetic_friction(model, at, link, s->e, x->p.force);
+        accelerate_along(link, s, x, own);
+        if (s->locked) own[0] = s->held;
     }
-    x->g = slots[link->coordinate];
-    if (link->pair >= 0 && !s->locked) x->g += kinetic_friction(model, at, link, s->e, x->p.force);
-    accelerate_along(link, s, x, a + link->coordinate);
-    if (s->locked) a[link->coordinate] = s->held;
-    if (!at->tree->rates_only) tree_alone_slots(model, at, i, slots);
+    if (at->tree->rates_only) return;
+    tree_alone_slots(model, at, i, slots);
+    complete(s, x);
 }
 
 /* ---- their variation, as in tree_along.c
@@ -226,7 +253,8 @@ static struct wrench bias_along(const struct tree_link *link, const struct tree_
     const double twice = 2 * s->omega * d->omega, w2 = s->omega * s->omega;
     struct vec f = vec_scale(s->A.alpha, vec_perp(dmr));
     f = vec_sub(f, vec_add(vec_scale(twice, s->mr), vec_scale(w2, dmr)));
-    const double weight = (link->sine * s->turn.x - link->cosine * s->turn.y) * d->angle;
+    double weight = (link->sine * s->turn.x - link->cosine * s->turn.y) * d->angle;
+    if (link->kind == motion_planar) weight += vec_cross(dmr, link->force) / s->mass;
     return (struct wrench){vec_cross(dmr, s->A.a) - weight, f};
 }
 
@@ -284,7 +312,11 @@ void tree_vary_alone(const struct fbd_model *model, const struct instant *at, co
     if (s->locked) lock_along(model, at, along, link, s, d, &x->p);
     if (loads->any) tree_load_along(tree, at, along, loads);
     if (joint_freedom(link->kind) > 1) {
-        accelerate_free(link, s, slots_along + link->coordinate, x, own);
+        const double *g = slots_along + link->coordinate;
+        struct vec u = vec_sub((struct vec){g[0], g[1]}, x->p.force);
+        bool turns = link->kind == motion_planar;
+        if (turns) own[2] = s->D * (g[2] - x->p.moment - vec_dot(s->U, u));
+        accelerate_free(s, g, turns ? own[2] : 0, x, own);
         return;
     }
     x->g = slots_along[link->coordinate];

@@ -54,11 +54,11 @@ static void bend_along(const struct tree_link *link, const struct instant *at, c
 }
 
 static inline __attribute__((always_inline)) void bias(const struct tree *tree, const struct instant *at,
-                                                       int n, int to, bool curved)
+                                                       int n, bool curved)
 {
     struct tree_state *links = at->tree->links;
     struct tree_rhs *x = at->tree->x;
-    for (int i = 1; i < to; i++) {
+    for (int i = 1; i < tree->joined; i++) {
         const struct tree_link *link = &tree->links[i];
         struct tree_state *s = &links[i], *parent = &links[link->parent];
         double w2 = parent->omega * parent->omega;
@@ -79,12 +79,12 @@ static inline __attribute__((always_inline)) void bias(const struct tree *tree, 
     }
 }
 
-void tree_bias(const struct tree *tree, const struct instant *at, int n, int to)
+void tree_bias(const struct tree *tree, const struct instant *at, int n)
 {
     if (tree->curved)
-        bias(tree, at, n, to, true);
+        bias(tree, at, n, true);
     else
-        bias(tree, at, n, to, false);
+        bias(tree, at, n, false);
 }
 
 /* The variation of the velocity in the joint. */

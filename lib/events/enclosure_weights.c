@@ -145,6 +145,14 @@ static void take_force(const struct enclosure_input *input, int coordinate, doub
     }
 }
 
+/* The coordinate of the friction with this slot. */
+static int coordinate_held(const struct plan *plan, int hold_slot)
+{
+    const struct mode *mode = plan->modes;
+    while (mode->hold_slot != hold_slot) mode++;
+    return mode->coordinate;
+}
+
 static void write_equation(const struct enclosure_input *input, int unit, struct equations *e)
 {
     const struct fbd_state *state = input->state;
@@ -160,7 +168,7 @@ static void write_equation(const struct enclosure_input *input, int unit, struct
         return;
     }
     if (s->held[unit] >= 0) {
-        take_force(input, s->held[unit], 1, e, unit);
+        take_force(input, coordinate_held(plan, s->held[unit]), 1, e, unit);
         return;
     }
     memset(s->flow, 0, plan_size(plan) * sizeof *s->flow);

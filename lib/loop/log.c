@@ -32,7 +32,7 @@ void log_friction(struct run *run, fbd_event_kind kind, int pair)
     if (!event) return;
     struct instant at = state_instant(run->state);
     double *slots = run->during->scratch;
-    state_balance(run->state, slots); /* includes indeterminate forces */
+    state_balance_of(run->state, mode->body, slots); /* includes indeterminate forces */
     struct friction_values values = friction_at(run->model, pair, &at, slots);
     event->force = values.force;
     event->limit = values.limit;

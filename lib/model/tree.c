@@ -196,7 +196,8 @@ static void add_world_force(struct builder *builder, const struct model_body *bo
                             struct vec f)
 {
     struct tree_link *link = link_of(builder, body);
-    struct vec arm = placement_point(&body->place, point);
+    struct vec arm = body->alone && body->kind == motion_planar ? vec_sub(point, body->inertia.G)
+                                                                : placement_point(&body->place, point);
     link->force = vec_add(link->force, f);
     link->sine -= vec_dot(arm, f);
     link->cosine += vec_cross(arm, f);

@@ -48,13 +48,15 @@ struct tree_link {
     double I_G;               /* about the centre of mass */
     double
         across; /* mass I_G / I_O: effective mass at O perpendicular to the arm to G, when it turns freely */
-    struct vec moment;   /* mass times the vector from O to its centre of mass */
-    struct vec force;    /* constant forces in the world, all of them */
-    double sine, cosine; /* their moment about O: sine sin(angle) + cosine cos(angle) */
-    int pair;            /* its dry friction: index into plan.modes, or -1 */
-    int normal_slot;     /* slot of minus its normal force, or -1 */
-    int root;            /* the first link of its tree */
-    int end;             /* links from its own number up to this one (not included) move with it */
+    struct vec moment; /* mass times the vector from O to its centre of mass */
+    struct vec force;  /* constant forces in the world, all of them */
+    double sine,
+        cosine; /* their moment about O: sine sin(angle) + cosine cos(angle); about its centre of mass for a
+                          * planar link that stands alone */
+    int pair;   /* its dry friction: index into plan.modes, or -1 */
+    int normal_slot; /* slot of minus its normal force, or -1 */
+    int root;        /* the first link of its tree */
+    int end;         /* links from its own number up to this one (not included) move with it */
 };
 
 /* A constant force that turns with its link, and its moment about O. */

@@ -184,7 +184,7 @@ static void write_friction(struct text *text, struct fbd_state *state, int body,
     if (coupling && pair < 0) text_add(text, ", \"mode\": \"stick\""); /* it never slips */
     if (pair < 0 || (!coupling && arrow->load != model->plan.modes[own].load)) return;
     struct instant at = state_instant(state);
-    state_balance(state, state->scratch);
+    state_balance_of(state, body, state->scratch);
     struct friction_values values = friction_at(model, pair, &at, state->scratch);
     text_printf(text, ", \"mode\": \"%s\", ", state->slip[pair] == stick ? "stick" : "slip");
     double share = fabs(values.force) / values.limit; /* not finite if the limit is almost zero */

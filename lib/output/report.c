@@ -137,7 +137,7 @@ static void write_friction(struct text *text, struct fbd_state *state, int b)
 {
     const struct model_body *body = &state->model->bodies[b];
     struct instant at = state_instant(state);
-    state_balance(state, state->scratch);
+    state_balance_of(state, b, state->scratch);
     struct friction_values values = friction_at(state->model, body->friction, &at, state->scratch);
     double percent = 100 * fabs(values.force) / values.limit;
     if (state->slip[body->friction] != stick)

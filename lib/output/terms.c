@@ -54,7 +54,7 @@ static void friction_remark(struct fbd_state *state, int b, char *remark)
 {
     const struct model_body *body = &state->model->bodies[b];
     struct instant at = state_instant(state);
-    state_balance(state, state->scratch);
+    state_balance_of(state, b, state->scratch);
     struct friction_values now = friction_at(state->model, body->friction, &at, state->scratch);
     bool kinetic = now.limit_kinetic > now.limit_static; /* warned of by the reader */
     if (state->slip[body->friction] == stick)

@@ -18,44 +18,50 @@
 #include "dynamics/tree.h"
 #include "numeric/tolerances.h"
 
-/* A body on the ground: go through its integrated loads only; its joint does no work. */
-static void add_powers_on_ground(struct ledger *ledger, const struct group *group,
-                                 const struct model_body *body, const struct fbd_state *state, double *powers)
+/* Add the powers of integrated loads from `first` on. */
+static void add_powers_of_loads(struct ledger *ledger, const struct group *group,
+                                const struct fbd_state *state, size_t first, size_t count, double *powers)
 {
-    struct instant at = state_instant(state);
-    const struct pose pose = body_pose(body, &at);
-    for (int i = body->first_load; i < body->first_load + body->load_count; i++) {
-        int load = group_load(group, i);
-        if (ledger->integrated[load]) powers[load] += load_power(group->model, i, &pose, &at, state->slots);
+    const struct instant at = state_instant(state);
+    for (size_t i = first; i < first + count; i++) {
+        int load = group_load(group, (int)i);
+        if (ledger->integrated[load]) powers[load] += load_power(group->model, (int)i, &at, state->slots);
     }
 }
 
-/* Add the power of every integrated load of a group in a state of it. */
+/* Of loads between two bodies the sum of their powers on both. */
+static void add_powers_of_diagram(struct ledger *ledger, const struct group *group, size_t b,
+                                  const struct fbd_state *state, double *powers)
+{
+    const struct instant at = state_instant(state);
+    size_t count = diagram_fill(group->model, (int)b, &at, state->a, state->slots, ledger->arrows);
+    for (size_t i = 0; i < count; i++) {
+        int load = group_load(group, ledger->arrows[i].load);
+        if (load >= 0 && ledger->integrated[load]) powers[load] += ledger->arrows[i].power;
+    }
+}
+
+/* Add the power of every integrated load of a group in a state of it. Loads on jointed bodies that follow from the
+ * forces of others are in the diagrams only; `forces`: there are such loads, and these forces are known. */
 static void add_powers(struct ledger *ledger, const struct group *group, const struct fbd_state *state,
-                       double *powers)
+                       bool forces, double *powers)
 {
     const struct fbd_model *model = group->model;
-    struct instant at = state_instant(state);
+    const struct instant at = state_instant(state);
+    if (!forces) tree_move(model, &at);
     for (size_t b = 0; b < model->body_count; b++) {
         const struct model_body *body = &model->bodies[b];
-        bool wanted = !body->alone;
-        for (int i = 0; i < body->load_count; i++)
-            wanted |= ledger->integrated[group_load(group, body->first_load + i)];
-        if (!wanted) continue;
         if (body->carried >= 0)
             powers[group_load(group, body->carried)] += body_carried_power(model, body, &at);
-        if (body->alone) {
-            add_powers_on_ground(ledger, group, body, state, powers);
-            continue;
-        }
-        size_t count = diagram_fill(model, (int)b, &at, state->a, state->slots, ledger->arrows);
-        for (size_t i = 0; i < count; i++) {
-            int load = group_load(group, ledger->arrows[i].load);
-            /* A load between two bodies: the sum of its powers on both. */
-            if (load < 0 || !ledger->integrated[load]) continue;
-            powers[load] += ledger->arrows[i].power;
-        }
+        if (forces && !body->alone)
+            add_powers_of_diagram(ledger, group, b, state, powers);
+        else
+            add_powers_of_loads(ledger, group, state, (size_t)body->first_load, (size_t)body->load_count,
+                                powers);
     }
+    if (!forces)
+        add_powers_of_loads(ledger, group, state, model->listed_count,
+                            model->coupled_count - model->listed_count, powers);
 }
 
 /* Gauss-Legendre with five points on [-1, 1]: x = 0, sqrt(5 -+ 2 sqrt(10/7)) / 3 (Abramowitz & Stegun, table
@@ -90,11 +96,16 @@ struct panel {
     double floor;  /* round-off level of its works; set only after an error was found */
 };
 
-/* Without friction, switches and joints a power is a function of coordinates, rates and the time. */
-static bool needs_forces(const struct fbd_model *model)
+/* Expressions of places, switches in a sliding mode and rates of masses are complete only after an evaluation, and the
+ * forces of some laws follow from it. */
+static bool needs_forces(const struct ledger *ledger, const struct group *group)
 {
-    return tree_joins(model->tree) || model->absolute_count > 0 || model->plan.mode_count > 0 ||
-           model->plan.kink_count > 0;
+    const struct fbd_model *model = group->model;
+    bool needs = model->names_places || model->plan.kink_count > 0;
+    for (size_t b = 0; b < model->body_count; b++) needs |= model->bodies[b].varies;
+    for (size_t i = 0; i < model->load_count; i++)
+        needs |= ledger->integrated[group_load(group, (int)i)] && !load_is_of_motion(model, (int)i);
+    return needs;
 }
 
 static bool is_written(const struct model_load *load)
@@ -128,9 +139,7 @@ static bool sample(struct ledger *ledger, struct ensemble *ensemble, const struc
         struct time_dd t = time_dd_after(panel->from, panel->length / 2 * (1 + point[k]));
         struct fbd_state *state = ensemble_look_group(ensemble, panel->group, t, panel->forces);
         if (!state) return false;
-        struct instant at = state_instant(state);
-        if (!panel->forces) tree_move(group->model, &at); /* the powers need poses, which are not looked up */
-        add_powers(ledger, group, state, powers);
+        add_powers(ledger, group, state, panel->forces, powers);
     }
     return true;
 }
@@ -271,7 +280,7 @@ bool powers_integrate(struct ledger *ledger, struct ensemble *ensemble, size_t g
     bool done = true;
     struct panel panel = {.group = group,
                           .length = length / panels,
-                          .forces = needs_forces(of->model),
+                          .forces = needs_forces(ledger, of),
                           .points = has_expressions(of->model) ? power_points : gauss_points};
     for (int i = 0; done && i < panels; i++) {
         panel.from = time_dd_after(from, i * length / panels);
