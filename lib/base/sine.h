@@ -97,7 +97,9 @@ static inline struct vec unit_by_sine(double angle)
 {
     struct vec unit;
     cosine_and_sine(angle, &unit.x, &unit.y);
-    return vec_without_rounding(unit);
+    unit = vec_without_rounding(unit);
+    if (unit.y == 0 && fabs(angle) < 1) unit.y = angle; /* so small that it is not the rounding of a turn */
+    return unit;
 }
 
 #endif

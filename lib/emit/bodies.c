@@ -129,8 +129,7 @@ static void add_force_at_point(struct body_writer *writer, const char *point, bo
     struct emitter *emitter = writer->emitter;
     const char *turned =
         body_frame ? emit_printf(emitter, "vec_turn(pose.rotation, %s)", direction) : direction;
-    text_printf(&writer->points,
-                "    add_at(&sum, &pose, point_of(&pose, %s), vec_scale(%s, %s)); /* %s */\n",
+    text_printf(&writer->points, "    add_at(&sum, &pose, %s, vec_scale(%s, %s)); /* %s */\n",
                 arm_of(writer, point), value, turned, load->name);
 }
 
@@ -258,8 +257,9 @@ static void add_linked(struct body_writer *writer, const struct model_load *load
 {
     struct emitter *emitter = writer->emitter;
     const char *anchor = load_anchor(emitter, load);
-    text_printf(&writer->points, "    at = point_of(&pose, %s);\n    add_at(&sum, &pose, at, %s); /* %s */\n",
-                arm_of(writer, load_point(emitter, load, writer->name)),
+    const char *arm = arm_of(writer, load_point(emitter, load, writer->name));
+    text_printf(&writer->points, "    at = point_of(&pose, %s);\n    add_at(&sum, &pose, %s, %s); /* %s */\n",
+                arm, arm,
                 emit_link_force(emitter, load, emit_printf(emitter, "vec_sub(at.p, %s)", anchor), "at.v"),
                 load->source->name);
 }
@@ -292,10 +292,11 @@ static void add_drag(struct body_writer *writer, const struct model_load *load)
         add_term(writer, i + 1, "damping", c, source);
     } else {
         const char *k = load_number(emitter, load, "quadratic", source->quadratic, DIM_QUADRATIC_DRAG);
+        const char *arm = arm_of(writer, point);
         text_printf(
             &writer->points,
-            "    at = point_of(&pose, %s);\n    add_at(&sum, &pose, at, drag(%s, %s, at.v)); /* %s */\n",
-            arm_of(writer, point), c, k, source->name);
+            "    at = point_of(&pose, %s);\n    add_at(&sum, &pose, %s, drag(%s, %s, at.v)); /* %s */\n", arm,
+            arm, c, k, source->name);
     }
 }
 
