@@ -50,8 +50,9 @@ bool tree_finish(struct fbd_model *model)
     tree->joined_by_pivots = tree->joined_watched == 0 && tree->bulk_count == 0;
     tree->pivots_only = tree->watched_count == 0 && tree->bulk_count == 0;
     for (int i = 1; i < tree->count; i++) {
-        if (tree->links[i].kind != motion_pivot) tree->pivots_only = false;
-        if (tree->links[i].kind != motion_pivot && i < tree->joined) tree->joined_by_pivots = false;
+        const bool has_axis = link_joint(&tree->links[i])->has_axis;
+        if (!has_axis) tree->pivots_only = false;
+        if (!has_axis && i < tree->joined) tree->joined_by_pivots = false;
         if (tree->links[i].track) tree->curved = true;
     }
     return couplings_order(model);
