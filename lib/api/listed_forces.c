@@ -93,8 +93,8 @@ static struct vec describe_joint(const fbd_model *model, int b, const char *name
          c++) /* on a body that carries another one: of that one's joint */
         if (name && model->bodies[c].reaction_on_parent == name) body = &model->bodies[c];
     bool joint = name && (name == body->reaction || name == body->reaction_on_parent);
-    const bool guided = body->kind == motion_slide || body->kind == motion_track;
-    force->couples = joint && body->kind != motion_pivot;
+    const bool guided = body->joint->path != path_none;
+    force->couples = joint && !body->joint->has_axis;
     if (!joint && body->alone) joint = true; /* on the ground: `pin` or `guide` */
     force->free = joint && !guided;
     return joint && guided ? vec_perp(body_direction(body, at)) : (struct vec){0, 0};
@@ -143,8 +143,7 @@ size_t fbd_state_forces(fbd_state *state, size_t body, fbd_listed_force *forces,
     size_t count;
     struct arrow *arrows = arrows_of(state, (int)body, &count);
     const struct instant at = state_instant(state);
-    const struct pose pose = body_pose(b, &at);
-    const struct vec about = b->kind == motion_pivot ? pose.origin : point_motion(b, &pose, b->inertia.G).p;
+    const struct vec about = moment_center(b, &at);
     for (size_t i = 0; forces && i < count && i < room; i++) {
         forces[i] =
             (fbd_listed_force){.arrow = public_arrow(&arrows[i], about), .law = "", .side = "", .size = NAN};

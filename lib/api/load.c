@@ -139,11 +139,10 @@ fbd_inertia fbd_model_inertia(const fbd_model *model, size_t body)
 {
     if (!model || body >= model->body_count) return (fbd_inertia){NAN, NAN, NAN, NAN, {NAN, NAN}};
     const struct model_body *b = &model->bodies[body];
-    bool pivot = b->kind == motion_pivot;
     return (fbd_inertia){.mass = b->inertia.mass,
                          .I_G = b->inertia.I_G,
-                         .I_O = pivot ? b->I_O : 0,
-                         .L = pivot ? b->L : 0,
+                         .I_O = b->I_O,
+                         .L = b->joint->has_axis ? b->L : 0,
                          .G = {b->inertia.G.x, b->inertia.G.y}};
 }
 

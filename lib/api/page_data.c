@@ -201,18 +201,13 @@ static void write_coordinate_equation(struct text *text, struct symbolic *symbol
     const struct model_body *body = &model->bodies[b];
     const struct record_of_body *columns = &record->bodies[b];
     const struct label *label = &model->labels[body->first + k];
-    bool pivot = body->kind == motion_pivot, track = body->kind == motion_track;
     struct row row = {.coordinate = label->name,
-                      .inertia = pivot    ? "I_O"
-                                 : k == 2 ? "I_G"
-                                          : "m",
+                      .inertia = body->joint->coordinates[k].inertia,
                       .inertia_unit = label->inertia_unit,
                       .acceleration = equation_acceleration_name(model, body, k),
                       .acceleration_unit = label->acceleration_unit,
                       .unit = label->force_unit,
-                      .value = pivot    ? body->I_O
-                               : k == 2 ? body->inertia.I_G
-                                        : body->inertia.mass,
+                      .value = coordinate_inertia(body, k),
                       .column = columns->equation + k,
                       .mass = columns->mass,
                       .start = body->inertia.mass};
@@ -223,7 +218,8 @@ static void write_coordinate_equation(struct text *text, struct symbolic *symbol
         if (arrow->term >= 0) write_term(text, symbolic, arrow->name, arrow->term + k, &first);
     }
     if (columns->moving_axis >= 0)
-        write_term(text, symbolic, track ? "turning along" : "moving axis", columns->moving_axis, &first);
+        write_term(text, symbolic, body->joint->has_axis ? "moving axis" : "turning along",
+                   columns->moving_axis, &first);
     text_add(text, "]}");
 }
 

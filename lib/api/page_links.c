@@ -39,7 +39,7 @@ void page_links_write(struct text *text, const struct record *record)
         const struct model_body *body = &model->bodies[load->body];
         enum load_kind kind = load->source->kind;
         if (kind != load_spring && kind != load_damper) continue;
-        bool to_a_wall = body->kind == motion_slide && body->parent == ground_body;
+        bool to_a_wall = body->joint->path == path_line && body->parent == ground_body;
         if (!load->linked && !to_a_wall) continue;
         json_comma(text, written++);
         text_printf(text, "{\"body\":%d,\"kind\":\"%s\",\"point\":", load->body,

@@ -113,7 +113,7 @@ static void add_linear_gravity(struct fbd_simplifications *list, int b, int i)
     const struct model_body *body = &model->bodies[b];
     struct vec g = model->scene->gravity;
     double size = body->inertia.mass * vec_norm(g) * body->L, turn = 2 * acos(-1);
-    if (body->kind != motion_pivot || !(size > 0)) return;
+    if (!body->joint->has_axis || !(size > 0)) return;
     double hangs = atan2(g.y, g.x) - atan2(body->arm.y, body->arm.x),
            start = model->scene->coordinates[body->first].initial;
     hangs += turn * round((start - hangs) / turn);
@@ -133,10 +133,9 @@ static double largest_speed(const struct fbd_simplifications *list, const struct
     double most = 0;
     for (size_t k = 0; k < motion->count; k++) {
         const double *v = motion->values + k * list->size + body->first_rate;
-        bool plane = body->kind == motion_particle || body->kind == motion_planar;
-        most = fmax(most, plane ? hypot(v[0], v[1]) : fabs(v[0]));
+        most = fmax(most, body->count > 1 ? hypot(v[0], v[1]) : fabs(v[0]));
     }
-    return body->kind == motion_pivot ? most * vec_norm(vec_sub(point, body->pin)) : most;
+    return body->joint->has_axis ? most * vec_norm(vec_sub(point, body->pin)) : most;
 }
 
 static void add_linear_drag(struct fbd_simplifications *list, int b, int i)
@@ -146,7 +145,7 @@ static void add_linear_drag(struct fbd_simplifications *list, int b, int i)
     if (load->quadratic == 0 || load_has_wind(load)) return;
     double speed = largest_speed(list, body, list->model->loads[body->first_load + i].point);
     fbd_coordinate coordinate = fbd_model_coordinate(list->model, (size_t)body->first);
-    const char *unit = body->kind == motion_pivot ? "" : coordinate.rate_unit;
+    const char *unit = body->joint->has_axis ? "" : coordinate.rate_unit;
     add(list, (struct edit){.kind = edit_linear_drag, .body = b, .index = i, .value = speed}, load->name,
         arena_printf(&list->arena, "linear: |v| v -> %.4g %s v", speed, unit));
 }
@@ -271,10 +270,9 @@ static void add_inertia(struct fbd_simplifications *list, int b)
         add(list, (struct edit){.kind = edit_part, .body = b, .index = (int)p}, name,
             source->parts[p].mass < 0 ? "the hole filled" : "its mass left out");
     }
-    bool turns = body->kind == motion_pivot || body->kind == motion_planar;
-    if (turns && body->inertia.I_G > 0)
+    if (body->joint->angle >= 0 && body->inertia.I_G > 0)
         add(list, (struct edit){.kind = edit_rotary, .body = b}, "I_G",
-            body->kind == motion_pivot ? "all its mass in G" : "no moment of inertia about G");
+            body->joint->has_axis ? "all its mass in G" : "no moment of inertia about G");
 }
 
 /* ---- couplings: a row of the first body that is not the ground */

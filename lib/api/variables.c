@@ -46,7 +46,7 @@ static struct place place_of(const struct scene *scene, size_t at)
 /* May the file give initial values? */
 static bool starts_freely(const struct body *body)
 {
-    return !body->assemble && body->motion.kind != motion_track && !body->motion.prescribed.expr;
+    return !body->assemble && !body->motion.curve && !body->motion.prescribed.expr;
 }
 
 static fbd_variable of_motion(const struct fbd_model *model, struct place place)

@@ -44,10 +44,10 @@ static fbd_pose pose_of(const struct fbd_model *model, const struct model_body *
     const struct pose pose = body_pose(body, at);
     const struct vec G = point_motion(body, &pose, body->inertia.G).p;
     struct vec along = {1, 0}, normal = {0, 1};
-    if (body->kind == motion_slide) {
+    if (body->joint->path == path_line) {
         along = pose.rotation;
         normal = vec_scale(vec_dot(body->n, vec_perp(body->e)) > 0 ? 1 : -1, vec_perp(along));
-    } else if (body->kind == motion_track) {
+    } else if (body->joint->path == path_curve) {
         along = body_direction(body, at);
         normal = surface_normal(model, body, at);
     }
@@ -75,7 +75,7 @@ static fbd_mass mass_of(const struct fbd_model *model, int b, const struct insta
     const char *symbol = symbol_of_mass(model, b, arena);
     return (fbd_mass){.mass = body_mass(body, at),
                       .I_G = body_inertia(body, at).I_G,
-                      .I_O = body->kind == motion_pivot ? body_I_O(body, at) : 0,
+                      .I_O = body_I_O(body, at),
                       .symbol = symbol,
                       .printed = symbol ? symbol_printed(symbol, arena) : NULL};
 }
@@ -96,8 +96,8 @@ static fbd_force force_of(const struct fbd_model *model, const struct arrow *arr
     const struct model_load *load = &model->loads[arrow->load];
     const enum load_kind kind = load->source->kind;
     force.kind = load_law(load->source)->drawing;
-    if ((kind != load_normal && kind != load_friction) || model->bodies[load->body].kind != motion_slide)
-        return force;
+    const bool on_line = model->bodies[load->body].joint->path == path_line;
+    if ((kind != load_normal && kind != load_friction) || !on_line) return force;
     force.slide = load->body;
     force.normal = kind == load_normal;
     return force;
@@ -109,9 +109,7 @@ static bool take_forces(struct fbd_view *view, const struct fbd_state *state, in
     const struct fbd_model *model = state->model;
     const struct instant at = state_instant(state);
     const struct model_body *body = &model->bodies[b];
-    const struct pose pose = body_pose(body, &at);
-    const struct vec about =
-        body->kind == motion_pivot ? pose.origin : point_motion(body, &pose, body->inertia.G).p;
+    const struct vec about = moment_center(body, &at);
     struct view_body *seen = &view->bodies[b];
     seen->force_count = diagram_fill(model, b, &at, state->a, state->slots, arrows);
     seen->forces = ARENA_ARRAY(&view->arena, seen->force_count + 1, fbd_force);
@@ -148,7 +146,7 @@ static bool is_seen(const struct fbd_model *model, const struct model_load *load
 {
     const struct model_body *body = &model->bodies[load->body];
     if (load->source->kind != load_spring && load->source->kind != load_damper) return false;
-    return load->linked || (body->kind == motion_slide && body->parent == ground_body);
+    return load->linked || (body->joint->path == path_line && body->parent == ground_body);
 }
 
 static bool take_springs(struct fbd_view *view, const struct fbd_model *model)

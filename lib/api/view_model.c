@@ -35,10 +35,7 @@ static const struct model_body *body_at(const fbd_model *model, size_t index)
     return model && index < model->body_count ? &model->bodies[index] : NULL;
 }
 
-static const fbd_motion_kind motions[] = {
-    [motion_slide] = FBD_MOTION_SLIDE,       [motion_pivot] = FBD_MOTION_PIVOT,
-    [motion_particle] = FBD_MOTION_PARTICLE, [motion_planar] = FBD_MOTION_PLANAR,
-    [motion_weld] = FBD_MOTION_WELD,         [motion_track] = FBD_MOTION_TRACK};
+_Static_assert((int)FBD_MOTION_TRACK + 1 == motion_kinds_count, "the view has the joints of the language");
 
 fbd_body fbd_model_body(const fbd_model *model, size_t index)
 {
@@ -51,13 +48,13 @@ fbd_body fbd_model_body(const fbd_model *model, size_t index)
                           .joint = {NAN, NAN},
                           .along = {NAN, NAN},
                           .normal = {NAN, NAN}};
-    const bool turns = body->kind == motion_pivot || body->kind == motion_planar;
+    const int angle = body->joint->angle;
     fbd_body seen = {.name = body->name,
-                     .motion = motions[body->kind],
+                     .motion = (fbd_motion_kind)body->kind,
                      .carrier = body->parent,
                      .coordinate = (size_t)body->first,
                      .coordinate_count = (size_t)body->count,
-                     .angle = turns ? body->first + body->count - 1 : -1,
+                     .angle = angle < 0 ? -1 : body->first + angle,
                      .pin = PAIR(body->pin),
                      .joint = PAIR(body->origin),
                      .along = PAIR(body->e),
@@ -70,7 +67,7 @@ fbd_body fbd_model_body(const fbd_model *model, size_t index)
                      .column = body->source->at.column,
                      .motion_line = body->source->motion.at.line,
                      .motion_column = body->source->motion.at.column};
-    for (size_t i = 0; body->kind == motion_slide && i < body->source->load_count; i++) {
+    for (size_t i = 0; body->joint->path == path_line && i < body->source->load_count; i++) {
         if (body->source->loads[i].kind != load_normal) continue;
         seen.surface = true;
         seen.two_sided |= body->source->loads[i].two_sided;
@@ -146,7 +143,7 @@ fbd_named_point fbd_model_point(const fbd_model *model, size_t body, size_t inde
 static const struct curve *curve_of(const fbd_model *model, size_t body)
 {
     const struct model_body *b = body_at(model, body);
-    return b && b->kind == motion_track ? b->source->motion.curve : NULL;
+    return b ? b->source->motion.curve : NULL;
 }
 
 fbd_track fbd_model_track(const fbd_model *model, size_t body)

@@ -79,7 +79,7 @@ static void stop(const struct view *view, const struct coupling *coupling, const
     int own = meeting->shape[0].link;
     double s = meeting->stop;
     start_row(&rows[1], jet_constant(0));
-    if (link->kind == motion_pivot) {
+    if (link_joint(link)->has_axis) {
         struct jet q = jet_sub(angle_of(view, own), angle_of(view, link->parent));
         start_row(&rows[0], jet_scale(s, jet_sub(q, jet_constant(link->along + meeting->limit))));
         add_couple(view, &rows[0], coupling, 0, s);

@@ -64,7 +64,7 @@ static struct gap stop_gap(const struct fbd_model *model, const struct tree_work
     const struct tree_link *link = &model->tree->links[i];
     const struct tree_state *own = &work->links[i], *parent = &work->links[link->parent];
     double s = meeting->stop;
-    if (link->kind == motion_pivot)
+    if (link_joint(link)->has_axis)
         return (struct gap){s * (own->angle - parent->angle - link->along - meeting->limit),
                             s * (own->omega - parent->omega), 0};
     struct moving at = point_in_world(work, link->parent, link->at);

@@ -79,34 +79,30 @@ struct vec drag_of_load(const struct model_load *load, struct vec v, const struc
     return vec_add(f, (struct vec){formula_value(&load->fx, at), formula_value(&load->fy, at)});
 }
 
-/* The position of the joint of a body and the direction of its +x: those of its link, or of its line or axis
- * on the ground. `turning`: the rotation of a body per length of its track. */
-struct joint {
-    struct vec p, e;
-    double turning;
-};
-
-static struct joint joint_of(const struct model_body *body, const struct instant *at)
+static const struct tree_state *link_of(const struct model_body *body, const struct instant *at)
 {
-    const struct tree_state *s = &at->tree->links[body->place.link];
-    return (struct joint){s->p, s->e, s->turning};
+    return &at->tree->links[body->place.link];
 }
 
 struct vec body_direction(const struct model_body *body, const struct instant *at)
 {
-    return joint_of(body, at).e;
+    return link_of(body, at)->e;
 }
 
-/* Set a force `f` along the line of a slide or track; on a track it acts at the curve. */
-static void act_along(const struct model_body *body, const struct joint *joint, double f, struct arrow *arrow)
+/* Set the generalized force f of a joint of one coordinate: a couple about its axis, a force along its line, or along
+ * its curve, where that acts at the curve. */
+static void act_in_joint(const struct model_body *body, const struct tree_state *link, double f,
+                         struct arrow *arrow)
 {
-    arrow->force = vec_scale(f, joint->e);
-    if (body->kind == motion_track) arrow->point = joint->p;
+    if (body->joint->has_axis)
+        arrow->couple = f;
+    else
+        arrow->force = vec_scale(f, link->e);
+    if (body->joint->path == path_curve) arrow->point = link->p;
 }
 
 static void spring_arrow(const struct fbd_model *model, const struct model_load *load,
-                         const struct joint *joint, struct motion_of_point point, const struct instant *at,
-                         struct arrow *arrow)
+                         struct motion_of_point point, const struct instant *at, struct arrow *arrow)
 {
     const struct load *source = load->source;
     const struct model_body *body = &model->bodies[load->body];
@@ -118,38 +114,28 @@ static void spring_arrow(const struct fbd_model *model, const struct model_load 
         return;
     }
     double stretch = at->y[body->first] - source->free_length;
-    act_along(body, joint, -(source->stiffness * stretch + source->coefficient * at->y[body->first_rate]),
-              arrow);
+    act_in_joint(body, link_of(body, at),
+                 -(source->stiffness * stretch + source->coefficient * at->y[body->first_rate]), arrow);
 }
 
 /* -dV/dq for each of the body's coordinates, in the directions of its joint; V is a function of the joint's
  * position. */
 static void potential_arrow(const struct model_body *body, const struct model_load *load,
-                            const struct joint *joint, const struct instant *at, struct arrow *arrow)
+                            const struct instant *at, struct arrow *arrow)
 {
+    const struct tree_state *link = link_of(body, at);
     double f[most_coordinates_of_a_body] = {0};
     for (int k = 0; load->potential.expr && k < body->count; k++) {
         expr_eval_slot(load->potential.expr, at->t, at->y, 1 + body->first + k,
                        formula_branches(&load->potential, at), &f[k]);
         f[k] = -f[k];
     }
-    if (body->kind == motion_slide || body->kind == motion_track) act_along(body, joint, f[0], arrow);
-    if (body->kind == motion_pivot) arrow->couple = f[0];
+    if (body->count == 1) act_in_joint(body, link, f[0], arrow);
     if (body->count > 1) {
-        arrow->force = vec_turn(joint->e, (struct vec){f[0], f[1]});
-        arrow->point = joint->p;
+        arrow->force = vec_turn(link->e, (struct vec){f[0], f[1]});
+        arrow->point = link->p;
         arrow->couple = f[2];
     }
-}
-
-static void drive_arrow(const struct fbd_model *model, const struct model_body *body,
-                        const struct joint *joint, const double *slots, struct arrow *arrow)
-{
-    double drive = -slots[model->plan.modes[body->drive_pair].hold_slot];
-    if (body->kind == motion_pivot)
-        arrow->couple = drive;
-    else
-        act_along(body, joint, drive, arrow);
 }
 
 /* Written in place: a copy would have to wait for the stores. */
@@ -159,27 +145,29 @@ static void pose_arrow(const struct fbd_model *model, int index, const struct po
     const struct model_load *load = &model->loads[index];
     const struct model_body *body = &model->bodies[load->body];
     const struct load *source = load->source;
-    const struct joint joint = joint_of(body, at);
+    const struct tree_state *link = link_of(body, at);
     struct motion_of_point point = point_motion(body, pose, load->point);
     *arrow = (struct arrow){.name = source->name, .load = index, .point = load_place(load, point.p, at)};
     switch (source->kind) {
     case load_gravity: arrow->force = vec_scale(body_mass(body, at), model->scene->gravity); break;
-    case load_drive: drive_arrow(model, body, &joint, slots, arrow); break;
+    case load_drive:
+        act_in_joint(body, link, -slots[model->plan.modes[body->drive_pair].hold_slot], arrow);
+        break;
     case load_rope:
     case load_belt:
     case load_contact:
     case load_carried:
     case load_normal: break; /* a reaction: set from the sum of the others */
     case load_friction:
-        act_along(body, &joint, friction_at(model, body->friction, at, slots).force, arrow);
+        act_in_joint(body, link, friction_at(model, body->friction, at, slots).force, arrow);
         break;
     case moment_friction: arrow->couple = friction_at(model, body->friction, at, slots).force; break;
     case load_applied: arrow->force = applied_force(load, pose, at); break;
     case load_spring:
-    case load_damper: spring_arrow(model, load, &joint, point, at, arrow); break;
+    case load_damper: spring_arrow(model, load, point, at, arrow); break;
     case load_drag: arrow->force = drag_of_load(load, point.v, at); break;
     case load_potential:
-    case moment_potential: potential_arrow(body, load, &joint, at, arrow); break;
+    case moment_potential: potential_arrow(body, load, at, arrow); break;
     case moment_applied: arrow->couple = formula_value(&load->value, at); break;
     case moment_spring:
         arrow->couple = -source->stiffness * (at->y[body->first + body->count - 1] - source->free_length);
@@ -230,23 +218,11 @@ bool arrow_is_of_joint(const struct fbd_model *model, int b, const struct arrow 
 static void set_share(const struct fbd_model *model, int b, const struct instant *at, struct arrow *arrow)
 {
     const struct model_body *body = &model->bodies[b];
-    const struct joint joint = joint_of(body, at);
-    double moment = arrow_moment(arrow, joint.p);
+    const struct tree_state *link = link_of(body, at);
     for (int k = 0; k < most_coordinates_of_a_body; k++) arrow->share[k] = 0;
     if (arrow_is_of_joint(model, b, arrow)) return;
-    switch (body->kind) {
-    case motion_slide: arrow->share[0] = vec_dot(joint.e, arrow->force); break;
-    case motion_track: arrow->share[0] = vec_dot(joint.e, arrow->force) + joint.turning * moment; break;
-    case motion_pivot: arrow->share[0] = moment; break;
-    case motion_planar:
-        arrow->share[2] = moment;
-        /* fall through */
-    case motion_particle:
-        arrow->share[0] = vec_dot(joint.e, arrow->force);
-        arrow->share[1] = vec_cross(joint.e, arrow->force);
-        break;
-    case motion_weld: break;
-    }
+    joint_shares(body->joint, link, (struct wrench){arrow_moment(arrow, link->p), arrow->force},
+                 arrow->share);
 }
 
 /* By the velocity of the point and the angular velocity of the link. */

@@ -45,7 +45,18 @@ struct integrand {
  * present pose only. */
 static struct pose pose_at(const struct model_body *body, const struct instant *at)
 {
-    return body_pose_turned(body, at, vec_cos_sin(at->y[body->first]));
+    const double q = at->y[body->first], v = at->y[body->first_rate];
+    if (body->joint->has_axis) return (struct pose){body->origin, vec_unit(q), {0, 0}, v};
+    return (struct pose){vec_add(body->origin, vec_scale(q, body->e)), body->e, vec_scale(v, body->e), 0};
+}
+
+/* The generalized force of an applied force on such a body. */
+static double share_of(const struct model_body *body, const struct model_load *load, const struct pose *pose,
+                       const struct instant *at)
+{
+    const struct vec f = applied_force(load, pose, at);
+    const struct vec arm = vec_sub(point_motion(body, pose, load->point).p, pose->origin);
+    return body->joint->has_axis ? vec_cross(arm, f) : vec_dot(f, body->e);
 }
 
 /* The generalized force of a load that depends on one coordinate only. */
@@ -58,10 +69,7 @@ static double force_at(double q, void *context)
     integrand->y[body->first] = q;
     if (source->kind == moment_applied) return formula_value(&load->value, &integrand->at);
     struct pose pose = pose_at(body, &integrand->at);
-    struct vec f = applied_force(load, &pose, &integrand->at);
-    double share = 0;
-    add_force(body, &pose, point_motion(body, &pose, load->point), f, &share);
-    return share;
+    return share_of(body, load, &pose, &integrand->at);
 }
 
 /* Integrate each piece of the formulas, so that no pulse is missed. NAN if the relative error is too large. */
@@ -122,9 +130,7 @@ static double linear_potential(const struct model_body *body, const struct model
                                const struct pose *pose, const struct instant *at)
 {
     if (load->source->kind == moment_applied) return -formula_value(&load->value, at) * body_angle(body, at);
-    double q = at->y[body->first + body->count - 1], share = 0;
-    add_force(body, pose, point_motion(body, pose, load->point), applied_force(load, pose, at), &share);
-    return -share * q;
+    return -share_of(body, load, pose, at) * at->y[body->first];
 }
 
 double potential_energy(const struct fbd_model *model, const struct model_load *load,

@@ -24,21 +24,6 @@ static double slope_variation(const struct potential_term *term, const struct in
     return sum;
 }
 
-void add_force(const struct model_body *body, const struct pose *pose, struct motion_of_point point,
-               struct vec f, double *own)
-{
-    switch (body->kind) {
-    case motion_slide: own[0] += vec_dot(f, body->e); return;
-    case motion_pivot: own[0] += vec_cross(vec_sub(point.p, pose->origin), f); return;
-    case motion_planar: own[2] += vec_cross(vec_sub(point.p, pose->origin), f); break;
-    case motion_particle: break;
-    case motion_weld:
-    case motion_track: return; /* jointed */
-    }
-    own[0] += f.x;
-    own[1] += f.y;
-}
-
 static void add_joint_forces(const struct plan *plan, const struct instant *at,
                              const struct link_loads *loads, double *slots)
 {

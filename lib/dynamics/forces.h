@@ -17,9 +17,4 @@ void force_slots_alone(const struct fbd_model *model, const struct instant *at, 
 void force_slots_along(const struct fbd_model *model, const struct instant *at, const struct direction *along,
                        double *variation);
 
-/* Add a force f at a point with the given motion to the generalized forces `own` of its body's coordinates.
- */
-void add_force(const struct model_body *body, const struct pose *pose, struct motion_of_point point,
-               struct vec f, double *own);
-
 #endif

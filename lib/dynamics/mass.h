@@ -36,6 +36,14 @@ static inline double body_I_O(const struct model_body *body, const struct instan
     return body->varies ? body->I_O * body_share(body, at) : body->I_O;
 }
 
+/* The inertia in the equation of motion of coordinate k: I_O, I_G or the mass. */
+static inline double coordinate_inertia_at(const struct model_body *body, int k, const struct instant *at)
+{
+    if (!body->varies) return coordinate_inertia(body, k);
+    return coordinate_is_angle(body, k) ? coordinate_inertia(body, k) * body_share(body, at)
+                                        : body_mass(body, at);
+}
+
 /* dm/dt, at an extended instant (world_refs.h); and its variation along an extended direction. */
 double body_mass_rate(const struct fbd_model *model, const struct model_body *body, const struct instant *at);
 double body_mass_rate_along(const struct fbd_model *model, const struct model_body *body,

@@ -53,8 +53,8 @@ static void read_reactions(const struct rest_system *system, const double *slots
         own[0] = s->F.force.x;
         own[1] = s->F.force.y;
         own[2] = s->F.moment / system->length;
-        if (link->kind == motion_pivot) own[2] -= g[0] / system->length;
-        if (link->kind != motion_slide && link->kind != motion_track) continue;
+        if (link_joint(link)->has_axis) own[2] -= g[0] / system->length;
+        if (link_joint(link)->path == path_none) continue;
         const struct model_body *body = &model->bodies[link->body];
         struct pose pose = body_pose(body, &at);
         struct vec arm = vec_sub(s->p, point_motion(body, &pose, body->inertia.G).p);

@@ -56,17 +56,10 @@ static void transmit(const struct fbd_model *model, const struct instant *at, co
 static void leave_over(const struct tree_link *link, const struct tree_state *s, const double *slots,
                        double *Q)
 {
-    const double *g = slots + link->coordinate;
-    double *own = Q + link->coordinate;
-    if (link->kind == motion_pivot) {
-        own[0] = g[0] - s->F.moment;
-    } else if (joint_freedom(link->kind) == 1) {
-        own[0] = g[0] - joint_share(link, s, s->F);
-    } else {
-        own[0] = g[0] - vec_dot(s->e, s->F.force);
-        own[1] = g[1] - vec_cross(s->e, s->F.force);
-        if (link->kind == motion_planar) own[2] = g[2] - s->F.moment;
-    }
+    double share[most_coordinates_of_a_body];
+    joint_shares(link_joint(link), s, s->F, share);
+    for (int k = 0; k < link_joint(link)->count; k++)
+        Q[link->coordinate + k] = slots[link->coordinate + k] - share[k];
 }
 
 /* Subtract the friction of moving surfaces; a moving bearing has a given moment. */

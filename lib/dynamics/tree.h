@@ -280,10 +280,19 @@ static inline double joint_share_along(const struct tree_link *link, const struc
     return link->kind == motion_track ? along + d->turning * F.moment : along;
 }
 
+/* The same along each coordinate of any joint. */
+static inline void joint_shares(const struct joint_type *joint, const struct tree_state *s, struct wrench F,
+                                double own[static most_coordinates_of_a_body])
+{
+    const double along = vec_dot(s->e, F.force), across = vec_cross(s->e, F.force);
+    for (int k = 0; k < joint->count; k++) own[k] = k == joint->angle ? F.moment : k == 0 ? along : across;
+    if (joint->path == path_curve) own[0] += s->turning * F.moment;
+}
+
 /* The number of coordinates of a joint. */
 static inline int joint_freedom(enum motion_kind kind)
 {
-    return kind == motion_weld ? 0 : kind == motion_planar ? 3 : kind == motion_particle ? 2 : 1;
+    return joint_types[kind].count;
 }
 
 #endif

@@ -15,12 +15,6 @@ static const struct tree_state *link_of(const struct model_body *body, const str
     return &at->tree->links[body->place.link];
 }
 
-/* Does it move along a line or a curve? */
-static bool is_guided(const struct model_body *body)
-{
-    return body->kind == motion_slide || body->kind == motion_track;
-}
-
 static struct vec mass_center(const struct model_body *body, const struct instant *at)
 {
     struct pose pose = body_pose(body, at);
@@ -31,7 +25,7 @@ static struct vec mass_center(const struct model_body *body, const struct instan
  * alike. */
 static struct vec guide_point(const struct model_body *body, const struct instant *at)
 {
-    return body->kind == motion_track ? link_of(body, at)->p : mass_center(body, at);
+    return body->joint->path == path_curve ? link_of(body, at)->p : mass_center(body, at);
 }
 
 struct vec tree_point_acceleration(const struct model_body *body, struct vec place, const struct instant *at)
@@ -60,15 +54,15 @@ struct vec surface_normal(const struct fbd_model *model, const struct model_body
 
 bool tree_has_more(const struct model_body *body)
 {
-    if (body->kind == motion_pivot) return body->parent != ground_body;
-    return body->kind == motion_track && body->source->motion.turns && (body->inertia.I_G > 0 || body->L > 0);
+    if (body->joint->has_axis) return body->parent != ground_body;
+    return body->source->motion.turns && (body->inertia.I_G > 0 || body->L > 0);
 }
 
 double tree_more(const struct model_body *body, const struct instant *at)
 {
     const struct tree_state *s = link_of(body, at);
     struct vec r = vec_turn(s->turn, body->arm);
-    if (body->kind == motion_pivot) return -body_mass(body, at) * vec_cross(r, s->A.a);
+    if (body->joint->has_axis) return -body_mass(body, at) * vec_cross(r, s->A.a);
     struct vec f = vec_scale(body_mass(body, at), tree_mass_center_acceleration(body, at));
     return -s->turning * (body_inertia(body, at).I_G * tree_angular_acceleration(body, at) + vec_cross(r, f));
 }
@@ -278,7 +272,7 @@ static void reaction_fill(const struct fbd_model *model, int b, const struct ins
 {
     const struct model_body *body = &model->bodies[b];
     const struct tree_state *s = link_of(body, at);
-    if (is_guided(body))
+    if (body->joint->path != path_none)
         *arrow = slide_reaction(model, body, at, slots, NULL);
     else if (body->kind == motion_weld)
         *arrow = weld_reaction(model, b, at, slots);

@@ -14,14 +14,9 @@ static double mobility(const struct tree *tree, const struct tree_work *work, in
 {
     for (; link > 0; link = tree->links[link].parent) {
         const struct tree_state *s = &work->links[link];
-        enum motion_kind kind = tree->links[link].kind;
-        double r2 = vec_dot(arm, arm), gives = 0;
-        if (kind == motion_pivot)
-            gives = s->D * r2;
-        else if (kind == motion_slide || kind == motion_track)
-            gives = s->D;
-        else
-            gives = s->inverse[0] + s->inverse[2] + s->D * r2;
+        const struct joint_type *joint = link_joint(&tree->links[link]);
+        double gives = joint->path != path_none ? s->D : s->D * vec_dot(arm, arm);
+        if (joint->count > 1) gives = s->inverse[0] + s->inverse[2] + gives;
         if (!s->locked && gives > 0) return gives;
         arm = vec_add(arm, s->d);
     }

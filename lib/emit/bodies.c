@@ -12,7 +12,7 @@
 /* The vector from the origin of the frame, or from the axis, to a point. */
 static const char *arm_of(struct body_writer *writer, const char *point)
 {
-    if (writer->body->kind != motion_pivot) return point;
+    if (!writer->body->joint->has_axis) return point;
     return emit_printf(writer->emitter, "vec_sub(%s, c->%s.pin)", point, writer->name);
 }
 
@@ -74,7 +74,7 @@ static void add_constant_force(struct body_writer *writer, const char *point, co
     int i = body->first;
     const char *f = emit_name(emitter, emit_printf(emitter, "%s_%s_force", writer->name, load->name));
     text_printf(&emitter->derive, "    const struct vec %s = %s;\n", f, value);
-    if (body->kind == motion_slide) {
+    if (body->joint->path == path_line) {
         const char *e = emit_printf(emitter, "c->%s.e", writer->name);
         const char *world = body_frame ? emit_printf(emitter, "vec_turn(%s, %s)", e, f) : f;
         add_term(writer, i, "constant", emit_printf(emitter, "vec_dot(%s, %s)", world, e), load);
@@ -84,17 +84,18 @@ static void add_constant_force(struct body_writer *writer, const char *point, co
         return;
     }
     const char *arm = arm_of(writer, point);
-    if (body->kind == motion_pivot && body_frame)
-        add_term(writer, i, "constant", emit_printf(emitter, "vec_cross(%s, %s)", arm, f), load);
-    else if (body->kind == motion_pivot)
-        add_world_moment(writer, i, arm, f, load);
-    else if (body->kind == motion_planar && body_frame)
+    const bool turns = body->joint->angle >= 0, has_axis = body->joint->has_axis;
+    if (turns && body_frame && !has_axis) {
         add_turning_force(writer, arm, f, load);
-    else {
-        if (body->kind == motion_planar) add_world_moment(writer, i + 2, arm, f, load);
-        add_term(writer, i, "constant", emit_printf(emitter, "%s.x", f), load);
-        add_term(writer, i + 1, "constant", emit_printf(emitter, "%s.y", f), load);
+        return;
     }
+    if (turns && body_frame)
+        add_term(writer, i, "constant", emit_printf(emitter, "vec_cross(%s, %s)", arm, f), load);
+    else if (turns)
+        add_world_moment(writer, i + body->joint->angle, arm, f, load);
+    if (has_axis) return;
+    add_term(writer, i, "constant", emit_printf(emitter, "%s.x", f), load);
+    add_term(writer, i + 1, "constant", emit_printf(emitter, "%s.y", f), load);
 }
 
 /* ---- applied forces */
@@ -149,7 +150,8 @@ static void add_varying_force(struct body_writer *writer, const struct directed 
     const struct model_body *body = writer->body;
     int i = body->first;
     const char *d = force->direction;
-    if (body->kind == motion_slide) {
+    const bool turns = body->joint->angle >= 0;
+    if (body->joint->path == path_line) {
         const char *e = emit_printf(emitter, "c->%s.e", writer->name);
         const char *world = force->body_frame ? emit_printf(emitter, "vec_turn(%s, %s)", e, d) : d;
         add_formula(writer, i,
@@ -159,11 +161,10 @@ static void add_varying_force(struct body_writer *writer, const struct directed 
         const char *across = emit_printf(emitter, "vec_dot(%s, c->%s.n)", world, writer->name);
         add_formula(writer, body->normal_slot, scale_of(writer, "across", across, load), force->formula,
                     force->value, load);
-    } else if (body->kind == motion_pivot && force->body_frame) {
+    } else if (body->joint->has_axis && force->body_frame) {
         const char *lever = emit_printf(emitter, "vec_cross(%s, %s)", arm_of(writer, force->point), d);
         add_formula(writer, i, scale_of(writer, "arm", lever, load), force->formula, force->value, load);
-    } else if (body->kind == motion_particle ||
-               (body->kind == motion_planar && !force->body_frame && at_origin)) {
+    } else if (!turns || (!body->joint->has_axis && !force->body_frame && at_origin)) {
         if (force->turns || force->d.x != 0)
             add_formula(writer, i, scale_of(writer, "x", emit_printf(emitter, "%s.x", d), load),
                         force->formula, force->value, load);
@@ -202,9 +203,9 @@ static void add_component(struct body_writer *writer, const struct model_load *l
 static void add_couple(struct body_writer *writer, const struct model_load *load)
 {
     const struct model_body *body = writer->body;
-    if (body->kind != motion_pivot && body->kind != motion_planar) return;
+    if (body->joint->angle < 0) return;
     const char *value = load_formula(writer->emitter, load, "couple", &load->couple, DIM_MOMENT);
-    add_formula(writer, body->first + body->count - 1, NULL, &load->couple, value, load->source);
+    add_formula(writer, body->first + body->joint->angle, NULL, &load->couple, value, load->source);
 }
 
 static void add_applied(struct body_writer *writer, const struct model_load *load)
@@ -277,12 +278,11 @@ static void add_drag(struct body_writer *writer, const struct model_load *load)
     }
     if (!load_drags_still_air(source)) return;
     bool at_origin = load->point.x == 0 && load->point.y == 0;
-    bool line = body->kind == motion_slide || body->kind == motion_pivot;
-    bool simple = source->quadratic == 0 && (body->kind == motion_particle || at_origin);
+    bool simple = source->quadratic == 0 && (body->joint->angle < 0 || at_origin);
     const char *c = load_number(emitter, load, "linear", source->linear, DIM_DAMPING);
-    if (line) {
+    if (body->count == 1) {
         const char *r =
-            body->kind == motion_pivot ? emit_printf(emitter, "*vec_norm(%s)", arm_of(writer, point)) : "";
+            body->joint->has_axis ? emit_printf(emitter, "*vec_norm(%s)", arm_of(writer, point)) : "";
         add_term(writer, i, "damping", emit_printf(emitter, "%s%s%s", c, r, r), source);
         if (source->quadratic == 0) return;
         const char *k = load_number(emitter, load, "quadratic", source->quadratic, DIM_QUADRATIC_DRAG);
@@ -406,7 +406,7 @@ static void write_points(struct body_writer *writer, struct text *lines)
                 emit_pose(emitter, writer->b));
     if (strstr(writer->points.data, "at = ")) text_add(lines, "    struct motion at;\n");
     text_add(lines, writer->points.data);
-    if (body->kind == motion_slide) {
+    if (body->joint->path == path_line) {
         text_printf(lines, "    f[%s] += vec_dot(sum.f, c->%s.e);\n", emitter->slot[body->first],
                     writer->name);
         if (body->normal_slot >= 0)
@@ -414,10 +414,9 @@ static void write_points(struct body_writer *writer, struct text *lines)
                         writer->name);
         return;
     }
-    int last = body->first + body->count - 1;
-    if (body->kind == motion_pivot || body->kind == motion_planar)
-        text_printf(lines, "    f[%s] += sum.moment;\n", emitter->slot[last]);
-    if (body->kind == motion_pivot) return;
+    const int angle = body->joint->angle;
+    if (angle >= 0) text_printf(lines, "    f[%s] += sum.moment;\n", emitter->slot[body->first + angle]);
+    if (body->joint->has_axis) return;
     text_printf(lines, "    f[%s] += sum.f.x;\n    f[%s] += sum.f.y;\n", emitter->slot[body->first],
                 emitter->slot[body->first + 1]);
 }

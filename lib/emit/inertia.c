@@ -187,7 +187,8 @@ static void many_parts(struct emitter *emitter, const char *body, int b)
         const char *owner = emit_join(emitter, body, part->name);
         /* The masses of a planar body determine whether its equations are coupled, so they are no parameters. */
         struct part plain = *part;
-        if (source->motion.kind == motion_planar) plain.at = (struct pos){0, 0};
+        const struct joint_type *joint = motion_joint(&source->motion);
+        if (joint->angle >= 0 && !joint->has_axis) plain.at = (struct pos){0, 0};
         m[i] = number_of(emitter, &plain, owner, "mass", part->mass, DIM_MASS);
         if (part->shape == shape_rod && emit_tells_points(emitter, b)) write_rod(emitter, part, owner, b);
         center[i] = center_of(emitter, part, owner, b);
@@ -210,7 +211,7 @@ static const char *carrier_angle(struct emitter *emitter, const struct fbd_model
     double turned = start_angle(model->scene, carrier);
     const char *text = "";
     for (int b = carrier; b != ground_body; b = model->bodies[b].parent) {
-        if (model->bodies[b].kind != motion_slide) continue;
+        if (model->bodies[b].joint->path != path_line) continue;
         turned -= model->bodies[b].source->motion.along;
         text = emit_printf(emitter, " + c->%s.along%s", emitter->body[b], text);
     }
@@ -257,8 +258,8 @@ void emit_inertias(struct emitter *emitter)
             one_part(emitter, &source->parts[0], name, (int)b);
         else
             many_parts(emitter, name, (int)b);
-        if (body->kind == motion_slide) slide(emitter, body, name);
-        if (body->kind != motion_pivot) continue;
+        if (body->joint->path == path_line) slide(emitter, body, name);
+        if (!body->joint->has_axis) continue;
         text_printf(&emitter->derive, "    c->%s.pin = %s;\n", name,
                     emit_vector(emitter, emit_join(emitter, name, "point"), body->pin,
                                 (struct emit_origin){source->motion.at, "point", DIM_LENGTH, (int)b}));
@@ -268,6 +269,6 @@ void emit_inertias(struct emitter *emitter)
                     name, name, name, name);
     }
     for (size_t b = 0; b < model->body_count; b++)
-        if (model->bodies[b].kind == motion_slide)
+        if (model->bodies[b].joint->path == path_line)
             side_of_slide(emitter, &model->bodies[b], emitter->body[b]);
 }

@@ -15,9 +15,8 @@ static void close_text(struct emitter *emitter, struct text *lines)
 struct emit_origin drive_origin(const struct emitter *emitter, const struct mode *mode)
 {
     const struct model_body *body = &emitter->model->bodies[mode->body];
-    bool slide = body->kind == motion_slide;
-    return (struct emit_origin){body->source->motion.at, slide ? "x" : "theta", slide ? DIM_LENGTH : DIM_NONE,
-                                -1};
+    const struct coordinate *coordinate = &emitter->model->scene->coordinates[body->first];
+    return (struct emit_origin){body->source->motion.at, coordinate->name, coordinate->dim, -1};
 }
 
 /* ---- velocities of sticking and driven coordinates */

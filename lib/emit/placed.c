@@ -49,31 +49,26 @@ static void write_pose(struct emitter *emitter, int b, struct text *lines)
     const char *name = emitter->body[b], **q = emitter->coordinate + body->first,
                **v = emitter->rate + body->first;
     const char *origin = "";
-    if (body->kind == motion_slide || body->kind == motion_pivot)
-        origin =
-            emit_vector(emitter, emit_join(emitter, name, "origin"), body->origin,
-                        (struct emit_origin){body->source->motion.at,
-                                             body->kind == motion_slide ? "through" : "at", DIM_LENGTH, -1});
-    switch (body->kind) {
-    case motion_slide:
+    const bool has_axis = body->joint->has_axis;
+    if (body->count == 1)
+        origin = emit_vector(emitter, emit_join(emitter, name, "origin"), body->origin,
+                             (struct emit_origin){body->source->motion.at, has_axis ? "at" : "through",
+                                                  DIM_LENGTH, -1});
+    if (has_axis)
+        text_printf(lines, "    return (struct pose){%s, vec_unit(y[%s]), {0, 0}, y[%s]};\n", origin, q[0],
+                    v[0]);
+    else if (body->count == 1)
         text_printf(lines,
                     "    return (struct pose){vec_add(%s, vec_scale(y[%s], c->%s.e)), c->%s.e, "
                     "vec_scale(y[%s], c->%s.e), 0};\n",
                     origin, q[0], name, name, v[0], name);
-        break;
-    case motion_pivot:
-        text_printf(lines, "    return (struct pose){%s, vec_unit(y[%s]), {0, 0}, y[%s]};\n", origin, q[0],
-                    v[0]);
-        break;
-    case motion_particle:
+    else if (body->joint->angle < 0)
         text_printf(lines, "    return (struct pose){{y[%s], y[%s]}, {1, 0}, {y[%s], y[%s]}, 0};\n", q[0],
                     q[1], v[0], v[1]);
-        break;
-    default:
+    else
         text_printf(lines,
                     "    return (struct pose){{y[%s], y[%s]}, vec_unit(y[%s]), {y[%s], y[%s]}, y[%s]};\n",
                     q[0], q[1], q[2], v[0], v[1], v[2]);
-    }
 }
 
 const char *emit_pose(struct emitter *emitter, int b)
@@ -127,9 +122,9 @@ static const char *angle_of(struct emitter *emitter, const struct model_absolute
     const struct model_body *body = &emitter->model->bodies[absolute->body];
     const char *name = emitter->body[absolute->body];
     if (!body->alone) return emit_printf(emitter, "l.%s.angle + c->%s.place.angle", link, name);
-    if (body->kind == motion_slide) return emit_printf(emitter, "c->%s.along", name);
-    if (body->kind == motion_particle) return "0";
-    return emit_printf(emitter, "y[%s]", emitter->coordinate[body->first + body->count - 1]);
+    if (body->joint->path == path_line) return emit_printf(emitter, "c->%s.along", name);
+    if (body->joint->angle < 0) return "0";
+    return emit_printf(emitter, "y[%s]", emitter->coordinate[body->first + body->joint->angle]);
 }
 
 static const char *slip_of(struct emitter *emitter, const struct model_absolute *absolute)
@@ -156,11 +151,11 @@ static const char *one_place(struct emitter *emitter, size_t k, struct text *lin
                             ? emit_vector(emitter, emit_join(emitter, name, "point"), absolute->point,
                                           (struct emit_origin){{0, 0}, "", DIM_LENGTH, absolute->body})
                             : emit_printf(emitter, "c->%s.G", name);
-    if (body->kind == motion_pivot) point = emit_printf(emitter, "vec_sub(%s, c->%s.pin)", point, name);
+    if (body->joint->has_axis) point = emit_printf(emitter, "vec_sub(%s, c->%s.pin)", point, name);
     const char *pose = emit_printf(emitter, "%s_pose", name);
     if (!lines->data || !strstr(lines->data, emit_printf(emitter, "struct pose %s =", pose))) {
         const char *call = body->alone ? emit_printf(emitter, "%s(s, y)", emit_pose(emitter, absolute->body))
-                           : body->kind == motion_weld
+                           : body->count == 0
                                ? emit_printf(emitter, "pose_of_weld(&l.%s, &c->%s.place)", link, name)
                                : emit_printf(emitter, "pose_of_link(&l.%s)", link);
         text_printf(lines, "    const struct pose %s = %s;\n", pose, call);

@@ -141,7 +141,7 @@ static void rub_bearings(struct emitter *emitter, struct text *lines)
     const struct tree *tree = emitter->model->tree;
     for (int k = 0; k < tree->joined_watched; k++) {
         const struct tree_link *link = &tree->links[tree->watched[k]];
-        if (link->pair < 0 || link->kind != motion_pivot || mode_of(emitter, link->pair)->kind == mode_drive)
+        if (link->pair < 0 || !link_joint(link)->has_axis || mode_of(emitter, link->pair)->kind == mode_drive)
             continue;
         const char *pair = emitter->pair[link->pair];
         text_printf(lines, "    l.%s.g -= s->slip[%s]*mu_kinetic(s, t, y, %s);\n",
@@ -212,7 +212,7 @@ static void write_slots(struct emitter *emitter, struct text *lines)
             text_printf(lines, "    f[%s] = -%s;\n", emitter->slot[link->normal_slot],
                         normal_of(emitter, i, emit_printf(emitter, "l.%s.F.force", name)));
         if (link->pair < 0) continue;
-        const char *own = link->kind == motion_pivot
+        const char *own = link_joint(link)->has_axis
                               ? emit_printf(emitter, "l.%s.F.moment", name)
                               : emit_printf(emitter, "vec_dot(l.%s.e, l.%s.F.force)", name, name);
         text_printf(lines, "    f[%s] = f[%s] - %s;\n",
@@ -284,14 +284,14 @@ static void write_body(struct emitter *emitter, size_t b, struct text *lines)
     int pair = body->friction;
     if (!body->alone) return;
     if (pair >= 0) write_rubbing(emitter, pair, lines);
-    if (body->kind == motion_planar && (body->arm.x != 0 || body->arm.y != 0)) {
+    if (body_is_off_center(body)) {
         text_printf(lines, "    accelerate_offset(&c->%s, y[%s], y[%s], &f[%s], &a[%s]);\n", name,
                     emitter->coordinate[body->first + 2], emitter->rate[body->first + 2],
                     emitter->coordinate[body->first], emitter->coordinate[body->first]);
         return;
     }
     for (int k = 0; k < body->count; k++) {
-        const char *inertia = body->kind == motion_pivot ? "I_O" : k == 2 ? "I_G" : "mass";
+        const char *inertia = coordinate_is_angle(body, k) ? body->joint->coordinates[k].inertia : "mass";
         const char *slot = emitter->coordinate[body->first + k];
         text_printf(lines, "    a[%s] = 1/c->%s.%s*f[%s];\n", slot, name, inertia, slot);
     }

@@ -31,12 +31,12 @@ static void derive_place(struct emitter *emitter, int b)
     const struct motion *motion = &body->source->motion;
     struct text *out = &emitter->derive;
     const char *name = emitter->body[b];
-    if (body->kind == motion_pivot)
+    if (body->joint->has_axis)
         text_printf(out, "    c->%s.place = (struct place){vec_scale(-1, c->%s.pin), {1, 0}, 0};\n", name,
                     name);
-    else if (body->kind != motion_weld)
+    else if (body->count > 0)
         text_printf(out, "    c->%s.place = (struct place){{0, 0}, {1, 0}, 0};\n", name);
-    if (body->kind != motion_weld) return;
+    if (body->count > 0) return;
     const char *parent = emitter->body[motion->parent];
     const char *angle = emit_parameter(emitter, emit_join(emitter, name, "angle"), motion->along,
                                        (struct emit_origin){motion->at, "angle", DIM_NONE, -1});
@@ -57,7 +57,7 @@ static void derive_link(struct emitter *emitter, int b)
     const struct motion *motion = &body->source->motion;
     struct text *out = &emitter->derive;
     const char *name = emitter->body[b];
-    bool slide = body->kind == motion_slide, on_ground = motion->parent == ground_body;
+    bool slide = body->joint->path == path_line, on_ground = motion->parent == ground_body;
     const char *at =
         emit_vector(emitter, emit_join(emitter, name, "at"), motion->through,
                     (struct emit_origin){motion->at, slide ? "through" : "at", DIM_LENGTH, motion->parent});
@@ -84,7 +84,7 @@ static void derive_links(struct emitter *emitter)
     for (int i = 0; i < tree->joined_count; i++) {
         int b = tree->bodies[i];
         const struct model_body *body = &emitter->model->bodies[b];
-        if (body->kind != motion_weld) derive_link(emitter, b);
+        if (body->count > 0) derive_link(emitter, b);
         derive_place(emitter, b);
         text_printf(&emitter->derive, "    add_mass(&c->%s.link, &c->%s, %s);\n",
                     link_name(emitter, body->place.link), emitter->body[b],
@@ -280,14 +280,6 @@ static void write_loads(struct tree_writer *writer)
 
 /* ---- passes */
 
-static const char *kind_name(enum motion_kind kind)
-{
-    return kind == motion_pivot    ? "pivot"
-           : kind == motion_slide  ? "slide"
-           : kind == motion_planar ? "planar"
-                                   : "particle";
-}
-
 /* Write a function with a line for each link, outward or inward. */
 static void write_pass(struct emitter *emitter, const char *head, const char *arguments, bool outward,
                        const char *format(struct emitter *, int))
@@ -305,62 +297,61 @@ static const char *moved(struct emitter *emitter, int i)
     const struct tree_link *link = &emitter->model->tree->links[i];
     const char *name = link_name(emitter, i), *q = emitter->coordinate[link->coordinate],
                *v = emitter->rate[link->coordinate];
-    bool one = link->kind == motion_pivot || link->kind == motion_slide;
+    bool one = link_joint(link)->count == 1;
     return emit_printf(emitter, "    move_%s(&l->%s, &l->%s, &c->%s.link, %sy[%s], %sy[%s]);\n",
-                       kind_name(link->kind), name, link_name(emitter, link->parent), name, one ? "" : "&", q,
-                       one ? "" : "&", v);
+                       link_joint(link)->name, name, link_name(emitter, link->parent), name, one ? "" : "&",
+                       q, one ? "" : "&", v);
 }
 
 static const char *biased(struct emitter *emitter, int i)
 {
     const struct tree_link *link = &emitter->model->tree->links[i];
-    const char *name = link_name(emitter, i), *v = emitter->rate[link->coordinate];
-    const char *own = link->kind == motion_pivot ? "((struct vec){0, 0})"
-                      : link->kind == motion_slide
+    const char *name = link_name(emitter, i), *v = emitter->rate[link->coordinate],
+               *on = link_name(emitter, link->parent);
+    if (link_joint(link)->has_axis)
+        return emit_printf(emitter, "    bias_pivot(&l->%s, &l->%s, &c->%s.link);\n", name, on, name);
+    const char *own = link_joint(link)->count == 1
                           ? emit_printf(emitter, "vec_scale(y[%s], l->%s.e)", v, name)
                           : emit_printf(emitter, "vec_turn(l->%s.e, (struct vec){y[%s], y[%s]})", name, v,
                                         emitter->rate[link->coordinate + 1]);
-    return emit_printf(emitter, "    bias_%s(&l->%s, &l->%s, &c->%s.link%s%s);\n",
-                       link->kind == motion_pivot ? "pivot" : "sliding", name,
-                       link_name(emitter, link->parent), name, link->kind == motion_pivot ? "" : ", ",
-                       link->kind == motion_pivot ? "" : own);
+    return emit_printf(emitter, "    bias_sliding(&l->%s, &l->%s, &c->%s.link, %s);\n", name, on, name, own);
 }
 
 static const char *pushed(struct emitter *emitter, int i)
 {
     const struct tree_link *link = &emitter->model->tree->links[i];
     const char *name = link_name(emitter, i), *slot = emitter->coordinate[link->coordinate];
-    if (link->kind == motion_pivot || link->kind == motion_slide)
-        return emit_printf(emitter, "    l->%s.g = f[%s];\n", name, slot);
+    const struct joint_type *joint = link_joint(link);
+    if (joint->count == 1) return emit_printf(emitter, "    l->%s.g = f[%s];\n", name, slot);
     const char *along = emitter->coordinate[link->coordinate + 1];
     const char *force =
         emit_printf(emitter, "    l->%s.gf = vec_turn(l->%s.e, (struct vec){f[%s], f[%s]});\n", name, name,
                     slot, along);
-    if (link->kind != motion_planar) return force;
+    if (joint->angle < 0) return force;
     return emit_printf(emitter, "%s    l->%s.g = f[%s];\n", force, name,
-                       emitter->coordinate[link->coordinate + 2]);
+                       emitter->coordinate[link->coordinate + joint->angle]);
 }
 
 static const char *factored(struct emitter *emitter, int i)
 {
     const struct tree_link *link = &emitter->model->tree->links[i];
     const char *name = link_name(emitter, i), *on = link_name(emitter, link->parent);
-    if (link->kind == motion_pivot && link->end == i + 1)
+    if (link_joint(link)->has_axis && link->end == i + 1)
         return emit_printf(emitter, "    factor_last_pivot(&l->%s, &l->%s);\n", name, on);
-    return emit_printf(emitter, "    factor_%s(&l->%s, &l->%s);\n", kind_name(link->kind), name, on);
+    return emit_printf(emitter, "    factor_%s(&l->%s, &l->%s);\n", link_joint(link)->name, name, on);
 }
 
 static const char *inward(struct emitter *emitter, int i)
 {
     const struct tree_link *link = &emitter->model->tree->links[i];
-    return emit_printf(emitter, "    inward_%s(&l->%s, &l->%s);\n", kind_name(link->kind),
+    return emit_printf(emitter, "    inward_%s(&l->%s, &l->%s);\n", link_joint(link)->name,
                        link_name(emitter, i), link_name(emitter, link->parent));
 }
 
 static const char *outward(struct emitter *emitter, int i)
 {
     const struct tree_link *link = &emitter->model->tree->links[i];
-    return emit_printf(emitter, "    outward_%s(&l->%s, &l->%s, &a[%s]);\n", kind_name(link->kind),
+    return emit_printf(emitter, "    outward_%s(&l->%s, &l->%s, &a[%s]);\n", link_joint(link)->name,
                        link_name(emitter, i), link_name(emitter, link->parent),
                        emitter->coordinate[link->coordinate]);
 }

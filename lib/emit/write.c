@@ -62,7 +62,7 @@ bool emit_tells_points(const struct emitter *emitter, int b)
 {
     if (b < 0) return true;
     const struct model_body *body = &emitter->model->bodies[b];
-    return !body->alone || body->kind == motion_pivot;
+    return !body->alone || body->joint->has_axis;
 }
 
 const char *emit_vector(struct emitter *emitter, const char *wanted, struct vec value,

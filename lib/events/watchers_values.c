@@ -350,8 +350,7 @@ static double speed_to_come(const struct fbd_state *state, int pair)
     const struct fbd_model *model = state->model;
     const struct model_body *body = &model->bodies[model->plan.modes[pair].body];
     const struct instant at = state_instant(state);
-    double limit = friction_at(model, pair, &at, state->slots).limit,
-           inertia = body->kind == motion_pivot ? body->I_O : body->inertia.mass;
+    double limit = friction_at(model, pair, &at, state->slots).limit, inertia = coordinate_inertia(body, 0);
     return inertia > 0 ? limit * fabs(state->t) / inertia : 0;
 }
 

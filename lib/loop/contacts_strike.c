@@ -177,9 +177,8 @@ static double carried_work(const struct run *run, const struct row *row, int dri
         int carrier = port->link;
         while (carrier > 0 && carrier != driven) carrier = tree->links[carrier].parent;
         if (carrier != driven) continue;
-        struct vec from_axis = vec_sub(vec_add(links[port->link].p, port->arm), own->p);
-        sum += link->kind == motion_pivot ? v * vec_cross(from_axis, port->force)
-                                          : v * vec_dot(own->e, port->force);
+        struct vec arm = vec_sub(vec_add(links[port->link].p, port->arm), own->p);
+        sum += v * joint_share(link, own, (struct wrench){vec_cross(arm, port->force), port->force});
     }
     return sum;
 }
@@ -255,7 +254,7 @@ static double given_to(const struct run *run, int count, const struct tree_link 
 {
     const struct contacts_work *work = &run->contacts;
     double most = 0;
-    for (int i = 0; i < 2 * count; i++) {
+    for (int i = 0; i < 2 * count && link_joint(link)->count == most_coordinates_of_a_body; i++) {
         const double *answer = work->answers + (size_t)i * (size_t)run->model->plan.n + link->coordinate;
         most = fmax(most, fabs(impulse_of(work, i)) * hypot(answer[0], answer[1]));
     }
@@ -269,12 +268,11 @@ static void drop_rounding(struct run *run, int count)
 {
     const struct tree *tree = tree_of(run);
     double given = 0, *rates = run->state->y + run->model->plan.n;
-    for (int k = 1; k < tree->joined; k++)
-        if (tree->links[k].kind == motion_planar) given = fmax(given, given_to(run, count, &tree->links[k]));
+    for (int k = 1; k < tree->joined; k++) given = fmax(given, given_to(run, count, &tree->links[k]));
     double least = (double)count * count * DBL_EPSILON * given;
     for (int k = 1; k < tree->joined; k++) {
         const struct tree_link *link = &tree->links[k];
-        if (link->kind != motion_planar || given_to(run, count, link) == 0) continue;
+        if (given_to(run, count, link) == 0) continue;
         double *own = rates + link->coordinate, radius = sqrt(link->I_O / link->mass);
         if (hypot(own[0], own[1]) <= least && radius * fabs(own[2]) <= least) own[0] = own[1] = own[2] = 0;
     }

@@ -134,7 +134,7 @@ static struct motion_size motion_size(const struct run *run, const struct model_
     double tau = times[i], v = fabs(run->state->y[i + run->model->plan.n]),
            a = fabs(starting(run, (size_t)i, tau));
     double arm =
-        coordinate_turns(body, k) ? 1 / sqrt(run->model->plan.inverse_inertia[i] * body->inertia.mass) : 1;
+        coordinate_is_angle(body, k) ? 1 / sqrt(run->model->plan.inverse_inertia[i] * body->inertia.mass) : 1;
     return (struct motion_size){v * tau + a * tau * tau, fmax(v, a * tau), arm};
 }
 
@@ -170,7 +170,7 @@ static double unseen_place(const struct run *run, const struct model_body *body,
     double reach = 0;
     for (int i = 1; i < run->model->tree->joined; i++)
         reach = fmax(reach, vec_norm(run->state->tree->links[i].p));
-    return DBL_EPSILON / run->options.tolerance * (coordinate_turns(body, k) ? 1 : reach);
+    return DBL_EPSILON / run->options.tolerance * (coordinate_is_angle(body, k) ? 1 : reach);
 }
 
 /* A coordinate or rate that is exactly zero has no scale for its error, and a method of low order needs one

@@ -6,12 +6,6 @@
 
 struct run;
 
-/* Is coordinate k of a body an angle? */
-static inline bool coordinate_turns(const struct model_body *body, int k)
-{
-    return body->kind == motion_pivot || k == 2;
-}
-
 /* Rates of change of accelerations and rates of user states: along the motion, or by time alone (the effect
  * of a rounding of time). `along` has plan_rates entries. */
 void roundoff_changes(struct run *run, const struct instant *at, bool by_time, double *along);

@@ -60,9 +60,8 @@ static void measure_turns(struct run *run, const struct instant *at)
     own[0] = tree->row_count > 0 ? 1 : 0;
     for (int i = 1; i < tree->joined; i++) {
         const struct model_body *body = &run->model->bodies[tree->links[i].body];
-        bool turns = body->kind == motion_pivot || body->kind == motion_planar;
-        own[i] =
-            own[tree->links[i].parent] + (turns ? fabs(run->state->y[body->first + body->count - 1]) : 0);
+        const int angle = body->joint->angle;
+        own[i] = own[tree->links[i].parent] + (angle < 0 ? 0 : fabs(run->state->y[body->first + angle]));
     }
     memcpy(sides, own, (size_t)tree->count * sizeof *sides);
     for (int i = 1; i < tree->joined; i++) {
@@ -128,9 +127,8 @@ static void add_jointed(const struct model_body *body, const struct tree_state *
     moment += angle * size * vec_norm(arm);
     double along = fabs(link->e.x * f.x) + fabs(link->e.y * f.y) + angle * size;
     double across = fabs(link->e.x * f.y) + fabs(link->e.y * f.x) + angle * size;
-    if (body->count > 0) gross[0] += body->kind == motion_pivot ? moment : along;
-    if (body->count > 1) gross[1] += across;
-    if (body->count > 2) gross[2] += moment;
+    for (int k = 0; k < body->count; k++)
+        gross[k] += coordinate_is_angle(body, k) ? moment : k == 0 ? along : across;
 }
 
 /* Add the sizes of the generalized forces along each coordinate of a body. */
@@ -149,7 +147,7 @@ static void add_gross_forces(struct run *run, int b, const struct instant *at, d
             for (int k = 0; k < body->count; k++) gross[k] += fabs(run->work.arrows[i].share[k]);
     }
     for (int k = 0; k < body->count; k++)
-        gross[k] += share_of_difference * run->roundoff.cancelled[2 * b + coordinate_turns(body, k)];
+        gross[k] += share_of_difference * run->roundoff.cancelled[2 * b + coordinate_is_angle(body, k)];
 }
 
 /* ---- formulas of applied forces (load_rounding.h) */
@@ -159,11 +157,10 @@ static void add_along_link(const struct run *run, const struct tree_state *s, in
                            const struct load_rounding *of, double *Q)
 {
     const struct model_body *body = &run->model->bodies[run->model->tree->links[link].body];
-    double moment = vec_cross(vec_sub(point, s->p), of->force) + of->couple, along = vec_dot(s->e, of->force),
-           own[most_coordinates_of_a_body] = {along, vec_cross(s->e, of->force), moment};
-    if (body->kind == motion_pivot) own[0] = moment;
-    if (body->kind == motion_track) own[0] += s->turning * moment;
-    for (int k = 0; k < body->count && k < most_coordinates_of_a_body; k++) Q[body->first + k] += own[k];
+    const double moment = vec_cross(vec_sub(point, s->p), of->force) + of->couple;
+    double own[most_coordinates_of_a_body];
+    joint_shares(body->joint, s, (struct wrench){moment, of->force}, own);
+    for (int k = 0; k < body->count; k++) Q[body->first + k] += own[k];
 }
 
 /* Add the generalized forces of the rounding of a load; false where it has none. */
@@ -178,7 +175,7 @@ static bool add_rounding(const struct run *run, const struct instant *at, size_t
     if (body->alone) {
         double arm = vec_norm(vec_sub(point, pose.origin)), force = vec_norm(of.force);
         for (int k = 0; k < body->count; k++)
-            Q[body->first + k] += coordinate_turns(body, k) ? force * arm + of.couple : force;
+            Q[body->first + k] += coordinate_is_angle(body, k) ? force * arm + of.couple : force;
         return true;
     }
     for (int link = body->place.link; link > 0;

@@ -75,12 +75,6 @@ static bool depends_on_velocity(const struct fbd_model *model, const struct load
     return false;
 }
 
-/* A body with a free axis that is not its centre of mass has a term omega^2 r in its equations. */
-static bool has_centrifugal_term(const struct model_body *body)
-{
-    return body->kind == motion_planar && (body->arm.x != 0 || body->arm.y != 0);
-}
-
 /* Does a body move on another one, or is there a coupling? Then there are Coriolis forces, and a mass matrix
  * that varies. */
 static bool has_joints(const struct fbd_model *model)
@@ -95,14 +89,14 @@ static bool has_joints(const struct fbd_model *model)
  * with the track. */
 static bool is_pressed_by_speed(const struct model_body *body)
 {
-    return body->kind == motion_track && (body->friction >= 0 || body->inertia.I_G > 0 || body->L > 0);
+    return body->joint->path == path_curve && (body->friction >= 0 || body->inertia.I_G > 0 || body->L > 0);
 }
 
 static bool velocity_free(const struct fbd_model *model)
 {
     if (has_joints(model)) return false;
     for (size_t b = 0; b < model->body_count; b++)
-        if (has_centrifugal_term(&model->bodies[b]) || is_pressed_by_speed(&model->bodies[b])) return false;
+        if (body_is_off_center(&model->bodies[b]) || is_pressed_by_speed(&model->bodies[b])) return false;
     for (size_t i = 0; i < model->load_count; i++)
         if (depends_on_velocity(model, model->loads[i].source)) return false;
     return true;
@@ -135,19 +129,15 @@ static enum expr_degree degree_of_applied(const struct fbd_model *model, const s
     enum expr_degree size = worse(degree_of(model, &source->value),
                                   worse(degree_of(model, &source->fx), degree_of(model, &source->fy)));
     if (degree_of(model, &source->angle) != expr_constant_between) return expr_nonlinear;
-    if (body->kind == motion_pivot || body->kind == motion_planar)
-        size = worse(size, degree_of(model, &source->couple));
-    switch (body->kind) {
-    case motion_slide: /* across the line, a force that varies changes the friction as well */
-        if (size != expr_constant_between && body->friction >= 0 && (source->angle.expr || source->fx.expr))
-            return expr_nonlinear;
-        return size;
-    case motion_particle: return size;
-    case motion_pivot: return source->body_frame ? size : expr_nonlinear;
-    case motion_weld:
-    case motion_track: return expr_nonlinear;
-    case motion_planar: break;
-    }
+    const struct joint_type *joint = body->joint;
+    if (joint->angle >= 0) size = worse(size, degree_of(model, &source->couple));
+    if (joint->count == 0 || joint->path == path_curve) return expr_nonlinear;
+    /* Across the line, a force that varies changes the friction as well. */
+    if (size != expr_constant_between && body->friction >= 0 && joint->path == path_line &&
+        (source->angle.expr || source->fx.expr))
+        return expr_nonlinear;
+    if (joint->angle < 0) return size;
+    if (joint->has_axis) return source->body_frame ? size : expr_nonlinear;
     bool at_origin = load->point.x == 0 && load->point.y == 0;
     return !source->body_frame && at_origin ? size : expr_nonlinear;
 }
@@ -155,7 +145,7 @@ static enum expr_degree degree_of_applied(const struct fbd_model *model, const s
 /* Gravity acts at G, which moves about the axis of a pivot or the origin of a frame. */
 static enum expr_degree degree_of_gravity(const struct model_body *body)
 {
-    bool turns = body->kind == motion_pivot || body->kind == motion_planar;
+    bool turns = body->joint->angle >= 0;
     return turns && (body->arm.x != 0 || body->arm.y != 0) ? expr_nonlinear : expr_constant_between;
 }
 
@@ -176,7 +166,7 @@ static enum expr_degree degree_of_link(const struct model_body *body, const stru
 {
     if (!load->linked) return expr_affine;
     bool linear = load->source->kind == load_spring && load->source->free_length == 0 &&
-                  load->partner == ground_body && body->kind == motion_particle;
+                  load->partner == ground_body && body->count == 2;
     return linear ? expr_affine : expr_nonlinear;
 }
 
@@ -186,7 +176,8 @@ static enum expr_degree degree_of_drag(const struct fbd_model *model, const stru
                                        const struct model_load *load)
 {
     bool at_origin = load->point.x == 0 && load->point.y == 0;
-    bool linear = load->source->quadratic == 0 && (body->kind != motion_planar || at_origin);
+    bool keeps_distance = body->joint->has_axis || body->joint->angle < 0 || at_origin;
+    bool linear = load->source->quadratic == 0 && keeps_distance;
     enum expr_degree still = linear ? expr_affine : expr_nonlinear;
     return load_has_wind(load->source) ? worse(still, degree_of_applied(model, body, load)) : still;
 }
@@ -225,7 +216,7 @@ static enum expr_degree accelerations_vary(const struct fbd_model *model)
     enum expr_degree worst = expr_constant_between;
     if (has_joints(model)) return expr_nonlinear;
     for (size_t b = 0; b < model->body_count; b++)
-        if (has_centrifugal_term(&model->bodies[b]) || model->bodies[b].kind == motion_track)
+        if (body_is_off_center(&model->bodies[b]) || model->bodies[b].joint->path == path_curve)
             return expr_nonlinear;
     for (size_t i = 0; i < model->load_count; i++) {
         const struct model_load *load = &model->loads[i];

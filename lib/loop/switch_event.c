@@ -14,7 +14,7 @@
 /* Switches between the pieces of a curve belong to its body, and to no load. */
 static bool is_track(const struct run *run, const struct kink *kink)
 {
-    return kink->load < 0 && kink->body >= 0 && run->model->bodies[kink->body].kind == motion_track;
+    return kink->load < 0 && kink->body >= 0 && run->model->bodies[kink->body].joint->path == path_curve;
 }
 
 static void end_track(struct run *run, int b, int end)

@@ -42,9 +42,9 @@ static const char *why_not(unsigned on)
 static struct verdict judge_jointed(const struct model_body *body, const struct model_load *load)
 {
     const struct load *source = load->source;
-    bool line = body->kind == motion_slide || body->kind == motion_track;
-    bool along = line && !source->angle.expr && !source->fx.expr && !source->fy.expr;
-    bool fixed = body->kind == motion_slide && body->parent == ground_body; /* its frame does not turn */
+    const enum joint_path path = body->joint->path;
+    bool along = path != path_none && !source->angle.expr && !source->fx.expr && !source->fy.expr;
+    bool fixed = path == path_line && body->parent == ground_body; /* its frame does not turn */
     if ((along || source->body_frame) && !fixed)
         return (struct verdict){potential_none, "not conservative: it turns with the body"};
     return (struct verdict){potential_constant, "conservative: a constant force, V = -f . p"};
@@ -75,19 +75,18 @@ static struct verdict judge_applied(const struct model_body *body, const struct 
     unsigned on = formula_depends(body, &load->value) | formula_depends(body, &load->angle) |
                   formula_depends(body, &load->fx) | formula_depends(body, &load->fy);
     bool moment = load->source->kind == moment_applied, jointed = !body->alone;
-    bool one_coordinate = body->kind == motion_slide || body->kind == motion_pivot;
+    bool on_curve = body->joint->path == path_curve, one_coordinate = body->count == 1 && !on_curve;
     if (on & ~(unsigned)depends_place && !load->source->toward)
         return (struct verdict){potential_none, why_not(on)};
     if (on == 0 && !load->source->conservative && !load->source->toward)
         return (struct verdict){
             potential_none,
             "counted as work: a given force (`conservative: true` counts it as potential energy)"};
-    bool turns = jointed || (body->kind != motion_slide && body->kind != motion_particle);
     if (load->source->toward)
         return (struct verdict){potential_none, "counted as work: it points to a place"};
-    if (load_is_placed(load->source) && turns)
+    if (load_is_placed(load->source) && !body_never_turns(body))
         return (struct verdict){potential_none, "counted as work: its place does not turn with the body"};
-    if (moment && body->kind == motion_track)
+    if (moment && on_curve)
         return (struct verdict){potential_none, "counted as work: its angle is no coordinate"};
     struct odd_switches odd = odd_switches(load);
     if (odd.relay)
@@ -102,11 +101,11 @@ static struct verdict judge_applied(const struct model_body *body, const struct 
                                       "not known to be conservative: it depends on the place in the "
                                       "plane (write it as a `potential` if it has one)"};
     if (jointed && !moment) return judge_jointed(body, load);
-    if (moment || body->kind == motion_slide || (load->source->body_frame && one_coordinate))
+    if (moment || body->joint->path == path_line || (load->source->body_frame && one_coordinate))
         return (struct verdict){potential_linear, moment
                                                       ? "conservative: a constant moment, V = -M theta"
                                                       : "conservative: constant along the motion, V = -f x"};
-    if (load->source->body_frame && body->kind == motion_planar)
+    if (load->source->body_frame && body->joint->angle >= 0)
         return (struct verdict){potential_none, "not conservative: it turns with the body"};
     return (struct verdict){potential_constant, "conservative: a constant force, V = -f . p"};
 }

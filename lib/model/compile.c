@@ -82,21 +82,20 @@ static void set_side(struct model_body *body, const struct scene *scene)
     if (side == side_right || (side == side_up && up < -vertical_line)) body->n = vec_scale(-1, body->n);
 }
 
-static void set_slide(struct model_body *body, const struct scene *scene)
+static void set_line(struct model_body *body)
 {
     const struct motion *motion = &body->source->motion;
     body->e = vec_unit(motion->along);
     body->n = vec_perp(body->e);
     body->origin = motion->through;
-    set_side(body, scene);
 }
 
 static void check_inertia(const struct model_body *body, fbd_errors *errors)
 {
     const struct inertia *inertia = &body->inertia;
     struct pos at = body->source->at;
-    bool turns = body->kind == motion_pivot || body->kind == motion_planar;
-    double least = body->kind == motion_pivot ? body->I_O : inertia->I_G;
+    bool turns = body->joint->angle >= 0;
+    double least = turns ? coordinate_inertia(body, body->joint->angle) : inertia->mass;
     if (!isfinite(inertia->mass) || !isfinite(inertia->I_G) || (turns && !isfinite(least)))
         diag_add(errors, FBD_ERROR, "bad-inertia", at, "check for quantities near the limits of a double",
                  "the mass or moment of inertia of `%s` is not finite", body->name);
@@ -113,7 +112,7 @@ static void check_inertia(const struct model_body *body, fbd_errors *errors)
         diag_add(errors, FBD_ERROR, "bad-inertia", at,
                  "give it a `shape`, `parts` or `inertia`, or let it move as a particle or on a slide",
                  "`%s` turns but has no moment of inertia about %s", body->name,
-                 body->kind == motion_pivot ? "its pivot" : "its centre of mass");
+                 body->joint->has_axis ? "its pivot" : "its centre of mass");
 }
 
 static void set_body(struct model_body *body, const struct body *source, const struct scene *scene,
@@ -124,6 +123,7 @@ static void set_body(struct model_body *body, const struct body *source, const s
     *body = (struct model_body){.source = source,
                                 .name = source->name,
                                 .kind = motion->kind,
+                                .joint = motion_joint(motion),
                                 .first = source->first,
                                 .count = source->count,
                                 .first_rate = n + source->first,
@@ -138,12 +138,10 @@ static void set_body(struct model_body *body, const struct body *source, const s
                                 .arrow_count = (int)source->load_count + 1,
                                 .friction = -1};
     body->inertia = inertia_of_parts(source->parts, source->part_count, motion->point);
-    if (motion->kind == motion_slide) set_slide(body, scene);
-    if (motion->kind == motion_track) {
-        track_set_body(scene, body);
-        set_side(body, scene);
-    }
-    if (motion->kind == motion_pivot) {
+    if (body->joint->path == path_line) set_line(body);
+    if (body->joint->path == path_curve) track_set_body(scene, body);
+    if (body->joint->path != path_none) set_side(body, scene);
+    if (body->joint->has_axis) {
         body->origin = motion->through;
         body->pin = motion->point;
         body->I_O = inertia_about(&body->inertia, motion->point);

@@ -242,8 +242,8 @@ static double farthest_start(const struct scene *scene)
  * or if it is zero. */
 static double reach_of(const struct fbd_model *model, const struct meeting *meeting)
 {
-    bool turns = meeting->stop != 0 && model->tree->links[meeting->shape[0].link].kind == motion_pivot;
-    if (turns) return 1;
+    const struct tree_link *link = &model->tree->links[meeting->shape[0].link];
+    if (meeting->stop != 0 && link_joint(link)->has_axis) return 1;
     double reach = meeting->size + fabs(meeting->limit) + farthest_start(model->scene);
     return reach > 0 ? reach : 1;
 }

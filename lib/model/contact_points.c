@@ -17,7 +17,7 @@ struct seen {
 static bool climb(const struct fbd_model *model, struct seen *seen)
 {
     const struct tree_link *link = &model->tree->links[seen->link];
-    if (seen->link == 0 || link->kind != motion_slide) return false;
+    if (seen->link == 0 || link_joint(link)->path != path_line) return false;
     struct vec turn = vec_unit(link->along), e = vec_turn(turn, seen->e);
     const struct coordinate *q = &model->scene->coordinates[link->coordinate];
     if (fabs(vec_cross(link->e, e)) > nine_digits) return false;

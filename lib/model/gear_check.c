@@ -18,7 +18,7 @@ struct centre {
 static struct centre centre_of(const struct tree *tree, const struct coupling_end *end, double close)
 {
     const struct tree_link *link = &tree->links[end->link];
-    bool turns = end->link > 0 && link->kind == motion_pivot && vec_norm(end->point) <= close;
+    bool turns = end->link > 0 && link_joint(link)->has_axis && vec_norm(end->point) <= close;
     return turns ? (struct centre){link->parent, link->at} : (struct centre){end->link, end->point};
 }
 
@@ -32,7 +32,7 @@ static double axes_apart(const struct tree *tree, const struct coupling *couplin
     for (int k = 0; k < 2; k++) {
         const struct tree_link *arm = &tree->links[centre[k].link];
         const struct centre *other = &centre[1 - k];
-        bool about_it = centre[k].link > 0 && arm->kind == motion_pivot && arm->parent == other->link &&
+        bool about_it = centre[k].link > 0 && link_joint(arm)->has_axis && arm->parent == other->link &&
                         vec_norm(vec_sub(arm->at, other->point)) <= close;
         if (about_it) return vec_norm(centre[k].point);
     }
@@ -51,7 +51,7 @@ static bool climb(const struct tree *tree, struct seen *seen)
 {
     const struct tree_link *link = &tree->links[seen->link];
     struct vec turn = vec_unit(link->along), e = vec_turn(turn, seen->e);
-    if (link->kind != motion_slide || fabs(vec_cross(link->e, e)) > six_digits) return false;
+    if (link_joint(link)->path != path_line || fabs(vec_cross(link->e, e)) > six_digits) return false;
     *seen = (struct seen){link->parent, vec_add(link->at, vec_turn(turn, seen->point)), link->e};
     return true;
 }
@@ -63,7 +63,7 @@ static double line_apart(const struct tree *tree, const struct coupling *couplin
     const struct tree_link *wheel = &tree->links[coupling->end[0].link];
     struct seen line = {coupling->end[1].link, coupling->end[1].point, coupling->e},
                 axis = {wheel->parent, wheel->at, {0, 0}};
-    if (wheel->kind != motion_pivot || vec_norm(coupling->end[0].point) > close) return -1;
+    if (!link_joint(wheel)->has_axis || vec_norm(coupling->end[0].point) > close) return -1;
     while (line.link != axis.link) /* the link below has the smaller number */
         if (!climb(tree, line.link > axis.link ? &line : &axis)) return -1;
     if (fabs(vec_cross(line.e, axis.e)) > six_digits) return -1;

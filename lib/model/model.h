@@ -18,6 +18,7 @@ struct model_body {
     const struct body *source;
     const char *name;
     enum motion_kind kind;
+    const struct joint_type *joint;
     int first, count;       /* its coordinates */
     int first_rate;         /* index of its first rate in y */
     struct inertia inertia; /* mass, G in the body frame, I_G */
@@ -43,6 +44,31 @@ struct model_body {
     const char *reaction_on_parent; /* and on the body that it moves on: "rod.pin" */
     int first_load, load_count;
 };
+
+/* Is coordinate k of a body the angle of its frame? */
+static inline bool coordinate_is_angle(const struct model_body *body, int k)
+{
+    return k == body->joint->angle;
+}
+
+/* The inertia in the equation of motion of coordinate k: I_O, I_G or the mass (at the start, if it varies). */
+static inline double coordinate_inertia(const struct model_body *body, int k)
+{
+    if (!coordinate_is_angle(body, k)) return body->inertia.mass;
+    return body->joint->has_axis ? body->I_O : body->inertia.I_G;
+}
+
+/* Is the origin of its frame neither its centre of mass nor fixed? Then a term omega^2 r is in its equations. */
+static inline bool body_is_off_center(const struct model_body *body)
+{
+    return body->joint->angle >= 0 && !body->joint->has_axis && (body->arm.x != 0 || body->arm.y != 0);
+}
+
+/* Does it stand alone and keep its angle? The couple that prevents its rotation is not computed. */
+static inline bool body_never_turns(const struct model_body *body)
+{
+    return body->alone && body->joint->angle < 0;
+}
 
 /* Where a load's potential energy comes from. */
 enum potential_kind {

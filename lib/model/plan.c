@@ -27,7 +27,7 @@ static void add_friction(struct builder *builder, struct model_body *body, int i
     const struct load *source = builder->model->loads[index].source;
     int b = (int)(body - builder->model->bodies);
     bool bearing = source->kind == moment_friction;
-    if (body->friction >= 0 || body->kind == motion_planar) {
+    if (body->friction >= 0 || (bearing && !body->joint->has_axis)) {
         bool twice = body->friction >= 0;
         diag_add(builder->errors, FBD_ERROR, twice ? "one-friction" : "not-here", source->at,
                  twice ? "add the coefficients (or the limits) up in one entry"
@@ -46,9 +46,7 @@ static void add_friction(struct builder *builder, struct model_body *body, int i
                         .mu_k = builder_formula(builder, &source->mu_k, b, index),
                         .surface_speed = builder_formula(builder, &source->surface_speed, b, index),
                         .moving = source->surface_speed.expr != NULL,
-                        .inertia = !body->alone ? 0
-                                   : bearing    ? body->I_O
-                                                : body->inertia.mass,
+                        .inertia = body->alone ? coordinate_inertia(body, 0) : 0,
                         .hold_slot = plan->slots++,
                         .coupling = -1};
     for (int i = 0; i < body->load_count; i++) {
@@ -140,11 +138,8 @@ static void plan_inertias(struct fbd_model *model)
     struct plan *plan = &model->plan;
     for (size_t b = 0; b < model->body_count; b++) {
         const struct model_body *body = &model->bodies[b];
-        const struct inertia *inertia = &body->inertia;
-        for (int k = 0; k < body->count; k++) {
-            double m = body->kind == motion_pivot ? body->I_O : k == 2 ? inertia->I_G : inertia->mass;
-            plan->inverse_inertia[body->first + k] = 1 / m;
-        }
+        for (int k = 0; k < body->count; k++)
+            plan->inverse_inertia[body->first + k] = 1 / coordinate_inertia(body, k);
     }
 }
 

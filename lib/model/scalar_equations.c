@@ -34,7 +34,7 @@ static const struct model_body *body_of(const struct fbd_model *model, int link)
 static struct vec along_and_across(const struct fbd_model *model, int link, struct vec f, bool body_frame)
 {
     const struct model_body *body = body_of(model, link);
-    if (body->kind == motion_particle) return f;
+    if (body->joint->path == path_none) return f;
     if (!body_frame) return (struct vec){vec_dot(f, body->e), vec_dot(f, body->n)};
     return (struct vec){f.x, f.y * model->tree->links[link].side};
 }
@@ -52,7 +52,7 @@ static void take_force(const struct pass *pass, const struct tree_force *force)
     const struct model_body *body = body_of(pass->model, force->link);
     struct scalar_equation *equation = equation_of(pass->model, force->link);
     if (!equation->known) return;
-    bool turns = body->kind == motion_pivot;
+    bool turns = body->joint->has_axis;
     if (!formula_is_constant(&force->angle) || (turns && !force->body_frame)) {
         forget(pass->model, force->link);
         return;
@@ -64,16 +64,15 @@ static void take_force(const struct pass *pass, const struct tree_force *force)
     }
     struct vec share = along_and_across(pass->model, force->link, d, force->body_frame);
     take_formula(pass, &equation->formulas, share.x, &force->value);
-    take_formula(pass, body->kind == motion_particle ? &equation[1].formulas : &equation->across_formulas,
-                 share.y, &force->value);
+    take_formula(pass, body->count == 2 ? &equation[1].formulas : &equation->across_formulas, share.y,
+                 &force->value);
 }
 
 static void take_moment(const struct pass *pass, const struct tree_moment *moment)
 {
     const struct model_body *body = body_of(pass->model, moment->link);
     struct scalar_equation *equation = equation_of(pass->model, moment->link);
-    if (equation->known && body->kind == motion_pivot)
-        take_formula(pass, &equation->formulas, 1, &moment->value);
+    if (equation->known && body->joint->has_axis) take_formula(pass, &equation->formulas, 1, &moment->value);
 }
 
 static void take_formulas(const struct pass *pass)
@@ -88,7 +87,7 @@ static void take_formulas(const struct pass *pass)
 static void take_constant(const struct model_body *body, struct scalar_equation *equation, struct vec share)
 {
     equation->c0 += share.x;
-    if (body->kind == motion_particle)
+    if (body->count == 2)
         equation[1].c0 += share.y;
     else
         equation->across += share.y;
@@ -98,7 +97,7 @@ static void take_following(const struct fbd_model *model, const struct tree_foll
 {
     const struct model_body *body = body_of(model, following->link);
     struct scalar_equation *equation = equation_of(model, following->link);
-    if (body->kind == motion_pivot)
+    if (body->joint->has_axis)
         equation->c0 += following->moment;
     else
         take_constant(body, equation, along_and_across(model, following->link, following->force, true));
@@ -109,9 +108,9 @@ static void take_drag(const struct fbd_model *model, const struct tree_drag *dra
 {
     struct scalar_equation *equation = equation_of(model, drag->link);
     const struct model_body *body = body_of(model, drag->link);
-    double r = body->kind == motion_pivot ? vec_norm(drag->point) : 1;
-    if (body->kind == motion_particle) equation[1].kv += drag->linear;
-    if (body->kind == motion_particle && drag->quadratic != 0) forget(model, drag->link);
+    double r = body->joint->has_axis ? vec_norm(drag->point) : 1;
+    if (body->count == 2) equation[1].kv += drag->linear;
+    if (body->count == 2 && drag->quadratic != 0) forget(model, drag->link);
     equation->kv += drag->linear * r * r;
     equation->square += drag->quadratic * r * r * r;
 }
@@ -120,7 +119,7 @@ static void take_weights(const struct fbd_model *model, const struct tree_link *
 {
     const struct model_body *body = &model->bodies[link->body];
     struct scalar_equation *equation = &model->plan.equations[link->coordinate];
-    if (body->kind == motion_pivot) {
+    if (body->joint->has_axis) {
         equation->s += link->sine;
         equation->c += link->cosine;
     } else {
@@ -156,7 +155,7 @@ static void find_known(struct fbd_model *model)
     for (size_t b = 0; b < model->body_count; b++) {
         const struct model_body *body = &model->bodies[b];
         for (int k = 0; k < body->count; k++)
-            plan->equations[body->first + k].known = body->alone && body->kind != motion_planar;
+            plan->equations[body->first + k].known = body->alone && body->count < 3;
     }
     for (size_t i = 0; i < tree->spring_count; i++)
         for (int end = 0; end < 2; end++)

@@ -68,7 +68,7 @@ bool tracks_set(struct builder *builder)
     for (int i = 1; i < model->tree->count; i++) {
         struct tree_link *link = &model->tree->links[i];
         struct model_body *body = &model->bodies[link->body];
-        if (link->kind != motion_track) continue;
+        if (link_joint(link)->path != path_curve) continue;
         link->track = ARENA_ARRAY(&model->arena, 1, struct tree_track);
         if (!link->track) return false;
         *link->track =

@@ -96,9 +96,9 @@ static void set_link(const struct fbd_model *model, struct tree_link *link, int 
                                .kind = body->kind,
                                .coordinate = body->first,
                                .at = motion->through,
-                               .e = body->kind == motion_slide ? body->e : (struct vec){1, 0},
+                               .e = body->joint->path == path_line ? body->e : (struct vec){1, 0},
                                .side = vec_dot(body->n, vec_perp(body->e)) < 0 ? -1 : 1,
-                               .along = body->kind == motion_slide ? motion->along : 0,
+                               .along = motion->along,
                                .pair = -1,
                                .normal_slot = -1};
     link->tilt = vec_unit(link->along);
@@ -162,7 +162,7 @@ bool tree_number(struct fbd_model *model)
         struct model_body *body = &model->bodies[tree->bodies[i]];
         body->alone = i >= tree->joined_count;
         if (i == tree->joined_count) tree->joined = tree->count;
-        if (body->kind == motion_weld) {
+        if (body->count == 0) {
             body->place = place_in_parents_link(model, &body->source->motion);
         } else {
             body->place = place_in_own_link(body, tree->count);
@@ -420,16 +420,9 @@ static bool *find_twisted(struct fbd_model *model)
 /* The name of the joint force beside the listed loads: a slide with `normal` has it in its list. */
 static const char *reaction_of(const struct fbd_model *model, const struct model_body *body, bool twisted)
 {
-    switch (body->kind) {
-    case motion_pivot: return "pin";
-    case motion_slide:
-    case motion_track: return has_normal(model, body) ? NULL : "guide";
-    case motion_weld: return "weld";
-    case motion_particle:
-        return !body->alone && (twisted || body->parent != ground_body || body->child >= 0) ? "guide" : NULL;
-    case motion_planar: break;
-    }
-    return NULL;
+    const bool bears = !body->alone && (twisted || body->parent != ground_body || body->child >= 0);
+    if (body->joint->path != path_none && has_normal(model, body)) return NULL;
+    return body->joint->prevents_turning && !bears ? NULL : body->joint->force;
 }
 
 static void name_reactions(struct fbd_model *model, struct model_body *body, bool twisted)

@@ -160,6 +160,11 @@ struct tree {
     int joined_count; /* those that are jointed come first: their number */
 };
 
+static inline const struct joint_type *link_joint(const struct tree_link *link)
+{
+    return &joint_types[link->kind];
+}
+
 /* Are there jointed bodies? */
 static inline bool tree_joins(const struct tree *tree)
 {

@@ -74,7 +74,7 @@ bool tree_finish(struct fbd_model *model)
     tree->mass_ratio = mass_ratio(tree);
     tree->joined_by_pivots = tree->joined_watched == 0 && tree->bulk_count == 0;
     for (int i = 1; i < tree->joined; i++) {
-        if (tree->links[i].kind != motion_pivot) tree->joined_by_pivots = false;
+        if (!link_joint(&tree->links[i])->has_axis) tree->joined_by_pivots = false;
         if (tree->links[i].track) tree->curved = true;
     }
     return couplings_order(model);

@@ -74,10 +74,10 @@ static bool define_in_equation(struct run_columns *columns, struct run_column *c
     static const char *const of_center[] = {"a_Gx", "a_Gy", "alpha"};
     const struct model_body *body = &columns->model->bodies[c->body];
     if (c->part >= body->count || equation_has_coordinate(body)) return false;
-    const bool off_center = body->kind == motion_planar && body->parent == ground_body;
+    const bool of_G = body_is_off_center(body) && body->parent == ground_body;
     return define(columns, c,
-                  off_center ? of_center[c->part] : equation_acceleration_name(columns->model, body, c->part),
-                  "", columns->model->labels[body->first + c->part].acceleration_unit);
+                  of_G ? of_center[c->part] : equation_acceleration_name(columns->model, body, c->part), "",
+                  columns->model->labels[body->first + c->part].acceleration_unit);
 }
 
 static bool define_newton(struct run_columns *columns, struct run_column *c)
@@ -90,9 +90,9 @@ static bool define_newton(struct run_columns *columns, struct run_column *c)
 static bool define_moving_axis(struct run_columns *columns, struct run_column *c)
 {
     const struct model_body *body = &columns->model->bodies[c->body];
-    const bool track = body->kind == motion_track;
-    return tree_has_more(body) && define(columns, c, track ? "turning_along" : "moving_axis", "",
-                                         track ? force_unit(columns->model) : moment_unit(columns->model));
+    const bool has_axis = body->joint->has_axis;
+    return tree_has_more(body) && define(columns, c, has_axis ? "moving_axis" : "turning_along", "",
+                                         has_axis ? moment_unit(columns->model) : force_unit(columns->model));
 }
 
 static bool define_mass(struct run_columns *columns, struct run_column *c)
@@ -129,15 +129,11 @@ static bool has_part(const struct fbd_model *model, int b, const struct arrow *a
 {
     const struct model_body *body = &model->bodies[b];
     const bool own = arrow->load < 0 && arrow_is_of_joint(model, b, arrow);
-    switch (body->kind) {
-    case motion_slide:
-    case motion_track: return !own && part == force_share;
-    case motion_pivot: return own ? part == force_x || part == force_y : part == force_share;
-    case motion_particle: return !own && (part == force_x || part == force_y);
-    case motion_planar:
-    case motion_weld: break;
-    }
-    return part != force_share;
+    const bool given = body->joint->path != path_none || body->joint->prevents_turning; /* its direction */
+    if (own && given) return false;
+    if (!own && body->count == 1) return part == force_share;
+    const bool couples = own ? !body->joint->has_axis : !body->joint->prevents_turning;
+    return part != force_share && (part != force_moment || couples);
 }
 
 static bool define_force(struct run_columns *columns, struct run_column *c)
@@ -149,9 +145,9 @@ static bool define_force(struct run_columns *columns, struct run_column *c)
     c->extra = !has_part(model, c->body, arrow, part);
     if (c->extra && part == force_share) return false;
     c->extra &= !columns->components;
-    const bool about_axis = part == force_share && model->bodies[c->body].kind == motion_pivot;
-    return define(columns, c, arrow->name, names[part],
-                  about_axis || part == force_moment ? moment_unit(model) : force_unit(model));
+    const bool moment =
+        part == force_moment || (part == force_share && model->bodies[c->body].joint->has_axis);
+    return define(columns, c, arrow->name, names[part], moment ? moment_unit(model) : force_unit(model));
 }
 
 static bool define_arrow(struct run_columns *columns, struct run_column *c)

@@ -35,30 +35,30 @@ void state_ready(struct fbd_state *state)
 
 bool equation_has_coordinate(const struct model_body *body)
 {
-    bool off_center = body->kind == motion_planar && (body->arm.x != 0 || body->arm.y != 0);
-    return body->parent == ground_body && body->kind != motion_track && !off_center;
+    return body->parent == ground_body && body->joint->path != path_curve && !body_is_off_center(body);
 }
 
 double equation_acceleration(const struct model_body *body, const struct instant *at, const double *a,
                              int part)
 {
     if (equation_has_coordinate(body)) return a[body->first + part];
-    if (body->kind == motion_pivot || part == 2) return body_angular_acceleration(body, at, a);
+    if (coordinate_is_angle(body, part)) return body_angular_acceleration(body, at, a);
     struct vec a_G = mass_center_acceleration(body, at, a), e = body_direction(body, at);
     return part == 0 ? vec_dot(e, a_G) : vec_cross(e, a_G);
 }
 
 const char *equation_acceleration_name(const struct fbd_model *model, const struct model_body *body, int part)
 {
-    static const char *const in_world[] = {"a_x", "a_y", "alpha"};
-    if (body->parent == ground_body && body->kind != motion_track)
-        return model->labels[body->first + part].acceleration_name;
-    return body->kind == motion_track ? "a_s" : in_world[body->kind == motion_pivot ? 2 : part];
+    static const char *const in_world[] = {"a_x", "a_y"};
+    const bool on_curve = body->joint->path == path_curve;
+    if (body->parent == ground_body && !on_curve) return model->labels[body->first + part].acceleration_name;
+    return on_curve ? "a_s" : coordinate_is_angle(body, part) ? "alpha" : in_world[part];
 }
 
 double equation_term(const struct model_body *body, const struct arrow *arrow, int part, struct vec G)
 {
-    return body->kind == motion_planar && part == 2 ? arrow_moment(arrow, G) : arrow->share[part];
+    const bool about_G = coordinate_is_angle(body, part) && !body->joint->has_axis;
+    return about_G ? arrow_moment(arrow, G) : arrow->share[part];
 }
 
 static struct vec mass_center(const struct model_body *body, const struct instant *at)
@@ -98,22 +98,17 @@ static void add_of_coordinate(struct fbd_equations *all, const struct fbd_state 
     const struct label *label = &model->labels[body->first + part];
     const struct instant at = state_instant(state);
     const struct vec G = mass_center(body, &at);
-    bool pivot = body->kind == motion_pivot, moment = pivot || part == 2;
     const struct equation row = {
         .body = b,
         .part = part,
         .public = {.body = body->name,
                    .coordinate = model->scene->coordinates[body->first + part].name,
-                   .inertia_name = pivot    ? "I_O"
-                                   : moment ? "I_G"
-                                            : "m",
+                   .inertia_name = body->joint->coordinates[part].inertia,
                    .acceleration_name = equation_acceleration_name(model, body, part),
                    .unit = label->force_unit,
                    .inertia_unit = label->inertia_unit,
                    .acceleration_unit = label->acceleration_unit,
-                   .inertia = pivot    ? body_I_O(body, &at)
-                              : moment ? body_inertia(body, &at).I_G
-                                       : body_mass(body, &at),
+                   .inertia = coordinate_inertia_at(body, part, &at),
                    .acceleration = equation_acceleration(body, &at, state->a, part)},
     };
     struct equation *equation = add_equation(all, &row, count + 1);
@@ -125,8 +120,7 @@ static void add_of_coordinate(struct fbd_equations *all, const struct fbd_state 
         if (of_joint) equation->public.normal = vec_dot(arrow->force, surface_normal(model, body, &at));
     }
     if (equation && tree_has_more(body))
-        add_term(equation, body->kind == motion_track ? "turning along" : "moving axis", tree_more(body, &at),
-                 -1);
+        add_term(equation, body->joint->has_axis ? "moving axis" : "turning along", tree_more(body, &at), -1);
 }
 
 static void add_cut_free(struct fbd_equations *all, const struct fbd_state *state, int b,
@@ -140,9 +134,7 @@ static void add_cut_free(struct fbd_equations *all, const struct fbd_state *stat
     const struct instant at = state_instant(state);
     const struct vec G = mass_center(body, &at), a_G = mass_center_acceleration(body, &at, state->a);
     const double acceleration[] = {a_G.x, a_G.y, body_angular_acceleration(body, &at, state->a)};
-    /* For an unconnected body that does not turn, the moment that prevents it is not computed. */
-    bool straight = body->alone && (body->kind == motion_slide || body->kind == motion_particle);
-    for (int part = 0; part < (straight ? 2 : 3); part++) {
+    for (int part = 0; part < (body_never_turns(body) ? 2 : 3); part++) {
         bool moment = part == 2;
         const struct equation row = {
             .body = b,
@@ -249,7 +241,7 @@ double fbd_equation_term(const fbd_equation *equation, const char *name)
 
 struct vec moment_center(const struct model_body *body, const struct instant *at)
 {
-    return body->kind == motion_pivot ? body_pose(body, at).origin : mass_center(body, at);
+    return body->joint->has_axis ? body_pose(body, at).origin : mass_center(body, at);
 }
 
 fbd_arrow public_arrow(const struct arrow *arrow, struct vec about)

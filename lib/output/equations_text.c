@@ -11,12 +11,7 @@ enum { value_column = 22, unit_column = 40, remark_column = 48 };
 
 static const char *side_of_equation(const struct model_body *body, const struct equation *equation)
 {
-    static const char *const sides[] = {"sum of forces along x", "sum of forces along y",
-                                        "sum of moments about G"};
-    if (equation->cut_free || body->count > 1) return sides[equation->part];
-    return body->kind == motion_pivot   ? "sum of moments about O"
-           : body->kind == motion_track ? "sum of forces along the track"
-                                        : "sum of forces along x";
+    return (equation->cut_free ? free_coordinates : body->joint->coordinates)[equation->part].sum;
 }
 
 static void write_row(struct text *text, const char *name, double value, const char *unit, const char *remark)
@@ -60,7 +55,8 @@ static void write_equation(struct writer *w, const struct equation *equation)
     struct text *text = w->text;
     const struct model_body *body = &w->state->model->bodies[equation->body];
     const fbd_equation *e = &equation->public;
-    const char *G = !equation->cut_free && body->kind == motion_planar && equation->part < 2 ? " of G" : "";
+    const bool turns_too = body->joint->angle > equation->part;
+    const char *G = !equation->cut_free && turns_too ? " of G" : "";
     text_printf(text, "  %s.%s: %s %s%s = %s\n", e->body, e->coordinate, e->inertia_name,
                 e->acceleration_name, G, side_of_equation(body, equation));
     write_terms(text, w->state, equation);
@@ -78,7 +74,7 @@ static void write_body(struct writer *w, int b)
     struct text *text = w->text;
     const struct fbd_model *model = w->state->model;
     const struct model_body *body = &model->bodies[b];
-    if (body->kind != motion_pivot) return;
+    if (!body->joint->has_axis) return;
     const struct label *label = &model->labels[body->first];
     text_printf(text, "  %s turns about O: I_O = ", body->name);
     text_number(text, body->I_O, 9);

@@ -33,28 +33,14 @@ static void end_names(struct text *text, size_t display)
 
 /* ---- coordinates */
 
-static const char *motion_words(enum motion_kind kind)
-{
-    switch (kind) {
-    case motion_slide: return "slides on a line";
-    case motion_pivot: return "turns about an axis";
-    case motion_particle: return "moves in the plane as a particle";
-    case motion_planar: return "moves in the plane";
-    case motion_weld: return "is fixed on";
-    case motion_track: return "runs on a track";
-    }
-    return "";
-}
-
 static void write_coordinates(struct text *text, const struct fbd_model *model)
 {
     text_printf(text, "Coordinates (%d)\n", model->plan.n);
     for (size_t b = 0; b < model->body_count && b < most_bodies; b++) {
         const struct model_body *body = &model->bodies[b];
-        text_printf(text, "  %s %s", body->name, motion_words(body->kind));
-        if (body->parent >= 0 && body->kind != motion_weld)
-            text_printf(text, " of `%s`", model->bodies[body->parent].name);
-        if (body->kind == motion_weld) text_printf(text, " `%s`", model->bodies[body->parent].name);
+        text_printf(text, "  %s %s", body->name, body->joint->motion);
+        if (body->parent >= 0)
+            text_printf(text, body->count > 0 ? " of `%s`" : " `%s`", model->bodies[body->parent].name);
         text_add(text, body->count > 0 ? ":" : "");
         for (int k = 0; k < body->count; k++)
             text_printf(text, " %s [%s]", model->scene->coordinates[body->first + k].name,

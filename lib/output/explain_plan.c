@@ -75,12 +75,12 @@ static unsigned friction_depends(const struct fbd_model *model, const struct mod
 static unsigned load_depends(const struct fbd_model *model, const struct model_body *body,
                              const struct model_load *load)
 {
-    const bool turns = body->kind == motion_pivot || body->kind == motion_planar;
+    const bool turns = body->joint->angle >= 0;
     const struct formula *formulas[] = {&load->value, &load->angle, &load->fx, &load->fy, &load->potential};
     unsigned on = 0;
     for (size_t i = 0; i < sizeof formulas / sizeof *formulas; i++) on |= formula_depends(body, formulas[i]);
     switch (load->source->kind) {
-    case load_gravity: return body->kind == motion_pivot && body->L > 0 ? depends_place : 0;
+    case load_gravity: return body->joint->has_axis && body->L > 0 ? depends_place : 0;
     case load_applied: return turns && !load->source->body_frame ? on | depends_place : on;
     case load_spring:
     case moment_spring: return load->source->coefficient != 0 ? depends_place | depends_rate : depends_place;

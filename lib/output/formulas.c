@@ -16,20 +16,15 @@ bool equations_cut_free(const struct fbd_model *model, bool components)
 /* True if the equations of its coordinates contain the accelerations of G in the world. */
 static bool is_on_ground(const struct model_body *body)
 {
-    const bool off_center = body->kind == motion_planar && (body->arm.x != 0 || body->arm.y != 0);
-    return body->parent == ground_body && body->count > 0 && !off_center;
+    return body->parent == ground_body && body->count > 0 && !body_is_off_center(body);
 }
 
 /* True if the sum in that direction is one of its coordinates' equations. */
 static bool has_coordinate_along(const struct model_body *body, int part)
 {
-    switch (body->kind) {
-    case motion_planar:
-    case motion_particle: return true;
-    case motion_pivot: return part == 2;
-    case motion_slide: return part < 2 && (part == 0 ? body->e.y : body->e.x) == 0;
-    default: return false;
-    }
+    if (body->joint->has_axis) return part == 2;
+    if (body->joint->path == path_line) return part < 2 && (part == 0 ? body->e.y : body->e.x) == 0;
+    return body->count > 1;
 }
 
 bool body_is_cut_free(const struct fbd_model *model, int b, bool components)
@@ -42,10 +37,8 @@ bool equation_is_written(const struct fbd_model *model, int b, bool cut_free, in
 {
     const struct model_body *body = &model->bodies[b];
     const bool ground = is_on_ground(body);
-    const bool straight = body->alone && (body->kind == motion_slide || body->kind == motion_particle);
     if (!body_is_cut_free(model, b, components)) return !cut_free;
-    if (cut_free && part == 2 && straight)
-        return false; /* the moment that keeps it from turning is not computed */
+    if (cut_free && part == 2 && body_never_turns(body)) return false;
     return cut_free ? !ground || !has_coordinate_along(body, part) : ground;
 }
 
@@ -154,16 +147,16 @@ static bool is_of_moments(const struct equation *equation)
 static bool turns_along(const struct formulas *formulas, const struct equation *equation)
 {
     const struct model_body *body = &formulas->state->model->bodies[equation->body];
-    return !equation->cut_free && body->kind == motion_track && body->source->motion.turns;
+    return !equation->cut_free && body->source->motion.turns;
 }
 
 /* The direction of an equation of forces in the world, or (0, 0) where it varies with the motion. */
 static struct vec direction_of(const struct formulas *formulas, const struct equation *equation)
 {
     const struct model_body *body = &formulas->state->model->bodies[equation->body];
-    if (!equation->cut_free && (body->parent != ground_body || body->kind == motion_track))
+    if (!equation->cut_free && (body->parent != ground_body || body->joint->path == path_curve))
         return (struct vec){0, 0};
-    if (!equation->cut_free && body->kind == motion_slide) return body->e;
+    if (!equation->cut_free && body->joint->path == path_line) return body->e;
     return equation->part == 0 ? (struct vec){1, 0} : (struct vec){0, 1};
 }
 
@@ -174,7 +167,7 @@ static struct vec line_of(const struct formulas *formulas, const struct equation
     const struct fbd_model *model = formulas->state->model;
     const struct model_body *body = &model->bodies[equation->body];
     struct vec e = d;
-    if (body->kind == motion_slide && body->parent == ground_body)
+    if (body->joint->path == path_line && body->parent == ground_body)
         e = body->e;
     else
         ground_line_of_force(model, equation->body, name, &e);
@@ -233,8 +226,8 @@ static const char *share_by_symbol(struct formulas *formulas, const struct equat
     if (turns_along(formulas, equation))
         return arena_printf(&formulas->arena, "%sQ_s(%s)", letter->minus, letter->vector);
     if (u.x == 0 && u.y == 0) { /* s of a track; x and y of a body on a body */
-        const enum motion_kind kind = formulas->state->model->bodies[equation->body].kind;
-        const char *axis = kind == motion_track ? "s" : equation->part == 1 ? "y" : "x";
+        const struct model_body *body = &formulas->state->model->bodies[equation->body];
+        const char *axis = body->joint->coordinates[equation->part].name;
         const char *part = component_by_symbol(&formulas->arena, letter->vector, axis);
         return part ? arena_printf(&formulas->arena, "%s%s", letter->minus, part) : NULL;
     }

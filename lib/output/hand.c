@@ -20,13 +20,6 @@ static bool agrees(const struct hand_sample *sample)
 
 /* ---- one equation at one state */
 
-static double inertia_of(const struct model_body *body, int part, const struct instant *at)
-{
-    return body->kind == motion_pivot ? body_I_O(body, at)
-           : part == 2                ? body_inertia(body, at).I_G
-                                      : body_mass(body, at);
-}
-
 /* The slope of left - right with respect to each acceleration; the nonzero one determines the coordinate. */
 static int accelerated_part(const struct hand *hand, int size, int count, double t, const double *y,
                             double *slope)
@@ -50,22 +43,22 @@ static double swapped_gravity(const struct model_body *body, const struct fbd_st
 {
     struct instant at = state_instant(state);
     double weight = body_mass(body, &at) * vec_norm(state->model->scene->gravity);
-    if (body->kind == motion_slide) return -weight * body->e.x;
-    return body->kind == motion_pivot ? -weight * body->L * cos(state->y[body->first]) : 0;
+    if (body->joint->path == path_line) return -weight * body->e.x;
+    return body->joint->has_axis ? -weight * body->L * cos(state->y[body->first]) : 0;
 }
 
 static void take_factors(const struct model_body *body, const struct fbd_state *state, double *factors)
 {
     const struct scene *scene = state->model->scene;
-    bool slide = body->kind == motion_slide, pivot = body->kind == motion_pivot;
+    const bool line = body->joint->path == path_line;
     struct instant at = state_instant(state);
-    int angle = body_angle_coordinate(body);
+    const int k = body->joint->angle, angle = k < 0 ? k : body->first + k;
     double q = state->y[body->first], v = state->y[body->first_rate];
     factors[factor_cos_angle] = angle >= 0 ? cos(state->y[angle]) : NAN;
     factors[factor_sin_angle] = angle >= 0 ? sin(state->y[angle]) : NAN;
-    factors[factor_cos_along] = slide ? body->e.x : NAN;
-    factors[factor_sin_along] = slide ? body->e.y : NAN;
-    factors[factor_L] = pivot ? body->L : NAN;
+    factors[factor_cos_along] = line ? body->e.x : NAN;
+    factors[factor_sin_along] = line ? body->e.y : NAN;
+    factors[factor_L] = body->joint->has_axis ? body->L : NAN;
     factors[factor_m] = body_mass(body, &at);
     factors[factor_g] = vec_norm(scene->gravity);
     factors[factor_sign] = body->count == 1 ? copysign(1, v) : NAN;
@@ -144,7 +137,7 @@ static void take_sample(struct hand_check *check, const struct hand *hand, const
     check->part = part;
     if (part >= 0) {
         sample.coefficient = slope;
-        sample.I = inertia_of(body, part, &at);
+        sample.I = coordinate_inertia_at(body, part, &at);
         sample.a = state->a[body->first + part];
         sample.a_hand = sample.a - (sample.left - sample.right) / slope;
         scale = sample.I / slope;

@@ -95,13 +95,13 @@ static bool blame_inertia(const struct hand_check *check, int slip, struct text 
 {
     if (check->part < 0) return false;
     const struct model_body *body = &check->model->bodies[check->body];
-    if (body->kind == motion_pivot && inertia_is(check, slip, 0)) {
+    if (body->joint->has_axis && inertia_is(check, slip, 0)) {
         text_add(text,
                  "  wrong reference point: the moment of inertia is the one about G; about the axis it is\n"
                  "  I_O = I_G + m L^2\n");
         return true;
     }
-    if (body->kind == motion_pivot && inertia_is(check, slip, 1)) {
+    if (body->joint->has_axis && inertia_is(check, slip, 1)) {
         text_add(
             text,
             "  the moment of inertia is that of a point mass, m L^2; I_O = I_G + m L^2 has I_G as well\n");
@@ -127,12 +127,12 @@ static bool blame_term(const struct hand_check *check, int slip, struct text *te
     for (int i = 0; i < body->load_count; i++) {
         const struct load *load = check->model->loads[body->first_load + i].source;
         double factor;
-        if (body->kind == motion_pivot && arm_power(check, slip, i, -1)) {
+        if (body->joint->has_axis && arm_power(check, slip, i, -1)) {
             text_printf(text, "  the moment arm is missing: the term `%s` is a force, without L\n",
                         load->name);
             return true;
         }
-        if (body->kind == motion_pivot && arm_power(check, slip, i, 1)) {
+        if (body->joint->has_axis && arm_power(check, slip, i, 1)) {
             text_printf(text, "  the term `%s` has the moment arm L once too often\n", load->name);
             return true;
         }

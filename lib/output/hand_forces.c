@@ -60,7 +60,7 @@ static double pull_of(const struct fbd_model *model, int body, const struct arro
 
 static bool acts_along(const struct fbd_model *model, int body)
 {
-    return model->bodies[body].kind == motion_slide || model->bodies[body].kind == motion_track;
+    return model->bodies[body].joint->path != path_none;
 }
 
 /* True if the force has a size, with a sign. */
@@ -141,8 +141,7 @@ static bool has_couple(const struct naming *naming, size_t i)
 {
     const int joint = naming->symbols[i].joint;
     if (naming->symbols[i].moment) return true;
-    return joint >= 0 && naming->model->bodies[joint].kind != motion_pivot &&
-           !naming->model->bodies[joint].alone;
+    return joint >= 0 && !naming->model->bodies[joint].joint->has_axis && !naming->model->bodies[joint].alone;
 }
 
 static void add_letter(const struct naming *naming, size_t i, const char *letter)

@@ -37,7 +37,7 @@ static void list_places(struct suspects_look *look)
     look->about = look->hand->about[0] != NULL;
     if (look->about) add_place(look, look->hand->about_name, false, (struct vec){0, 0});
     add_place(look, "G", true, body->inertia.G);
-    if (source->motion.kind == motion_pivot) add_place(look, "O", true, source->motion.point);
+    if (body->joint->has_axis) add_place(look, "O", true, source->motion.point);
     for (size_t i = 0; i < source->point_count; i++)
         if (!strchr(source->points[i].name, '.'))
             add_place(look, source->points[i].name, true, source->points[i].where);
@@ -225,7 +225,7 @@ static void vote_by_inertia(const struct suspects_look *look, const struct lette
     const enum absolute_kind kind = letter->absolute ? letter->absolute->kind : absolute_acceleration;
     if (letter->absolute && letter->absolute->body != look->check->body) return;
     const struct inertia inertia = body_inertia(body, &look->at);
-    const bool turns = kind == absolute_alpha || (own && (body->kind == motion_pivot || k == 2));
+    const bool turns = kind == absolute_alpha || (own && coordinate_is_angle(body, k));
     if (moment && turns) {
         const struct pose pose = body_pose(body, &look->at);
         const struct vec arm =
@@ -235,7 +235,7 @@ static void vote_by_inertia(const struct suspects_look *look, const struct lette
     }
     const bool x = kind == absolute_ax || (own && !alone && k == 0);
     const bool y = kind == absolute_ay || (own && !alone && k == 1);
-    const bool along = own && alone && (body->kind == motion_slide || body->kind == motion_track);
+    const bool along = own && body->joint->path != path_none;
     if ((equation == equation_x && x) || (equation == equation_y && y) ||
         (equation == equation_along && along))
         vote(votes, inertia_votes, slope, -inertia.mass);

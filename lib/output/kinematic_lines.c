@@ -79,15 +79,15 @@ static const char *add_turned(struct formulas *formulas, const char *sum, int b,
 static bool is_straight(const struct fbd_model *model, int b)
 {
     const struct model_body *body = &model->bodies[b];
-    return body->parent == ground_body && (body->kind == motion_slide || body->kind == motion_particle);
+    return body->parent == ground_body && body->joint->angle < 0 && body->joint->path != path_curve;
 }
 
 /* v_dot cos(phi); of a particle vx_dot. */
 static const char *add_straight(struct formulas *formulas, const char *sum, int b, int of, int part)
 {
     const struct model_body *body = &formulas->state->model->bodies[b];
-    const char *name = acceleration_of(formulas, b, of, body->kind == motion_particle ? part : 0);
-    if (body->kind == motion_particle) return formula_add(formulas, sum, name);
+    const char *name = acceleration_of(formulas, b, of, body->count == 2 ? part : 0);
+    if (body->count == 2) return formula_add(formulas, sum, name);
     const double share = part == 0 ? body->e.x : body->e.y;
     if (!name || share == 0) return name ? sum : NULL;
     if (fabs(share) == 1) {
@@ -122,7 +122,7 @@ static const char *of_point(struct formulas *formulas, int p, int of, struct vec
 {
     const struct model_body *body = &formulas->state->model->bodies[p];
     if (is_straight(formulas->state->model, p)) return add_straight(formulas, "", p, of, part);
-    if (body->parent == ground_body && body->kind == motion_pivot)
+    if (body->parent == ground_body && body->joint->has_axis)
         return add_turned(formulas, "", p, of, arm_in_frame(formulas, p, origin_of(formulas, p), point),
                           part);
     const char *G = name_of(formulas, p, of, part == 0 ? "a_Gx" : "a_Gy");
@@ -170,17 +170,16 @@ int kinematic_lines(struct formulas *formulas, int b, const char *lines[static m
 {
     const struct fbd_model *model = formulas->state->model;
     const struct model_body *body = &model->bodies[b];
-    const bool ground = body->parent == ground_body, planar = body->kind == motion_planar;
-    if (body->kind == motion_pivot) return lines_of_pivot(formulas, b, lines);
-    if (body->kind == motion_slide && ground) return lines_of_slide(formulas, b, lines);
-    const bool off_center = planar && (body->arm.x != 0 || body->arm.y != 0);
-    if (body->kind != motion_weld && !(ground && off_center)) return 0;
+    const bool ground = body->parent == ground_body, off_center = body_is_off_center(body);
+    if (body->joint->has_axis) return lines_of_pivot(formulas, b, lines);
+    if (body->joint->path == path_line && ground) return lines_of_slide(formulas, b, lines);
+    if (body->count > 0 && !(ground && off_center)) return 0;
     const struct vec origin = origin_of(formulas, b), G = center_of(formulas, b);
     for (int part = 0; part < 2; part++) {
-        const char *right = planar   ? add_turned(formulas, acceleration_of(formulas, b, b, part), b, b,
-                                                  arm_in_frame(formulas, b, origin, G), part)
-                            : ground ? ""
-                                     : of_point(formulas, body->parent, b, G, part);
+        const char *right = off_center ? add_turned(formulas, acceleration_of(formulas, b, b, part), b, b,
+                                                    arm_in_frame(formulas, b, origin, G), part)
+                            : ground   ? ""
+                                       : of_point(formulas, body->parent, b, G, part);
         lines[part] = line(formulas, 'G', part, right);
     }
     return 2;

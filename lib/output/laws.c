@@ -10,11 +10,6 @@ static const char *minus_of(double factor)
     return factor < 0 ? "-" : "";
 }
 
-static bool is_of_moments(const struct model_body *body, int part)
-{
-    return body->kind == motion_pivot || part == 2;
-}
-
 bool body_lists(const struct fbd_model *model, int body, int load)
 {
     const struct model_body *b = &model->bodies[body];
@@ -68,11 +63,11 @@ static void write_weight(struct text *text, const struct fbd_model *model, const
     const struct model_body *body = &model->bodies[equation->body];
     const struct vec g = model->scene->gravity;
     const bool in_world = equation->cut_free || body->parent == ground_body;
-    if (!equation->cut_free && body->kind == motion_pivot)
+    if (!equation->cut_free && body->joint->has_axis)
         write_weight_about(text, g, body, names);
-    else if (!equation->cut_free && body->kind == motion_slide && in_world)
+    else if (!equation->cut_free && body->joint->path == path_line && in_world)
         write_weight_along(text, g, body->e, names);
-    else if (equation->part < 2 && in_world && (equation->cut_free || body->kind != motion_track))
+    else if (equation->part < 2 && in_world && (equation->cut_free || body->joint->path != path_curve))
         write_weight_along(text, g, axes[equation->part], names);
 }
 
@@ -82,9 +77,8 @@ static void write_weight(struct text *text, const struct fbd_model *model, const
 static void write_drag(struct text *text, const struct load *load, const struct model_body *body, int part,
                        const char *rate)
 {
-    const bool wind = load_has_wind(load), track = body->kind == motion_track;
-    const bool turns = is_of_moments(body, body->count - 1) || (track && body->source->motion.turns);
-    if (body->parent != ground_body || turns || (wind && track)) return;
+    const bool wind = load_has_wind(load), turns = body->joint->angle >= 0 || body->source->motion.turns;
+    if (body->parent != ground_body || turns || (wind && body->joint->path == path_curve)) return;
     const char *speed = wind ? "|v - w|" : "|v|";
     if (load->quadratic == 0)
         text_add(text, "-c ");
@@ -116,7 +110,7 @@ static void write_formula(struct text *text, const char *formula, const struct c
 /* True if the law acts along coordinate `part` of the body, so that its formula is the term. */
 static bool acts_along(const struct load *load, const struct model_body *body, int part)
 {
-    const bool moment = is_of_moments(body, part);
+    const bool moment = coordinate_is_angle(body, part);
     switch (load->kind) {
     case load_potential: /* its moment about G differs from that about the origin of the frame */
         return part < 2 || (body->arm.x == 0 && body->arm.y == 0);
@@ -124,7 +118,7 @@ static bool acts_along(const struct load *load, const struct model_body *body, i
     case moment_spring:
     case moment_damper:
     case moment_potential: return moment;
-    case load_applied: return !moment && !(body->kind == motion_track && body->source->motion.turns);
+    case load_applied: return !moment && !body->source->motion.turns;
     default: return !moment;
     }
 }
@@ -135,7 +129,7 @@ void law_write(struct text *text, const struct fbd_model *model, const struct eq
     const int index = equation->loads[term], part = equation->part;
     const struct model_body *body = &model->bodies[equation->body];
     const bool last = term + 1 == equation->public.term_count;
-    if (last && !equation->cut_free && body->kind == motion_pivot && tree_has_more(body)) /* of its axis */
+    if (last && !equation->cut_free && body->joint->has_axis && tree_has_more(body)) /* of its axis */
         text_printf(text, "-%s (r_x a_Oy - r_y a_Ox)", names->mass);
     if (index < 0 || !body_lists(model, equation->body, index)) return;
     const struct load *load = model->loads[index].source;

@@ -92,16 +92,16 @@ struct arm {
 const char *arm_name(struct formulas *formulas, int b, double d)
 {
     const struct model_body *body = &formulas->state->model->bodies[b];
-    return body->kind == motion_pivot && is_length(fabs(d), body->L) ? symbol_of_body(formulas, "L", b)
-                                                                     : length_name(formulas, fabs(d));
+    return body->joint->has_axis && is_length(fabs(d), body->L) ? symbol_of_body(formulas, "L", b)
+                                                                : length_name(formulas, fabs(d));
 }
 
 const char *angle_name(const struct formulas *formulas, int b)
 {
     const struct fbd_model *model = formulas->state->model;
     const struct model_body *body = &model->bodies[b];
-    if (body->kind != motion_pivot && body->kind != motion_planar) return "angle";
-    const int coordinate = body->first + body->count - 1;
+    if (body->joint->angle < 0) return "angle";
+    const int coordinate = body->first + body->joint->angle;
     for (int k = 0; k < formulas->samples.count; k++) {
         const struct instant at = state_instant(formulas->samples.states[k]);
         if (fabs(at.y[coordinate] - body_angle(body, &at)) > 1e-9) return "angle";
@@ -111,8 +111,7 @@ const char *angle_name(const struct formulas *formulas, int b)
 
 static bool can_turn(const struct fbd_model *model, const struct model_body *body)
 {
-    for (; body->kind == motion_slide || body->kind == motion_particle || body->kind == motion_weld;
-         body = &model->bodies[body->parent])
+    for (; body->joint->angle < 0 && body->joint->path != path_curve; body = &model->bodies[body->parent])
         if (body->parent == ground_body) return false;
     return true;
 }

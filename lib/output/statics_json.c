@@ -23,7 +23,7 @@ size_t fbd_statics_diagram(const fbd_statics *statics, size_t body, fbd_arrow *a
     const struct model_body *of = &statics->model->bodies[body];
     const struct rest_diagram *diagram = &statics->diagrams[body];
     struct instant at = state_instant(statics->state);
-    struct vec about = of->kind == motion_pivot ? body_pose(of, &at).origin : mass_center_of(statics, of);
+    struct vec about = moment_center(of, &at);
     for (size_t i = 0; i < diagram->count && i < room; i++)
         arrows[i] = public_arrow(&diagram->arrows[i], about);
     return diagram->count;

@@ -59,7 +59,7 @@ static bool is_corner(const struct coupling *coupling, int k)
 static bool stops_turning(const struct fbd_model *model, const struct coupling *coupling)
 {
     return coupling->kind == constraint_contact && coupling->source->contact.stop != 0 &&
-           model->bodies[coupling->end[0].body].kind == motion_pivot;
+           model->bodies[coupling->end[0].body].joint->has_axis;
 }
 
 bool coupling_of_force(const struct fbd_model *model, int b, const char *name, struct coupling_place *place)
@@ -107,7 +107,7 @@ static struct force_key key_of_load(const struct fbd_model *model, int index)
         key.of = of_joint;
         key.index = load->body;
         break;
-    case load_drive: key.moment = model->bodies[load->body].kind == motion_pivot; break;
+    case load_drive: key.moment = coordinate_is_angle(&model->bodies[load->body], 0); break;
     case moment_applied:
     case moment_spring:
     case moment_damper:
@@ -130,9 +130,8 @@ static struct force_key key_of_joint(const struct fbd_model *model, int b, const
         if (child->parent == b && child->reaction_on_parent && strcmp(name, child->reaction_on_parent) == 0)
             joint = (int)c;
     }
-    const enum motion_kind kind = model->bodies[joint].kind;
-    const bool slides = kind == motion_slide || kind == motion_track, moment = kind == motion_particle;
-    return (struct force_key){moment ? "M" : slides ? "N" : "R", of_joint, joint, joint, moment};
+    const struct joint_type *type = model->bodies[joint].joint;
+    return (struct force_key){type->letter, of_joint, joint, joint, type->prevents_turning};
 }
 
 static struct force_key key_of(const struct fbd_model *model, int b, const struct arrow *arrow)
@@ -183,8 +182,7 @@ static const char *slipping(struct naming *naming, const struct model_load *load
 {
     const struct fbd_model *model = naming->state->model;
     const struct model_body *body = &model->bodies[load->body];
-    const bool turns =
-        body->kind == motion_track && body->source->motion.turns; /* N is not all of the force across it */
+    const bool turns = body->source->motion.turns; /* N is not all of the force across it */
     if (load->source->kind != load_friction || body->friction < 0 || turns ||
         naming->state->slip[body->friction] == stick)
         return NULL;

@@ -69,12 +69,11 @@ static void friction_remark(struct fbd_state *state, int b, char *remark)
 /* Words for gravity where its law has no symbols, or is zero. */
 static const char *gravity_words(const struct model_body *body, int part)
 {
-    switch (body->kind) {
-    case motion_slide: return body->parent == ground_body ? "acts across" : "m g along x";
-    case motion_pivot: return "through the axis";
-    case motion_track: return "m g along the track";
-    default: return part < 2 && body->parent != ground_body ? "m g along the axis" : "";
-    }
+    const bool on_ground = body->parent == ground_body;
+    if (body->joint->has_axis) return "through the axis";
+    if (body->joint->path == path_curve) return "m g along the track";
+    if (body->joint->path == path_line) return on_ground ? "acts across" : "m g along x";
+    return part < 2 && !on_ground ? "m g along the axis" : "";
 }
 
 static const char *listed_words(const struct model_load *load, const struct model_body *body, int part)
@@ -96,7 +95,7 @@ static void listed_remark(struct fbd_state *state, const struct equation *equati
     switch (load->source->kind) {
     case load_normal: normal_remark(state, body, remark); return;
     case moment_friction:
-        if (body->kind != motion_pivot && equation->part < 2) return;
+        if (!coordinate_is_angle(body, equation->part)) return;
         friction_remark(state, equation->body, remark);
         return;
     case load_friction: friction_remark(state, equation->body, remark); return;

@@ -36,7 +36,7 @@ static bool find_point(const struct model_body *body, const char *name, size_t l
         *point = body->inertia.G;
         return true;
     }
-    if (is_called("O", name, length) && body->kind == motion_pivot) {
+    if (is_called("O", name, length) && body->joint->has_axis) {
         *point = source->motion.point;
         return true;
     }
@@ -70,10 +70,8 @@ static struct vec acceleration(const struct fbd_state *state, const struct model
 {
     struct vec a = mass_center_acceleration(body, at, state->a);
     struct vec r = vec_turn(pose->rotation, vec_sub(point, body->inertia.G));
-    bool turns = !body->alone || body->kind == motion_pivot || body->kind == motion_planar;
-    if (!turns) return a;
-    double alpha =
-        !body->alone ? tree_angular_acceleration(body, at) : state->a[body->first + body->count - 1];
+    if (body_never_turns(body)) return a;
+    double alpha = body_angular_acceleration(body, at, state->a);
     return vec_add(a, vec_sub(vec_scale(alpha, vec_perp(r)), vec_scale(pose->omega * pose->omega, r)));
 }
 

@@ -53,13 +53,9 @@ static struct sums sums_of(const struct fbd_state *state, int b, struct arrow *a
     const struct instant at = state_instant(state);
     const struct pose pose = body_pose(body, &at);
     const struct vec G = point_motion(body, &pose, body->inertia.G).p;
-    const bool jointed = !body->alone;
     struct sums sums = {.m_a =
                             vec_scale(body_mass(body, &at), mass_center_acceleration(body, &at, state->a))};
-    double alpha = jointed                      ? tree_angular_acceleration(body, &at)
-                   : body->kind == motion_pivot ? state->a[body->first]
-                                                : state->a[body->first + body->count - 1];
-    sums.I_alpha = body_inertia(body, &at).I_G * alpha;
+    sums.I_alpha = body_inertia(body, &at).I_G * body_angular_acceleration(body, &at, state->a);
     double slid = slid_size(state, body);
     sums.force = vec_norm(sums.m_a) + slid;
     sums.moment = fabs(sums.I_alpha) + slid;
@@ -74,9 +70,7 @@ static struct sums sums_of(const struct fbd_state *state, int b, struct arrow *a
         sums.reach = fmax(sums.reach, arm);
         sums.place += DBL_EPSILON * (vec_norm(arrow->point) + vec_norm(G)) * size;
     }
-    /* On a slide of the ground, and as a particle, the body does not turn; its constraining couple is not
-     * listed. */
-    if (!jointed && (body->kind == motion_slide || body->kind == motion_particle)) sums.M = sums.I_alpha = 0;
+    if (body_never_turns(body)) sums.M = sums.I_alpha = 0;
     return sums;
 }
 
@@ -106,7 +100,7 @@ struct answer_levels {
  * of the same length. */
 static double turn_of_track(const struct fbd_state *state, const struct model_body *body)
 {
-    if (body->kind != motion_track) return 0;
+    if (body->joint->path != path_curve) return 0;
     const struct tree_track *track = state->model->tree->links[body->place.link].track;
     return fabs(state->y[state->model->plan.n + body->first]) / track->curve->length;
 }

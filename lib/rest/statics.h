@@ -47,8 +47,7 @@ struct fbd_statics {
  * turn, and its couple is not listed. */
 static inline bool rest_turns(const struct model_body *body)
 {
-    if (body->kind == motion_particle) return false;
-    return !body->alone || body->kind == motion_pivot || body->kind == motion_planar;
+    return !body->joint->prevents_turning && !body_never_turns(body);
 }
 
 /* The tension of a rod or a rope; NAN for another coupling, 0 for a slack rope. */

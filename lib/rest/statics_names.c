@@ -58,17 +58,18 @@ static void name_joint(struct fbd_statics *statics, const struct rest_system *sy
     bool first = varies(system, entry), second = varies(system, entry + 1),
          couple = varies(system, entry + 2);
     const char *holder = holder_name(statics, body);
-    if (body->kind == motion_pivot) {
-        if (first || second) add_name(statics, body->name, "pin", !second ? " in x" : !first ? " in y" : "");
+    if (body->joint->has_axis) {
+        if (first || second)
+            add_name(statics, body->name, body->joint->force, !second ? " in x" : !first ? " in y" : "");
         if (couple && holder) add_name(statics, body->name, holder, "");
     }
-    if (body->kind == motion_slide) {
-        const char *across = name_of_load(model, body, load_normal, "guide");
+    if (body->joint->path == path_line) {
+        const char *across = name_of_load(model, body, load_normal, body->joint->force);
         if (first && holder) add_name(statics, body->name, holder, "");
         if (second) add_name(statics, body->name, across, "");
         if (couple) add_name(statics, body->name, across, " (couple)");
     }
-    if (body->kind == motion_particle && couple && body->reaction)
+    if (body->joint->prevents_turning && couple && body->reaction)
         add_name(statics, body->name, body->reaction, " (couple)");
 }
 

@@ -15,6 +15,7 @@ static bool acts_across(const struct scene *scene, const struct load *load, doub
 
 static const struct load *normal_of(const struct body *body)
 {
+    if (motion_joint(&body->motion)->path != path_line) return NULL;
     for (size_t i = 0; i < body->load_count; i++)
         if (body->loads[i].kind == load_normal && !body->loads[i].two_sided) return &body->loads[i];
     return NULL;
@@ -27,12 +28,13 @@ static bool is_carried_along(const struct scene *scene, size_t b)
     const double parallel = 1e-12;
     const struct motion *motion = &scene->bodies[b].motion;
     double turned = 0; /* angle from the line of the carrier */
-    if (motion->kind != motion_slide) return false;
+    if (motion_joint(motion)->path != path_line) return false;
     while (motion->parent != ground_body) {
         turned += motion->along;
         motion = &scene->bodies[motion->parent].motion;
-        if (motion->kind == motion_weld) continue;
-        if (motion->kind != motion_slide || fabs(sin(turned)) > parallel) return false;
+        const struct joint_type *joint = motion_joint(motion);
+        if (joint->count == 0) continue;
+        if (joint->path != path_line || fabs(sin(turned)) > parallel) return false;
     }
     return true;
 }
@@ -87,7 +89,7 @@ bool lint_friction_note(struct reader *reader)
     const struct scene *scene = reader->scene;
     for (size_t b = 0; b < scene->body_count; b++) {
         const struct body *body = &scene->bodies[b];
-        const struct load *normal = body->motion.kind == motion_slide ? normal_of(body) : NULL;
+        const struct load *normal = normal_of(body);
         if (normal) note_no_side_up(reader, b, normal);
     }
     if (vec_norm(scene->gravity) == 0) return true; /* intended */
@@ -96,7 +98,7 @@ bool lint_friction_note(struct reader *reader)
     mark_joined(scene, joined);
     for (size_t b = 0; b < scene->body_count; b++) {
         const struct body *body = &scene->bodies[b];
-        const struct load *normal = body->motion.kind == motion_slide ? normal_of(body) : NULL;
+        const struct load *normal = normal_of(body);
         bool pressed = !normal || joined[b];
         for (size_t i = 0; !pressed && i < body->load_count; i++)
             pressed = acts_across(scene, &body->loads[i], start_angle(scene, (int)b));

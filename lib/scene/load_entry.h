@@ -39,7 +39,7 @@ static inline bool entry_exclude(struct entry *entry, const char *key, const cha
 /* True if the body moves along a line or curve, which gives forces their direction. */
 static inline bool entry_is_slide(const struct entry *entry)
 {
-    return entry->motion && (entry->motion->kind == motion_slide || entry->motion->kind == motion_track);
+    return entry->motion && motion_joint(entry->motion)->path != path_none;
 }
 
 /* The point of application: `at`. */

@@ -29,17 +29,12 @@ static int compare_key(const void *key, const void *element)
  * varying mass. */
 static bool is_of_joint(const struct reader *reader, int index, const char *name)
 {
-    static const char *const forces[] = {[motion_slide] = "guide",
-                                         [motion_pivot] = "pin",
-                                         [motion_particle] = "guide",
-                                         [motion_weld] = "weld",
-                                         [motion_track] = "guide"};
     const struct draft *draft = &reader->drafts[index];
-    enum motion_kind kind = reader->scene->bodies[index].motion.kind;
+    const char *force = motion_joint(&reader->scene->bodies[index].motion)->force;
     if (draft->mass_varies && strcmp(name, "mass") == 0) return true;
     if (!draft->motion_known) return false;
     if (draft->motion_keys.prescribed && strcmp(name, "drive") == 0) return true;
-    return kind != motion_planar && strcmp(name, forces[kind]) == 0;
+    return force && strcmp(name, force) == 0;
 }
 
 /* Check given names: each load is a column of the output beside the coordinates of its body. */

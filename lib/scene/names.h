@@ -20,16 +20,6 @@ static inline struct symbol slot_symbol(struct dim dim, size_t slot)
     return (struct symbol){.kind = symbol_variable, .dim = dim, .slot = (int)slot};
 }
 
-/* The names of one coordinate. */
-struct coordinate_names {
-    const char *name, *rate, *rate_alias;
-    const char *acceleration, *acceleration_alias[2];
-    bool angle;
-};
-
-/* The coordinates of a motion; returns their number. */
-int coordinates_of(enum motion_kind kind, const struct coordinate_names **names);
-
 /* True for t, pi and the names of coordinates and rates, which are reserved. */
 bool name_is_reserved(const char *name);
 

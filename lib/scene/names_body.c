@@ -12,26 +12,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* ---- coordinates */
-
-static const struct coordinate_names slide_names[] = {{"x", "v", "x_dot", "v_dot", {"a", "x_ddot"}, false}};
-static const struct coordinate_names track_names[] = {{"s", "v", "s_dot", "v_dot", {"a", "s_ddot"}, false}};
-static const struct coordinate_names pivot_names[] = {
-    {"theta", "omega", "theta_dot", "omega_dot", {"alpha", "theta_ddot"}, true}};
-static const struct coordinate_names planar_names[] = {
-    {"x", "vx", "x_dot", "vx_dot", {"ax", "x_ddot"}, false},
-    {"y", "vy", "y_dot", "vy_dot", {"ay", "y_ddot"}, false},
-    {"theta", "omega", "theta_dot", "omega_dot", {"alpha", "theta_ddot"}, true}};
-
-int coordinates_of(enum motion_kind kind, const struct coordinate_names **names)
-{
-    *names = kind == motion_slide   ? slide_names
-             : kind == motion_pivot ? pivot_names
-             : kind == motion_track ? track_names
-                                    : planar_names;
-    return kind == motion_weld ? 0 : kind == motion_planar ? 3 : kind == motion_particle ? 2 : 1;
-}
-
 bool name_is_reserved(const char *name)
 {
     static const char *const reserved[] = {"t", "pi", "x", "y", "v", "vx", "vy", "theta", "omega"};
@@ -85,12 +65,11 @@ struct symbol coordinate_symbol(const struct names *names, int body, const char 
 {
     const struct scene *scene = names->reader->scene;
     const struct body *owner = &scene->bodies[body];
-    const struct coordinate_names *list;
-    int count = coordinates_of(owner->motion.kind, &list);
+    const struct joint_type *joint = motion_joint(&owner->motion);
     size_t n = scene->coordinate_count, first = (size_t)owner->first;
     bool constant = names->place == place_constant; /* slots are not numbered yet, and not needed */
-    for (int i = 0; i < count; i++) {
-        const struct coordinate_names *c = &list[i];
+    for (int i = 0; i < joint->count; i++) {
+        const struct joint_coordinate *c = &joint->coordinates[i];
         size_t k = (size_t)i;
         if (strcmp(name, c->name) == 0)
             return coordinate(coordinate_dim(c->angle, 0), constant ? 0 : 1 + first + k, c->angle);
@@ -188,7 +167,7 @@ bool names_point(const struct body *owner, const char *name, size_t length, stru
         point->kind = point_G;
         return true;
     }
-    if (length == 1 && name[0] == 'O' && owner->motion.kind == motion_pivot) {
+    if (length == 1 && name[0] == 'O' && motion_joint(&owner->motion)->has_axis) {
         point->where = owner->motion.point;
         return true;
     }
@@ -215,30 +194,33 @@ struct symbol absolute_symbol(const struct names *names, int body, const char *n
     return names_absolute(reader, names->place, &absolute);
 }
 
+/* The coordinate of a body whose acceleration has that name; or -1. */
+static int acceleration_called(const struct body *body, const char *name)
+{
+    const struct joint_type *joint = motion_joint(&body->motion);
+    for (int k = 0; k < joint->count; k++) {
+        const struct joint_coordinate *c = &joint->coordinates[k];
+        if (matches(name, c->acceleration, c->acceleration) ||
+            matches(name, c->acceleration_alias[0], c->acceleration_alias[1]))
+            return k;
+    }
+    return -1;
+}
+
 static struct symbol acceleration_symbol(const struct names *names, const char *name)
 {
     const struct scene *scene = names->reader->scene;
-    const struct coordinate_names *list;
-    int count = coordinates_of(scene->bodies[names->body].motion.kind, &list);
-    for (int i = 0; i < count; i++)
-        if (matches(name, list[i].acceleration, list[i].acceleration) ||
-            matches(name, list[i].acceleration_alias[0], list[i].acceleration_alias[1]))
-            return slot_symbol(coordinate_dim(list[i].angle, 2),
-                               1 + scene_size(scene) + (size_t)(hand_acceleration + i));
-    return unknown;
+    const int k = acceleration_called(&scene->bodies[names->body], name);
+    if (k < 0) return unknown;
+    return slot_symbol(coordinate_dim(k == motion_joint(&scene->bodies[names->body].motion)->angle, 2),
+                       1 + scene_size(scene) + (size_t)(hand_acceleration + k));
 }
 
 struct symbol other_acceleration_symbol(const struct names *names, int body, const char *name)
 {
-    const struct coordinate_names *list;
-    int count = coordinates_of(names->reader->scene->bodies[body].motion.kind, &list);
-    for (int i = 0; i < count; i++) {
-        struct absolute absolute = {.body = body, .kind = absolute_acceleration, .part = i};
-        if (matches(name, list[i].acceleration, list[i].acceleration) ||
-            matches(name, list[i].acceleration_alias[0], list[i].acceleration_alias[1]))
-            return names_absolute(names->reader, names->place, &absolute);
-    }
-    return unknown;
+    const int k = acceleration_called(&names->reader->scene->bodies[body], name);
+    const struct absolute absolute = {.body = body, .kind = absolute_acceleration, .part = k};
+    return k < 0 ? unknown : names_absolute(names->reader, names->place, &absolute);
 }
 
 struct symbol hand_symbol(const struct names *names, const char *name)
@@ -256,11 +238,11 @@ struct symbol hand_symbol(const struct names *names, const char *name)
     const struct reader *reader = names->reader;
     const struct draft *draft = &reader->drafts[names->body];
     if (!draft->motion_known) return failed_before;
-    bool pivot = reader->scene->bodies[names->body].motion.kind == motion_pivot;
+    bool has_axis = motion_joint(&reader->scene->bodies[names->body].motion)->has_axis;
     for (size_t i = 0; i < sizeof known / sizeof *known; i++) {
         int slot = known[i].slot;
         if (strcmp(name, known[i].name) != 0) continue;
-        if ((slot == hand_I_O || slot == hand_L) && !pivot) return unknown;
+        if ((slot == hand_I_O || slot == hand_L) && !has_axis) return unknown;
         if (slot == hand_N && !draft->has_normal) return unknown;
         if ((slot == hand_mu_s || slot == hand_mu_k) && !draft->has_friction) return unknown;
         return slot_symbol(known[i].dim, 1 + scene_size(reader->scene) + (size_t)slot);

@@ -17,14 +17,14 @@ static void know(struct names *names, const char *name)
 static void know_coordinates(struct names *names, int body, bool dotted)
 {
     struct reader *reader = names->reader;
-    const struct coordinate_names *list;
     if (!reader->drafts[body].motion_known) return;
-    int count = coordinates_of(reader->scene->bodies[body].motion.kind, &list);
+    const struct joint_type *joint = motion_joint(&reader->scene->bodies[body].motion);
     const char *prefix = reader->scene->bodies[body].name;
-    for (int i = 0; i < count && names->known_count < most_known; i++) {
-        know(names, dotted ? arena_printf(reader->arena, "%s.%s", prefix, list[i].name) : list[i].name);
-        know(names, dotted ? arena_printf(reader->arena, "%s.%s", prefix, list[i].rate) : list[i].rate);
-        if (!dotted && names->place == place_hand) know(names, list[i].acceleration);
+    for (int i = 0; i < joint->count && names->known_count < most_known; i++) {
+        const struct joint_coordinate *c = &joint->coordinates[i];
+        know(names, dotted ? arena_printf(reader->arena, "%s.%s", prefix, c->name) : c->name);
+        know(names, dotted ? arena_printf(reader->arena, "%s.%s", prefix, c->rate) : c->rate);
+        if (!dotted && names->place == place_hand) know(names, c->acceleration);
     }
 }
 

@@ -220,7 +220,7 @@ static bool read_hand(struct reader *reader, int index, const struct node *node,
 {
     struct names names = {.reader = reader, .place = place_hand, .body = index};
     names.slip = reader->drafts[index].has_friction ? slip_moving : slip_unknown;
-    names.slip_angular = reader->scene->bodies[index].motion.kind == motion_pivot;
+    names.slip_angular = motion_joint(&reader->scene->bodies[index].motion)->has_axis;
     struct scope scope = names_scope(&names);
     struct hand_keys keys = {0};
     bool fine = fields_read(reader, &hand_group, node, node->at, &scope, &keys);

@@ -10,7 +10,7 @@ static bool check_place(const struct entry *entry, const struct kinds *kinds)
     if (!entry->motion || (kind->motions & 1u << entry->motion->kind)) return true;
     diag_add(entry->reader->errors, FBD_ERROR, "not-here", entry->chosen.at, kind->elsewhere,
              "the %s `%s` cannot act on this body: it moves as `%s`", kinds->noun, kind->name,
-             motion_kinds.kinds[entry->motion->kind].name);
+             motion_joint(entry->motion)->name);
     return false;
 }
 

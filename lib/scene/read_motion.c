@@ -31,7 +31,7 @@ static bool read_own_point(struct reader *reader, int index, const struct motion
 static bool check_about_pivot(struct reader *reader, const struct body *body)
 {
     bool fine = true;
-    for (size_t i = 0; i < body->part_count && body->motion.kind != motion_pivot; i++) {
+    for (size_t i = 0; i < body->part_count && !motion_joint(&body->motion)->has_axis; i++) {
         if (!body->parts[i].about_pivot) continue;
         diag_add(reader->errors, FBD_ERROR, "not-here", body->parts[i].about.at,
                  "O is the axis of a `pivot`: give G, a point of the body or [x, y]",
@@ -55,9 +55,10 @@ bool body_motion_read(struct reader *reader, int index)
     keys->turn = true;
     bool about = check_about_pivot(reader, body);
     bool fine = fields_read(reader, chosen.kind->group, chosen.node, chosen.at, &reader->constants, keys);
-    body->motion.along = body->motion.kind == motion_weld ? keys->angle : keys->along;
-    if (body->motion.kind == motion_slide && !read_slide(reader, &chosen, keys)) fine = false;
-    if (body->motion.kind == motion_track && fine) fine = track_read(reader, index);
+    const struct joint_type *joint = motion_joint(&body->motion);
+    body->motion.along = joint->path == path_line ? keys->along : keys->angle;
+    if (joint->path == path_line && !read_slide(reader, &chosen, keys)) fine = false;
+    if (joint->path == path_curve && fine) fine = track_read(reader, index);
     draft->motion_read = fine && read_own_point(reader, index, keys);
     return draft->motion_read && about;
 }
@@ -73,7 +74,8 @@ bool body_initial_read(struct reader *reader, int index)
     bool fine = fields_read(reader, &initial_groups[body->motion.kind], draft->keys.initial, pair->at,
                             &reader->constants, &keys);
     body->assemble = keys.assemble;
-    if (body->motion.kind == motion_track && !track_initial_read(reader, index, &keys)) fine = false;
+    bool on_curve = motion_joint(&body->motion)->path == path_curve;
+    if (on_curve && !track_initial_read(reader, index, &keys)) fine = false;
     for (int i = 0; i < body->count; i++) {
         scene->coordinates[body->first + i].initial = keys.q[i];
         scene->coordinates[body->first + i].initial_rate = keys.v[i];
@@ -89,13 +91,14 @@ bool body_prescribed_read(struct reader *reader, int index)
     const struct draft *draft = &reader->drafts[index];
     const struct node *node = draft->motion_keys.prescribed;
     if (!node || !draft->motion_known) return true;
-    bool turns = body->motion.kind == motion_pivot;
-    const char *name = turns ? "theta" : body->motion.kind == motion_track ? "s" : "x";
+    const struct joint_coordinate *coordinate = motion_joint(&body->motion)->coordinates;
+    const char *name = coordinate->name;
     struct names names = {.reader = reader, .place = place_load, .body = index};
     struct scope scope = names_scope(&names);
     const int *slots;
     reader->names_inputs = false;
-    if (!value_formula(reader, node, name, turns ? an_angle : a_length, 0, &scope, &body->motion.prescribed))
+    if (!value_formula(reader, node, name, coordinate->angle ? an_angle : a_length, 0, &scope,
+                       &body->motion.prescribed))
         return false;
     const struct expr *expr = body->motion.prescribed.expr;
     bool fine = true;

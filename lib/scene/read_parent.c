@@ -52,16 +52,17 @@ bool body_parent_read(struct reader *reader, int index)
     const struct motion_keys *keys = &reader->drafts[index].motion_keys;
     if (!reader->drafts[index].motion_known) return true; /* noted before */
     if (keys->on && !body_name_read(reader, keys->on, "on", &motion->parent)) return false;
-    if (motion->kind == motion_weld && keys->on && motion->parent == ground_body) {
+    const struct joint_type *joint = motion_joint(motion);
+    if (joint->count == 0 && keys->on && motion->parent == ground_body) {
         diag_add(reader->errors, FBD_ERROR, "not-here", motion->at, "leave the body out: it does not move",
                  "a body that is welded to the ground has no motion");
         return false;
     }
     if (motion->parent == index) return true; /* noted by parents_check */
-    const struct node *place = motion->kind == motion_slide ? keys->through : keys->at;
+    const bool line = joint->path == path_line;
+    const struct node *place = line ? keys->through : keys->at;
     if (place && motion->parent == ground_body && is_own_point(reader, index, place)) return false;
-    bool fine = read_place(reader, motion->parent, place, motion->kind == motion_slide ? "through" : "at",
-                           &motion->through);
+    bool fine = read_place(reader, motion->parent, place, line ? "through" : "at", &motion->through);
     if (keys->line && !read_line(reader, keys->line, motion)) fine = false;
     return fine;
 }

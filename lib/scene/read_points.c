@@ -27,7 +27,7 @@ static void note_unknown_point(struct reader *reader, int index, const struct no
     const struct body *body = &reader->scene->bodies[index];
     const char *names[most_listed] = {"G"};
     size_t count = 1;
-    if (reader->drafts[index].motion_known && body->motion.kind == motion_pivot) names[count++] = "O";
+    if (reader->drafts[index].motion_known && motion_joint(&body->motion)->has_axis) names[count++] = "O";
     for (size_t i = 0; i < body->point_count && count < most_listed; i++)
         names[count++] = body->points[i].name;
     diag_add(reader->errors, FBD_ERROR, "unknown-point", node->at,
@@ -55,7 +55,7 @@ bool body_point_read(struct reader *reader, int index, const struct node *node, 
         point->kind = point_G;
         return true;
     }
-    if (strcmp(node->text, "O") == 0 && draft->motion_known && body->motion.kind == motion_pivot) {
+    if (strcmp(node->text, "O") == 0 && draft->motion_known && motion_joint(&body->motion)->has_axis) {
         point->where = body->motion.point;
         return true;
     }

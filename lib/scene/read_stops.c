@@ -69,7 +69,8 @@ bool stops_read(struct reader *reader, struct coupling_name *names)
     bool fine = true;
     for (size_t b = 0; b < reader->scene->body_count; b++) {
         double limit[2] = {0, 0};
-        enum quantity quantity = reader->scene->bodies[b].motion.kind == motion_pivot ? an_angle : a_length;
+        const bool angle = motion_joint(&reader->scene->bodies[b].motion)->angle == 0;
+        const enum quantity quantity = angle ? an_angle : a_length;
         bool any = false, read = true;
         for (int end = 0; end < 2; end++) {
             const struct node *node = stop_of(reader, b, end);

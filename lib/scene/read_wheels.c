@@ -54,8 +54,8 @@ const struct part *body_round_part(const struct body *body)
 
 bool body_turns(const struct body *body)
 {
-    return body->motion.kind == motion_pivot || body->motion.kind == motion_planar ||
-           body->motion.kind == motion_weld;
+    const struct joint_type *joint = motion_joint(&body->motion);
+    return joint->angle >= 0 || joint->count == 0; /* a welded body turns with the one that it is fixed on */
 }
 
 bool coupling_circle_set(struct reader *reader, struct constraint *constraint, int k, double radius)

@@ -88,19 +88,19 @@ static bool number_coordinates(struct reader *reader)
     if (!scene->coordinates) return false;
     for (size_t b = 0; b < scene->body_count; b++) {
         struct body *body = &scene->bodies[b];
-        const struct coordinate_names *names;
         body->first = (int)scene->coordinate_count;
         if (!reader->drafts[b].motion_known) continue;
-        body->count = coordinates_of(body->motion.kind, &names);
+        body->count = motion_joint(&body->motion)->count;
         for (int i = 0; i < body->count; i++) {
+            const struct joint_coordinate *of = &motion_joint(&body->motion)->coordinates[i];
             struct coordinate *coordinate = &scene->coordinates[scene->coordinate_count++];
             *coordinate = (struct coordinate){.body = (int)b,
-                                              .name = names[i].name,
-                                              .rate_name = names[i].rate,
-                                              .acceleration_name = names[i].acceleration,
-                                              .angle = names[i].angle};
-            coordinate->dim = names[i].angle ? DIM_NONE : DIM_LENGTH;
-            coordinate->rate_dim = names[i].angle ? DIM_RATE : DIM_VELOCITY;
+                                              .name = of->name,
+                                              .rate_name = of->rate,
+                                              .acceleration_name = of->acceleration,
+                                              .angle = of->angle};
+            coordinate->dim = of->angle ? DIM_NONE : DIM_LENGTH;
+            coordinate->rate_dim = of->angle ? DIM_RATE : DIM_VELOCITY;
         }
     }
     return true;

@@ -15,6 +15,7 @@
 
 #include "fbd_grade.h"
 #include "scene/constraint.h"
+#include "scene/joint.h"
 #include "scene/law.h"
 #include "scene/loads.h"
 

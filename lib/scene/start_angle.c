@@ -15,15 +15,9 @@ static double start_of(const struct scene *scene, const struct body *body, int p
 static double own_angle(const struct scene *scene, const struct body *body)
 {
     const struct motion *motion = &body->motion;
-    switch (motion->kind) {
-    case motion_slide:
-    case motion_weld: return motion->along;
-    case motion_pivot: return start_of(scene, body, 0);
-    case motion_planar: return start_of(scene, body, 2);
-    case motion_track: break;
-    case motion_particle: return 0;
-    }
-    if (!motion->turns) return 0;
+    const int angle = motion_joint(motion)->angle;
+    if (angle >= 0) return start_of(scene, body, angle);
+    if (!motion->turns) return motion->along;
     struct vec e = curve_at(motion->curve, NULL, start_of(scene, body, 0)).e;
     return atan2(e.y, e.x);
 }

@@ -87,7 +87,7 @@ static void check_newton(const struct named_scene *scene, fbd_state *state)
         double alpha = body->place.link > 0 ? tree_angular_acceleration(body, &at)
                        : body->count > 0    ? state->a[body->first + body->count - 1]
                                             : 0;
-        if (body->kind == motion_pivot || body->kind == motion_planar)
+        if (body->joint->angle >= 0)
             near("sum of moments about G", scene->name, moment, body_inertia(body, &at).I_G * alpha,
                  tolerance);
     }

@@ -197,7 +197,7 @@ static double share_off(const struct written *line, const struct fbd_state *stat
 static bool turns(const struct model_body *body)
 {
     if (body->kind == motion_particle) return false;
-    return body->place.link > 0 || body->kind == motion_pivot || body->kind == motion_planar;
+    return body->place.link > 0 || body->joint->angle >= 0;
 }
 
 static void start_line(struct written *line, int b, enum written_sum sum, const char *point, size_t count)
