@@ -131,7 +131,7 @@ static struct arrow *arrows_of(fbd_state *state, int b, size_t *count)
     state_ready(state);
     const struct instant at = state_instant(state);
     struct arrow *arrows = calloc(diagram_arrows(model, b) + 1, sizeof *arrows);
-    *count = arrows ? diagram_fill(model, b, &at, state->a, state->slots, arrows) : 0;
+    *count = arrows ? diagram_fill(model, b, &at, state->slots, arrows) : 0;
     return arrows;
 }
 

@@ -111,7 +111,7 @@ static bool take_forces(struct fbd_view *view, const struct fbd_state *state, in
     const struct model_body *body = &model->bodies[b];
     const struct vec about = moment_center(body, &at);
     struct view_body *seen = &view->bodies[b];
-    seen->force_count = diagram_fill(model, b, &at, state->a, state->slots, arrows);
+    seen->force_count = diagram_fill(model, b, &at, state->slots, arrows);
     seen->forces = ARENA_ARRAY(&view->arena, seen->force_count + 1, fbd_force);
     if (!seen->forces) return false;
     for (size_t i = 0; i < seen->force_count; i++) {

@@ -97,9 +97,7 @@ static inline struct vec unit_by_sine(double angle)
 {
     struct vec unit;
     cosine_and_sine(angle, &unit.x, &unit.y);
-    unit = vec_without_rounding(unit);
-    if (unit.y == 0 && fabs(angle) < 1) unit.y = angle; /* so small that it is not the rounding of a turn */
-    return unit;
+    return vec_without_rounding(unit);
 }
 
 #endif

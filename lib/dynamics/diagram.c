@@ -28,23 +28,19 @@ bool arrow_is_reaction(const struct fbd_model *model, const struct arrow *arrow)
     return arrow->load < 0 || load_law(model->loads[arrow->load].source)->follows;
 }
 
-struct vec mass_center_acceleration(const struct model_body *body, const struct instant *at, const double *a)
+struct vec mass_center_acceleration(const struct model_body *body, const struct instant *at)
 {
-    (void)a;
     return tree_mass_center_acceleration(body, at);
 }
 
-struct vec point_acceleration(const struct model_body *body, struct vec point, const struct instant *at,
-                              const double *a)
+struct vec point_acceleration(const struct model_body *body, struct vec point, const struct instant *at)
 {
-    (void)a;
     struct pose pose = body_pose(body, at);
     return tree_point_acceleration(body, point_motion(body, &pose, point).p, at);
 }
 
-double body_angular_acceleration(const struct model_body *body, const struct instant *at, const double *a)
+double body_angular_acceleration(const struct model_body *body, const struct instant *at)
 {
-    (void)a;
     return tree_angular_acceleration(body, at);
 }
 
@@ -234,10 +230,9 @@ static double power_of(const struct model_body *body, const struct instant *at, 
     return vec_dot(arrow->force, v) + arrow->couple * s->omega;
 }
 
-size_t diagram_list(const struct fbd_model *model, int index, const struct instant *at, const double *a,
-                    const double *slots, struct arrow *arrows)
+size_t diagram_list(const struct fbd_model *model, int index, const struct instant *at, const double *slots,
+                    struct arrow *arrows)
 {
-    (void)a;
     const struct model_body *body = &model->bodies[index];
     const struct pose pose = body_pose(body, at);
     size_t count = (size_t)body->load_count;
@@ -284,11 +279,11 @@ double load_power(const struct fbd_model *model, int index, const struct instant
     return power - power_of(&model->bodies[load->partner], at, &arrow);
 }
 
-size_t diagram_fill(const struct fbd_model *model, int index, const struct instant *at, const double *a,
-                    const double *slots, struct arrow *arrows)
+size_t diagram_fill(const struct fbd_model *model, int index, const struct instant *at, const double *slots,
+                    struct arrow *arrows)
 {
     const struct model_body *body = &model->bodies[index];
-    size_t count = diagram_list(model, index, at, a, slots, arrows);
+    size_t count = diagram_list(model, index, at, slots, arrows);
     for (size_t i = 0; i < count; i++) {
         set_share(model, index, at, &arrows[i]);
         arrows[i].power = power_of(body, at, &arrows[i]);

@@ -28,11 +28,11 @@ size_t diagram_arrows(const struct fbd_model *model, int body);
 /* The most that any body of it can have, at least 1. */
 size_t diagram_most_arrows(const struct fbd_model *model);
 
-/* Fill `arrows` for body `index`; returns their number. `slots` (plan.slots) and `a` (n) are the results of
+/* Fill `arrows` for body `index`; returns their number. `slots` (plan.slots) are the results of
  * accelerations() at the same instant. The reaction, if any, comes last:
  * `pin` of a pivot, `guide` of a slide without a normal force. */
-size_t diagram_fill(const struct fbd_model *model, int index, const struct instant *at, const double *a,
-                    const double *slots, struct arrow *arrows);
+size_t diagram_fill(const struct fbd_model *model, int index, const struct instant *at, const double *slots,
+                    struct arrow *arrows);
 
 /* Does the force of a load follow from positions and velocities, without accelerations? */
 bool load_is_of_motion(const struct fbd_model *model, int index);
@@ -42,8 +42,8 @@ bool load_is_of_motion(const struct fbd_model *model, int index);
 double load_power(const struct fbd_model *model, int index, const struct instant *at, const double *slots);
 
 /* As diagram_fill, with forces, points and couples only. */
-size_t diagram_list(const struct fbd_model *model, int index, const struct instant *at, const double *a,
-                    const double *slots, struct arrow *arrows);
+size_t diagram_list(const struct fbd_model *model, int index, const struct instant *at, const double *slots,
+                    struct arrow *arrows);
 
 /* The point of application of a load: `point`, the position of its point of the body, or beside it. */
 struct vec load_place(const struct model_load *load, struct vec point, const struct instant *at);
@@ -84,12 +84,11 @@ struct vec body_direction(const struct model_body *body, const struct instant *a
 bool arrow_is_of_joint(const struct fbd_model *model, int b, const struct arrow *arrow);
 
 /* The acceleration of the body's centre of mass. */
-struct vec mass_center_acceleration(const struct model_body *body, const struct instant *at, const double *a);
+struct vec mass_center_acceleration(const struct model_body *body, const struct instant *at);
 
 /* The acceleration of a point of its frame, in the world; and of its angle. */
-struct vec point_acceleration(const struct model_body *body, struct vec point, const struct instant *at,
-                              const double *a);
-double body_angular_acceleration(const struct model_body *body, const struct instant *at, const double *a);
+struct vec point_acceleration(const struct model_body *body, struct vec point, const struct instant *at);
+double body_angular_acceleration(const struct model_body *body, const struct instant *at);
 
 /* The moment of an arrow about a point. */
 double arrow_moment(const struct arrow *arrow, struct vec about);

@@ -70,7 +70,7 @@ struct rounded rounded_at(const struct fbd_state *state, struct arrow *arrows)
     struct rounded sum = {0, 0};
     double reach = reach_of_couplings(model->tree);
     for (size_t b = 0; b < model->body_count; b++) {
-        size_t count = diagram_fill(model, (int)b, &at, state->a, state->slots, arrows);
+        size_t count = diagram_fill(model, (int)b, &at, state->slots, arrows);
         double forces = 0, mass = body_mass(&model->bodies[b], &at);
         for (size_t i = 0; i < count; i++) {
             const struct arrow *arrow = &arrows[i];

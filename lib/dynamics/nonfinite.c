@@ -117,7 +117,7 @@ static bool note_arrows(const struct fbd_state *state, struct arrow *arrows, enu
         const struct model_body *body = &model->bodies[b];
         struct pose pose = body_pose(body, &at);
         struct vec G = point_motion(body, &pose, body->inertia.G).p;
-        size_t count = diagram_fill(model, (int)b, &at, state->a, state->slots, arrows);
+        size_t count = diagram_fill(model, (int)b, &at, state->slots, arrows);
         for (size_t i = 0; i < count; i++)
             if ((which == all_arrows || arrow_is_reaction(model, &arrows[i]) == (which == reaction_arrows)) &&
                 note_arrow(model, body, &arrows[i], G, found))

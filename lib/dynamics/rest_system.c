@@ -24,7 +24,7 @@ static bool find_sizes(struct rest_system *system)
         struct pose pose = body_pose(body, &at);
         struct vec G = point_motion(body, &pose, body->inertia.G).p;
         heaviest = fmax(heaviest, body->inertia.mass);
-        size_t count = diagram_fill(model, (int)b, &at, system->accelerations, system->slots0, arrows);
+        size_t count = diagram_fill(model, (int)b, &at, system->slots0, arrows);
         for (size_t i = 0; i < count; i++) {
             system->length = fmax(system->length, vec_norm(vec_sub(arrows[i].point, G)));
             if (arrow_is_reaction(model, &arrows[i])) continue;

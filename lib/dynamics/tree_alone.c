@@ -49,6 +49,7 @@ static void turn_to(const struct tree_link *link, double angle, double omega, st
     s->angle = angle;
     s->omega = omega;
     s->turn = unit_by_sine(angle);
+    if (s->turn.y == 0 && fabs(angle) < 1) s->turn.y = angle; /* not the rounding of a turn */
     s->mr = vec_turn(s->turn, link->moment);
     s->I.h = vec_perp(s->mr);
     if (link->kind == motion_planar) s->U = vec_scale(s->inverse[0], s->I.h);

@@ -136,8 +136,8 @@ static void add_gross_forces(struct run *run, int b, const struct instant *at, d
 {
     const struct model_body *body = &run->model->bodies[b];
     int link = body->place.link;
-    size_t count = (body->alone ? diagram_fill : diagram_list)(run->model, b, at, run->state->a,
-                                                               run->state->slots, run->work.arrows);
+    size_t count =
+        (body->alone ? diagram_fill : diagram_list)(run->model, b, at, run->state->slots, run->work.arrows);
     const struct tree *tree = run->model->tree;
     double angle = body->alone ? 0 : run->roundoff.turned[tree->count + link];
     for (size_t i = 0; i < count; i++) {

@@ -198,7 +198,7 @@ static const struct arrow *arrow_of(const struct run_column *c, struct column_vi
 {
     const struct fbd_state *state = view->state;
     if (view->with_arrows != c->body)
-        diagram_fill(state->model, c->body, &view->at, state->a, state->slots, view->arrows);
+        diagram_fill(state->model, c->body, &view->at, state->slots, view->arrows);
     view->with_arrows = c->body;
     return &view->arrows[c->index];
 }
@@ -245,8 +245,8 @@ static void in_equation_values(const struct run_column *c, int count, struct col
 static void newton_values(const struct run_column *c, int count, struct column_view *view, double *values)
 {
     const struct model_body *body = body_of(c, view);
-    const struct vec a_G = mass_center_acceleration(body, &view->at, view->state->a);
-    const double all[] = {a_G.x, a_G.y, body_angular_acceleration(body, &view->at, view->state->a)};
+    const struct vec a_G = mass_center_acceleration(body, &view->at);
+    const double all[] = {a_G.x, a_G.y, body_angular_acceleration(body, &view->at)};
     for (int k = 0; k < count; k++) values[k] = all[c[k].part];
 }
 

@@ -42,8 +42,8 @@ double equation_acceleration(const struct model_body *body, const struct instant
                              int part)
 {
     if (equation_has_coordinate(body)) return a[body->first + part];
-    if (coordinate_is_angle(body, part)) return body_angular_acceleration(body, at, a);
-    struct vec a_G = mass_center_acceleration(body, at, a), e = body_direction(body, at);
+    if (coordinate_is_angle(body, part)) return body_angular_acceleration(body, at);
+    struct vec a_G = mass_center_acceleration(body, at), e = body_direction(body, at);
     return part == 0 ? vec_dot(e, a_G) : vec_cross(e, a_G);
 }
 
@@ -132,8 +132,8 @@ static void add_cut_free(struct fbd_equations *all, const struct fbd_state *stat
     const struct model_body *body = &model->bodies[b];
     const bool si = model->scene->units == unit_si;
     const struct instant at = state_instant(state);
-    const struct vec G = mass_center(body, &at), a_G = mass_center_acceleration(body, &at, state->a);
-    const double acceleration[] = {a_G.x, a_G.y, body_angular_acceleration(body, &at, state->a)};
+    const struct vec G = mass_center(body, &at), a_G = mass_center_acceleration(body, &at);
+    const double acceleration[] = {a_G.x, a_G.y, body_angular_acceleration(body, &at)};
     for (int part = 0; part < (body_never_turns(body) ? 2 : 3); part++) {
         bool moment = part == 2;
         const struct equation row = {
@@ -177,7 +177,7 @@ fbd_equations *assemble(fbd_state *state, bool components)
         const struct model_body *body = &model->bodies[b];
         struct arrow *arrows = ARENA_ARRAY(&all->arena, diagram_arrows(model, (int)b), struct arrow);
         if (!arrows) break;
-        size_t count = diagram_fill(model, (int)b, &at, state->a, state->slots, arrows);
+        size_t count = diagram_fill(model, (int)b, &at, state->slots, arrows);
         for (int part = 0; part < body->count; part++)
             add_of_coordinate(all, state, (int)b, part, arrows, count);
         if (components || body->count == 0) add_cut_free(all, state, (int)b, arrows, count);
@@ -267,7 +267,7 @@ size_t fbd_diagram(fbd_state *state, size_t body, fbd_arrow *arrows, size_t room
     struct instant at = state_instant(state);
     struct arrow *own = calloc(diagram_arrows(model, (int)body), sizeof *own);
     if (!own) return 0;
-    size_t count = diagram_fill(model, (int)body, &at, state->a, state->slots, own);
+    size_t count = diagram_fill(model, (int)body, &at, state->slots, own);
     const struct vec about = moment_center(b, &at);
     for (size_t i = 0; i < count && i < room; i++) arrows[i] = public_arrow(&own[i], about);
     free(own);

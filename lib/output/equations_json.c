@@ -180,7 +180,7 @@ static void write_forces(struct writer *w, int b)
     const struct vec about = moment_center(body, &at);
     struct arrow *arrows = ARENA_ARRAY(&w->all->arena, diagram_arrows(model, b), struct arrow);
     text->failed |= !arrows;
-    const size_t count = arrows ? diagram_fill(model, b, &at, w->state->a, w->state->slots, arrows) : 0;
+    const size_t count = arrows ? diagram_fill(model, b, &at, w->state->slots, arrows) : 0;
     text_add(text, b ? ",\n    " : "\n    ");
     text_json_key(text, body->name);
     text_add(text, "{");

@@ -132,7 +132,7 @@ static const struct force_symbol *symbol_of_arrow(struct formulas *formulas, int
     const struct fbd_state *state = formulas->state;
     const struct instant at = state_instant(state);
     struct arrow *arrows = formulas->samples.arrows;
-    const size_t count = diagram_list(state->model, body, &at, state->a, state->slots, arrows);
+    const size_t count = diagram_list(state->model, body, &at, state->slots, arrows);
     for (size_t i = 0; i < count; i++)
         if (strcmp(arrows[i].name, name) == 0) return &formulas->symbols[body][i];
     return NULL;

@@ -115,7 +115,7 @@ static void take_sample(struct hand_check *check, const struct hand *hand, const
     const struct model_body *body = &model->bodies[check->body];
     struct arrow arrows[most_terms + 1];
     struct instant at = state_instant(state);
-    diagram_fill(model, check->body, &at, state->a, state->slots, arrows);
+    diagram_fill(model, check->body, &at, state->slots, arrows);
     hand_extend(state, check->body, named, y);
     if (hand->when && expr_eval(hand->when, state->t, y, NULL) == 0) return;
     struct hand_sample sample = {.t = state->t,

@@ -204,7 +204,7 @@ bool hand_forces_make(const struct fbd_model *model, struct arena *arena, struct
                                 .symbols = symbols[b],
                                 .arrows = arrows,
                                 .body = (int)b};
-        naming.count = diagram_fill(model, (int)b, &at, state->a, state->slots, arrows);
+        naming.count = diagram_fill(model, (int)b, &at, state->slots, arrows);
         for (size_t i = 0; i < naming.count; i++) add_names(&naming, i);
     }
     state_free(state);
@@ -267,13 +267,13 @@ static double place_value(const struct fbd_state *state, const struct model_abso
     const struct model_body *body = &state->model->bodies[absolute->body];
     struct instant at = state_instant(state);
     if (absolute->kind == absolute_acceleration) return state->a[absolute->coordinate];
-    if (absolute->kind == absolute_alpha) return body_angular_acceleration(body, &at, state->a);
+    if (absolute->kind == absolute_alpha) return body_angular_acceleration(body, &at);
     if (absolute->kind == absolute_inertia) {
         const struct inertia inertia = body_inertia(body, &at);
         struct vec arm = vec_sub(inertia.G, absolute->point);
         return inertia.I_G + inertia.mass * vec_dot(arm, arm);
     }
-    struct vec a = point_acceleration(body, absolute->point, &at, state->a);
+    struct vec a = point_acceleration(body, absolute->point, &at);
     return absolute->kind == absolute_ax ? a.x : a.y;
 }
 
@@ -295,7 +295,7 @@ static struct forces_size size_of_forces(const struct fbd_state *state, int b, c
     struct pose pose = body_pose(body, &at);
     struct vec G = point_motion(body, &pose, body->inertia.G).p;
     struct forces_size size = {0, 0};
-    size_t count = diagram_list(model, b, &at, state->a, state->slots, named->arrows);
+    size_t count = diagram_list(model, b, &at, state->slots, named->arrows);
     for (size_t i = 0; i < count; i++) {
         const struct arrow *arrow = &named->arrows[i];
         double force = vec_norm(arrow->force);
@@ -364,7 +364,7 @@ double hand_named_rate(const struct fbd_state *state, const struct hand_named *n
     double rate = 0;
     for (size_t i = 0; i < sum->count; i++) {
         const struct hand_force *force = sum->forces[i];
-        diagram_fill(model, force->name.body, &at, state->a, state->slots, named->arrows);
+        diagram_fill(model, force->name.body, &at, state->slots, named->arrows);
         rate += model->absolutes[k].kind == absolute_work
                     ? named->arrows[force->arrow].power
                     : sum->signs[i] * hand_force_value(model, force, &at, named->arrows);

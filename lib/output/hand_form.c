@@ -33,7 +33,7 @@ static void add_named(const struct fbd_state *state, const struct hand_force *fo
     const int b = force->name.body;
     struct instant at = state_instant(state);
     if (force->part == hand_force_at_x || force->part == hand_force_at_y) return;
-    diagram_list(state->model, b, &at, state->a, state->slots, arrows);
+    diagram_list(state->model, b, &at, state->slots, arrows);
     if (force->part == hand_force_size)
         add_size(state->model, b, &arrows[force->arrow], force->arrow, slope, form);
     else
@@ -46,7 +46,7 @@ static void add_normal(const struct fbd_state *state, int b, struct arrow *arrow
     const struct fbd_model *model = state->model;
     const struct model_body *body = &model->bodies[b];
     struct instant at = state_instant(state);
-    diagram_list(model, b, &at, state->a, state->slots, arrows);
+    diagram_list(model, b, &at, state->slots, arrows);
     for (int i = 0; i < body->load_count; i++)
         if (model->loads[body->first_load + i].source->kind == load_normal)
             add_size(model, b, &arrows[i], (size_t)i, slope, form);

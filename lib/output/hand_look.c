@@ -300,10 +300,10 @@ bool suspects_look_at(struct suspects_look *look, const struct fbd_state *state,
     look->y = y;
     if (first && !open_model(look, model)) return false;
     hand_extend(state, b, named, y);
-    look->arrow_count = diagram_fill(model, b, &look->at, state->a, state->slots, look->arrows);
+    look->arrow_count = diagram_fill(model, b, &look->at, state->slots, look->arrows);
     if (first) list_names(look);
     find_places(look);
-    const struct vec a = mass_center_acceleration(look_body(look), &look->at, state->a);
+    const struct vec a = mass_center_acceleration(look_body(look), &look->at);
     look->m_a = vec_scale(body_mass(look_body(look), &look->at), a);
     look->lack = look_line(look);
     look->size = DBL_MIN;

@@ -51,8 +51,7 @@ static bool list_agents(struct hand_run *run)
     struct instant at = state_instant(run->state);
     for (size_t b = 0; run->agents && b < model->body_count; b++) {
         if (!run->named_bodies[b]) continue;
-        const size_t count =
-            diagram_fill(model, (int)b, &at, run->state->a, run->state->slots, run->named.arrows);
+        const size_t count = diagram_fill(model, (int)b, &at, run->state->slots, run->named.arrows);
         for (size_t i = 0; i < count; i++)
             run->agents[run->agent_count++] = (struct agent){(int)b, i, run->named.arrows[i].name};
     }
@@ -64,7 +63,7 @@ static bool list_agents(struct hand_run *run)
 const struct arrow *hand_run_arrow(struct hand_run *run, const struct hand_force *force)
 {
     struct instant at = state_instant(run->state);
-    diagram_fill(run->model, force->name.body, &at, run->state->a, run->state->slots, run->named.arrows);
+    diagram_fill(run->model, force->name.body, &at, run->state->slots, run->named.arrows);
     return &run->named.arrows[force->arrow];
 }
 
@@ -97,8 +96,7 @@ enum { covered = -2 };
 static size_t count_arrows(struct hand_run *run, int body, int load)
 {
     struct instant at = state_instant(run->state);
-    const size_t arrows =
-        diagram_fill(run->model, body, &at, run->state->a, run->state->slots, run->named.arrows);
+    const size_t arrows = diagram_fill(run->model, body, &at, run->state->slots, run->named.arrows);
     size_t count = 0;
     for (size_t i = 0; i < arrows; i++) count += run->named.arrows[i].load == load;
     return count;
@@ -149,8 +147,7 @@ static void add_rates(struct hand_run *run, double weight)
         const struct agent *agent = &run->agents[i];
         const struct arrow *arrow = &run->named.arrows[agent->arrow];
         double *sums = run->integrals + model->absolute_count + i * agent_parts;
-        if (agent->body != body)
-            diagram_fill(model, agent->body, &at, run->state->a, run->state->slots, run->named.arrows);
+        if (agent->body != body) diagram_fill(model, agent->body, &at, run->state->slots, run->named.arrows);
         body = agent->body;
         sums[by_work] += weight * arrow->power;
         sums[by_x] += weight * arrow->force.x;

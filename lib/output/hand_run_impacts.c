@@ -132,8 +132,7 @@ static double value_of(const struct hand_impact *impact, size_t k)
     for (size_t i = 0; i < sum->count; i++) {
         const struct hand_force *force = sum->forces[i];
         const int body = force->name.body;
-        const size_t arrows =
-            diagram_fill(model, body, &at, run->state->a, run->state->slots, run->named.arrows);
+        const size_t arrows = diagram_fill(model, body, &at, run->state->slots, run->named.arrows);
         if (!is_known(impact, body, &run->named.arrows[force->arrow])) continue;
         if (work)
             value += run->named.arrows[force->arrow].power;

@@ -24,7 +24,7 @@ static double normal_force(const struct fbd_state *state, const struct model_bod
 {
     const struct fbd_model *model = state->model;
     struct instant at = state_instant(state);
-    diagram_list(model, (int)(body - model->bodies), &at, state->a, state->slots, named->arrows);
+    diagram_list(model, (int)(body - model->bodies), &at, state->slots, named->arrows);
     for (int i = 0; i < body->load_count; i++) /* those come first */
         if (model->loads[body->first_load + i].source->kind == load_normal)
             return vec_dot(named->arrows[i].force, surface_normal(model, body, &at));

@@ -121,8 +121,7 @@ static double I_about(const struct suspects_look *look, struct vec point)
 static double change_of_point(const struct suspects_look *look, const struct suspect *suspect)
 {
     const struct absolute *own = look->letters[suspect->which].absolute;
-    const struct vec a =
-        point_acceleration(look_body(look), look->places[suspect->other].frame, &look->at, look->state->a);
+    const struct vec a = point_acceleration(look_body(look), look->places[suspect->other].frame, &look->at);
     double change = 0;
     if (own->body != look->check->body) return NAN;
     for (size_t n = 0; n < look->letter_count; n++) {

@@ -218,7 +218,7 @@ static void write_body_forces(struct text *text, fbd_result *result, struct fbd_
     struct instant at = state_instant(state);
     struct vec about = moment_center(body, &at);
     struct pose pose = body_pose(body, &at);
-    size_t count = diagram_fill(model, b, &at, state->a, state->slots, ledger->arrows);
+    size_t count = diagram_fill(model, b, &at, state->slots, ledger->arrows);
     const struct arrow *others = bars ? bars_diagram(bars, b) : NULL;
     for (size_t i = 0; i < count; i++) {
         const struct arrow *arrow = &ledger->arrows[i];
@@ -278,7 +278,7 @@ static void write_balances(struct text *text, fbd_result *result, struct fbd_sta
     text_add(text, "  \"balance\": {");
     for (size_t b = 0; b < model->body_count; b++) {
         if (model->bodies[b].alone) continue;
-        size_t count = diagram_fill(model, (int)b, &at, state->a, state->slots, result->ledger.arrows);
+        size_t count = diagram_fill(model, (int)b, &at, state->slots, result->ledger.arrows);
         struct balance balance = balance_of(&model->bodies[b], &at, result->ledger.arrows, count);
         text_add(text, first ? "\n    " : ",\n    ");
         first = false;

@@ -278,7 +278,7 @@ static void write_forces(const struct page *page)
     text_add(text, "\nForces at the end, in the world's x and y, and their work since the start\n");
     for (size_t b = 0; b < model->body_count; b++) {
         text_printf(text, "  %s\n", model->bodies[b].name);
-        size_t count = diagram_fill(model, (int)b, &at, state->a, state->slots, ledger->arrows);
+        size_t count = diagram_fill(model, (int)b, &at, state->slots, ledger->arrows);
         const struct arrow *others = page->bars ? bars_diagram(page->bars, (int)b) : ledger->arrows;
         for (size_t i = 0; i < count; i++)
             write_force(page, state, &ledger->arrows[i], &others[i],

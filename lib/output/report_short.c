@@ -183,7 +183,7 @@ static void write_largest(const struct page *page, const struct fbd_state *state
     const struct instant at = state_instant(state);
     struct large list[few_forces] = {0};
     for (size_t b = 0; b < model->body_count; b++) {
-        const size_t count = diagram_fill(model, (int)b, &at, state->a, state->slots, arrows);
+        const size_t count = diagram_fill(model, (int)b, &at, state->slots, arrows);
         for (size_t i = 0; i < count; i++)
             consider(list, (struct large){model->bodies[b].name, arrows[i].name, arrows[i].force,
                                           hypot(arrows[i].force.x, arrows[i].force.y)});

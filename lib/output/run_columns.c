@@ -51,7 +51,7 @@ static void append_forces(struct run_columns *columns, unsigned uses, const stru
 {
     if (!(uses & (column_in_ledger | column_in_page))) return;
     const struct instant at = state_instant(start);
-    const size_t count = diagram_fill(columns->model, b, &at, start->a, start->slots, columns->arrows);
+    const size_t count = diagram_fill(columns->model, b, &at, start->slots, columns->arrows);
     for (size_t i = 0; i < count; i++) append_scope(columns, uses, of_arrow, b, (int)i);
     append_scope(columns, uses, of_works, b, -1);
 }

@@ -43,7 +43,7 @@ static bool begin_arrows(struct record *record, const struct fbd_state *start, i
     const struct instant at = state_instant(start);
     struct record_of_body *body = &record->bodies[b];
     body->moving_axis = body->mass = -1;
-    body->arrow_count = diagram_fill(record->model, b, &at, start->a, start->slots, record->arrows);
+    body->arrow_count = diagram_fill(record->model, b, &at, start->slots, record->arrows);
     body->arrows = ARENA_ARRAY(&record->all.arena, body->arrow_count, struct record_of_arrow);
     for (size_t i = 0; body->arrows && i < body->arrow_count; i++)
         body->arrows[i] = (struct record_of_arrow){.name = record->arrows[i].name,

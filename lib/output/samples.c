@@ -131,7 +131,7 @@ struct acts acts_of(const struct samples *samples, int b, const char *name, bool
         const struct pose pose = body_pose(body, &at);
         const struct vec about = about_axis ? pose.origin : point_motion(body, &pose, body->inertia.G).p;
         struct arrow *arrows = samples->arrows;
-        const size_t count = diagram_list(state->model, b, &at, state->a, state->slots, arrows);
+        const size_t count = diagram_list(state->model, b, &at, state->slots, arrows);
         for (size_t i = 0; i < count; i++) {
             if (strcmp(arrows[i].name, name) != 0) continue;
             const double force = vec_norm(arrows[i].force);

@@ -246,7 +246,7 @@ const struct force_symbol *const *symbols_of_forces(const struct fbd_state *stat
     if (!naming.keys || !arrows || !symbols) return NULL;
     for (int named = 0; named < 2; named++) /* collect all before numbering */
         for (size_t b = 0; b < model->body_count; b++) {
-            size_t count = diagram_fill(model, (int)b, &at, state->a, state->slots, arrows);
+            size_t count = diagram_fill(model, (int)b, &at, state->slots, arrows);
             if (named) symbols[b] = ARENA_ARRAY(arena, count + 1, struct force_symbol);
             if (named && !symbols[b]) return NULL;
             for (size_t i = 0; i < count; i++) {

@@ -65,13 +65,13 @@ bool world_find(const struct fbd_model *model, const char *name, struct world_qu
 }
 
 /* a_P = a_G + alpha k x r - omega^2 r, r from G to P. */
-static struct vec acceleration(const struct fbd_state *state, const struct model_body *body,
-                               const struct instant *at, const struct pose *pose, struct vec point)
+static struct vec acceleration(const struct model_body *body, const struct instant *at,
+                               const struct pose *pose, struct vec point)
 {
-    struct vec a = mass_center_acceleration(body, at, state->a);
+    struct vec a = mass_center_acceleration(body, at);
     struct vec r = vec_turn(pose->rotation, vec_sub(point, body->inertia.G));
     if (body_never_turns(body)) return a;
-    double alpha = body_angular_acceleration(body, at, state->a);
+    double alpha = body_angular_acceleration(body, at);
     return vec_add(a, vec_sub(vec_scale(alpha, vec_perp(r)), vec_scale(pose->omega * pose->omega, r)));
 }
 
@@ -81,7 +81,7 @@ void world_values(const struct fbd_state *state, int b, struct vec point, double
     struct instant at = state_instant(state);
     struct pose pose = body_pose(body, &at);
     struct motion_of_point moves = point_motion(body, &pose, point);
-    struct vec a = acceleration(state, body, &at, &pose, point);
+    struct vec a = acceleration(body, &at, &pose, point);
     const double all[world_parts] = {moves.p.x, moves.p.y, moves.v.x, moves.v.y, a.x, a.y};
     memcpy(values, all, sizeof all);
 }

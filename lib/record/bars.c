@@ -123,7 +123,7 @@ double bars_component(const struct bars *bars, const struct fbd_state *main, siz
 const struct arrow *bars_diagram(struct bars *bars, int b)
 {
     struct instant at = state_instant(bars->state);
-    diagram_fill(bars->ledger.model, b, &at, bars->state->a, bars->state->slots, bars->arrows);
+    diagram_fill(bars->ledger.model, b, &at, bars->state->slots, bars->arrows);
     return bars->arrows;
 }
 

@@ -34,7 +34,7 @@ static void add_powers_of_diagram(struct ledger *ledger, const struct group *gro
                                   const struct fbd_state *state, double *powers)
 {
     const struct instant at = state_instant(state);
-    size_t count = diagram_fill(group->model, (int)b, &at, state->a, state->slots, ledger->arrows);
+    size_t count = diagram_fill(group->model, (int)b, &at, state->slots, ledger->arrows);
     for (size_t i = 0; i < count; i++) {
         int load = group_load(group, ledger->arrows[i].load);
         if (load >= 0 && ledger->integrated[load]) powers[load] += ledger->arrows[i].power;

@@ -53,13 +53,12 @@ static struct sums sums_of(const struct fbd_state *state, int b, struct arrow *a
     const struct instant at = state_instant(state);
     const struct pose pose = body_pose(body, &at);
     const struct vec G = point_motion(body, &pose, body->inertia.G).p;
-    struct sums sums = {.m_a =
-                            vec_scale(body_mass(body, &at), mass_center_acceleration(body, &at, state->a))};
-    sums.I_alpha = body_inertia(body, &at).I_G * body_angular_acceleration(body, &at, state->a);
+    struct sums sums = {.m_a = vec_scale(body_mass(body, &at), mass_center_acceleration(body, &at))};
+    sums.I_alpha = body_inertia(body, &at).I_G * body_angular_acceleration(body, &at);
     double slid = slid_size(state, body);
     sums.force = vec_norm(sums.m_a) + slid;
     sums.moment = fabs(sums.I_alpha) + slid;
-    size_t count = diagram_list(model, b, &at, state->a, state->slots, arrows);
+    size_t count = diagram_list(model, b, &at, state->slots, arrows);
     for (size_t i = 0; i < count; i++) {
         const struct arrow *arrow = &arrows[i];
         double size = vec_norm(arrow->force), arm = vec_norm(vec_sub(arrow->point, G));

@@ -141,8 +141,7 @@ static bool draw_diagrams(struct fbd_statics *statics)
         struct rest_diagram *diagram = &statics->diagrams[b];
         diagram->arrows = ARENA_ARRAY(&statics->arena, diagram_arrows(model, (int)b) + 1, struct arrow);
         if (!diagram->arrows) return false;
-        diagram->count =
-            diagram_fill(model, (int)b, &at, statics->state->a, statics->state->slots, diagram->arrows);
+        diagram->count = diagram_fill(model, (int)b, &at, statics->state->slots, diagram->arrows);
     }
     return statics->diagrams != NULL;
 }

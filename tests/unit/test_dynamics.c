@@ -70,10 +70,10 @@ static void check_newton(const struct named_scene *scene, fbd_state *state)
     for (size_t b = 0; b < model->body_count; b++) {
         const struct model_body *body = &model->bodies[b];
         struct arrow arrows[most_arrows];
-        size_t count = diagram_fill(model, (int)b, &at, state->a, state->slots, arrows);
+        size_t count = diagram_fill(model, (int)b, &at, state->slots, arrows);
         struct pose pose = body_pose(body, &at);
         struct vec G = point_motion(body, &pose, body->inertia.G).p, sum = {0, 0};
-        struct vec a = mass_center_acceleration(body, &at, state->a);
+        struct vec a = mass_center_acceleration(body, &at);
         double moment = 0, size = 0;
         for (size_t i = 0; i < count; i++) {
             sum = vec_add(sum, arrows[i].force);
@@ -170,7 +170,7 @@ static void check_power(const struct named_scene *scene, fbd_state *state)
         const struct model_body *body = &model->bodies[b];
         struct arrow arrows[most_arrows];
         struct instant at = state_instant(state);
-        diagram_fill(model, (int)b, &at, state->a, state->slots, arrows);
+        diagram_fill(model, (int)b, &at, state->slots, arrows);
         for (int i = 0; i < body->load_count; i++) {
             const struct model_load *load = &model->loads[body->first_load + i];
             if (load->potential_kind == potential_none || load->potential_kind == potential_workless)
@@ -199,7 +199,7 @@ static void check_point_power(const struct named_scene *scene, fbd_state *state)
         const struct model_body *body = &model->bodies[b];
         struct pose pose = body_pose(body, &at);
         struct arrow arrows[most_arrows];
-        diagram_fill(model, (int)b, &at, state->a, state->slots, arrows);
+        diagram_fill(model, (int)b, &at, state->slots, arrows);
         for (int i = 0; i < body->load_count; i++) {
             struct motion_of_point G = point_motion(body, &pose, body->inertia.G);
             struct vec v = vec_add(G.v, vec_scale(pose.omega, vec_perp(vec_sub(arrows[i].point, G.p))));

@@ -131,8 +131,7 @@ static void newton_and_euler_hold_for_every_body(uint64_t seed, bool friction, i
     for (size_t b = 0; b < subject.model->body_count; b++) {
         const struct model_body *body = &subject.model->bodies[b];
         if (body->place.link == 0) continue;
-        size_t count =
-            diagram_fill(subject.model, (int)b, &at, subject.state->a, subject.state->slots, arrows);
+        size_t count = diagram_fill(subject.model, (int)b, &at, subject.state->slots, arrows);
         assert_true(count <= diagram_arrows(subject.model, (int)b));
         struct balance balance = balance_of(body, &at, arrows, count);
         /* Rounding: forces of 10 to 1000 N pass through at most ten joints. */
@@ -180,7 +179,7 @@ static void kane(struct subject *subject, double *M, double *lack, double *size)
     struct instant at = state_instant(subject->state);
     for (size_t b = 0; b < bodies; b++) {
         const struct model_body *body = &model->bodies[b];
-        size_t count = diagram_fill(model, (int)b, &at, subject->state->a, subject->state->slots, arrows);
+        size_t count = diagram_fill(model, (int)b, &at, subject->state->slots, arrows);
         struct pose pose = body_pose(body, &at);
         struct vec G = point_motion(body, &pose, body->inertia.G).p;
         double m = body->inertia.mass, I = body->inertia.I_G;

@@ -163,7 +163,7 @@ static double share_off(const struct written *line, const struct fbd_state *stat
     const struct model_body *body = &model->bodies[line->body];
     struct instant at = state_instant(state);
     struct pose pose = body_pose(body, &at);
-    diagram_fill(model, line->body, &at, state->a, state->slots, arrows);
+    diagram_fill(model, line->body, &at, state->slots, arrows);
     struct vec G = point_motion(body, &pose, body->inertia.G).p;
     struct vec P = point_motion(body, &pose, point_named(model, line->body, line->arms_from).own).p;
     struct vec own = point_named(model, line->body, line->point).own, Q = point_motion(body, &pose, own).p;
@@ -180,14 +180,13 @@ static double share_off(const struct written *line, const struct fbd_state *stat
         double reach = term->part == about_point ? vec_norm(vec_sub(arrow->point, P)) + 1e-6 : 1;
         largest = fmax(largest, vec_norm(arrow->force) * reach);
     }
-    struct vec a = mass_center_acceleration(body, &at, state->a);
+    struct vec a = mass_center_acceleration(body, &at);
     double right = line->sum == sum_x ? mass * a.x : mass * a.y;
     if (line->sum == sum_moments) {
         struct vec GI = vec_sub(G, I);
         double inertia = body_inertia(body, &at).I_G + mass * vec_dot(GI, GI);
-        struct vec a_Q = point_acceleration(body, own, &at, state->a);
-        right =
-            inertia * body_angular_acceleration(body, &at, state->a) + mass * vec_cross(vec_sub(G, Q), a_Q);
+        struct vec a_Q = point_acceleration(body, own, &at);
+        right = inertia * body_angular_acceleration(body, &at) + mass * vec_cross(vec_sub(G, Q), a_Q);
     }
     return fabs(sum - right) / fmax(fmax(size, fabs(right)), fmax(largest, 1e-300));
 }
@@ -294,7 +293,7 @@ static void write_lines(struct page *page, size_t slips)
     assert_true(hand_forces_make(model, &arena, &forces));
     for (size_t b = 0; b < model->body_count && page->count + 4 + slips < most_lines; b++) {
         struct instant at = state_instant(state);
-        size_t count = diagram_fill(model, (int)b, &at, state->a, state->slots, page->arrows);
+        size_t count = diagram_fill(model, (int)b, &at, state->slots, page->arrows);
         size_t first = page->count;
         if (count > most_written_terms || model->bodies[b].varies) continue;
         const char *point = some_point(model, (int)b, page->rng);
