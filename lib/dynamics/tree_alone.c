@@ -9,8 +9,8 @@
  *     particle   a_O = (g - p_f) / m
  *     planar     I_G alpha = u with the moment of p about G,  a_O = (g - p_f - alpha k x m r) / m
  *
- * A scene has as many of them as it likes, each with its own part of the lists of loads. All that the variation of
- * accelerations and the diagrams read of a link is set here as by the sweeps.
+ * Each has its own part of the lists of loads. All that the variation of accelerations and the diagrams read of a
+ * link is set here as by the sweeps.
  */
 #include "base/sine.h"
 #include "dynamics/friction.h"

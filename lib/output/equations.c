@@ -49,10 +49,10 @@ double equation_acceleration(const struct model_body *body, const struct instant
 
 const char *equation_acceleration_name(const struct fbd_model *model, const struct model_body *body, int part)
 {
-    static const char *const in_world[] = {"a_x", "a_y"};
+    static const char *const in_world[] = {"a_x", "a_y", "alpha"};
     const bool on_curve = body->joint->path == path_curve;
     if (body->parent == ground_body && !on_curve) return model->labels[body->first + part].acceleration_name;
-    return on_curve ? "a_s" : coordinate_is_angle(body, part) ? "alpha" : in_world[part];
+    return on_curve ? "a_s" : in_world[coordinate_is_angle(body, part) ? 2 : part];
 }
 
 double equation_term(const struct model_body *body, const struct arrow *arrow, int part, struct vec G)
