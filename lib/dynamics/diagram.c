@@ -28,20 +28,10 @@ bool arrow_is_reaction(const struct fbd_model *model, const struct arrow *arrow)
     return arrow->load < 0 || load_law(model->loads[arrow->load].source)->follows;
 }
 
-struct vec mass_center_acceleration(const struct model_body *body, const struct instant *at)
-{
-    return tree_mass_center_acceleration(body, at);
-}
-
 struct vec point_acceleration(const struct model_body *body, struct vec point, const struct instant *at)
 {
     struct pose pose = body_pose(body, at);
     return tree_point_acceleration(body, point_motion(body, &pose, point).p, at);
-}
-
-double body_angular_acceleration(const struct model_body *body, const struct instant *at)
-{
-    return tree_angular_acceleration(body, at);
 }
 
 /* ---- forces by kind */
@@ -75,14 +65,9 @@ struct vec drag_of_load(const struct model_load *load, struct vec v, const struc
     return vec_add(f, (struct vec){formula_value(&load->fx, at), formula_value(&load->fy, at)});
 }
 
-static const struct tree_state *link_of(const struct model_body *body, const struct instant *at)
-{
-    return &at->tree->links[body->place.link];
-}
-
 struct vec body_direction(const struct model_body *body, const struct instant *at)
 {
-    return link_of(body, at)->e;
+    return body_link(body, at)->e;
 }
 
 /* Set the generalized force f of a joint of one coordinate: a couple about its axis, a force along its line, or along
@@ -110,7 +95,7 @@ static void spring_arrow(const struct fbd_model *model, const struct model_load 
         return;
     }
     double stretch = at->y[body->first] - source->free_length;
-    act_in_joint(body, link_of(body, at),
+    act_in_joint(body, body_link(body, at),
                  -(source->stiffness * stretch + source->coefficient * at->y[body->first_rate]), arrow);
 }
 
@@ -119,7 +104,7 @@ static void spring_arrow(const struct fbd_model *model, const struct model_load 
 static void potential_arrow(const struct model_body *body, const struct model_load *load,
                             const struct instant *at, struct arrow *arrow)
 {
-    const struct tree_state *link = link_of(body, at);
+    const struct tree_state *link = body_link(body, at);
     double f[most_coordinates_of_a_body] = {0};
     for (int k = 0; load->potential.expr && k < body->count; k++) {
         expr_eval_slot(load->potential.expr, at->t, at->y, 1 + body->first + k,
@@ -141,7 +126,7 @@ static void pose_arrow(const struct fbd_model *model, int index, const struct po
     const struct model_load *load = &model->loads[index];
     const struct model_body *body = &model->bodies[load->body];
     const struct load *source = load->source;
-    const struct tree_state *link = link_of(body, at);
+    const struct tree_state *link = body_link(body, at);
     struct motion_of_point point = point_motion(body, pose, load->point);
     *arrow = (struct arrow){.name = source->name, .load = index, .point = load_place(load, point.p, at)};
     switch (source->kind) {
@@ -214,7 +199,7 @@ bool arrow_is_of_joint(const struct fbd_model *model, int b, const struct arrow 
 static void set_share(const struct fbd_model *model, int b, const struct instant *at, struct arrow *arrow)
 {
     const struct model_body *body = &model->bodies[b];
-    const struct tree_state *link = link_of(body, at);
+    const struct tree_state *link = body_link(body, at);
     for (int k = 0; k < most_coordinates_of_a_body; k++) arrow->share[k] = 0;
     if (arrow_is_of_joint(model, b, arrow)) return;
     joint_shares(body->joint, link, (struct wrench){arrow_moment(arrow, link->p), arrow->force},
@@ -224,7 +209,7 @@ static void set_share(const struct fbd_model *model, int b, const struct instant
 /* By the velocity of the point and the angular velocity of the link. */
 static double power_of(const struct model_body *body, const struct instant *at, const struct arrow *arrow)
 {
-    const struct tree_state *s = &at->tree->links[body->place.link];
+    const struct tree_state *s = body_link(body, at);
     struct vec arm = vec_sub(arrow->point, s->p);
     struct vec v = vec_add(s->v, vec_scale(s->omega, vec_perp(arm)));
     return vec_dot(arrow->force, v) + arrow->couple * s->omega;

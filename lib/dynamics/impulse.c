@@ -26,7 +26,7 @@ static void factor_tree(struct fbd_state *state)
     }
     impulse_look(state);
     memset(work->x, 0, (size_t)tree->count * sizeof *work->x);
-    tree_factor(tree, work, tree->count);
+    tree_factor(tree, work);
 }
 
 static bool is_asked_for(const struct impulse_lines *lines, int row)

@@ -6,7 +6,7 @@
 /* From its link, as set by the last tree_move. */
 struct pose body_pose(const struct model_body *body, const struct instant *at)
 {
-    const struct tree_state *link = &at->tree->links[body->place.link];
+    const struct tree_state *link = body_link(body, at);
     if (body->count > 0) return (struct pose){link->p, link->turn, link->v, link->omega};
     struct vec arm = vec_turn(link->turn, body->place.shift);
     return (struct pose){vec_add(link->p, arm), vec_turn(link->turn, body->place.turn),
@@ -15,5 +15,5 @@ struct pose body_pose(const struct model_body *body, const struct instant *at)
 
 double body_angle(const struct model_body *body, const struct instant *at)
 {
-    return at->tree->links[body->place.link].angle + body->place.angle;
+    return body_link(body, at)->angle + body->place.angle;
 }

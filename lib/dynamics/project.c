@@ -55,7 +55,7 @@ static void prepare(const struct place *place)
     }
     tree_move(model, &place->at);
     memset(work->x, 0, (size_t)tree->count * sizeof *work->x);
-    tree_factor(tree, work, tree->count);
+    tree_factor(tree, work);
     constraints_evaluate(model, &place->at, NULL);
 }
 

@@ -304,7 +304,7 @@ static void accelerate_joined(const struct fbd_model *model, const struct instan
     tree_load(tree, at, &tree->joined_loads);
     if (tree->bulk_count > 0) tree_weights(tree, at);
     set_joint_forces(model, at, slots);
-    tree_factor(tree, work, tree->joined);
+    tree_factor(tree, work);
     tree_outward(tree, work, 1, tree->joined, a);
 }
 

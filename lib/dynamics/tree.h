@@ -157,10 +157,14 @@ void tree_accelerations_along(const struct fbd_model *model, const struct instan
                               const struct direction *along, const double *slots, const double *a,
                               double *slots_along, double *a_along);
 
-/* The acceleration of a point of a body, of its centre of mass, and its angular one, when complete. */
+/* The link of a body. */
+static inline const struct tree_state *body_link(const struct model_body *body, const struct instant *at)
+{
+    return &at->tree->links[body->place.link];
+}
+
+/* The acceleration of a point of a body at a place in the world, when complete. */
 struct vec tree_point_acceleration(const struct model_body *body, struct vec place, const struct instant *at);
-struct vec tree_mass_center_acceleration(const struct model_body *body, const struct instant *at);
-double tree_angular_acceleration(const struct model_body *body, const struct instant *at);
 
 /* The inertial term in the equation of a joint coordinate beside the forces: of a pivot on a body the moment
  * -m r x a_O of its accelerated axis; of a body that turns along a track -kappa (I_G alpha + r x m a_G). */
@@ -212,9 +216,10 @@ void tree_vary_alone(const struct fbd_model *model, const struct instant *at, co
 void tree_move_alone_along(const struct fbd_model *model, const struct instant *at,
                            const struct direction *along);
 
-/* The sweeps (tree_sweep.c), up to the link `to` (not included). Inward with the inertias, once for an instant;
- * then inward for any number of right-hand sides in work->x. Outward: accelerations of the joints to a[n]. */
-void tree_factor(const struct tree *tree, struct tree_work *work, int to);
+/* The sweeps (tree_sweep.c). Inward with the inertias of jointed links, once for an instant (those of links that stand
+ * alone are known); then inward for any number of right-hand sides in work->x. Outward: accelerations of the joints
+ * to a[n]. */
+void tree_factor(const struct tree *tree, struct tree_work *work);
 
 /* Links from `from` up to `to` (not included), which are whole trees. */
 void tree_inward(const struct tree *tree, struct tree_work *work, int from, int to);

@@ -10,11 +10,6 @@
 #include "dynamics/diagram.h"
 #include "dynamics/mass.h"
 
-static const struct tree_state *link_of(const struct model_body *body, const struct instant *at)
-{
-    return &at->tree->links[body->place.link];
-}
-
 static struct vec mass_center(const struct model_body *body, const struct instant *at)
 {
     struct pose pose = body_pose(body, at);
@@ -25,25 +20,25 @@ static struct vec mass_center(const struct model_body *body, const struct instan
  * alike. */
 static struct vec guide_point(const struct model_body *body, const struct instant *at)
 {
-    return body->joint->path == path_curve ? link_of(body, at)->p : mass_center(body, at);
+    return body->joint->path == path_curve ? body_link(body, at)->p : mass_center(body, at);
 }
 
 struct vec tree_point_acceleration(const struct model_body *body, struct vec place, const struct instant *at)
 {
-    const struct tree_state *s = link_of(body, at);
+    const struct tree_state *s = body_link(body, at);
     struct vec r = vec_sub(place, s->p);
     struct acceleration A = acceleration_at(s->A, r);
     return vec_sub(A.a, vec_scale(s->omega * s->omega, r));
 }
 
-struct vec tree_mass_center_acceleration(const struct model_body *body, const struct instant *at)
+struct vec mass_center_acceleration(const struct model_body *body, const struct instant *at)
 {
     return tree_point_acceleration(body, mass_center(body, at), at);
 }
 
-double tree_angular_acceleration(const struct model_body *body, const struct instant *at)
+double body_angular_acceleration(const struct model_body *body, const struct instant *at)
 {
-    return link_of(body, at)->A.alpha;
+    return body_link(body, at)->A.alpha;
 }
 
 struct vec surface_normal(const struct fbd_model *model, const struct model_body *body,
@@ -60,11 +55,11 @@ bool tree_has_more(const struct model_body *body)
 
 double tree_more(const struct model_body *body, const struct instant *at)
 {
-    const struct tree_state *s = link_of(body, at);
+    const struct tree_state *s = body_link(body, at);
     struct vec r = vec_turn(s->turn, body->arm);
     if (body->joint->has_axis) return -body_mass(body, at) * vec_cross(r, s->A.a);
-    struct vec f = vec_scale(body_mass(body, at), tree_mass_center_acceleration(body, at));
-    return -s->turning * (body_inertia(body, at).I_G * tree_angular_acceleration(body, at) + vec_cross(r, f));
+    struct vec f = vec_scale(body_mass(body, at), mass_center_acceleration(body, at));
+    return -s->turning * (body_inertia(body, at).I_G * body_angular_acceleration(body, at) + vec_cross(r, f));
 }
 
 static void oppose(struct arrow *arrow, const char *name)
@@ -181,7 +176,7 @@ int rope_load(const struct fbd_model *model, int b, const struct arrow *arrow)
 static struct arrow slide_reaction(const struct fbd_model *model, const struct model_body *body,
                                    const struct instant *at, const double *slots, const struct arrow *listed)
 {
-    const struct tree_state *s = link_of(body, at);
+    const struct tree_state *s = body_link(body, at);
     struct vec across = vec_perp(s->e), P = guide_point(body, at);
     struct vec force = vec_scale(vec_dot(across, s->F.force), across);
     double couple = s->F.moment + vec_cross(vec_sub(s->p, P), s->F.force);
@@ -225,10 +220,10 @@ static void add_needs(const struct fbd_model *model, int b, const struct instant
                       struct vec point, struct wrench *sum)
 {
     const struct model_body *body = &model->bodies[b];
-    struct vec f = vec_scale(body_mass(body, at), tree_mass_center_acceleration(body, at));
+    struct vec f = vec_scale(body_mass(body, at), mass_center_acceleration(body, at));
     sum->force = vec_add(sum->force, f);
     sum->moment += vec_cross(vec_sub(mass_center(body, at), point), f) +
-                   body_inertia(body, at).I_G * tree_angular_acceleration(body, at);
+                   body_inertia(body, at).I_G * body_angular_acceleration(body, at);
     for (int i = body->first_load; i < body->first_load + body->load_count; i++) {
         struct arrow arrow = load_arrow(model, i, at, slots);
         add_arrow(sum, &arrow, point);
@@ -249,7 +244,7 @@ static void add_needs(const struct fbd_model *model, int b, const struct instant
                 for (size_t j = 0; j < count; j++) add_arrow(sum, &couplings[j], point);
             }
     for (int c = body->child; c >= 0; c = model->bodies[c].sibling) {
-        const struct tree_state *s = link_of(&model->bodies[c], at);
+        const struct tree_state *s = body_link(&model->bodies[c], at);
         if (model->bodies[c].kind == motion_weld) continue;
         wrench_add(sum, s->F, vec_sub(s->p, point));
     }
@@ -271,7 +266,7 @@ static void reaction_fill(const struct fbd_model *model, int b, const struct ins
                           struct arrow *arrow)
 {
     const struct model_body *body = &model->bodies[b];
-    const struct tree_state *s = link_of(body, at);
+    const struct tree_state *s = body_link(body, at);
     if (body->joint->path != path_none)
         *arrow = slide_reaction(model, body, at, slots, NULL);
     else if (body->kind == motion_weld)
@@ -343,8 +338,8 @@ struct balance balance_of(const struct model_body *body, const struct instant *a
                           size_t count)
 {
     const struct inertia inertia = body_inertia(body, at);
-    struct balance balance = {.m_a = vec_scale(inertia.mass, tree_mass_center_acceleration(body, at)),
-                              .I_alpha = inertia.I_G * tree_angular_acceleration(body, at)};
+    struct balance balance = {.m_a = vec_scale(inertia.mass, mass_center_acceleration(body, at)),
+                              .I_alpha = inertia.I_G * body_angular_acceleration(body, at)};
     struct vec G = mass_center(body, at);
     double forces = vec_norm(balance.m_a), moments = fabs(balance.I_alpha);
     for (size_t i = 0; i < count; i++) {

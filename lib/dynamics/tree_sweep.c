@@ -134,28 +134,28 @@ static inline __attribute__((always_inline)) void inward_link(const struct tree_
 }
 
 static inline __attribute__((always_inline)) void factor(const struct tree *tree, struct tree_work *work,
-                                                         int to, bool curved)
+                                                         bool curved)
 {
     struct tree_state *links = work->links;
     links[0].I = (struct inertia_about_O){0, {0, 0}, 0, 0, 0};
     work->x[0].p = (struct wrench){0, {0, 0}};
-    for (int i = 1; i < to; i++) {
+    for (int i = 1; i < tree->joined; i++) {
         struct tree_state *s = &links[i];
         s->I = (struct inertia_about_O){s->I_O, {-s->mr.y, s->mr.x}, s->mass, 0, s->mass};
     }
-    for (int i = to - 1; i > 0; i--) {
+    for (int i = tree->joined - 1; i > 0; i--) {
         const struct tree_link *link = &tree->links[i];
         factor_link(link, i, &links[i], &links[link->parent], curved);
         inward_link(link, &links[i], &work->x[i], &work->x[link->parent], curved);
     }
 }
 
-void tree_factor(const struct tree *tree, struct tree_work *work, int to)
+void tree_factor(const struct tree *tree, struct tree_work *work)
 {
     if (tree->curved)
-        factor(tree, work, to, true);
+        factor(tree, work, true);
     else
-        factor(tree, work, to, false);
+        factor(tree, work, false);
 }
 
 static inline __attribute__((always_inline)) void inward(const struct tree *tree, struct tree_work *work,

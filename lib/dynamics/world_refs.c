@@ -115,7 +115,7 @@ struct instant instant_extend(const struct fbd_model *model, const struct instan
 static struct motion_of_point point_along(const struct model_body *body, const struct instant *at,
                                           struct vec point)
 {
-    const struct tree_state *s = &at->tree->links[body->place.link];
+    const struct tree_state *s = body_link(body, at);
     const struct tree_variation *d = &at->tree->variation[body->place.link];
     struct vec r = vec_turn(s->turn, placement_point(&body->place, point));
     struct vec dr = vec_scale(d->angle, vec_perp(r));

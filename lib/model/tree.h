@@ -117,7 +117,8 @@ enum load_list {
     load_lists
 };
 
-/* Their parts that act on a link, or on several. */
+/* Their parts that act on a link, or on several: on jointed links together, where lists of the plan, in the order of
+ * the file, have a count only. */
 struct link_loads {
     bool any; /* there is an entry in a list of the tree, not only in the joint */
     struct range of[load_lists];

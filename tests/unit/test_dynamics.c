@@ -84,12 +84,8 @@ static void check_newton(const struct named_scene *scene, fbd_state *state)
         double tolerance = 1e-13 * size, m = body_mass(body, &at);
         near("sum of forces along x", scene->name, sum.x, m * a.x, tolerance);
         near("sum of forces along y", scene->name, sum.y, m * a.y, tolerance);
-        double alpha = body->place.link > 0 ? tree_angular_acceleration(body, &at)
-                       : body->count > 0    ? state->a[body->first + body->count - 1]
-                                            : 0;
-        if (body->joint->angle >= 0)
-            near("sum of moments about G", scene->name, moment, body_inertia(body, &at).I_G * alpha,
-                 tolerance);
+        double I_alpha = body_inertia(body, &at).I_G * body_angular_acceleration(body, &at);
+        if (body->joint->angle >= 0) near("sum of moments about G", scene->name, moment, I_alpha, tolerance);
     }
 }
 
