@@ -56,7 +56,9 @@ static struct sums sums_of(const struct fbd_state *state, int b, struct arrow *a
     struct sums sums = {.m_a = vec_scale(body_mass(body, &at), mass_center_acceleration(body, &at))};
     sums.I_alpha = body_inertia(body, &at).I_G * body_angular_acceleration(body, &at);
     double slid = slid_size(state, body);
-    sums.force = vec_norm(sums.m_a) + slid;
+    const double arm_of_G = body_is_off_center(body) ? vec_norm(body->arm) : 0;
+    /* The acceleration of a centre of mass beside O is the difference of that of O and omega^2 r. */
+    sums.force = vec_norm(sums.m_a) + slid + body_mass(body, &at) * pose.omega * pose.omega * arm_of_G;
     sums.moment = fabs(sums.I_alpha) + slid;
     size_t count = diagram_list(model, b, &at, state->slots, arrows);
     for (size_t i = 0; i < count; i++) {
