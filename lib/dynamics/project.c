@@ -487,7 +487,7 @@ static void bring_back(const struct place *place)
 
 void return_to_constraints(const struct fbd_model *model, const struct instant *at, double *y)
 {
-    if (!has_couplings(model) || (at->tree->is_loop && tree_loop_return(&at->tree->loop, y))) return;
+    if (!has_couplings(model) || (at->tree->loop && tree_loop_return(at->tree->loop, y))) return;
     struct place place = {.model = model, .at = *at, .returning = true};
     place.at.y = place.y = y;
     bring_back(&place);

@@ -125,7 +125,7 @@ static struct row row_of_loop(const struct rates *rates)
     struct row row = {.function = tree_loop_is_steady(model) ? loop_row : driven_loop_row,
                       .all = rates,
                       .links = &model->tree->links[1],
-                      .loop = &state->tree->loop};
+                      .loop = state->tree->loop};
     force_slots(model, &at, state->slots);
     tree_loop_forces(row.loop, &at, state->slots, row.along);
     return row;
@@ -151,7 +151,7 @@ static bool bind_rows(struct rates *rates)
     const struct fbd_model *model = state->model;
     const struct tree *tree = model->tree;
     if (rates->kind != rates_by_rows || state_sliding(state)) return false;
-    if (state->tree->is_loop) {
+    if (state->tree->loop) {
         rates->rows[rates->count++] = row_of_loop(rates);
         return true;
     }

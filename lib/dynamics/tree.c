@@ -29,14 +29,31 @@ static size_t pushes_of(const struct tree *tree)
     return count;
 }
 
+/* What only jointed bodies need, only a system of unknowns, and only a loop: the numbers of such pieces. */
+static size_t bare_count(const struct tree *tree)
+{
+    return tree_joins(tree) ? (size_t)tree->count : 0;
+}
+
+static size_t sum_count(const struct tree *tree)
+{
+    return tree_unknowns(tree) > 0 ? (size_t)tree->count : 0;
+}
+
+static size_t loop_count(const struct fbd_model *model)
+{
+    return tree_loop_may_be(model) ? 1 : 0;
+}
+
 size_t tree_work_size(const struct fbd_model *model)
 {
     const struct tree *tree = model->tree;
     size_t links = (size_t)tree->count, unknowns = (size_t)tree_unknowns(tree);
     size_t ints = (links + 6 * unknowns + 3) / 2 * 2;
-    size_t link = sizeof(struct tree_state) + 2 * sizeof(struct tree_rhs) + sizeof(struct tree_variation) +
-                  sizeof(struct tree_bare);
-    return links * link + (size_t)tree->row_count * sizeof(struct row) +
+    size_t link = sizeof(struct tree_state) + sizeof(struct tree_rhs) + sizeof(struct tree_variation);
+    return links * link + sum_count(tree) * sizeof(struct tree_rhs) +
+           bare_count(tree) * sizeof(struct tree_bare) + loop_count(model) * sizeof(struct tree_loop) +
+           (size_t)tree->row_count * sizeof(struct row) +
            (size_t)tree->coupling_count * sizeof(struct coupling_state) +
            pushes_of(tree) * sizeof(struct tree_push) + doubles_of(model) * sizeof(double) +
            unknowns * sizeof(size_t) + ints * sizeof(int);
@@ -49,9 +66,10 @@ void tree_work_init(struct tree_work *work, const struct fbd_model *model, void 
     work->links = memory;
     work->x = (struct tree_rhs *)(work->links + links);
     work->sum = work->x + links;
-    work->variation = (struct tree_variation *)(work->sum + links);
+    work->variation = (struct tree_variation *)(work->sum + sum_count(tree));
     work->bare = (struct tree_bare *)(work->variation + links);
-    work->rows = (struct row *)(work->bare + links);
+    struct tree_loop *loop = (struct tree_loop *)(work->bare + bare_count(tree));
+    work->rows = (struct row *)(loop + loop_count(model));
     work->couplings = (struct coupling_state *)(work->rows + tree->row_count);
     work->pushes = (struct tree_push *)(work->couplings + tree->coupling_count);
     work->lower = (double *)(work->pushes + pushes_of(tree));
@@ -82,7 +100,7 @@ void tree_work_init(struct tree_work *work, const struct fbd_model *model, void 
     work->place = work->reach + unknowns;
     work->rank = work->place + unknowns;
     work->push_end = work->rank + unknowns + 1;
-    work->is_loop = tree_loop_find(model, &work->loop);
+    if (loop_count(model) > 0 && tree_loop_find(model, loop)) work->loop = loop;
     work->damping = 1e-6;
     work->accuracy = 1e-10;
     work->links[0].turn = work->links[0].e = (struct vec){1, 0};

@@ -84,7 +84,7 @@ struct tree_work {
     struct tree_state *links;                       /* tree.count; links[0] is the ground */
     struct tree_rhs *x;                             /* tree.count */
     struct tree_variation *variation;               /* tree.count */
-    struct tree_bare *bare;                         /* tree.count, see tree_bare.h */
+    struct tree_bare *bare;                         /* tree.count if bodies are jointed, see tree_bare.h */
     struct row *rows;                               /* row_count: constraints, see constraint.h */
     struct coupling_state *couplings;               /* coupling_count: their references from the start */
     double *lower, *upper, *diagonal, *inverse, *z; /* the system of tree_system.h */
@@ -92,7 +92,7 @@ struct tree_work {
     double *whole;                  /* lower and upper parts of the system before it was factored */
     double *right, *rest, *ordered; /* unknowns in the order of elimination */
     double *wanted, *left;          /* unknowns: a right-hand side, and the residual of its solution */
-    struct tree_rhs *sum;           /* tree.count, and n: results before a correction */
+    struct tree_rhs *sum;           /* of unknowns: tree.count, and n: results before a correction */
     double *sum_unit;
     int *mark;                       /* count: the unknown to which the results of a tree belong */
     struct tree_push *pushes;        /* of the active rows, in steps of a symmetric system: */
@@ -112,8 +112,7 @@ struct tree_work {
     double accuracy;     /* relative, of projected coordinates */
     bool projecting;     /* the system is set up for a projection: no friction */
     bool settling_down;  /* contacts are projected by their gaps only, without sticking friction */
-    bool is_loop;        /* the scene is the loop of three links that follows, see tree_loop.h */
-    struct tree_loop loop;
+    struct tree_loop *loop; /* of three links, if that is the scene, or NULL: see tree_loop.h */
     bool placed;        /* the places of the unknowns are final: there are no modes */
     bool apart;         /* masses differ so much that solutions are refined by accelerations */
     bool symmetric;     /* there is no friction in the system: it has been assembled by pushes */

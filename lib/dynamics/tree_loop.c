@@ -117,15 +117,20 @@ static bool names_others(const struct fbd_model *model)
     return model->names_places && (model->plan.own > 0 || !tree_loop_is_steady(model));
 }
 
+bool tree_loop_may_be(const struct fbd_model *model)
+{
+    const struct tree *tree = model->tree;
+    return tree->count == 4 && tree->coupling_count == 1 && model->plan.n == 3;
+}
+
 bool tree_loop_find(const struct fbd_model *model, struct tree_loop *loop)
 {
     const struct tree *tree = model->tree;
     struct tree_loop_link **of = loop->of;
     double mass = 0, trace = 0;
     struct vec force = {0, 0};
-    if (!tree || tree->count != 4 || tree->coupling_count != 1 || tree->couplings[0].kind != constraint_pin ||
-        !tree_is_in_chains(tree) || !is_loaded_simply(tree) || model->plan.mode_count > 0 ||
-        model->plan.n != 3 || names_others(model) ||
+    if (!tree_loop_may_be(model) || tree->couplings[0].kind != constraint_pin || !tree_is_in_chains(tree) ||
+        !is_loaded_simply(tree) || model->plan.mode_count > 0 || names_others(model) ||
         (tree->links[2].parent == 0 && tree->links[3].parent == 0))
         return false;
     *loop = (struct tree_loop){.tree = tree};

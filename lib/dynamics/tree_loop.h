@@ -43,6 +43,9 @@ struct tree_loop {
     struct tree_loop_link links[3];
 };
 
+/* Does the scene have as many links and rows as such a loop? */
+bool tree_loop_may_be(const struct fbd_model *model);
+
 /* Is the whole scene such a loop? Then set its constants. */
 bool tree_loop_find(const struct fbd_model *model, struct tree_loop *loop);
 
