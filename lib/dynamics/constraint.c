@@ -156,17 +156,35 @@ const struct constraint_form constraint_forms[constraint_kinds] = {
     [constraint_contact] = {.rows = contact_rows},
 };
 
+static void evaluate(const struct view *view, int i)
+{
+    const struct coupling *coupling = &view->tree->couplings[i];
+    constraint_forms[coupling->kind].rows(view, coupling, &view->work->couplings[i],
+                                          &view->work->rows[coupling->first_row]);
+}
+
 void constraints_evaluate(const struct fbd_model *model, const struct instant *at,
                           const struct direction *along)
 {
-    const struct tree *tree = model->tree;
+    const struct view view = {model, model->tree, at->tree, along != NULL, at, along};
+    for (int i = 0; i < model->tree->coupling_count; i++) evaluate(&view, i);
+}
+
+void constraints_select(const struct tree *tree, const struct instant *at)
+{
     struct tree_work *work = at->tree;
-    struct view view = {model, tree, work, along != NULL, at, along};
+    work->acting_count = 0;
     for (int i = 0; i < tree->coupling_count; i++) {
         const struct coupling *coupling = &tree->couplings[i];
-        constraint_forms[coupling->kind].rows(&view, coupling, &work->couplings[i],
-                                              &work->rows[coupling->first_row]);
+        const bool open = coupling->kind == constraint_contact && at->slip[coupling->surface] != stick;
+        if (!open) work->acting[work->acting_count++] = i;
     }
+}
+
+void constraints_evaluate_acting(const struct fbd_model *model, const struct instant *at)
+{
+    const struct view view = {model, model->tree, at->tree, false, at, NULL};
+    for (int k = 0; k < at->tree->acting_count; k++) evaluate(&view, at->tree->acting[k]);
 }
 
 struct room coupling_room(const struct fbd_model *model, const struct tree_work *work, int index, int end)

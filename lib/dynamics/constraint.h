@@ -177,6 +177,12 @@ double rope_wrap(const struct fbd_model *model, const struct tree_work *work, in
 /* Reset the zero of the row along the surface, as a slipping body begins to stick or roll where it is. */
 void coupling_rezero(const struct fbd_model *model, struct tree_work *work, int coupling);
 
+/* Set work->acting: contacts that are open in the modes of the instant have no rows in its system. */
+void constraints_select(const struct tree *tree, const struct instant *at);
+
+/* Evaluate the rows of the acting couplings, for accelerations alone. */
+void constraints_evaluate_acting(const struct fbd_model *model, const struct instant *at);
+
 /* Evaluate all rows at the positions of the links, with A their accelerations; with `along` (else NULL) also
  * their variations with links and time. */
 void constraints_evaluate(const struct fbd_model *model, const struct instant *at,

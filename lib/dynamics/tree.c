@@ -49,7 +49,7 @@ size_t tree_work_size(const struct fbd_model *model)
 {
     const struct tree *tree = model->tree;
     size_t links = (size_t)tree->count, unknowns = (size_t)tree_unknowns(tree);
-    size_t ints = (links + 6 * unknowns + 3) / 2 * 2;
+    size_t ints = (links + 6 * unknowns + (size_t)tree->coupling_count + 3) / 2 * 2;
     size_t link = sizeof(struct tree_state) + sizeof(struct tree_rhs) + sizeof(struct tree_variation);
     return links * link + sum_count(tree) * sizeof(struct tree_rhs) +
            bare_count(tree) * sizeof(struct tree_bare) + loop_count(model) * sizeof(struct tree_loop) +
@@ -100,6 +100,7 @@ void tree_work_init(struct tree_work *work, const struct fbd_model *model, void 
     work->place = work->reach + unknowns;
     work->rank = work->place + unknowns;
     work->push_end = work->rank + unknowns + 1;
+    work->acting = work->push_end + tree->row_count + 1;
     if (loop_count(model) > 0 && tree_loop_find(model, loop)) work->loop = loop;
     work->damping = 1e-6;
     work->accuracy = 1e-10;
@@ -236,8 +237,10 @@ static void spread_borne(const struct tree *tree, struct tree_work *work, const 
 static void set_borne(const struct tree *tree, struct tree_work *work)
 {
     for (int i = 0; i < tree->count; i++) work->borne[i] = 0;
-    for (int i = 0; i < tree->coupling_count; i++) spread_borne(tree, work, &tree->couplings[i]);
-    for (int i = tree->coupling_count; i-- > 0;) spread_borne(tree, work, &tree->couplings[i]);
+    for (int k = 0; k < work->acting_count; k++)
+        spread_borne(tree, work, &tree->couplings[work->acting[k]]);
+    for (int k = work->acting_count; k-- > 0;)
+        spread_borne(tree, work, &tree->couplings[work->acting[k]]);
 }
 
 /* Set accelerations of bodies at rest on others to zero if they are within rounding. No step would be short
@@ -283,7 +286,11 @@ static void close_system(const struct fbd_model *model, const struct instant *at
 {
     const struct tree *tree = model->tree;
     struct tree_work *work = at->tree;
-    constraints_evaluate(model, at, NULL);
+    constraints_select(tree, at);
+    if (work->rates_only)
+        constraints_evaluate_acting(model, at);
+    else
+        constraints_evaluate(model, at, NULL);
     if (work->rates_only && is_free(tree, at)) {
         for (int j = 0; j < tree->row_count; j++) work->rows[j].lambda = 0;
         memset(work->unit, 0, (size_t)model->plan.n * sizeof *work->unit);

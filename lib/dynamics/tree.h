@@ -97,6 +97,8 @@ struct tree_work {
     int *mark;                       /* count: the unknown to which the results of a tree belong */
     struct tree_push *pushes;        /* of the active rows, in steps of a symmetric system: */
     int *push_end;                   /* row_count + 1: after those of a place, the first at 1 */
+    int *acting;                     /* acting_count: couplings other than open contacts, in their order */
+    int acting_count;
     size_t *envelope;                /* of the active unknowns, see constraint_solve.c: */
     int *unknown_at, *first, *reach; /* as in struct tree, which has them for all unknowns */
     int *place;                      /* of an unknown, or -1 */
