@@ -10,10 +10,13 @@
 #include "integrate/error_norm.h"
 #include "integrate/stiffness.h"
 
+enum { by_exact = 2, kinds_of_stepper };
+
 struct switcher {
-    struct stepper *steppers[2]; /* explicit, implicit or NULL */
-    const struct method *methods[2];
+    struct stepper *steppers[kinds_of_stepper]; /* explicit; implicit or NULL; exact or NULL */
+    const struct method *methods[kinds_of_stepper];
     int now, made; /* the one that makes the next step; the one that has made the last */
+    int general;   /* that of the first two which is in use, or was before the exact one */
     struct stiffness stiffness;
     size_t n;
     double *rate_work; /* 2 n */
@@ -49,10 +52,25 @@ struct switcher *switcher_alloc(const struct stepper_options *options, const str
 void switcher_free(struct switcher *s)
 {
     if (!s) return;
-    stepper_free(s->steppers[0]);
-    stepper_free(s->steppers[1]);
+    for (int k = 0; k < kinds_of_stepper; k++) stepper_free(s->steppers[k]);
     free(s->rate_work);
     free(s);
+}
+
+bool switcher_add_exact(struct switcher *s, const struct stepper_options *options,
+                        const struct method *method)
+{
+    struct stepper_options own = *options;
+    own.method = s->methods[by_exact] = method;
+    s->steppers[by_exact] = stepper_alloc(&own);
+    return s->steppers[by_exact] != NULL;
+}
+
+void switcher_use_exact(struct switcher *s, bool exact)
+{
+    if (exact == (s->now == by_exact)) return;
+    if (exact) s->general = s->now;
+    s->now = exact ? by_exact : s->general;
 }
 
 int switcher_reset(struct switcher *s, struct counted_system *system, struct time_dd t, const double *y,
@@ -146,7 +164,7 @@ enum stepper_status switcher_step(struct switcher *s, struct counted_system *sys
     if (status == stepper_underflow && s->steppers[1] && s->now == 1)
         status = step_explicitly(s, system, t, y, f, h, t_limit);
     s->made = s->now;
-    if (status != stepper_ok || !s->steppers[1] || !(time_dd_since(t_limit, *t) > 0)) return status;
+    if (s->now == by_exact || status != stepper_ok || !s->steppers[1] || !(time_dd_since(t_limit, *t) > 0)) return status;
     if (s->stiffness.wait > 1) { /* as stiffness_due, without the rate */
         s->stiffness.wait--;
         return status;
@@ -193,7 +211,7 @@ int switcher_walk(struct switcher *s, struct time_dd t, double *y, double *f)
 
 bool switcher_lend(const struct switcher *s, struct stepper_state_view *view)
 {
-    if (s->now != 0 || s->made != 0 || !stepper_lend(s->steppers[0], view)) return false;
+    if (s->now != 0 || s->made != 0 || s->steppers[by_exact] || !stepper_lend(s->steppers[0], view)) return false;
     view->steps = INFINITY;
     if (!s->steppers[1]) return true;
     view->steps = s->stiffness.wait - 1;
@@ -209,18 +227,22 @@ void switcher_settle(struct switcher *s, const struct stepper_state_view *view)
 
 unsigned long switcher_rejected(const struct switcher *s, enum rejection why)
 {
-    unsigned long more = s->steppers[1] ? stepper_get_counts(s->steppers[1])->rejected[why] : 0;
-    return stepper_get_counts(s->steppers[0])->rejected[why] + more;
+    unsigned long sum = 0;
+    for (int k = 0; k < kinds_of_stepper; k++)
+        if (s->steppers[k]) sum += stepper_get_counts(s->steppers[k])->rejected[why];
+    return sum;
 }
 
 struct stepper_counts switcher_counts(const struct switcher *s)
 {
     struct stepper_counts sum = *stepper_get_counts(s->steppers[0]);
-    if (!s->steppers[1]) return sum;
-    const struct stepper_counts *more = stepper_get_counts(s->steppers[1]);
-    sum.accepted += more->accepted;
-    for (int kind = 0; kind < rejection_kinds; kind++) sum.rejected[kind] += more->rejected[kind];
-    if (s->now == 1) sum.last = more->last;
+    for (int k = 1; k < kinds_of_stepper; k++) {
+        if (!s->steppers[k]) continue;
+        const struct stepper_counts *more = stepper_get_counts(s->steppers[k]);
+        sum.accepted += more->accepted;
+        for (int kind = 0; kind < rejection_kinds; kind++) sum.rejected[kind] += more->rejected[kind];
+        if (s->now == k) sum.last = more->last;
+    }
     return sum;
 }
 

@@ -17,6 +17,12 @@ struct switcher;
 struct switcher *switcher_alloc(const struct stepper_options *options, const struct method *stiff);
 void switcher_free(struct switcher *switcher);
 
+/* Add a method that is exact in some modes of the system, and select it for the steps in them, before the reset that
+ * begins them; without it the method is that of the last other step. False when memory is out. */
+bool switcher_add_exact(struct switcher *switcher, const struct stepper_options *options,
+                        const struct method *method);
+void switcher_use_exact(struct switcher *switcher, bool exact);
+
 int switcher_reset(struct switcher *switcher, struct counted_system *system, struct time_dd t,
                    const double *y, double *f, struct time_dd t_limit, double *h);
 

@@ -90,7 +90,7 @@ static void keep_apart(struct companion *companion, const struct ensemble *main,
     for (size_t p = 0; p < main->count; p++) {
         const struct run *run = main->groups[p].run;
         struct run *own = companion->ensemble->groups[p].run;
-        bool limited = companion->follows && !structure_is_exact(run->kind);
+        bool limited = companion->follows && !run_is_exact(run);
         own->step.most = limited ? fmax(share * (run->state->t - run->step.from), least * way) : 0;
     }
 }
@@ -185,7 +185,7 @@ static long stride(const struct companion *companion, const struct ensemble *mai
     double every = sample_interval(companion), shortest = HUGE_VAL, end = HUGE_VAL;
     for (size_t p = 0; p < main->count; p++) {
         const struct run *run = main->groups[p].run;
-        bool looked_into = run->state->t > run->step.from && !structure_is_exact(run->kind);
+        bool looked_into = run->state->t > run->step.from && !run_is_exact(run);
         if (!looked_into) continue;
         shortest = fmin(shortest, run->state->t - run->step.from);
         end = fmin(end, run->state->t);

@@ -92,7 +92,7 @@ bool defect_is_large(struct run *run, struct time_dd end)
     double h = time_dd_since(end, run_start(run)), *slope = run->work.aside, *f = slope + size;
     bool meets = run->model->tree->meeting_count > 0;
     if (by_ends && meets && falls_at_once(run, h)) return true;
-    bool asked = run->search.wakes && !structure_is_exact(run->kind);
+    bool asked = run->search.wakes && !run_is_exact(run);
     if (!asked || switcher_made_implicitly(run->stepper)) return false;
     for (size_t k = 0; k < sizeof shares / sizeof *shares; k++) {
         if (!take_slopes(run, shares[k], h, slope, f)) return false;

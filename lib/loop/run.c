@@ -55,7 +55,9 @@ static bool make_stepper(struct run *run)
     bool automatic = run->options.automatic && plan_size(&run->model->plan) <= method_most_stiff_states;
     automatic = automatic && !structure_is_exact(run->kind);
     run->stepper = switcher_alloc(&options, automatic ? method_find("rodas5p") : NULL);
-    return run->stepper != NULL;
+    const struct method *parabola = structure_method(run->model, structure_constant);
+    return run->stepper &&
+           (run->kind != structure_flights || switcher_add_exact(run->stepper, &options, parabola));
 }
 
 /* Does a step need the forces at its end? Friction of single bodies does where it changes its own normal
@@ -150,7 +152,8 @@ static void refuse(struct run *run, struct lack *lack)
 static bool hold_fixed(struct run *run)
 {
     size_t n = (size_t)run->model->plan.n;
-    bool asks = chooses_structure(run) && run->kind == structure_general;
+    bool varies = run->kind == structure_general || run->kind == structure_flights;
+    bool asks = chooses_structure(run) && varies;
     if (!asks || !state_is_fixed(run->state)) return true;
     run->kind = structure_fixed;
     memset(run->state->y + n, 0, n * sizeof *run->state->y);
@@ -237,6 +240,22 @@ static bool start_linear(struct run *run)
     return true;
 }
 
+static bool has_closed_contact(const struct run *run)
+{
+    const struct tree *tree = run->model->tree;
+    for (int i = 0; i < tree->coupling_count; i++)
+        if (run->during->slip[tree->couplings[i].surface] == stick) return true;
+    return false;
+}
+
+/* Choose the method for the present modes. */
+static void choose_method(struct run *run)
+{
+    if (run->kind != structure_flights) return;
+    run->flies = !has_closed_contact(run);
+    switcher_use_exact(run->stepper, run->flies);
+}
+
 /* Start the stepper at the present state. */
 static bool restart(struct run *run)
 {
@@ -246,7 +265,8 @@ static bool restart(struct run *run)
     scan_forget(&run->search.moving);
     coupled_scales_join(&run->mechanisms, run->state);
     bind_rates(run);
-    if (!structure_is_exact(run->kind)) roundoff_estimate(run);
+    choose_method(run);
+    if (!run_is_exact(run)) roundoff_estimate(run);
     watchers_follow(&run->watchers, run->during);
     int status = switcher_reset(run->stepper, &run->system, run_end(run), run->work.y, run->work.f,
                                 time_dd_at(run->options.until), &run->step.h);
@@ -256,7 +276,7 @@ static bool restart(struct run *run)
     }
     watchers_set_rounding(&run->watchers.moving, run->during, run->search.moving.series.rounding);
     if (run->step.first == 0) run->step.first = run->step.h;
-    if (structure_is_one_step(run->kind)) run->step.h = run->options.until - run->state->t;
+    if (run_is_one_step(run)) run->step.h = run->options.until - run->state->t;
     if (run->kind == structure_linear && !start_linear(run)) return false;
     run->step.restart = false;
     return true;
@@ -371,7 +391,8 @@ static bool limit_step(struct run *run, struct turn *turn)
 {
     if (run->step.crawl == 0) run->step.not_finite = switcher_rejected(run->stepper, rejected_not_finite);
     if (run->kind == structure_linear) set_linear_step(run);
-    if (structure_is_one_step(run->kind)) run->step.h = run->options.until - run->step.from;
+    if (run_is_one_step(run)) run->step.h = run->options.until - run->step.from;
+    if (run->flies && run->step.flight > 0) run->step.h = fmin(run->step.h, run->step.flight);
     desync_steps(run);
     if (run->options.step == 0 && !heed_poles(run)) return false;
     turn->limit = next_time(run, &turn->timed);
@@ -463,6 +484,15 @@ static bool apply_events(struct run *run, const struct turn *turn)
     return true;
 }
 
+/* An exact step may be of any length. But the farther contacts are searched, the more shapes may meet there, and mostly in
+ * vain, so steps without a closed contact grow. */
+static void limit_flight(struct run *run)
+{
+    const double growth = 4, least = 1.0 / 64;
+    double length = run->state->t - run->step.from;
+    run->step.flight = fmax(growth * length, least * run->step.longest);
+}
+
 /* Log the results of the step, and prepare the watchers for the next one. */
 static void end_step(struct run *run, const struct turn *turn)
 {
@@ -481,6 +511,7 @@ static void end_step(struct run *run, const struct turn *turn)
     if (run->end.outcome == FBD_GOING && !run->plain)
         watchers_arm(&run->watchers, run->state, run->state->t - run->step.from);
     if (run->projected || run->model->plan.watch_count > 0) scan_forget(&run->search.moving);
+    limit_flight(run);
 }
 
 fbd_outcome run_advance(struct run *run)

@@ -70,6 +70,7 @@ struct stride {
     double h;                 /* step size proposed */
     double first;             /* the first proposed size */
     double longest;           /* longest step to an event so far */
+    double flight;            /* limit of the size of the next step without a closed contact; 0: no limit */
     double most;              /* limit of the size of the next steps if options.apart; 0: no limit */
     bool restart;             /* restart the stepper before the next step */
     int crawl;                /* number of successive steps of a few roundings of the time */
@@ -155,6 +156,7 @@ struct run {
     const struct fbd_model *model;
     struct run_options options;
     enum structure kind;      /* in use: general unless options.structure and options.automatic */
+    bool flies;               /* of structure_flights, in a mode without closed contacts */
     struct fbd_state *state;  /* at the end of the last step, with the modes of the next one */
     struct fbd_state *during; /* modes of the last step; its scratch is used for samples within it */
     struct stride step;
@@ -196,6 +198,17 @@ struct run {
 struct run *run_new(const struct fbd_model *model, const struct run_options *options,
                     const struct state_start *begin, struct arena *memory);
 void run_free(struct run *run);
+
+/* Does the method in use make steps of any length without truncation error? Do they extend to the next event? */
+static inline bool run_is_exact(const struct run *run)
+{
+    return run->flies || structure_is_exact(run->kind);
+}
+
+static inline bool run_is_one_step(const struct run *run)
+{
+    return run->flies || structure_is_one_step(run->kind);
+}
 
 /* Evaluate forces and accelerations of run->state if they are stale. */
 static inline void run_evaluate(struct run *run)

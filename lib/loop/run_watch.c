@@ -210,7 +210,7 @@ static double follow(struct run *run, double from, double to, bool coarse, const
         degree = trajectory_most_degree;
     }
     set_noise(run);
-    coarse = coarse && degree > simple && run->options.step == 0 && !structure_is_exact(run->kind);
+    coarse = coarse && degree > simple && run->options.step == 0 && !run_is_exact(run);
     if (follow_powers(run, from, to, coarse, wanted)) return to;
     int status =
         coarse ? trajectory_set_coarse(&run->trajectory, from, to, wanted, sample_course, run)

@@ -37,6 +37,7 @@ const struct method *structure_method(const struct fbd_model *model, enum struct
     case structure_fixed:
     case structure_constant: return &parabola_method;
     case structure_general:
+    case structure_flights:
     case structure_kinds: break;
     }
     return model->plan.own > 0 ? method_find("dop853") : method_at(0);
@@ -211,15 +212,17 @@ static enum expr_degree degree_of_load(const struct fbd_model *model, const stru
     return expr_nonlinear;
 }
 
-static enum expr_degree accelerations_vary(const struct fbd_model *model)
+/* With all contacts open, if `open`. */
+static enum expr_degree accelerations_vary(const struct fbd_model *model, bool open)
 {
     enum expr_degree worst = expr_constant_between;
-    if (has_joints(model)) return expr_nonlinear;
+    if (!open && has_joints(model)) return expr_nonlinear;
     for (size_t b = 0; b < model->body_count; b++)
         if (body_is_off_center(&model->bodies[b]) || model->bodies[b].joint->path == path_curve)
             return expr_nonlinear;
     for (size_t i = 0; i < model->load_count; i++) {
         const struct model_load *load = &model->loads[i];
+        if (open && load->source->kind == load_contact) continue;
         worst = worse(worst, degree_of_load(model, &model->bodies[load->body], load));
     }
     return worst;
@@ -242,11 +245,25 @@ static enum expr_degree slides_vary(const struct fbd_model *model)
     return worst;
 }
 
+/* Is every coupling a contact between bodies that are not jointed? */
+static bool has_contacts_only(const struct fbd_model *model)
+{
+    const struct tree *tree = model->tree;
+    for (int i = 0; i < tree->coupling_count; i++)
+        if (tree->couplings[i].kind != constraint_contact) return false;
+    for (int i = 1; i < tree->count; i++)
+        if (tree->links[i].parent != 0) return false;
+    return tree->coupling_count > 0;
+}
+
 enum structure structure_of(const struct fbd_model *model)
 {
     if (model->plan.own > 0) return structure_general; /* exact methods have no user states */
-    enum expr_degree degree = worse(accelerations_vary(model), slides_vary(model));
+    enum expr_degree slides = slides_vary(model), degree = worse(accelerations_vary(model, false), slides);
     if (degree == expr_constant_between) return structure_constant;
     if (degree == expr_affine && model->plan.n <= linear_most_pairs) return structure_linear;
-    return velocity_free(model) ? structure_velocity_free : structure_general;
+    if (velocity_free(model)) return structure_velocity_free;
+    const bool flights = has_contacts_only(model) &&
+                         worse(accelerations_vary(model, true), slides) == expr_constant_between;
+    return flights ? structure_flights : structure_general;
 }

@@ -16,6 +16,7 @@ enum structure {
     structure_velocity_free, /* no force depends on a velocity: nystrom.h */
     structure_linear,        /* linear equations with constant coefficients between events: linear.h */
     structure_constant,      /* accelerations are constant between events: parabola.h */
+    structure_flights,       /* the same while no contact is closed; else general */
     structure_fixed, /* no motion is possible in its positions (state_is_fixed); not returned by structure_of */
     structure_kinds
 };

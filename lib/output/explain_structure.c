@@ -18,6 +18,7 @@ static const char *words_for(enum structure structure)
     case structure_linear:
         return "linear equations with constant coefficients between events: propagated exactly";
     case structure_constant: return "constant accelerations between events: exact parabolas, one step each";
+    case structure_flights: return "exact parabolas while no contact is closed, else the general method";
     case structure_fixed: return "no degree of freedom: one step, for any loads";
     case structure_general:
     case structure_kinds: break;
@@ -29,7 +30,7 @@ static const char *words_for(enum structure structure)
 static enum structure structure_as_it_lies(const struct fbd_model *model)
 {
     enum structure structure = structure_of(model);
-    if (structure != structure_general) return structure;
+    if (structure != structure_general && structure != structure_flights) return structure;
     struct fbd_state *state = state_new(model);
     if (!state) return structure_kinds;
     if (state_is_fixed(state)) structure = structure_fixed;

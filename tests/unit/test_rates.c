@@ -281,10 +281,11 @@ static bool check_return(struct fbd_state *state, struct random_numbers *numbers
         by_loop[i] = in_general[i] = state->y[i] + off * random_between(numbers, -1, 1);
         size = fmax(size, fabs(state->y[i]));
     }
-    if (!tree_loop_return(&state->tree->loop, by_loop)) return false;
-    state->tree->is_loop = false;
+    struct tree_loop *loop = state->tree->loop;
+    if (!tree_loop_return(loop, by_loop)) return false;
+    state->tree->loop = NULL;
     return_to_constraints(state->model, &at, in_general);
-    state->tree->is_loop = true;
+    state->tree->loop = loop;
     memcpy(state->scratch, state->y, sizeof by_loop);
     memcpy(state->y, by_loop, sizeof by_loop);
     struct misfit misfit = state_misfit(state);
