@@ -251,6 +251,11 @@ static void fail_singular(struct run *run, const struct misfit *misfit)
                  run_time(run));
 }
 
+void projection_begin(struct run *run)
+{
+    measure(run);
+}
+
 void project_step(struct run *run)
 {
     if (!has_couplings(run)) return;

@@ -188,6 +188,7 @@ static void start(struct run *run)
     log_lifts_at_start(run);
     run_check_counts(run);
     energy_guard_begin(run);
+    projection_begin(run);
     watchers_arm(&run->watchers, run->state, 0);
     if (!(run->options.until > run->state->t)) run->end.outcome = FBD_DONE;
 }

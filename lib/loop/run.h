@@ -285,8 +285,9 @@ void run_apply(struct run *run, const bool *timed, const bool *moving);
 /* Log the user events that have crossed at t; false when one of them ends the run. */
 bool log_user_events(struct run *run, double t);
 
-/* Project the end of a step onto the couplings. */
+/* Project the end of a step onto the couplings; before the first one, note the size of the mechanism. */
 void project_step(struct run *run);
+void projection_begin(struct run *run);
 
 /* Joint friction that slips although the couplings prevent motion: set its speed relative to its surface to
  * zero. */

@@ -43,19 +43,43 @@ static void evaluate_at(struct run *run, double t)
                       rates);
 }
 
+/* Set the functions at t; returns the size of the lowest one that crosses, and the time until the first zero. */
+static bool look_near(struct run *run, double t, double *size, double *move)
+{
+    const struct scan *scan = &run->search.moving;
+    double lowest = HUGE_VAL;
+    if (!end_at(run, t)) return false;
+    evaluate_at(run, t);
+    *move = HUGE_VAL;
+    for (size_t i = 0; i < scan->count; i++) {
+        if (!scan->crossed[i]) continue;
+        lowest = fmin(lowest, run->work.values[i]);
+        *move = fmin(*move, time_left(run, i));
+    }
+    *size = fabs(lowest);
+    return true;
+}
+
 /* Refine the time of the event that the scan has found, by partial steps with the full accuracy of the
  * method; the dense output may have less. Newton's method on the function that reaches zero first; y and f
- * are set to the result at *t + *move, where the move is of the size of a rounding if it has converged. */
+ * are set to the result at *t + *move, where the move is of the size of a rounding if it has converged. Just
+ * before a kink, as where one corner takes over from another that hardly moves, the slope leads away from the
+ * zero: then its time is that of the dense output. */
 static bool polish(struct run *run, double step_end, double *t, double *move)
 {
     enum { most_steps = 4 };
     const struct scan *scan = &run->search.moving;
+    double before = HUGE_VAL, last = *t, size;
     for (int step = 0;; step++) {
-        if (!end_at(run, *t)) return false;
-        evaluate_at(run, *t);
-        *move = HUGE_VAL;
-        for (size_t i = 0; i < scan->count; i++)
-            if (scan->crossed[i]) *move = fmin(*move, time_left(run, i));
+        if (!look_near(run, *t, &size, move)) return false;
+        if (size > before) {
+            *t = last;
+            if (!look_near(run, *t, &size, move)) return false;
+            *move = 0;
+            break;
+        }
+        before = size;
+        last = *t;
         double next = *t + *move;
         bool there =
             !(next > run->step.from && next < step_end) || fabs(*move) <= 4 * DBL_EPSILON * fabs(next);
