@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/greek.h"
 #include "dynamics/friction.h"
 #include "expr/glyph.h"
 #include "model/tree.h"
@@ -262,20 +263,6 @@ const struct force_symbol *const *symbols_of_forces(const struct fbd_state *stat
 
 /* ---- printing */
 
-static const struct greek {
-    const char *name, *letter;
-} greek[] = {
-    {"alpha", "α"}, {"beta", "β"}, {"gamma", "γ"}, {"delta", "δ"}, {"theta", "θ"}, {"lambda", "λ"},
-    {"mu", "μ"},    {"phi", "φ"},  {"psi", "ψ"},   {"omega", "ω"}, {"rho", "ρ"},   {"tau", "τ"},
-};
-
-static const struct greek *greek_of(const char *name, size_t length)
-{
-    for (size_t i = 0; i < sizeof greek / sizeof *greek; i++)
-        if (strlen(greek[i].name) == length && memcmp(greek[i].name, name, length) == 0) return &greek[i];
-    return NULL;
-}
-
 static bool is_digit(char c)
 {
     return c >= '0' && c <= '9';
@@ -309,10 +296,10 @@ const char *symbol_printed(const char *symbol, struct arena *arena)
     for (const char *c = symbol; *c;) {
         size_t length = 0;
         while (is_word(c[length])) length++;
-        const struct greek *letter = greek_of(c, length);
+        const char *letter = greek_letter(c, length);
         size_t low = *c == '_' ? low_index(c + 1) : 0;
         if (letter)
-            text_add(&text, letter->letter);
+            text_add(&text, letter);
         else if (length)
             text_add_bytes(&text, c, length);
         else if (low)
@@ -336,7 +323,7 @@ static bool is_velocity(const char *word, size_t length)
 static void write_word(struct text *text, const char *word, size_t length)
 {
     bool function = length == 3 && (strncmp(word, "sin", 3) == 0 || strncmp(word, "cos", 3) == 0);
-    if (greek_of(word, length) || function)
+    if (greek_letter(word, length) || function)
         text_printf(text, "\\%.*s ", (int)length, word);
     else if (length > 1 && !is_digit(*word))
         text_printf(text, "\\mathit{%.*s}", (int)length, word);
