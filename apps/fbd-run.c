@@ -274,7 +274,8 @@ static enum exit_code checked(const fbd_note *note)
 {
     const size_t failed = fbd_note_failed_check_count(note);
     if (failed == 0) return exit_done;
-    complain("fbd-run: %zu of %zu checks of the note are not met: see `Checks` in it", failed, fbd_note_check_count(note));
+    complain("fbd-run: %zu of %zu checks of the note are not met: see `Checks` in it", failed,
+             fbd_note_check_count(note));
     return exit_inaccurate;
 }
 

@@ -36,7 +36,8 @@ static bool is_plain_name(const char *file)
 {
     char stem[place_size];
     stem_of(file, stem, sizeof stem);
-    return stem[0] && strspn(stem, "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+.") == strlen(stem);
+    return stem[0] &&
+           strspn(stem, "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+.") == strlen(stem);
 }
 
 static bool latex_is_there(void)
@@ -48,20 +49,24 @@ bool note_can_be_written(const struct command_line *line, const char *file)
 {
     const enum ending ending = ending_of(file);
     if (ending == ending_count)
-        return command_line_usage(line, "--note wants a file whose name ends in .html, .md, .tex or .pdf, not ", file);
+        return command_line_usage(line,
+                                  "--note wants a file whose name ends in .html, .md, .tex or .pdf, not ",
+                                  file);
     if ((ending == ending_markdown || ending == ending_latex) && !is_plain_name(file))
-        return command_line_usage(line, "the drawings of --note are named after its file: letters, digits, `_`, `-`, not ",
-                                  file);
+        return command_line_usage(
+            line, "the drawings of --note are named after its file: letters, digits, `_`, `-`, not ", file);
     if (ending == ending_latex && !picture_converts_to_pdf())
-        return command_line_usage(line,
-                                  "--note makes .tex with drawings by rsvg-convert (Debian: librsvg2-bin) or inkscape, and "
-                                  "neither is installed; .html and .md need none, not ",
-                                  file);
+        return command_line_usage(
+            line,
+            "--note makes .tex with drawings by rsvg-convert (Debian: librsvg2-bin) or inkscape, and "
+            "neither is installed; .html and .md need none, not ",
+            file);
     if (ending == ending_pdf && !program_is_there("chromium") && !latex_is_there())
-        return command_line_usage(line,
-                                  "--note makes .pdf by chromium (Debian: chromium) or by pdflatex and rsvg-convert (Debian: "
-                                  "texlive-latex-recommended, librsvg2-bin), and neither is installed; .html needs none, not ",
-                                  file);
+        return command_line_usage(
+            line,
+            "--note makes .pdf by chromium (Debian: chromium) or by pdflatex and rsvg-convert (Debian: "
+            "texlive-latex-recommended, librsvg2-bin), and neither is installed; .html needs none, not ",
+            file);
     return true;
 }
 
@@ -80,7 +85,8 @@ static bool path_in(const struct workshop *shop, const char *name, char path[sta
 static bool begin_workshop(struct workshop *shop)
 {
     const char *folder = getenv("TMPDIR");
-    const int length = snprintf(shop->folder, sizeof shop->folder, "%s/fbd-note-XXXXXX", folder && folder[0] ? folder : "/tmp");
+    const int length = snprintf(shop->folder, sizeof shop->folder, "%s/fbd-note-XXXXXX",
+                                folder && folder[0] ? folder : "/tmp");
     if (length > 0 && (size_t)length < sizeof shop->folder && mkdtemp(shop->folder)) return true;
     complain("fbd-run: cannot make a folder for the PDF: %s", strerror(errno));
     return false;
@@ -153,8 +159,9 @@ static bool put_drawings(const struct workshop *shop, const fbd_note *note)
 /* Twice, since the widths of long tables are known after the first run. */
 static bool typeset(const struct workshop *shop, const fbd_note *note)
 {
-    static const char *const arguments[] = {"pdflatex", "-interaction=batchmode", "-halt-on-error", "-no-shell-escape",
-                                            "note.tex", NULL};
+    static const char *const arguments[] = {"pdflatex",       "-interaction=batchmode",
+                                            "-halt-on-error", "-no-shell-escape",
+                                            "note.tex",       NULL};
     char *latex = fbd_note_write(note, FBD_NOTE_LATEX, "note");
     if (!latex) return complain("fbd-run: out of memory"), false;
     const bool put = put_in(shop, "note.tex", latex) && put_drawings(shop, note);

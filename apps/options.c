@@ -319,8 +319,8 @@ static bool runs_or_draws(const struct options *options)
     return options->watch || options->at_count || options->run.method || options->run.tolerance > 0 ||
            options->run.accuracy > 0 || options->run.step > 0 || options->run.no_structure ||
            isfinite(options->run.until) || options->run.error_bars || options->settle ||
-           options->fmu_version || options->svg || options->html || options->note || options->plot || options->plot_of ||
-           options->gnuplot || options->ledger || options->every > 0 || options->latex ||
+           options->fmu_version || options->svg || options->html || options->note || options->plot ||
+           options->plot_of || options->gnuplot || options->ledger || options->every > 0 || options->latex ||
            shapes_drawing(options, false, false) || options->without_count || options->full ||
            options->degrees;
 }
@@ -385,8 +385,8 @@ static bool options_agree(const struct options *options)
     if (options->settle && !rests) return usage("--settle goes with --static", "");
     if (stands_still && !rests && !draws && options->json)
         return usage("--json belongs to a run, --equations, --linearize, --static or --grade", "");
-    if (stands_still && (options->csv || options->html || options->note || options->plot || options->gnuplot ||
-                         options->ledger || options->every > 0))
+    if (stands_still && (options->csv || options->html || options->note || options->plot ||
+                         options->gnuplot || options->ledger || options->every > 0))
         return usage("--csv, --html, --note, --plot, --gnuplot, --ledger and --every belong to a run", "");
     if (options->note && options->without_count > 0)
         return usage("--note describes the file as it is: comment its entries out, instead of --without", "");
@@ -422,8 +422,8 @@ bool options_spare(const struct options *options, const fbd_errors *errors)
 /* `--symbols` without an output of arrows selects the equations in symbols. */
 static void choose_symbols(struct options *options)
 {
-    const bool runs = options->svg || options->csv || options->html || options->note || options->plot ||
-                      options->gnuplot;
+    const bool runs =
+        options->svg || options->csv || options->html || options->note || options->plot || options->gnuplot;
     if (options->action == action_run && options->drawing.symbols && !runs)
         options->action = action_equations;
 }

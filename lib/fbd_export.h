@@ -131,7 +131,8 @@ typedef struct fbd_note_options {
     bool degrees; /* angles and their rates in degrees; as in the recording of the result */
     /* the day, as it is printed; NULL: that of the environment variable SOURCE_DATE_EPOCH (seconds), else today, in UTC */
     const char *date;
-    fbd_watch *progress; /* called during the second run of its checks, or NULL; nonzero ends the note (`stopped`) */
+    fbd_watch *
+        progress; /* called during the second run of its checks, or NULL; nonzero ends the note (`stopped`) */
     void *progress_context;
 } fbd_note_options;
 
@@ -140,8 +141,8 @@ typedef struct fbd_note_options {
  * the result and the model from then on. NULL with a note in `errors`: `not-recorded` for a run without
  * `table`, `no-note` for a run that failed or was interrupted, `stopped`, those of fbd_diagram_svg, `cannot-read`
  * for the data file of a table, or memory is out. */
-FBD_API fbd_note *fbd_note_new(fbd_simulation *simulation, fbd_result *result, const fbd_note_options *options,
-                               fbd_errors *errors);
+FBD_API fbd_note *fbd_note_new(fbd_simulation *simulation, fbd_result *result,
+                               const fbd_note_options *options, fbd_errors *errors);
 FBD_API void fbd_note_free(fbd_note *note);
 
 /* The document, to be freed with fbd_free; NULL when memory is out. `stem`: name of the drawings beside it. */
@@ -167,6 +168,7 @@ typedef struct fbd_drawing {
     bool solution;    /* of that worksheet: arrows by symbols, and the value of each symbol on its line */
     /* the force, in the scene's unit, that corresponds to 10 mm; 0: a round one that suits all bodies */
     double scale;
+    bool untitled; /* without the title of the scene and the time */
 } fbd_drawing;
 
 /* The free-body diagrams of a state as an SVG 1.1 document in millimetres, to be freed with fbd_free. `drawing`

@@ -42,7 +42,8 @@ static const char *part(struct making *making, const char *from, size_t length)
 }
 
 /* `gravity (3)               conservative: V = m g h`: the effect, and behind two blanks the remark. */
-static void simulated(struct making *making, struct block *table, const struct line *entry, const struct line *on)
+static void simulated(struct making *making, struct block *table, const struct line *entry,
+                      const struct line *on)
 {
     const char *gap = entry->start;
     while (gap < entry->start + entry->length && strncmp(gap, "  ", 2) != 0) gap++;
@@ -51,7 +52,9 @@ static void simulated(struct making *making, struct block *table, const struct l
     document_cell(making->document, table, part(making, entry->start, length));
     document_cell(making->document, table, part(making, on->start, on->length));
     document_cell(making->document, table,
-                  length + blanks < entry->length ? part(making, gap + blanks, entry->length - length - blanks) : "");
+                  length + blanks < entry->length
+                      ? part(making, gap + blanks, entry->length - length - blanks)
+                      : "");
 }
 
 static void list_simulated(struct making *making, const char *at)
@@ -87,11 +90,12 @@ static void list_absent(struct making *making, const char *at)
             list = document_list(making->document);
         }
         const size_t length = end ? (size_t)(end - entry.start) : entry.length;
-        document_cell_format(making->document, list, "%.*s (%.*s)", (int)length, entry.start, (int)on.length, on.start);
+        document_cell_format(making->document, list, "%.*s (%.*s)", (int)length, entry.start, (int)on.length,
+                             on.start);
     }
 }
 
-static void list_general(struct making *making)
+static struct block *list_general(struct making *making)
 {
     struct block *list = document_list(making->document);
     const fbd_scene scene = fbd_model_scene(making->model);
@@ -101,31 +105,31 @@ static void list_general(struct making *making)
         "All motion is in one plane; forces are in that plane and moments normal to it.",
         "The frame of the ground is inertial. x points to the right, y up, angles are counter-clockwise.",
     };
-    for (size_t i = 0; i < sizeof always / sizeof *always; i++) document_cell(making->document, list, always[i]);
+    for (size_t i = 0; i < sizeof always / sizeof *always; i++)
+        document_cell(making->document, list, always[i]);
     const double g = hypot(scene.gravity[0], scene.gravity[1]);
     document_cell_format(making->document, list, "Gravity is uniform: %s%s.",
                          making_value(making, g, acceleration, note_digits),
                          scene.gravity[0] == 0 && scene.gravity[1] < 0 ? ", downward" : "");
+    return list;
 }
 
 /* Laws that a note should name where they apply. */
-static void list_laws(struct making *making, const char *explanation)
+static void list_laws(struct making *making, struct block *list, const char *explanation)
 {
     static const struct {
         const char *mark, *sentence;
     } laws[] = {
-        {"dry friction", "Dry friction follows Coulomb's law: up to the static coefficient times the normal force at "
-                         "rest, the kinetic one times it in motion, whatever the speed."},
-        {"contact", "Impacts take no time; each changes velocities by impulses according to the restitution and the "
-                    "friction of the contact."},
+        {"dry friction",
+         "Dry friction follows Coulomb's law: up to the static coefficient times the normal force at "
+         "rest, the kinetic one times it in motion, whatever the speed."},
+        {"contact",
+         "Impacts take no time; each changes velocities by impulses according to the restitution and the "
+         "friction of the contact."},
         {"rope", "Ropes are massless and inextensible; they pull and do not push."},
     };
-    struct block *list = NULL;
-    for (size_t i = 0; i < sizeof laws / sizeof *laws; i++) {
-        if (!strstr(explanation, laws[i].mark)) continue;
-        if (!list) list = document_list(making->document);
-        document_cell(making->document, list, laws[i].sentence);
-    }
+    for (size_t i = 0; i < sizeof laws / sizeof *laws; i++)
+        if (strstr(explanation, laws[i].mark)) document_cell(making->document, list, laws[i].sentence);
 }
 
 void note_assumptions(struct making *making)
@@ -138,10 +142,10 @@ void note_assumptions(struct making *making)
     }
     const char *present = section(explanation, "\nEffects simulated"),
                *absent = section(explanation, "\nEffects not simulated");
-    list_general(making);
+    struct block *list = list_general(making);
     const size_t length = absent ? (size_t)(absent - explanation) : strlen(explanation);
     const char *before = arena_text(&making->document->arena, explanation, length);
-    if (before) list_laws(making, before);
+    if (before) list_laws(making, list, before);
     if (present) list_simulated(making, present);
     if (absent) list_absent(making, absent);
     fbd_free(explanation);

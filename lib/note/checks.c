@@ -14,8 +14,8 @@
  * motion. Where the error of the run itself is larger, ten times that is the limit of differences. */
 static const double balance_limit = 1e-9, run_limit = 1e-6, error_bars_allowed = 10;
 
-static void check_row(struct making *making, struct block *table, const char *check, const char *found, const char *limit,
-                      bool met)
+static void check_row(struct making *making, struct block *table, const char *check, const char *found,
+                      const char *limit, bool met)
 {
     document_cell(making->document, table, check);
     document_cell(making->document, table, found);
@@ -61,9 +61,12 @@ static void check_energy(struct making *making, struct block *table)
     double residual = NAN, explained = NAN;
     const bool met = fbd_result_balanced(making->result, &residual, &explained);
     if (!isfinite(residual)) return;
-    check_row(making, table, "energy: change of kinetic and potential energy less the work of the other forces",
+    check_row(making, table,
+              "energy: change of kinetic and potential energy less the work of the other forces",
               making_value(making, residual, unit, error_digits),
-              isfinite(explained) ? making_value(making, explained, unit, error_digits) : "none for steps of fixed size", met);
+              isfinite(explained) ? making_value(making, explained, unit, error_digits)
+                                  : "none for steps of fixed size",
+              met);
 }
 
 /* ---- derivations by hand */
@@ -92,7 +95,8 @@ static const char *check_hand(struct making *making, struct block *table)
     const size_t count = count_derivations(kept);
     struct arena *arena = &making->document->arena;
     check_row(making, table, "derivations by hand in the file, at random states",
-              arena_printf(arena, "%zu of %zu agree", count > differing ? count - differing : 0, count), "all", differing == 0);
+              arena_printf(arena, "%zu of %zu agree", count > differing ? count - differing : 0, count),
+              "all", differing == 0);
     return kept;
 }
 
@@ -118,20 +122,24 @@ static void check_exact(struct making *making, struct block *table)
     }
     if (isnan(worst)) return;
     const double limit = limit_of_runs(making);
-    check_row(making, table, "exact solution of the file, at the end", making_number(making, worst, error_digits),
-              making_number(making, limit, error_digits), worst <= limit);
+    check_row(making, table, "exact solution of the file, at the end",
+              making_number(making, worst, error_digits), making_number(making, limit, error_digits),
+              worst <= limit);
 }
 
 static void check_second_run(struct making *making, struct block *table, const struct second_run *second)
 {
     struct arena *arena = &making->document->arena;
     const double limit = limit_of_runs(making);
-    check_row(making, table,
-              arena_printf(arena, "another method (%s, tolerance %s): largest difference at the end, of the size of the motion",
-                           second->method, making_number(making, second->tolerance, error_digits)),
-              arena_printf(arena, "%s, in %s", making_number(making, second->difference, error_digits),
-                           second->worst ? making_name(making, second->worst) : "none"),
-              making_number(making, limit, error_digits), second->difference <= limit);
+    check_row(
+        making, table,
+        arena_printf(
+            arena,
+            "another method (%s, tolerance %s): largest difference at the end, of the size of the motion",
+            second->method, making_number(making, second->tolerance, error_digits)),
+        arena_printf(arena, "%s, in %s", making_number(making, second->difference, error_digits),
+                     second->worst ? making_symbol(making, second->worst) : "none"),
+        making_number(making, limit, error_digits), second->difference <= limit);
     check_row(making, table, "the same events by that method",
               second->same_events && isfinite(second->event_difference)
                   ? arena_printf(arena, "the same, times differ by %s",
@@ -163,13 +171,14 @@ void note_checks(struct making *making)
     check_exact(making, table);
     if (!second_run(making, &second)) {
         if (!making->document->arena.failed)
-            diag_add(making->list, FBD_ERROR, "stopped", (struct pos){0, 0}, NULL, "the note was interrupted");
+            diag_add(making->list, FBD_ERROR, "stopped", (struct pos){0, 0}, NULL,
+                     "the note was interrupted");
         return;
     }
     if (!second.reason) check_second_run(making, table, &second);
     if (second.reason)
-        document_paragraph(making->document, "The run by another method (%s) was not completed: %s.", second.method,
-                           second.reason);
+        document_paragraph(making->document, "The run by another method (%s) was not completed: %s.",
+                           second.method, second.reason);
     if (!hand) document_paragraph(making->document, "The file contains no derivation by hand (`hand:`).");
     if (hand) document_paragraph(making->document, "The derivations by hand:");
     if (hand) document_verbatim(making->document, hand, strlen(hand));

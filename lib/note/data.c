@@ -22,16 +22,24 @@ static const char *remark_of(struct making *making, const fbd_parameter *paramet
     return making_take(making);
 }
 
+/* Without remarks their column is left out. */
 static void list_parameters(struct making *making)
 {
     static const char *const heads[] = {"Letter", "Value", "Remark"};
     const size_t count = fbd_model_parameter_count(making->model);
-    struct block *table = count > 0 ? document_table(making->document, "parameters", "lrw", heads) : NULL;
+    bool remarks = false;
     for (size_t i = 0; i < count; i++) {
         const fbd_parameter parameter = fbd_model_parameter(making->model, i);
-        document_cell(making->document, table, making_name(making, parameter.name));
-        document_cell(making->document, table, making_value(making, parameter.value, parameter.unit, note_digits));
-        document_cell(making->document, table, remark_of(making, &parameter));
+        remarks = remarks || parameter.description[0] || parameter.input || parameter.derived;
+    }
+    struct block *table =
+        count > 0 ? document_table(making->document, "parameters", remarks ? "lrw" : "lr", heads) : NULL;
+    for (size_t i = 0; i < count; i++) {
+        const fbd_parameter parameter = fbd_model_parameter(making->model, i);
+        document_cell(making->document, table, making_symbol(making, parameter.name));
+        document_cell(making->document, table,
+                      making_value(making, parameter.value, parameter.unit, note_digits));
+        if (remarks) document_cell(making->document, table, remark_of(making, &parameter));
     }
 }
 
@@ -46,7 +54,7 @@ static void write_shape(struct text *text, const fbd_shape *shape, const char *u
 {
     if (shape->hole) text_add(text, "less ");
     switch (shape->kind) {
-    case FBD_SHAPE_DOT: text_add(text, "point"); break;
+    case FBD_SHAPE_DOT: text_add(text, "point mass"); break;
     case FBD_SHAPE_BAR:
         text_add(text, "rod of length ");
         value_write(text, distance(shape->corners[0], shape->corners[1]), unit, note_digits, false);
@@ -61,8 +69,8 @@ static void write_shape(struct text *text, const fbd_shape *shape, const char *u
         text_add(text, "four corners, sides ");
         for (size_t i = 0; i < shape->corner_count; i++) {
             if (i) text_add(text, i + 1 < shape->corner_count ? ", " : " and ");
-            value_write(text, distance(shape->corners[i], shape->corners[(i + 1) % shape->corner_count]), unit,
-                        note_digits, false);
+            value_write(text, distance(shape->corners[i], shape->corners[(i + 1) % shape->corner_count]),
+                        unit, note_digits, false);
         }
         break;
     case FBD_SHAPE_UNKNOWN: text_add(text, "not given"); break;
@@ -86,9 +94,12 @@ static const char *shape_of(struct making *making, size_t body)
 static const char *motion_of(struct making *making, const fbd_body *body)
 {
     static const char *const motions[] = {
-        [FBD_MOTION_SLIDE] = "slides on a line", [FBD_MOTION_PIVOT] = "turns about an axis",
-        [FBD_MOTION_PARTICLE] = "particle",      [FBD_MOTION_PLANAR] = "free in the plane",
-        [FBD_MOTION_WELD] = "fixed",             [FBD_MOTION_TRACK] = "slides on a curve",
+        [FBD_MOTION_SLIDE] = "slides on a line",
+        [FBD_MOTION_PIVOT] = "turns about an axis",
+        [FBD_MOTION_PARTICLE] = "particle",
+        [FBD_MOTION_PLANAR] = "free in the plane",
+        [FBD_MOTION_WELD] = "fixed",
+        [FBD_MOTION_TRACK] = "slides on a curve",
     };
     struct text *text = making_begin(making);
     text_add(text, motions[body->motion]);
@@ -110,14 +121,16 @@ static void list_bodies(struct making *making)
         document_cell(document, table, motion_of(making, &body));
         document_cell_format(document, table, "%s = %s", mass.printed,
                              making_value(making, mass.mass, units.mass, note_digits));
-        document_cell(document, table, mass.I_G > 0 ? making_value(making, mass.I_G, units.inertia, note_digits) : "–");
+        document_cell(document, table,
+                      mass.I_G > 0 ? making_value(making, mass.I_G, units.inertia, note_digits) : "–");
         document_cell(document, table, shape_of(making, b));
     }
 }
 
 /* ---- coefficients */
 
-static void friction_row(struct making *making, struct block **table, const char *body, const fbd_listed_force *force)
+static void friction_row(struct making *making, struct block **table, const char *body,
+                         const fbd_listed_force *force)
 {
     static const char *const heads[] = {"Body", "Friction", "Static", "Kinetic", "Speed of the surface"};
     const char *speed = strcmp(fbd_model_scene(making->model).units, "US") == 0 ? "ft/s" : "m/s";
@@ -185,7 +198,8 @@ static void list_connections(struct making *making)
     static const char *const heads[] = {"Connection", "Kind", "Between", "Values"};
     struct document *document = making->document;
     const size_t count = fbd_model_connection_count(making->model);
-    struct block *table = count > 0 ? document_table(document, "couplings and contacts", "llww", heads) : NULL;
+    struct block *table =
+        count > 0 ? document_table(document, "couplings and contacts", "llww", heads) : NULL;
     for (size_t i = 0; i < count && i < most_listed; i++) {
         const fbd_connection connection = fbd_model_connection(making->model, i);
         document_cell(document, table, connection.name);
@@ -193,7 +207,8 @@ static void list_connections(struct making *making)
         document_cell(document, table, ends_of(making, &connection));
         document_cell(document, table, values_of(making, &connection));
     }
-    if (count > most_listed) document_paragraph(document, "And %zu more, which the model file lists.", count - most_listed);
+    if (count > most_listed)
+        document_paragraph(document, "And %zu more, which the model file lists.", count - most_listed);
 }
 
 /* ---- the start */
@@ -209,9 +224,9 @@ static void list_starts(struct making *making)
         double q = 0, v = 0;
         fbd_state_get(making->start, coordinate.name, &q);
         fbd_state_get(making->start, coordinate.rate_name, &v);
-        document_cell(document, table, making_name(making, coordinate.name));
+        document_cell(document, table, making_symbol(making, coordinate.name));
         document_cell(document, table, making_value(making, q, coordinate.unit, note_digits));
-        document_cell(document, table, making_name(making, coordinate.rate_name));
+        document_cell(document, table, making_symbol(making, coordinate.rate_name));
         document_cell(document, table, making_value(making, v, coordinate.rate_unit, note_digits));
     }
 }
@@ -224,6 +239,7 @@ void note_data(struct making *making)
     list_frictions(making);
     list_connections(making);
     list_starts(making);
-    document_paragraph(making->document, "The model file in the appendix contains all data, with the units in which they "
-                                         "were given.");
+    document_paragraph(making->document,
+                       "The model file in the appendix contains all data, with the units in which they "
+                       "were given.");
 }

@@ -14,7 +14,8 @@ static size_t drawn_bodies(const struct making *making)
 }
 
 /* A drawing of the start; without one the caller's list has the reason. */
-static void draw(struct making *making, const fbd_drawing *drawing, const char *caption, const char *alternative)
+static void draw(struct making *making, const fbd_drawing *drawing, const char *caption,
+                 const char *alternative)
 {
     char *svg = fbd_diagram_svg(making->start, drawing, making->list);
     if (svg) document_picture(making->document, svg, caption, alternative);
@@ -35,15 +36,19 @@ void note_system(struct making *making)
 {
     struct arena *arena = &making->document->arena;
     const size_t count = fbd_model_body_count(making->model);
-    const fbd_drawing drawing = {.size = sizeof drawing, .supports = true, .symbols = true};
+    const fbd_drawing drawing = {.size = sizeof drawing, .supports = true, .symbols = true, .untitled = true};
     document_heading(making->document, 2, "System");
     if (count > most_drawn_bodies) {
         document_paragraph(making->document, "%zu bodies: %s.", count, names(making));
         return;
     }
-    const char *alternative = arena_printf(arena, "The bodies %s at the start with their supports, every force as an "
-                                                  "arrow with its letter.", names(making));
-    draw(making, &drawing, "the bodies at the start with their supports; forces by their letters", alternative);
+    const char *alternative =
+        arena_printf(arena,
+                     "The bodies %s at the start with their supports, every force as an "
+                     "arrow with its letter.",
+                     names(making));
+    draw(making, &drawing, "the bodies at the start with their supports; forces by their letters",
+         alternative);
 }
 
 /* ---- free-body diagrams */
@@ -81,11 +86,13 @@ void note_diagrams(struct making *making)
     document_heading(making->document, 2, "Free-body diagrams");
     for (size_t b = 0; b < drawn_bodies(making); b++) {
         const char *name = fbd_model_body_name(making->model, b);
-        const fbd_drawing drawing = {.size = sizeof drawing, .body = name};
-        draw(making, &drawing, arena_printf(arena, "%s cut free, at t = 0, with values", name), describe(making, b));
+        const fbd_drawing drawing = {.size = sizeof drawing, .body = name, .untitled = true};
+        draw(making, &drawing, arena_printf(arena, "%s cut free, at t = 0, with values", name),
+             describe(making, b));
     }
     if (count > most_drawn_bodies)
-        document_paragraph(making->document, "And %zu more bodies; fbd-run --svg FILE --body NAME draws each.",
+        document_paragraph(making->document,
+                           "And %zu more bodies; fbd-run --svg FILE --body NAME draws each.",
                            count - most_drawn_bodies);
 }
 
@@ -98,16 +105,20 @@ void note_equations(struct making *making)
     char *forms[note_formats];
     document_heading(making->document, 2, "Equations");
     if (fbd_model_body_count(making->model) > most_drawn_bodies) {
-        document_paragraph(making->document, "fbd-run --equations --components prints those of the %zu bodies.",
+        document_paragraph(making->document,
+                           "fbd-run --equations --components prints those of the %zu bodies.",
                            fbd_model_body_count(making->model));
         return;
     }
-    document_paragraph(making->document,
-                       "Each equation of motion in letters, then with the numbers at t = 0: inertia times acceleration "
-                       "is the sum of the forces, or moments. G is the centre of mass, O the axis of a pivot; the letters "
-                       "are those of the figures.");
+    document_paragraph(
+        making->document,
+        "Each equation of motion in letters, then with the numbers at t = 0: inertia times acceleration "
+        "is the sum of the forces, or moments. G is the centre of mass, O the axis of a pivot; the letters "
+        "are those of the figures.");
     for (int i = 0; i < note_formats; i++) {
-        const fbd_equations_options options = {.size = sizeof options, .format = formats[i], .components = true};
+        const fbd_equations_options options = {.size = sizeof options,
+                                               .format = formats[i],
+                                               .components = true};
         forms[i] = fbd_equations_write(making->start, &options, making->list);
         if (!forms[i]) making->document->arena.failed = true;
     }

@@ -36,11 +36,11 @@ struct table {
 
 struct block {
     enum block_kind kind;
-    int level;                       /* of a heading: 2, 3 */
-    const char *text;                /* of a heading, paragraph or verbatim; the caption of a table or picture */
-    const char *alternative;         /* the text that stands for a picture */
-    const char *svg;                 /* of a picture */
-    size_t number;                   /* of a picture or table, from 1 */
+    int level;               /* of a heading: 2, 3 */
+    const char *text;        /* of a heading, paragraph or verbatim; the caption of a table or picture */
+    const char *alternative; /* the text that stands for a picture */
+    const char *svg;         /* of a picture */
+    size_t number;           /* of a picture or table, from 1 */
     const char *forms[note_formats]; /* of equations */
     struct table table;
     struct cell *first, *last; /* of a list or, row by row, of a table */
@@ -56,7 +56,8 @@ struct document {
 };
 
 void document_heading(struct document *document, int level, const char *text);
-void document_paragraph(struct document *document, const char *format, ...) __attribute__((format(printf, 2, 3)));
+void document_paragraph(struct document *document, const char *format, ...)
+    __attribute__((format(printf, 2, 3)));
 void document_verbatim(struct document *document, const char *text, size_t length);
 void document_picture(struct document *document, char *svg, const char *caption, const char *alternative);
 

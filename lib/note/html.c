@@ -9,7 +9,8 @@
 #include "note/document.h"
 
 static const char style[] =
-    "@page{size:A4;margin:20mm 18mm 20mm 22mm;@bottom-right{content:counter(page) ' / ' counter(pages);font:8pt "
+    "@page{size:A4;margin:20mm 18mm 20mm 22mm;@bottom-right{content:counter(page) ' / ' "
+    "counter(pages);font:8pt "
     "Arial,'Liberation Sans',sans-serif;color:#555}}\n"
     ":root{color-scheme:only light}\n"
     "html{background:#fff;color:#111;font:10pt/1.42 Arial,Helvetica,'Liberation Sans',sans-serif}\n"
@@ -23,16 +24,20 @@ static const char style[] =
     "caption{text-align:left;font-size:9pt;color:#333;padding-bottom:1mm}\n"
     "th,td{text-align:left;vertical-align:top;padding:.7mm 3mm .7mm 0;border-bottom:.15mm solid #bbb;"
     "font-weight:normal;overflow-wrap:anywhere}\n"
-    "thead th{font-weight:bold;border-bottom:.3mm solid #555}thead{display:table-header-group}tr{break-inside:avoid}\n"
+    "thead th{font-weight:bold;border-bottom:.3mm solid "
+    "#555}thead{display:table-header-group}tr{break-inside:avoid}\n"
+    "table.whole{break-inside:avoid}\n"
     ".r{text-align:right;white-space:nowrap;font-variant-numeric:tabular-nums}.l{overflow-wrap:normal}\n"
     ".yes{color:#1b5e20;font-weight:bold}.no{color:#b3261e;font-weight:bold}\n"
-    "figure{margin:3mm 0 5mm;break-inside:avoid}figure svg{max-width:100%;height:auto;display:block}\n"
+    "figure{margin:3mm 0 5mm;break-inside:avoid}figure "
+    "svg{max-width:100%;max-height:160mm;height:auto;display:block}\n"
     "figcaption{font-size:9pt;color:#333;margin-top:1mm}\n"
     ".scroll{overflow-x:auto}\n"
     ".equation{margin:0 0 .8mm 8mm;text-indent:-5mm;padding-left:5mm;break-inside:avoid}\n"
     ".numbers{color:#333;margin-bottom:2.5mm}.equation-name{font-size:9pt;color:#555;margin:2mm 0 .5mm}\n"
     ".dotted{font-style:italic}\n"
-    "pre{font:7.5pt/1.35 'Liberation Mono',monospace;white-space:pre-wrap;overflow-wrap:anywhere;background:#f5f5f5;"
+    "pre{font:7.5pt/1.35 'Liberation "
+    "Mono',monospace;white-space:pre-wrap;overflow-wrap:anywhere;background:#f5f5f5;"
     "padding:2mm 3mm;border:.15mm solid #ddd}\n"
     "@media print{body{padding:0;max-width:none}pre{background:none}.scroll{overflow:visible}}\n";
 
@@ -63,7 +68,8 @@ static void write_drawing(struct text *text, const struct block *block)
 {
     const char *svg = block->svg ? strstr(block->svg, "<svg") : NULL;
     if (!svg) return;
-    const char *end = block->svg + strlen(block->svg), *from = strstr(svg, "<style"), *behind = strstr(svg, "</style>");
+    const char *end = block->svg + strlen(block->svg), *from = strstr(svg, "<style"),
+               *behind = strstr(svg, "</style>");
     text_add(text, "<svg role=\"img\" aria-label=\"");
     svg_escape(text, block->alternative);
     text_add(text, "\"");
@@ -78,10 +84,11 @@ static void write_drawing(struct text *text, const struct block *block)
 static void write_cell(struct text *text, const struct table *table, size_t column, const char *cell)
 {
     const size_t count = strlen(table->columns);
-    const char *verdict = table->marked && column + 1 == count ? (strcmp(cell, "yes") == 0 ? " yes" : " no") : "";
+    const char *verdict =
+        table->marked && column + 1 == count ? (strcmp(cell, "yes") == 0 ? " yes" : " no") : "";
     if (verdict[0] && strcmp(cell, "yes") != 0 && strcmp(cell, "NO") != 0) verdict = "";
-    text_printf(text, column == 0 ? "<th scope=\"row\" class=\"%c%s\">" : "<td class=\"%c%s\">", table->columns[column],
-                verdict);
+    text_printf(text, column == 0 ? "<th scope=\"row\" class=\"%c%s\">" : "<td class=\"%c%s\">",
+                table->columns[column], verdict);
     svg_escape(text, cell);
     text_add(text, column == 0 ? "</th>" : "</td>");
 }
@@ -97,12 +104,22 @@ static void write_heads(struct text *text, const struct table *table, size_t cou
     text_add(text, "</tr></thead>\n");
 }
 
+/* True for a table that is not divided between pages. */
+static bool is_short(const struct block *block, size_t columns)
+{
+    enum { most_rows = 15 };
+    size_t cells = 0;
+    for (const struct cell *cell = block->first; cell; cell = cell->next) cells++;
+    return cells <= most_rows * columns;
+}
+
 static void write_table(struct text *text, const struct block *block)
 {
     const struct table *table = &block->table;
     const size_t count = strlen(table->columns);
     size_t column = 0;
-    text_printf(text, "<div class=\"scroll\"><table>\n<caption>Table %zu: ", block->number);
+    text_printf(text, "<div class=\"scroll\"><table%s>\n<caption>Table %zu: ",
+                is_short(block, count) ? " class=\"whole\"" : "", block->number);
     svg_escape(text, block->text);
     text_add(text, "</caption>\n");
     write_heads(text, table, count);
@@ -145,7 +162,8 @@ static void write_verbatim(struct text *text, const char *content)
 static void write_list(struct text *text, const struct block *block)
 {
     text_add(text, "<ul>\n");
-    for (const struct cell *item = block->first; item; item = item->next) write_element(text, "li", item->text);
+    for (const struct cell *item = block->first; item; item = item->next)
+        write_element(text, "li", item->text);
     text_add(text, "</ul>\n");
 }
 

@@ -16,7 +16,8 @@ static time_t seconds_of_day(void)
 {
     const char *given = getenv("SOURCE_DATE_EPOCH");
     double seconds;
-    if (given && number_read(given, strlen(given), &seconds) && seconds >= 0 && seconds < 1e11) return (time_t)seconds;
+    if (given && number_read(given, strlen(given), &seconds) && seconds >= 0 && seconds < 1e11)
+        return (time_t)seconds;
     return time(NULL);
 }
 
@@ -98,8 +99,9 @@ void note_identity(struct making *making)
     add_date(making, table);
     row(making, table, "Units", fbd_model_scene(making->model).units);
     document_cell(document, table, "Run");
-    document_cell_format(document, table, "t = 0 to %s, %s, %lu events", making_value(making, making->t, "s", note_digits),
-                         outcome(making), making->stats.events);
+    document_cell_format(document, table, "t = 0 to %s, %s, %lu event%s",
+                         making_value(making, making->t, "s", note_digits), outcome(making),
+                         making->stats.events, making->stats.events == 1 ? "" : "s");
     document_cell(document, table, "Prepared by");
     document_cell(document, table, "");
     document_cell(document, table, "Checked by");
@@ -113,7 +115,8 @@ void note_file(struct making *making)
     const char *source = fbd_model_source(making->model, &length);
     document_heading(making->document, 2, "Appendix: the model file");
     if (length > most_bytes)
-        document_paragraph(making->document, "Its %zu bytes are not printed here; the hash above identifies it.", length);
+        document_paragraph(making->document,
+                           "Its %zu bytes are not printed here; the hash above identifies it.", length);
     else
         document_verbatim(making->document, source, length);
 }

@@ -3,28 +3,30 @@
  * A document as LaTeX, for pdflatex and lualatex, with packages of a small installation: amsmath, array, geometry,
  * graphicx, longtable. Drawings are PDF files beside it.
  */
+#include <math.h>
 #include <string.h>
 
 #include "base/number.h"
 #include "base/utf8.h"
 #include "note/document.h"
 
-static const double text_width = 170, text_height = 235; /* [mm] */
+static const double text_width = 170, picture_height = 160; /* [mm] */
 
-static const char preamble[] =
-    "\\documentclass[a4paper,10pt]{article}\n"
-    "\\usepackage{ifthen,amsmath,textcomp,array,longtable,graphicx}\n"
-    "\\usepackage[a4paper,left=22mm,right=18mm,top=20mm,bottom=22mm]{geometry}\n"
-    "\\ifdefined\\directlua\n"
-    "\\usepackage{fontspec}\n"
-    "\\else\n"
-    "\\usepackage[T1]{fontenc}\n"
-    "\\usepackage[utf8]{inputenc}\n"
-    "\\IfFileExists{lmodern.sty}{\\usepackage{lmodern}}{}\n"
-    "\\fi\n"
-    "\\setlength{\\parindent}{0pt}\\setlength{\\parskip}{1.5mm}\\setlength{\\LTleft}{0pt}\\setlength{\\LTpre}{2mm}\n"
-    "\\setlength{\\tabcolsep}{1.5mm}\\allowdisplaybreaks\\sloppy\\raggedbottom\n"
-    "\\begin{document}\n";
+static const char preamble[] = "\\documentclass[a4paper,10pt]{article}\n"
+                               "\\usepackage{ifthen,amsmath,textcomp,array,longtable,graphicx}\n"
+                               "\\usepackage[a4paper,left=22mm,right=18mm,top=20mm,bottom=22mm]{geometry}\n"
+                               "\\ifdefined\\directlua\n"
+                               "\\usepackage{fontspec}\n"
+                               "\\else\n"
+                               "\\usepackage[T1]{fontenc}\n"
+                               "\\usepackage[utf8]{inputenc}\n"
+                               "\\IfFileExists{lmodern.sty}{\\usepackage{lmodern}}{}\n"
+                               "\\fi\n"
+                               "\\setlength{\\parindent}{0pt}\\setlength{\\parskip}{1.5mm}\\setlength{"
+                               "\\LTleft}{0pt}\\setlength{\\LTpre}{2mm}\n"
+                               "\\setlength{\\tabcolsep}{1.5mm}\\setlength{\\extrarowheight}{1.2pt}"
+                               "\\allowdisplaybreaks\\sloppy\\raggedbottom\n"
+                               "\\begin{document}\n";
 
 /* ---- texts */
 
@@ -32,36 +34,95 @@ static const char preamble[] =
 static const struct replacement {
     const char *character, *latex;
 } replacements[] = {
-    {"\\", "\\textbackslash{}"}, {"{", "\\{"},          {"}", "\\}"},          {"$", "\\$"},
-    {"&", "\\&"},                {"#", "\\#"},          {"%", "\\%"},          {"_", "\\_"},
-    {"^", "\\textasciicircum{}"}, {"~", "\\textasciitilde{}"}, {"\"", "\\textquotedbl{}"}, {"-", "-{}"},
-    {"<", "\\textless{}"},       {">", "\\textgreater{}"}, {"|", "\\textbar{}"}, {"`", "\\textasciigrave{}"},
-    {"−", "\\ensuremath{-}"},    {"·", "\\ensuremath{\\cdot}"}, {"±", "\\ensuremath{\\pm}"},
-    {"°", "\\ensuremath{^\\circ}"}, {"–", "--"},        {"—", "---"},          {"…", "\\ldots{}"},
-    {"×", "\\ensuremath{\\times}"}, {"≤", "\\ensuremath{\\le}"}, {"≥", "\\ensuremath{\\ge}"},
-    {"→", "\\ensuremath{\\to}"}, {"∞", "\\ensuremath{\\infty}"},
-    {"\u00a0", "~"},             {"\u2009", "\\,"},     {"\u0307", ""},        {"\u0308", ""},
-    {"⁻", "\\ensuremath{^-}"},   {"⁰", "\\ensuremath{^0}"}, {"¹", "\\ensuremath{^1}"}, {"²", "\\ensuremath{^2}"},
-    {"³", "\\ensuremath{^3}"},   {"⁴", "\\ensuremath{^4}"}, {"⁵", "\\ensuremath{^5}"}, {"⁶", "\\ensuremath{^6}"},
-    {"⁷", "\\ensuremath{^7}"},   {"⁸", "\\ensuremath{^8}"}, {"⁹", "\\ensuremath{^9}"},
-    {"₀", "\\ensuremath{_0}"},   {"₁", "\\ensuremath{_1}"}, {"₂", "\\ensuremath{_2}"}, {"₃", "\\ensuremath{_3}"},
-    {"₄", "\\ensuremath{_4}"},   {"₅", "\\ensuremath{_5}"}, {"₆", "\\ensuremath{_6}"}, {"₇", "\\ensuremath{_7}"},
-    {"₈", "\\ensuremath{_8}"},   {"₉", "\\ensuremath{_9}"}, {"ₖ", "\\ensuremath{_k}"}, {"ₛ", "\\ensuremath{_s}"},
-    {"α", "\\ensuremath{\\alpha}"}, {"β", "\\ensuremath{\\beta}"}, {"γ", "\\ensuremath{\\gamma}"},
-    {"δ", "\\ensuremath{\\delta}"}, {"ε", "\\ensuremath{\\varepsilon}"}, {"ζ", "\\ensuremath{\\zeta}"},
-    {"η", "\\ensuremath{\\eta}"}, {"θ", "\\ensuremath{\\theta}"}, {"κ", "\\ensuremath{\\kappa}"},
-    {"λ", "\\ensuremath{\\lambda}"}, {"μ", "\\ensuremath{\\mu}"}, {"ν", "\\ensuremath{\\nu}"},
-    {"ξ", "\\ensuremath{\\xi}"}, {"π", "\\ensuremath{\\pi}"}, {"ρ", "\\ensuremath{\\rho}"},
-    {"σ", "\\ensuremath{\\sigma}"}, {"τ", "\\ensuremath{\\tau}"}, {"φ", "\\ensuremath{\\varphi}"},
-    {"χ", "\\ensuremath{\\chi}"}, {"ψ", "\\ensuremath{\\psi}"}, {"ω", "\\ensuremath{\\omega}"},
-    {"Δ", "\\ensuremath{\\Delta}"}, {"Σ", "\\ensuremath{\\Sigma}"}, {"Φ", "\\ensuremath{\\Phi}"},
-    {"Ω", "\\ensuremath{\\Omega}"}, {"µ", "\\ensuremath{\\mu}"}, {"½", "1/2"},
+    {"\\", "\\textbackslash{}"},
+    {"{", "\\{"},
+    {"}", "\\}"},
+    {"$", "\\$"},
+    {"&", "\\&"},
+    {"#", "\\#"},
+    {"%", "\\%"},
+    {"_", "\\_"},
+    {"^", "\\textasciicircum{}"},
+    {"~", "\\textasciitilde{}"},
+    {"\"", "\\textquotedbl{}"},
+    {"-", "-{}"},
+    {"<", "\\textless{}"},
+    {">", "\\textgreater{}"},
+    {"|", "\\textbar{}"},
+    {"`", "\\textasciigrave{}"},
+    {"−", "\\ensuremath{-}"},
+    {"·", "\\ensuremath{\\cdot}"},
+    {"±", "\\ensuremath{\\pm}"},
+    {"°", "\\ensuremath{^\\circ}"},
+    {"–", "--"},
+    {"—", "---"},
+    {"…", "\\ldots{}"},
+    {"×", "\\ensuremath{\\times}"},
+    {"≤", "\\ensuremath{\\le}"},
+    {"≥", "\\ensuremath{\\ge}"},
+    {"→", "\\ensuremath{\\to}"},
+    {"∞", "\\ensuremath{\\infty}"},
+    {"\u00a0", "~"},
+    {"\u2009", "\\,"},
+    {"\u0307", ""},
+    {"\u0308", ""},
+    {"⁻", "\\ensuremath{^-}"},
+    {"⁰", "\\ensuremath{^0}"},
+    {"¹", "\\ensuremath{^1}"},
+    {"²", "\\ensuremath{^2}"},
+    {"³", "\\ensuremath{^3}"},
+    {"⁴", "\\ensuremath{^4}"},
+    {"⁵", "\\ensuremath{^5}"},
+    {"⁶", "\\ensuremath{^6}"},
+    {"⁷", "\\ensuremath{^7}"},
+    {"⁸", "\\ensuremath{^8}"},
+    {"⁹", "\\ensuremath{^9}"},
+    {"₀", "\\ensuremath{_0}"},
+    {"₁", "\\ensuremath{_1}"},
+    {"₂", "\\ensuremath{_2}"},
+    {"₃", "\\ensuremath{_3}"},
+    {"₄", "\\ensuremath{_4}"},
+    {"₅", "\\ensuremath{_5}"},
+    {"₆", "\\ensuremath{_6}"},
+    {"₇", "\\ensuremath{_7}"},
+    {"₈", "\\ensuremath{_8}"},
+    {"₉", "\\ensuremath{_9}"},
+    {"ₖ", "\\ensuremath{_k}"},
+    {"ₛ", "\\ensuremath{_s}"},
+    {"α", "\\ensuremath{\\alpha}"},
+    {"β", "\\ensuremath{\\beta}"},
+    {"γ", "\\ensuremath{\\gamma}"},
+    {"δ", "\\ensuremath{\\delta}"},
+    {"ε", "\\ensuremath{\\varepsilon}"},
+    {"ζ", "\\ensuremath{\\zeta}"},
+    {"η", "\\ensuremath{\\eta}"},
+    {"θ", "\\ensuremath{\\theta}"},
+    {"κ", "\\ensuremath{\\kappa}"},
+    {"λ", "\\ensuremath{\\lambda}"},
+    {"μ", "\\ensuremath{\\mu}"},
+    {"ν", "\\ensuremath{\\nu}"},
+    {"ξ", "\\ensuremath{\\xi}"},
+    {"π", "\\ensuremath{\\pi}"},
+    {"ρ", "\\ensuremath{\\rho}"},
+    {"σ", "\\ensuremath{\\sigma}"},
+    {"τ", "\\ensuremath{\\tau}"},
+    {"φ", "\\ensuremath{\\varphi}"},
+    {"χ", "\\ensuremath{\\chi}"},
+    {"ψ", "\\ensuremath{\\psi}"},
+    {"ω", "\\ensuremath{\\omega}"},
+    {"Δ", "\\ensuremath{\\Delta}"},
+    {"Σ", "\\ensuremath{\\Sigma}"},
+    {"Φ", "\\ensuremath{\\Phi}"},
+    {"Ω", "\\ensuremath{\\Omega}"},
+    {"µ", "\\ensuremath{\\mu}"},
+    {"½", "1/2"},
 };
 
 static const char *replacement_of(const char *character, size_t length)
 {
     for (size_t i = 0; i < sizeof replacements / sizeof *replacements; i++)
-        if (strlen(replacements[i].character) == length && memcmp(replacements[i].character, character, length) == 0)
+        if (strlen(replacements[i].character) == length &&
+            memcmp(replacements[i].character, character, length) == 0)
             return replacements[i].latex;
     return NULL;
 }
@@ -107,18 +168,43 @@ static void write_text(struct text *text, const char *content)
 
 /* ---- blocks */
 
-/* The columns with long texts share the width that the others leave. */
-static void write_columns(struct text *text, const char *columns)
+static double characters(const char *content)
 {
-    const double narrow = 0.13;
-    size_t wide = 0, count = strlen(columns);
-    for (size_t i = 0; i < count; i++) wide += columns[i] == 'w';
+    double count = 0;
+    for (const char *c = content; *c; c++) count += (*c & 0xC0) != 0x80;
+    return count;
+}
+
+/* The width [mm] that the longest text of a column takes. */
+static double column_width(const struct block *block, size_t column, size_t count)
+{
+    const double of_character = 1.75, gap = 3;
+    double most = 1.1 * characters(block->table.heads[column]);
+    size_t at = 0;
+    for (const struct cell *cell = block->first; cell; cell = cell->next, at++)
+        if (at % count == column) most = fmax(most, characters(cell->text));
+    return of_character * most + gap;
+}
+
+/* The columns with long texts share the width that the others leave. */
+static void write_columns(struct text *text, const struct block *block, size_t count)
+{
+    const char *columns = block->table.columns;
+    const double least = 25;
+    double room = text_width, wide = 0;
+    for (size_t i = 0; i < count; i++) {
+        const double width = column_width(block, i, count);
+        if (columns[i] == 'w')
+            wide += width;
+        else
+            room -= width;
+    }
     for (size_t i = 0; i < count; i++)
         if (columns[i] == 'w') {
-            double share = (0.97 - narrow * (double)(count - wide)) / (double)wide;
+            const double width = column_width(block, i, count);
             text_add(text, ">{\\raggedright\\arraybackslash}p{");
-            text_number(text, share < 0.2 ? 0.2 : share, 3);
-            text_add(text, "\\linewidth}");
+            text_number(text, fmax(wide <= room ? width : room * width / wide - 3, least), 4);
+            text_add(text, "mm}");
         } else {
             text_add_bytes(text, columns + i, 1);
         }
@@ -141,7 +227,7 @@ static void write_table(struct text *text, const struct block *block)
     text_printf(text, "\\par{\\small Table %zu: ", block->number);
     write_text(text, block->text);
     text_add(text, "\\par\\nopagebreak\n\\begin{longtable}{");
-    write_columns(text, block->table.columns);
+    write_columns(text, block, count);
     text_add(text, "}\n");
     write_heads(text, &block->table, count);
     text_add(text, "\\endhead\n");
@@ -178,7 +264,7 @@ static void write_picture(struct text *text, const struct block *block, const ch
 {
     const double width = millimetres(block->svg, " width=\""), height = millimetres(block->svg, " height=\"");
     double scale = width > text_width ? text_width / width : 1;
-    if (height * scale > text_height - 15) scale = (text_height - 15) / height;
+    if (height * scale > picture_height) scale = picture_height / height;
     text_add(text, "\\par\\begin{minipage}{\\linewidth}\n\\includegraphics[width=");
     text_number(text, width * scale, 5);
     text_printf(text, "mm]{%s-%zu.pdf}\\par\n{\\small Figure %zu: ", stem, block->number, block->number);
@@ -199,9 +285,10 @@ static void write_verbatim(struct text *text, const char *content)
     text_add(text, "}\n\n");
 }
 
-/* The comment above each equation, its name, is printed. */
+/* The comment above each equation, its name, is printed; that in the first line, the time, stands in the document. */
 static void write_equations(struct text *text, const char *content)
 {
+    content += strcspn(content, "\n");
     text_add(text, "{\\small\n");
     while (*content) {
         const size_t length = strcspn(content, "\n");
@@ -244,6 +331,7 @@ void write_latex(struct text *text, const struct document *document, const char 
     text_add(text, "{\\LARGE\\bfseries ");
     write_text(text, document->title);
     text_add(text, "\\par}\n\n");
-    for (const struct block *block = document->first; block; block = block->next) write_block(text, block, stem);
+    for (const struct block *block = document->first; block; block = block->next)
+        write_block(text, block, stem);
     text_add(text, "\\end{document}\n");
 }

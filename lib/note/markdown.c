@@ -112,5 +112,6 @@ void write_markdown(struct text *text, const struct document *document, const ch
     text_add(text, "# ");
     write_text(text, document->title);
     text_add(text, "\n\n");
-    for (const struct block *block = document->first; block; block = block->next) write_block(text, block, stem);
+    for (const struct block *block = document->first; block; block = block->next)
+        write_block(text, block, stem);
 }

@@ -6,6 +6,7 @@
 
 #include "base/api_check.h"
 #include "base/diag.h"
+#include "base/printed.h"
 
 /* ---- texts */
 
@@ -36,9 +37,9 @@ const char *making_number(struct making *making, double value, int digits)
     return making_take(making);
 }
 
-const char *making_name(struct making *making, const char *name)
+const char *making_symbol(struct making *making, const char *name)
 {
-    name_write(making_begin(making), name);
+    text_symbol(making_begin(making), name);
     return making_take(making);
 }
 
@@ -46,9 +47,10 @@ const char *making_name(struct making *making, const char *name)
 
 static void compose(struct making *making)
 {
-    static void (*const parts[])(struct making *) = {
-        note_identity, note_system,  note_assumptions, note_data,  note_diagrams, note_equations,
-        note_statics,  note_results, note_plots,       note_checks, note_limits,  note_file};
+    static void (*const parts[])(struct making *) = {note_identity, note_system,   note_assumptions,
+                                                     note_data,     note_diagrams, note_equations,
+                                                     note_statics,  note_results,  note_plots,
+                                                     note_checks,   note_limits,   note_file};
     for (size_t i = 0; i < sizeof parts / sizeof *parts; i++)
         if (!making->document->arena.failed && fbd_errors_failed_count(making->list) == 0) parts[i](making);
 }
@@ -88,7 +90,8 @@ static bool begin(struct making *making)
     }
     if (is_at_rest(making)) making->statics = statics_of(making->start);
     const char *title = fbd_model_title(making->model);
-    making->document->title = arena_printf(&making->document->arena, "%s", title[0] ? title : "Calculation note");
+    making->document->title =
+        arena_printf(&making->document->arena, "%s", title[0] ? title : "Calculation note");
     return true;
 }
 
@@ -144,7 +147,8 @@ fbd_note *fbd_note_new(fbd_simulation *simulation, fbd_result *result, const fbd
     if (!simulation || !result) {
         api_refuse(errors, "there is no simulation, or no result");
     } else if (api_take_options(&own, sizeof own, options, errors) &&
-               (api_has_settings(own.settings, own.setting_count) || api_refuse(errors, "a setting has no text"))) {
+               (api_has_settings(own.settings, own.setting_count) ||
+                api_refuse(errors, "a setting has no text"))) {
         making.end = fbd_result_state(result);
         making.model = fbd_state_model(making.end);
         making.stats = fbd_simulation_stats(simulation);

@@ -45,7 +45,7 @@ const char *making_take(struct making *making);
 /* A value with its unit, a bare number, and an error, as texts of the document. */
 const char *making_value(struct making *making, double value, const char *unit, int digits);
 const char *making_number(struct making *making, double value, int digits);
-const char *making_name(struct making *making, const char *name);
+const char *making_symbol(struct making *making, const char *name);
 
 void note_identity(struct making *making);
 void note_system(struct making *making);
@@ -67,11 +67,12 @@ char *plot_svg(const struct making *making, const size_t *columns, size_t count,
 struct second_run {
     const char *method; /* of the second run */
     double tolerance;
-    double difference; /* of the final states, divided by the size of the motion; NAN if it has no such state */
-    const char *worst; /* the coordinate or rate of that difference */
-    bool same_events;  /* of the same kinds in the same order */
+    double
+        difference; /* of the final states, divided by the size of the motion; NAN if it has no such state */
+    const char *worst;       /* the coordinate or rate of that difference */
+    bool same_events;        /* of the same kinds in the same order */
     double event_difference; /* largest one of their times [s]; NAN if the events differ, or there are none */
-    const char *reason; /* why it was not completed; NULL if it was */
+    const char *reason;      /* why it was not completed; NULL if it was */
 };
 
 /* False when memory is out or the caller ended it. */

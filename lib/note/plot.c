@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/format.h"
+#include "base/printed.h"
 #include "draw/svg.h"
 #include "note/note.h"
 
@@ -13,7 +14,8 @@ static const double width = 160, height = 62, left = 20, right = 4, top = 9, bot
 
 enum { most_curves = 6, most_event_lines = 40 };
 
-static const char *const classes[most_curves] = {"applied", "reaction", "gravity", "friction", "spring", "damper"};
+static const char *const classes[most_curves] = {"applied",  "reaction", "gravity",
+                                                 "friction", "spring",   "damper"};
 static const char *const dashes[most_curves] = {"none", "4 1.2", "1.2 1", "5 1 1 1", "2.5 1", "6 1 1 1 1 1"};
 
 struct plot {
@@ -78,7 +80,8 @@ static void tick(struct plot *plot, double place, bool time)
     if (time)
         svg_text(&plot->text, "note", (struct vec){from.x, from.y + 3.2}, 2.9, number);
     else
-        svg_text_at(&plot->text, "note", (struct vec){from.x - 1.2 - svg_text_width(number, 2.6), from.y + 1}, number);
+        svg_text_at(&plot->text, "note", (struct vec){from.x - 1.2 - svg_text_width(number, 2.6), from.y + 1},
+                    number);
     plot->text.failed |= label.failed;
     text_free(&label);
 }
@@ -88,7 +91,8 @@ static void draw_axes(struct plot *plot)
     const double air = 1e-9;
     for (double k = ceil(plot->low.x / plot->step.x - air); k * plot->step.x <= plot->high.x * (1 + air); k++)
         tick(plot, k * plot->step.x, true);
-    for (double k = round(plot->low.y / plot->step.y); k * plot->step.y <= plot->high.y + air * plot->step.y; k++)
+    for (double k = round(plot->low.y / plot->step.y); k * plot->step.y <= plot->high.y + air * plot->step.y;
+         k++)
         tick(plot, k * plot->step.y, false);
     svg_text(&plot->text, "axis-label", (struct vec){(left + width - right) / 2, height - 3}, 3.4, "t [s]");
 }
@@ -111,8 +115,10 @@ static void draw_curve(struct plot *plot, size_t column, size_t index)
     const double least = 0.1;
     const size_t rows = plot->making->table.rows;
     struct vec last = {-HUGE_VAL, -HUGE_VAL};
-    text_printf(&plot->text, "<g class=\"%s\"><polyline class=\"shaft\" style=\"stroke-width:.45;stroke-dasharray:%s\" points=\"",
-                classes[index], dashes[index]);
+    text_printf(
+        &plot->text,
+        "<g class=\"%s\"><polyline class=\"shaft\" style=\"stroke-width:.45;stroke-dasharray:%s\" points=\"",
+        classes[index], dashes[index]);
     for (size_t r = 0; r < rows; r++) {
         const struct vec point = at(plot, value_at(plot, r, 0), value_at(plot, r, column));
         if (r + 1 < rows && hypot(point.x - last.x, point.y - last.y) < least) continue;
@@ -128,7 +134,7 @@ static void draw_legend(struct plot *plot, const size_t *columns, size_t count)
     double x = left;
     for (size_t i = 0; i < count; i++) {
         struct text name = {0};
-        name_write(&name, plot->making->table.heads[columns[i]].name);
+        text_symbol(&name, plot->making->table.heads[columns[i]].name);
         const char *shown = name.data ? name.data : "";
         text_printf(&plot->text, "<g class=\"%s\">", classes[i]);
         text_printf(&plot->text, "<line class=\"shaft\" style=\"stroke-dasharray:%s\"", dashes[i]);
@@ -147,7 +153,8 @@ char *plot_svg(const struct making *making, const size_t *columns, size_t count,
 {
     struct plot plot = {.making = making};
     set_axes(&plot, columns, count);
-    svg_begin(&plot.text, (struct vec){width, height}, 1, title, "Each curve over the time; events as dashed lines");
+    svg_begin(&plot.text, (struct vec){width, height}, 1, title,
+              "Each curve over the time; events as dashed lines");
     draw_axes(&plot);
     draw_events(&plot);
     for (size_t i = 0; i < count; i++) draw_curve(&plot, columns[i], i);

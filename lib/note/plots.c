@@ -4,6 +4,7 @@
  */
 #include <string.h>
 
+#include "base/printed.h"
 #include "note/note.h"
 
 enum { most_plots = 8, most_in_plot = 6 };
@@ -23,7 +24,7 @@ static void add_plot(struct making *making, const size_t *columns, size_t count)
     struct text *text = making_begin(making);
     for (size_t i = 0; i < count; i++) {
         if (i) text_add(text, ", ");
-        name_write(text, heads[columns[i]].name);
+        text_symbol(text, heads[columns[i]].name);
     }
     text_printf(text, " [%s] over the time [s]", unit.name);
     const char *caption = making_take(making);
@@ -41,7 +42,8 @@ static void add_plots(struct making *making, bool rates, size_t *made)
         const fbd_coordinate first = fbd_model_coordinate(making->model, i);
         for (size_t k = i; k < count && drawn < most_in_plot; k++) {
             const fbd_coordinate c = fbd_model_coordinate(making->model, k);
-            if (seen[k] || strcmp(rates ? c.rate_unit : c.unit, rates ? first.rate_unit : first.unit) != 0) continue;
+            if (seen[k] || strcmp(rates ? c.rate_unit : c.unit, rates ? first.rate_unit : first.unit) != 0)
+                continue;
             columns[drawn] = column_of(making, rates ? c.rate_name : c.name);
             drawn += columns[drawn] > 0;
             seen[k] = true;

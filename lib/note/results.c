@@ -69,18 +69,20 @@ static void list_events(struct making *making)
     }
     if (hidden) document_paragraph(document, "%zu more events follow; fbd-run --json lists all.", hidden);
     if (switches > most_switches)
-        document_paragraph(document, "Expressions pass from one branch to another at %zu further events.", switches);
+        document_paragraph(document, "Expressions pass from one branch to another at %zu further events.",
+                           switches);
 }
 
 /* ---- the final state */
 
-static void state_row(struct making *making, struct block *table, const char *name, const char *unit, size_t place)
+static void state_row(struct making *making, struct block *table, const char *name, const char *unit,
+                      size_t place)
 {
     struct document *document = making->document;
     double value = 0;
     const double error = making->errors ? making->errors[place] : NAN;
     fbd_state_get(making->end, name, &value);
-    document_cell(document, table, making_name(making, name));
+    document_cell(document, table, making_symbol(making, name));
     document_cell(document, table, making_value(making, rounded_off(value, error, 0), unit, note_digits));
     document_cell(document, table, making->errors ? error_of(making, error, unit) : "not estimated");
 }
@@ -121,7 +123,8 @@ static void list_forces_on(struct making *making, size_t body)
     struct arena *arena = &document->arena;
     const fbd_units units = fbd_model_units(making->model);
     const size_t room = fbd_diagram(making->end, body, NULL, 0);
-    fbd_arrow *arrows = ARENA_ARRAY(arena, room + 1, fbd_arrow), *errors = ARENA_ARRAY(arena, room + 1, fbd_arrow);
+    fbd_arrow *arrows = ARENA_ARRAY(arena, room + 1, fbd_arrow),
+              *errors = ARENA_ARRAY(arena, room + 1, fbd_arrow);
     double size = 0, couple_size = 0;
     if (!arrows || !errors || room == 0) return;
     fbd_diagram(making->end, body, arrows, room);
@@ -130,24 +133,34 @@ static void list_forces_on(struct making *making, size_t body)
         size = fmax(size, hypot(arrows[i].fx, arrows[i].fy));
         couple_size = fmax(couple_size, fabs(arrows[i].couple));
     }
-    const struct scaled_unit force = unit_for(units.force, size, false), couple = unit_for(units.moment, couple_size, false);
-    const char *const heads[] = {"Force", arena_printf(arena, "Fx [%s]", force.name), arena_printf(arena, "Fy [%s]", force.name),
-                                 arena_printf(arena, "Couple [%s]", couple.name), "Largest error", "Work"};
-    struct block *table = document_table(
-        document, arena_printf(arena, "forces on %s at the end", fbd_model_body_name(making->model, body)), "lrrrrr", heads);
+    const struct scaled_unit force = unit_for(units.force, size, false),
+                             couple = unit_for(units.moment, couple_size, false);
+    const char *const heads[] = {"Force",
+                                 arena_printf(arena, "Fx [%s]", force.name),
+                                 arena_printf(arena, "Fy [%s]", force.name),
+                                 arena_printf(arena, "Couple [%s]", couple.name),
+                                 "Largest error",
+                                 "Work"};
+    struct block *table = document_table(document,
+                                         arena_printf(arena, "forces on %s at the end",
+                                                      fbd_model_body_name(making->model, body)),
+                                         "lrrrrr", heads);
     for (size_t i = 0; i < room; i++) {
         const fbd_arrow *e = &errors[i], *arrow = &arrows[i];
         const double largest = bars ? fmax(e->fx, e->fy) : NAN,
-                     work = fbd_result_work(making->result, fbd_model_body_name(making->model, body), arrow->name);
+                     work = fbd_result_work(making->result, fbd_model_body_name(making->model, body),
+                                            arrow->name);
         document_cell(document, table, arrow->name);
         document_cell(document, table, with_error(making, arrow->fx, bars ? e->fx : NAN, size, force.size));
         document_cell(document, table, with_error(making, arrow->fy, bars ? e->fy : NAN, size, force.size));
-        document_cell(document, table, with_error(making, arrow->couple, bars ? e->couple : NAN, couple_size, couple.size));
         document_cell(document, table,
-                      !bars                                  ? "not estimated"
+                      with_error(making, arrow->couple, bars ? e->couple : NAN, couple_size, couple.size));
+        document_cell(document, table,
+                      !bars                              ? "not estimated"
                       : arrow->fx == 0 && arrow->fy == 0 ? error_of(making, e->couple, units.moment)
-                                                             : error_of(making, largest, units.force));
-        document_cell(document, table, isfinite(work) ? making_value(making, work, units.energy, force_digits) : "–");
+                                                         : error_of(making, largest, units.force));
+        document_cell(document, table,
+                      isfinite(work) ? making_value(making, work, units.energy, force_digits) : "–");
     }
 }
 
@@ -155,16 +168,19 @@ static void list_forces(struct making *making)
 {
     const size_t count = fbd_model_body_count(making->model);
     document_heading(making->document, 3, "Forces at the end");
-    document_paragraph(making->document, "In the axes of the ground, with their work since the start; the work of a "
-                                         "reaction between two bodies is zero, or stands with the force of the file.");
+    document_paragraph(making->document,
+                       "In the axes of the ground, with their work since the start; the work of a "
+                       "reaction between two bodies is zero, or stands with the force of the file.");
     for (size_t b = 0; b < count && b < most_drawn_bodies; b++) list_forces_on(making, b);
     if (count > most_drawn_bodies)
-        document_paragraph(making->document, "Those of %zu more bodies: fbd-run --json.", count - most_drawn_bodies);
+        document_paragraph(making->document, "Those of %zu more bodies: fbd-run --json.",
+                           count - most_drawn_bodies);
 }
 
 /* ---- energy */
 
-static void energy_row(struct making *making, struct block *table, const char *name, double first, double last, double error)
+static void energy_row(struct making *making, struct block *table, const char *name, double first,
+                       double last, double error)
 {
     const char *unit = fbd_model_units(making->model).energy;
     struct document *document = making->document;
@@ -177,10 +193,12 @@ static void energy_row(struct making *making, struct block *table, const char *n
 static void list_energy(struct making *making)
 {
     static const char *const heads[] = {"Energy", "At the start", "At the end", "Error"};
-    const fbd_energy energy = fbd_result_energy(making->result), error = fbd_result_energy_error(making->result);
+    const fbd_energy energy = fbd_result_energy(making->result),
+                     error = fbd_result_energy_error(making->result);
     document_heading(making->document, 3, "Energy");
-    struct block *table = document_table(making->document, "energies, and the work of forces without a potential", "lrrr",
-                                         heads);
+    struct block *table =
+        document_table(making->document, "energies, and the work of forces without a potential", "lrrr",
+                       heads);
     energy_row(making, table, "kinetic", energy.initial_kinetic, energy.kinetic, error.kinetic);
     energy_row(making, table, "potential", energy.initial_potential, energy.potential, error.potential);
     if (isfinite(energy.work)) energy_row(making, table, "work of the others", 0, energy.work, error.work);

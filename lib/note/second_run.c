@@ -16,7 +16,8 @@ static const double tightening = 100, least_tolerance = 1e-13;
 static const char *other_method(const struct making *making)
 {
     if (making->stats.stiff_steps > 0 && strcmp(making->stats.method, "rodas5p") != 0) return "rodas5p";
-    const bool usual = strcmp(making->stats.method, "dop853") != 0 && fbd_model_state_count(making->model) == 0;
+    const bool usual =
+        strcmp(making->stats.method, "dop853") != 0 && fbd_model_state_count(making->model) == 0;
     return usual ? "dop853" : "rk8pd";
 }
 
@@ -24,7 +25,8 @@ static const char *other_method(const struct making *making)
 static double end_time(const struct making *making)
 {
     const double margin = 1e-6;
-    return fbd_result_outcome(making->result) == FBD_DONE ? making->t : making->t + margin * fabs(making->t) + 1e-9;
+    return fbd_result_outcome(making->result) == FBD_DONE ? making->t
+                                                          : making->t + margin * fabs(making->t) + 1e-9;
 }
 
 /* ---- comparison */
@@ -37,18 +39,21 @@ static double magnitude(const struct making *making, const char *name)
     for (size_t c = 0; c < table->columns; c++) {
         if (strcmp(table->heads[c].name, name) != 0) continue;
         const bool degrees = strncmp(table->heads[c].unit, "deg", 3) == 0;
-        for (size_t r = 0; r < table->rows; r++) largest = fmax(largest, fabs(table->values[r * table->columns + c]));
+        for (size_t r = 0; r < table->rows; r++)
+            largest = fmax(largest, fabs(table->values[r * table->columns + c]));
         return degrees ? largest * 3.14159265358979323846 / 180 : largest;
     }
     return largest;
 }
 
-static void compare(struct making *making, struct second_run *second, fbd_state *other, const char *name, double floor)
+static void compare(struct making *making, struct second_run *second, fbd_state *other, const char *name,
+                    double floor)
 {
     double a = 0, b = 0;
     fbd_state_get(making->end, name, &a);
     fbd_state_get(other, name, &b);
-    const double size = fmax(magnitude(making, name), floor), difference = size > 0 ? fabs(a - b) / size : fabs(a - b);
+    const double size = fmax(magnitude(making, name), floor),
+                 difference = size > 0 ? fabs(a - b) / size : fabs(a - b);
     if (isfinite(second->difference) && difference <= second->difference) return;
     second->difference = difference;
     second->worst = name;
@@ -119,7 +124,10 @@ static bool advance(struct making *making, struct second_run *second, fbd_simula
     fbd_outcome outcome = FBD_GOING;
     double from = 0, to = 0;
     while (outcome == FBD_GOING) {
-        const fbd_progress progress = {.what = "run", .share = to / fmax(making->t, 1e-300), .t = to, .until = making->t};
+        const fbd_progress progress = {.what = "run",
+                                       .share = to / fmax(making->t, 1e-300),
+                                       .t = to,
+                                       .until = making->t};
         const fbd_note_options *options = making->options;
         if (options->progress && options->progress(options->progress_context, &progress) != 0) return false;
         outcome = fbd_simulation_advance(simulation);

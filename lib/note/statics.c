@@ -6,7 +6,8 @@
 
 #include "note/note.h"
 
-static void put(struct making *making, struct block *table, double value, double size, const struct scaled_unit *unit)
+static void put(struct making *making, struct block *table, double value, double size,
+                const struct scaled_unit *unit)
 {
     document_cell(making->document, table,
                   making_number(making, rounded_off(value, NAN, size) / unit->size, force_digits));
@@ -32,10 +33,13 @@ static void list_body(struct making *making, size_t body)
         sum.moment += arrows[i].moment;
     }
     arrows[room] = sum;
-    const struct scaled_unit force = unit_for(units.force, size, false), moment = unit_for(units.moment, moment_size, false);
-    const char *const heads[] = {"Force", arena_printf(arena, "Fx [%s]", force.name), arena_printf(arena, "Fy [%s]", force.name),
+    const struct scaled_unit force = unit_for(units.force, size, false),
+                             moment = unit_for(units.moment, moment_size, false);
+    const char *const heads[] = {"Force", arena_printf(arena, "Fx [%s]", force.name),
+                                 arena_printf(arena, "Fy [%s]", force.name),
                                  arena_printf(arena, "Moment [%s]", moment.name)};
-    struct block *table = document_table(document, arena_printf(arena, "forces on %s at rest", name), "lrrr", heads);
+    struct block *table =
+        document_table(document, arena_printf(arena, "forces on %s at rest", name), "lrrr", heads);
     for (size_t i = 0; i <= room; i++) {
         document_cell(document, table, arrows[i].name);
         put(making, table, arrows[i].fx, size, &force);
@@ -51,7 +55,8 @@ static void list_limits(struct making *making)
     struct block *table = NULL;
     for (size_t i = 0; i < fbd_statics_limit_count(making->statics); i++) {
         const fbd_limit limit = fbd_statics_limit(making->statics, i);
-        if (!table) table = document_table(document, "limits of surfaces, friction and ropes", "lrrrl", heads);
+        if (!table)
+            table = document_table(document, "limits of surfaces, friction and ropes", "lrrrl", heads);
         table->table.marked = true;
         const bool friction = limit.kind == FBD_LIMIT_FRICTION;
         document_cell(document, table, limit.name);
@@ -59,7 +64,8 @@ static void list_limits(struct making *making)
         document_cell(document, table,
                       friction ? making_value(making, limit.limit, limit.unit, force_digits) : "not below 0");
         if (friction && limit.limit > 0)
-            document_cell_format(document, table, "%s\u00a0%%", making_number(making, 100 * limit.needed / limit.limit, 3));
+            document_cell_format(document, table, "%s\u00a0%%",
+                                 making_number(making, 100 * limit.needed / limit.limit, 3));
         else
             document_cell(document, table, "");
         document_cell(document, table, limit.holds ? "yes" : "NO");
@@ -71,19 +77,22 @@ void note_statics(struct making *making)
     const size_t degree = making->statics ? fbd_statics_indeterminacy(making->statics) : 0;
     if (!making->statics) return;
     document_heading(making->document, 2, "Statics");
-    document_paragraph(making->document,
-                       "The scene is in equilibrium at its start; the sums of forces and of moments are zero for each "
-                       "body. Moments are about the axis of a pivot, else about the centre of mass.");
+    document_paragraph(
+        making->document,
+        "The scene is in equilibrium at its start; the sums of forces and of moments are zero for each "
+        "body. Moments are about the axis of a pivot, else about the centre of mass.");
     if (degree == 0) document_paragraph(making->document, "It is statically determinate.");
     if (degree > 0) {
-        document_paragraph(making->document,
-                           "It is statically indeterminate to degree %zu: of all reactions that balance, those of the "
-                           "least sum of squares are listed. Not determined:",
-                           degree);
+        document_paragraph(
+            making->document,
+            "It is statically indeterminate to degree %zu: of all reactions that balance, those of the "
+            "least sum of squares are listed. Not determined:",
+            degree);
         struct block *list = document_list(making->document);
         for (size_t i = 0; i < fbd_statics_undetermined_count(making->statics); i++)
             document_cell(making->document, list, fbd_statics_undetermined(making->statics, i));
     }
-    for (size_t b = 0; b < fbd_model_body_count(making->model) && b < most_drawn_bodies; b++) list_body(making, b);
+    for (size_t b = 0; b < fbd_model_body_count(making->model) && b < most_drawn_bodies; b++)
+        list_body(making, b);
     list_limits(making);
 }

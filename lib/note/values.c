@@ -7,7 +7,6 @@
 #include <string.h>
 
 #include "base/format.h"
-#include "base/greek.h"
 
 /* ---- units */
 
@@ -35,7 +34,8 @@ static bool takes_prefix(const char *unit)
     for (size_t i = 0; i < sizeof begins / sizeof *begins; i++) {
         const size_t length = strlen(begins[i]);
         const char next = unit[length];
-        if (strncmp(unit, begins[i], length) == 0 && (next == '\0' || next == '*' || next == '/')) return true;
+        if (strncmp(unit, begins[i], length) == 0 && (next == '\0' || next == '*' || next == '/'))
+            return true;
     }
     return false;
 }
@@ -114,27 +114,7 @@ void value_write(struct text *text, double value, const char *unit, int digits, 
     if (scaled.name[0]) text_printf(text, scaled.name[0] == '\xC2' ? "%s" : "\u00a0%s", scaled.name);
 }
 
-/* ---- names */
-
-static bool is_letter(char c)
-{
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
-}
-
-void name_write(struct text *text, const char *name)
-{
-    while (*name) {
-        size_t length = 0;
-        while (is_letter(name[length])) length++;
-        const char *letter = greek_letter(name, length);
-        if (length == 0) length = 1;
-        if (letter)
-            text_add(text, letter);
-        else
-            text_add_bytes(text, name, length);
-        name += length;
-    }
-}
+/* ---- round-off */
 
 double rounded_off(double value, double error, double size)
 {

@@ -25,9 +25,6 @@ void number_write(struct text *text, double value, int digits);
 /* The number and its unit. */
 void value_write(struct text *text, double value, const char *unit, int digits, bool degrees);
 
-/* A name as printed: `block.theta_1` with Greek letters and no other change. */
-void name_write(struct text *text, const char *name);
-
 /* A value at the round-off level of others, or within its error, is zero. */
 double rounded_off(double value, double error, double size);
 

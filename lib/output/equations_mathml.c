@@ -97,7 +97,8 @@ static void write_equation(struct writer *w, const struct equation *equation)
 
 static void write_kinematics(struct writer *w, int b, const char *const *lines, int count)
 {
-    text_printf(w->text, "<p class=\"equation-name\">%s: acceleration of G</p>\n", w->state->model->bodies[b].name);
+    text_printf(w->text, "<p class=\"equation-name\">%s: acceleration of G</p>\n",
+                w->state->model->bodies[b].name);
     for (int i = 0; i < count; i++) {
         const char *equals = strchr(lines[i], '=');
         const char *left = arena_text(&w->formulas.arena, lines[i], (size_t)(equals - lines[i]) - 1);
@@ -105,5 +106,7 @@ static void write_kinematics(struct writer *w, int b, const char *const *lines, 
     }
 }
 
-const struct equations_pass mathml_equations = {
-    .symbolic = true, .includes = in_symbols, .equation = write_equation, .kinematics = write_kinematics};
+const struct equations_pass mathml_equations = {.symbolic = true,
+                                                .includes = in_symbols,
+                                                .equation = write_equation,
+                                                .kinematics = write_kinematics};

@@ -8,14 +8,14 @@
 #include <stdbool.h>
 #include <string.h>
 
-#include "base/greek.h"
+#include "base/printed.h"
 
 struct mathml {
     struct text *text;
     const char *at;
-    int depth;    /* of parentheses */
-    bool operand; /* an operand is before: a blank is a product */
-    bool open;    /* within an element <math> */
+    int depth;            /* of parentheses */
+    bool operand;         /* an operand is before: a blank is a product */
+    bool open;            /* within an element <math> */
     size_t operand_start; /* of the last name or number, in the written text */
 };
 
@@ -51,6 +51,8 @@ static void write_operator(struct mathml *math, const char *sign, size_t length)
         text_add(math->text, "<mo>&gt;</mo>");
     else if (length == 1 && *sign == '&')
         text_add(math->text, "<mo>&amp;</mo>");
+    else if (length == 1 && (*sign == '(' || *sign == ')'))
+        text_printf(math->text, "<mo stretchy=\"false\">%c</mo>", *sign);
     else
         text_printf(math->text, "<mo>%.*s</mo>", (int)length, sign);
 }
@@ -60,7 +62,8 @@ static void write_name(struct mathml *math, const char *word, size_t length, int
 {
     static const char *const marks[] = {"", "\u0307", "\u0308"};
     const char *letter = greek_letter(word, length);
-    text_add(math->text, dots > 0 && (letter || length == 1) ? "<mi mathvariant=\"italic\" class=\"dotted\">" : "<mi>");
+    text_add(math->text,
+             dots > 0 && (letter || length == 1) ? "<mi mathvariant=\"italic\" class=\"dotted\">" : "<mi>");
     if (letter)
         text_add(math->text, letter);
     else
@@ -145,22 +148,26 @@ static void write_power(struct mathml *math)
     text_add_bytes(&base, math->text->data + start, math->text->length - start);
     math->text->failed |= base.failed;
     math->text->length = start;
-    text_printf(math->text, "<msup>%s<mn>%.*s</mn></msup>", base.data ? base.data : "", (int)length, math->at);
+    text_printf(math->text, "<msup>%s<mn>%.*s</mn></msup>", base.data ? base.data : "", (int)length,
+                math->at);
     text_free(&base);
     math->at += length;
 }
 
-/* A sign between summands outside of parentheses begins the next element. */
+/* A sign between summands outside of parentheses begins the next element, where it would else be a prefix. */
 static void write_sign(struct mathml *math)
 {
-    const char c = *math->at;
-    if (math->depth == 0 && math->operand && (c == '+' || c == '-')) {
+    const char c = *math->at++;
+    const bool between = math->depth == 0 && math->operand && (c == '+' || c == '-');
+    if (between) {
         close_math(math);
         text_add(math->text, " ");
         open_math(math);
+        text_printf(math->text, "<mo form=\"infix\">%s</mo>", c == '-' ? "−" : "+");
+    } else {
+        write_operator(math, &c, 1);
     }
     math->depth += c == '(' ? 1 : c == ')' ? -1 : 0;
-    write_operator(math, math->at++, 1);
     math->operand = c == ')' || (c == '|' && math->operand);
 }
 

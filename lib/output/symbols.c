@@ -5,7 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "base/greek.h"
+#include "base/printed.h"
 #include "dynamics/friction.h"
 #include "expr/glyph.h"
 #include "model/tree.h"
@@ -273,41 +273,10 @@ static bool is_word(char c)
     return is_digit(c) || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c & 0x80);
 }
 
-/* The length of an index for which Unicode has subscripts, else 0. */
-static size_t low_index(const char *index)
-{
-    size_t length = 0;
-    while (is_digit(index[length])) length++;
-    if (length == 0 && (*index == 'k' || *index == 's')) length = 1;
-    return is_word(index[length]) || index[length] == '_' ? 0 : length;
-}
-
-static void add_low(struct text *text, char c)
-{
-    if (is_digit(c))
-        text_printf(text, "\xE2\x82%c", 0x80 + (c - '0'));
-    else
-        text_add(text, c == 'k' ? "ₖ" : "ₛ");
-}
-
 const char *symbol_printed(const char *symbol, struct arena *arena)
 {
     struct text text = {0};
-    for (const char *c = symbol; *c;) {
-        size_t length = 0;
-        while (is_word(c[length])) length++;
-        const char *letter = greek_letter(c, length);
-        size_t low = *c == '_' ? low_index(c + 1) : 0;
-        if (letter)
-            text_add(&text, letter);
-        else if (length)
-            text_add_bytes(&text, c, length);
-        else if (low)
-            for (size_t i = 0; i < low; i++) add_low(&text, c[1 + i]);
-        else if (*c != ' ')
-            text_add_bytes(&text, c, 1);
-        c += letter || length ? length : 1 + low;
-    }
+    text_symbol(&text, symbol);
     const char *printed = text.failed || !text.data ? NULL : arena_text(arena, text.data, text.length);
     text_free(&text);
     return printed;
