@@ -27,13 +27,34 @@ static void check_row(struct making *making, struct block *table, const char *ch
 
 /* ---- balance of forces and moments */
 
-/* The largest difference between inertia times acceleration and the sum of the terms, relative to the largest term. */
-static double worst_balance(const fbd_equations *equations)
+/* The sizes of the forces of the scene, and of their moments about the centres of mass. */
+struct sizes {
+    double force, moment;
+};
+
+static void take_sizes(struct making *making, fbd_state *state, size_t body, struct sizes *sizes)
+{
+    const size_t room = fbd_diagram(state, body, NULL, 0);
+    const fbd_pose pose = fbd_state_pose(state, body);
+    fbd_arrow *arrows = ARENA_ARRAY(&making->document->arena, room + 1, fbd_arrow);
+    if (!arrows) return;
+    const size_t count = fbd_diagram(state, body, arrows, room);
+    for (size_t i = 0; i < count && i < room; i++) {
+        const double force = hypot(arrows[i].fx, arrows[i].fy),
+                     arm = hypot(arrows[i].x - pose.G[0], arrows[i].y - pose.G[1]);
+        sizes->force = fmax(sizes->force, force);
+        sizes->moment = fmax(sizes->moment, fabs(arrows[i].couple) + force * arm);
+    }
+}
+
+/* The largest difference between inertia times acceleration and the sum of the terms, relative to the largest force or
+ * moment of the scene. */
+static double worst_balance(const fbd_equations *equations, const char *force_unit, const struct sizes *sizes)
 {
     double worst = 0;
     for (size_t i = 0; i < fbd_equations_count(equations); i++) {
         const fbd_equation e = fbd_equations_get(equations, i);
-        double size = fabs(e.inertia * e.acceleration);
+        double size = strcmp(e.unit, force_unit) == 0 ? sizes->force : sizes->moment;
         for (size_t k = 0; k < e.term_count; k++) size = fmax(size, fabs(e.terms[k].value));
         if (size > 0) worst = fmax(worst, fabs(e.inertia * e.acceleration - e.sum) / size);
     }
@@ -42,12 +63,14 @@ static double worst_balance(const fbd_equations *equations)
 
 static void check_balance(struct making *making, struct block *table, fbd_state *state, const char *check)
 {
+    struct sizes sizes = {0, 0};
+    for (size_t b = 0; b < fbd_model_body_count(making->model); b++) take_sizes(making, state, b, &sizes);
     fbd_equations *equations = fbd_assemble_components(state);
     if (!equations) {
         making->document->arena.failed = true;
         return;
     }
-    const double worst = worst_balance(equations);
+    const double worst = worst_balance(equations, fbd_model_units(making->model).force, &sizes);
     check_row(making, table, check, making_number(making, worst, error_digits),
               making_number(making, balance_limit, error_digits), worst <= balance_limit);
     fbd_equations_free(equations);
@@ -67,6 +90,15 @@ static void check_energy(struct making *making, struct block *table)
               isfinite(explained) ? making_value(making, explained, unit, error_digits)
                                   : "none for steps of fixed size",
               met);
+}
+
+static void check_couplings(struct making *making, struct block *table)
+{
+    const fbd_drift drift = fbd_simulation_drift(making->simulation);
+    if (drift.rows == 0) return;
+    check_row(making, table,
+              "couplings: largest violation after a step, of the tolerance times the size of the motion",
+              making_number(making, drift.left_share, error_digits), "1", drift.left_share <= 1);
 }
 
 /* ---- derivations by hand */
@@ -149,12 +181,23 @@ static void check_second_run(struct making *making, struct block *table, const s
               "the same", second->same_events);
 }
 
+/* An accuracy that the file or the caller requested. */
+static void check_accuracy(struct making *making, struct block *table)
+{
+    const fbd_stats *stats = &making->stats;
+    if (!(stats->accuracy > 0)) return;
+    check_row(making, table, "requested accuracy: estimated error, of the size of the motion",
+              making_number(making, stats->error_estimate, error_digits),
+              making_number(making, stats->accuracy, error_digits), fbd_result_accurate(making->result));
+}
+
 /* ---- all */
 
 static void list_balances(struct making *making, struct block *table)
 {
     check_balance(making, table, making->start,
-                  "balance of forces and moments of each body at the start, of its largest term");
+                  "balance of forces and of moments of each body at the start: largest residual, of the "
+                  "largest force or moment");
     check_balance(making, table, making->end, "the same at the end");
 }
 
@@ -167,6 +210,8 @@ void note_checks(struct making *making)
     table->table.marked = true;
     list_balances(making, table);
     check_energy(making, table);
+    check_couplings(making, table);
+    check_accuracy(making, table);
     const char *hand = check_hand(making, table);
     check_exact(making, table);
     if (!second_run(making, &second)) {
