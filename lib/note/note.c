@@ -91,7 +91,7 @@ static bool begin(struct making *making)
     if (is_at_rest(making)) making->statics = statics_of(making->start);
     const char *title = fbd_model_title(making->model);
     making->document->title =
-        arena_printf(&making->document->arena, "%s", title[0] ? title : "Calculation note");
+        arena_printf(&making->document->arena, "Calculation note%s%s", title[0] ? ": " : "", title);
     return true;
 }
 

@@ -6,6 +6,7 @@
 #include <stdint.h>
 #include <string.h>
 
+#include "base/number.h"
 #include "note/note.h"
 
 enum { most_events = 60, most_switches = 8 };
@@ -28,6 +29,26 @@ static const char *error_of(struct making *making, double error, const char *uni
 
 /* ---- events */
 
+/* The detail of an event with units and powers of ten as elsewhere in the note: `8.9e-07 N*s` as 8.9·10⁻⁷ N·s. */
+static const char *detail_of(struct making *making, const char *detail)
+{
+    struct text *text = making_begin(making);
+    for (const char *c = detail; *c;) {
+        const size_t length = number_length(c, strlen(c));
+        const bool begins = c == detail || strchr(" +-(", c[-1]) != NULL;
+        if (begins && length > 0 && memchr(c, 'e', length)) {
+            number_write(text, number_value(c, length), note_digits);
+            c += length;
+        } else if (*c == '*') {
+            text_add(text, "·");
+            c++;
+        } else {
+            text_add_bytes(text, c++, 1);
+        }
+    }
+    return making_take(making);
+}
+
 static void event_row(struct making *making, struct block *table, const fbd_event *event)
 {
     struct document *document = making->document;
@@ -42,7 +63,8 @@ static void event_row(struct making *making, struct block *table, const fbd_even
         document_cell(document, table, event->name);
     else
         document_cell(document, table, kind);
-    document_cell(document, table, event->kind == FBD_EVENT_USER ? "event of the file" : event->detail);
+    document_cell(document, table,
+                  event->kind == FBD_EVENT_USER ? "event of the file" : detail_of(making, event->detail));
 }
 
 static void list_events(struct making *making)

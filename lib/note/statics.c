@@ -13,8 +13,21 @@ static void put(struct making *making, struct block *table, double value, double
                   making_number(making, rounded_off(value, NAN, size) / unit->size, force_digits));
 }
 
+/* The largest moment on any body: others are at the round-off level beside it. */
+static double largest_moment(struct making *making)
+{
+    double largest = 0;
+    for (size_t b = 0; b < fbd_model_body_count(making->model); b++) {
+        const size_t room = fbd_statics_diagram(making->statics, b, NULL, 0);
+        fbd_arrow *arrows = ARENA_ARRAY(&making->document->arena, room + 1, fbd_arrow);
+        const size_t count = arrows ? fbd_statics_diagram(making->statics, b, arrows, room) : 0;
+        for (size_t i = 0; i < count && i < room; i++) largest = fmax(largest, fabs(arrows[i].moment));
+    }
+    return largest;
+}
+
 /* The forces on a body, and their sums. */
-static void list_body(struct making *making, size_t body)
+static void list_body(struct making *making, size_t body, double scene_moment)
 {
     struct document *document = making->document;
     struct arena *arena = &document->arena;
@@ -44,7 +57,7 @@ static void list_body(struct making *making, size_t body)
         document_cell(document, table, arrows[i].name);
         put(making, table, arrows[i].fx, size, &force);
         put(making, table, arrows[i].fy, size, &force);
-        put(making, table, arrows[i].moment, moment_size, &moment);
+        put(making, table, arrows[i].moment, scene_moment, &moment);
     }
 }
 
@@ -92,7 +105,8 @@ void note_statics(struct making *making)
         for (size_t i = 0; i < fbd_statics_undetermined_count(making->statics); i++)
             document_cell(making->document, list, fbd_statics_undetermined(making->statics, i));
     }
+    const double moment = largest_moment(making);
     for (size_t b = 0; b < fbd_model_body_count(making->model) && b < most_drawn_bodies; b++)
-        list_body(making, b);
+        list_body(making, b, moment);
     list_limits(making);
 }

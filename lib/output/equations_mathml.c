@@ -41,12 +41,21 @@ static void write_value(struct text *text, double value)
     text_free(&plain);
 }
 
+/* Numbers at the round-off level of the largest term are zero. */
+static double round_off_of(const fbd_equation *e)
+{
+    const double level = 1e-14;
+    double largest = fabs(e->inertia * e->acceleration);
+    for (size_t i = 0; i < e->term_count; i++) largest = fmax(largest, fabs(e->terms[i].value));
+    return level * largest;
+}
+
 static void write_sum(struct text *text, const fbd_equation *e)
 {
     const char *before = "";
     for (size_t i = 0; i < e->term_count; i++) {
         const double value = e->terms[i].value;
-        if (value == 0) continue;
+        if (fabs(value) <= round_off_of(e)) continue;
         if (before[0]) text_add(text, value > 0 ? " + " : " − ");
         write_value(text, before[0] ? fabs(value) : value);
         before = "+";
@@ -61,7 +70,7 @@ static void write_numbers(struct text *text, const fbd_equation *e)
     write_value(text, e->inertia);
     write_unit(text, e->inertia_unit);
     text_add(text, " · (");
-    write_value(text, e->acceleration);
+    write_value(text, fabs(e->inertia * e->acceleration) <= round_off_of(e) ? 0 : e->acceleration);
     write_unit(text, e->acceleration_unit);
     text_add(text, ") = ");
     write_sum(text, e);
