@@ -139,8 +139,8 @@ typedef struct fbd_note_options {
 /* Make the note of a run that was recorded with `table`; with error bars it states the errors of all results.
  * For its checks it makes a second run by another method. To be freed with fbd_note_free; it is independent of
  * the result and the model from then on. NULL with a note in `errors`: `not-recorded` for a run without
- * `table`, `no-note` for a run that failed or was interrupted, `stopped`, those of fbd_diagram_svg, `cannot-read`
- * for the data file of a table, or memory is out. */
+ * `table`, `no-note` for a run that failed or was interrupted, `stopped`, those of fbd_diagram_svg, or
+ * memory is out. */
 FBD_API fbd_note *fbd_note_new(fbd_simulation *simulation, fbd_result *result,
                                const fbd_note_options *options, fbd_errors *errors);
 FBD_API void fbd_note_free(fbd_note *note);

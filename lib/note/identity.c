@@ -6,9 +6,7 @@
 #include <string.h>
 #include <time.h>
 
-#include "base/file.h"
 #include "base/number.h"
-#include "base/sha256.h"
 #include "note/note.h"
 
 /* Seconds since 1970: SOURCE_DATE_EPOCH (reproducible-builds.org), else the present time. */
@@ -47,18 +45,9 @@ static void row(struct making *making, struct block *table, const char *name, co
 static void add_data_file(struct making *making, struct block *table, size_t index)
 {
     const fbd_data_file file = fbd_model_data_file(making->model, index);
-    char digits[sha256_size];
-    size_t length;
-    char *text = file_text(file.path, &length, making->list);
-    if (!text) return;
-    sha256_text(text, length, digits);
-    free(text);
-    struct text *name = making_begin(making);
-    text_printf(name, "Data of the table `%s`", file.table);
-    const char *head = making_take(making);
-    struct text *cell = making_begin(making);
-    text_printf(cell, "%s, SHA-256 %s", file.path, digits);
-    row(making, table, head, making_take(making));
+    struct arena *arena = &making->document->arena;
+    row(making, table, arena_printf(arena, "Data of the table %s", file.table),
+        arena_printf(arena, "%s, SHA-256 %s", file.path, fbd_model_data_hash(making->model, index)));
 }
 
 static void add_settings(struct making *making, struct block *table)
@@ -86,12 +75,8 @@ void note_identity(struct making *making)
     struct document *document = making->document;
     struct block *table = document_table(document, "identification", "lw", heads);
     const char *file = fbd_model_file(making->model);
-    char digits[sha256_size];
-    size_t length = 0;
-    const char *source = fbd_model_source(making->model, &length);
-    sha256_text(source, length, digits);
     row(making, table, "Model file", !file ? "a text" : strcmp(file, "-") == 0 ? "standard input" : file);
-    row(making, table, "SHA-256 of its text", digits);
+    row(making, table, "SHA-256 of its text", document_take(document, fbd_model_hash(making->model)));
     for (size_t i = 0; i < fbd_model_data_file_count(making->model); i++) add_data_file(making, table, i);
     add_settings(making, table);
     row(making, table, "Program", arena_printf(&document->arena, "fbd %s", fbd_version()));
