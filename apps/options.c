@@ -9,6 +9,7 @@
 #include "fmu.h"
 #include "gnuplot.h"
 #include "grading.h"
+#include "note.h"
 #include "options_help.h"
 #include "picture.h"
 #include "place.h"
@@ -37,6 +38,7 @@ enum {
     option_seed,
     option_svg,
     option_html,
+    option_note,
     option_plot,
     option_plot_of,
     option_gnuplot,
@@ -89,6 +91,7 @@ static const struct option long_options[] = {
     {"seed", required_argument, NULL, option_seed},
     {"svg", required_argument, NULL, option_svg},
     {"html", required_argument, NULL, option_html},
+    {"note", required_argument, NULL, option_note},
     {"plot", required_argument, NULL, option_plot},
     {"plot-of", required_argument, NULL, option_plot_of},
     {"gnuplot", required_argument, NULL, option_gnuplot},
@@ -245,6 +248,7 @@ static bool take_option(const struct command_line *unused, int option, void *con
                 "");
         options->html = optarg;
         return true;
+    case option_note: options->note = optarg; return note_can_be_written(&line, optarg);
     case option_plot: options->plot = optarg; return true;
     case option_plot_of: options->plot_of = optarg; return true;
     case option_gnuplot: options->gnuplot = optarg; return true;
@@ -278,7 +282,7 @@ static bool plot_can_be_written(const char *file)
     return true;
 }
 
-enum { place_count = 9 };
+enum { place_count = 10 };
 
 /* List the destinations of outputs. The report comes last; it goes to standard output unless data goes there. */
 static void list_places(const struct options *options, struct output_place places[place_count])
@@ -286,7 +290,8 @@ static void list_places(const struct options *options, struct output_place place
     const struct output_place all[place_count] = {
         {"--csv", options->csv},   {"--json", options->json},     {"--svg", options->svg},
         {"--html", options->html}, {"--plot", options->plot},     {"--gnuplot", options->gnuplot},
-        {"--fmu", options->fmu},   {"--emit-c", options->emit_c}, {"the report", "-"},
+        {"--fmu", options->fmu},   {"--emit-c", options->emit_c}, {"--note", options->note},
+        {"the report", "-"},
     };
     memcpy(places, all, sizeof all);
     if (options->quiet || options_use_stdout(options)) places[place_count - 1].path = NULL;
@@ -314,8 +319,8 @@ static bool runs_or_draws(const struct options *options)
     return options->watch || options->at_count || options->run.method || options->run.tolerance > 0 ||
            options->run.accuracy > 0 || options->run.step > 0 || options->run.no_structure ||
            isfinite(options->run.until) || options->run.error_bars || options->settle ||
-           options->fmu_version || options->svg || options->html || options->plot || options->plot_of ||
-           options->gnuplot || options->ledger || options->every > 0 || options->latex ||
+           options->fmu_version || options->svg || options->html || options->note || options->plot ||
+           options->plot_of || options->gnuplot || options->ledger || options->every > 0 || options->latex ||
            shapes_drawing(options, false, false) || options->without_count || options->full ||
            options->degrees;
 }
@@ -380,15 +385,17 @@ static bool options_agree(const struct options *options)
     if (options->settle && !rests) return usage("--settle goes with --static", "");
     if (stands_still && !rests && !draws && options->json)
         return usage("--json belongs to a run, --equations, --linearize, --static or --grade", "");
-    if (stands_still && (options->csv || options->html || options->plot || options->gnuplot ||
-                         options->ledger || options->every > 0))
-        return usage("--csv, --html, --plot, --gnuplot, --ledger and --every belong to a run", "");
+    if (stands_still && (options->csv || options->html || options->note || options->plot ||
+                         options->gnuplot || options->ledger || options->every > 0))
+        return usage("--csv, --html, --note, --plot, --gnuplot, --ledger and --every belong to a run", "");
+    if (options->note && options->without_count > 0)
+        return usage("--note describes the file as it is: comment its entries out, instead of --without", "");
     if (options->plot_of && !options->plot && !options->gnuplot)
         return usage("--plot-of goes with --plot or --gnuplot", "");
     if (options->plot && !plot_can_be_written(options->plot)) return false;
     if (!options->csv && options->ledger) return usage("--ledger goes with --csv", "");
-    if (!options->csv && !options->html && options->every > 0)
-        return usage("--every goes with --csv or --html", "");
+    if (!options->csv && !options->html && !options->note && options->every > 0)
+        return usage("--every goes with --csv, --html or --note", "");
     if (options->full && (stands_still || options->quiet || options_use_stdout(options)))
         return usage("--full applies to the report, which --quiet, data on standard output and options "
                      "without a run leave out",
@@ -415,7 +422,8 @@ bool options_spare(const struct options *options, const fbd_errors *errors)
 /* `--symbols` without an output of arrows selects the equations in symbols. */
 static void choose_symbols(struct options *options)
 {
-    const bool runs = options->svg || options->csv || options->html || options->plot || options->gnuplot;
+    const bool runs =
+        options->svg || options->csv || options->html || options->note || options->plot || options->gnuplot;
     if (options->action == action_run && options->drawing.symbols && !runs)
         options->action = action_equations;
 }
@@ -425,6 +433,7 @@ bool options_read(int argc, char **argv, struct options *options, enum exit_code
     *options = (struct options){.run = FBD_OPTIONS_DEFAULT, .seed = 1};
     if (!command_line_options(&line, argc, argv, take_option, options, code)) return false;
     choose_symbols(options);
+    options->run.error_bars |= options->note != NULL;
     if (options->action != action_grade)
         return command_line_model(&line, argc, argv, &options->model) && options_agree(options);
     options->answers = argv + optind;

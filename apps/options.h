@@ -33,7 +33,7 @@ struct options {
     fbd_options run;
     double every;
     bool ledger, quiet, settle, latex, full, degrees;
-    const char *csv, *json, *svg, *html;
+    const char *csv, *json, *svg, *html, *note;
     const char *plot, *gnuplot, *plot_of;
     const char *emit_c; /* destination of the program, of action_emit_c */
     fbd_drawing drawing;

@@ -26,6 +26,8 @@ const char options_help[] =
     "                       --linearize or --static their results\n"
     "  --error-bars         estimate the error of every number written, by a second run\n"
     "  --html FILE          one page that plays the motion, with plots, equations and events\n"
+    "  --note FILE          a calculation note: assumptions, data, diagrams, equations, results, checks;\n"
+    "                       FILE ends in .html, .md, .tex or .pdf\n"
     "  --live               with --html: sliders and an editor; the run is repeated after each change\n"
     "  --plot FILE          plots of coordinates and energies by gnuplot; FILE ends in .svg, .png or .pdf\n"
     "  --plot-of NAME,...   of these columns of the CSV (block.v,block.friction)\n"

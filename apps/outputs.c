@@ -11,6 +11,15 @@
 #include "interrupt.h"
 #include "live_page.h"
 
+/* Close the note and its drawings. */
+static bool note_end(struct outputs *outputs, bool keep)
+{
+    const char *path = NULL;
+    if (note_close(&outputs->note, keep && outputs->note_made, &path)) return true;
+    complain("fbd-run: cannot write `%s`: %s", path, strerror(errno));
+    return false;
+}
+
 bool outputs_close(struct outputs *outputs, bool keep)
 {
     bool done = true;
@@ -20,7 +29,16 @@ bool outputs_close(struct outputs *outputs, bool keep)
         if (!interrupt_by_pipe()) complain("fbd-run: cannot write `%s`: %s", file->path, strerror(errno));
         done = false;
     }
-    return done;
+    return note_end(outputs, keep && done) && done;
+}
+
+/* False, with a message, when the file cannot be written. */
+static bool open_file(struct whole_file *file, const char *path)
+{
+    if (!path || whole_file_open(file, path)) return true;
+    complain("fbd-run: cannot write `%s`: %s", path, strerror(errno));
+    *file = (struct whole_file){0};
+    return false;
 }
 
 bool outputs_open(struct outputs *outputs, const struct options *options)
@@ -29,14 +47,10 @@ bool outputs_open(struct outputs *outputs, const struct options *options)
         [output_csv] = options->csv,   [output_json] = options->json,       [output_html] = options->html,
         [output_plot] = options->plot, [output_gnuplot] = options->gnuplot,
     };
-    for (int i = 0; i < output_count; i++) {
-        if (!paths[i] || whole_file_open(&outputs->files[i], paths[i])) continue;
-        complain("fbd-run: cannot write `%s`: %s", paths[i], strerror(errno));
-        outputs->files[i] = (struct whole_file){0};
-        outputs_close(outputs, false);
-        return false;
-    }
-    return true;
+    bool open = open_file(&outputs->note.document, options->note);
+    for (int i = 0; i < output_count && open; i++) open = open_file(&outputs->files[i], paths[i]);
+    if (!open) outputs_close(outputs, false);
+    return open;
 }
 
 /* Write a text of the library to a file, if it is open, and free it; false when there is no text. A write

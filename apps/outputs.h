@@ -5,6 +5,7 @@
 #ifndef FBD_APPS_OUTPUTS_H
 #define FBD_APPS_OUTPUTS_H
 
+#include "note.h"
 #include "options.h"
 #include "whole_file.h"
 
@@ -12,6 +13,8 @@ enum output { output_csv, output_json, output_html, output_plot, output_gnuplot,
 
 struct outputs {
     struct whole_file files[output_count];
+    struct note_files note;
+    bool note_made; /* else there is none, as of a run that failed */
 };
 
 /* Open all requested files; false, with a message and no file left, when one cannot be written. */

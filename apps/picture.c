@@ -59,6 +59,17 @@ bool picture_can_be_written(const struct command_line *line, const char *file)
         file);
 }
 
+bool picture_converts_to_pdf(void)
+{
+    return converter_for(format_pdf) != NULL;
+}
+
+bool picture_write_pdf(struct whole_file *file, const char *svg)
+{
+    const char *const *arguments = converter_for(format_pdf);
+    return arguments && program_run(arguments, svg, fileno(file->stream));
+}
+
 bool picture_write(const char *file, const char *svg)
 {
     enum format format = format_of(file);

@@ -69,3 +69,14 @@ bool program_run(const char *const *arguments, const char *text, int output)
     if (!done && !failed) complain("fbd-run: %s failed", arguments[0]);
     return done;
 }
+
+bool program_run_in(const char *const *arguments, const char *folder)
+{
+    enum { most_arguments = 24 };
+    static const char script[] =
+        "cd \"$1\" && shift && { \"$@\" >log 2>&1 </dev/null || { tail -n 4 log >&2; exit 1; }; }";
+    const char *all[most_arguments] = {"sh", "-c", script, arguments[0], folder};
+    size_t count = 5;
+    for (size_t i = 0; arguments[i] && count + 1 < most_arguments; i++) all[count++] = arguments[i];
+    return program_run(all, "", STDERR_FILENO);
+}

@@ -14,4 +14,8 @@ bool program_is_there(const char *name);
  * after it has printed the reason on standard error. */
 bool program_run(const char *const *arguments, const char *text, int output);
 
+/* Run the program within a folder; its output goes to a file `log` there. False when it fails, after its last lines were
+ * printed on standard error. */
+bool program_run_in(const char *const *arguments, const char *folder);
+
 #endif

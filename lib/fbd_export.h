@@ -36,6 +36,8 @@ typedef enum fbd_format {
     /* for amsmath, each equation in symbols of the scene and with the numbers of the state */
     FBD_LATEX,
     FBD_JSON, /* the equations and the free-body diagrams as one object: docs/output.md */
+    /* as FBD_LATEX, for HTML: paragraphs with MathML, without a style of their own */
+    FBD_MATHML,
 } fbd_format;
 
 typedef struct fbd_equations_options {
@@ -110,6 +112,50 @@ FBD_API char *fbd_result_html(fbd_result *result, fbd_errors *errors);
  * with unsupported elements, `no-end-time`, `bad-option`, or memory is out. */
 FBD_API char *fbd_emit_c(const fbd_model *model, const fbd_options *options, fbd_errors *errors);
 
+/* ---------------------------------------------------------------- calculation notes */
+
+/* A calculation note: the model, its assumptions and data, free-body diagrams, equations, results with their
+ * errors, checks, plots and limits of validity, as one document. */
+typedef struct fbd_note fbd_note;
+
+typedef enum fbd_note_format {
+    FBD_NOTE_HTML,     /* one file, which contains the drawings; A4 in print */
+    FBD_NOTE_MARKDOWN, /* with drawings beside it, STEM-1.svg, ... */
+    FBD_NOTE_LATEX,    /* with drawings beside it, STEM-1.pdf, ... */
+} fbd_note_format;
+
+typedef struct fbd_note_options {
+    size_t size;                 /* sizeof(fbd_note_options), or 0 */
+    const fbd_setting *settings; /* those that the model was read with, to be listed */
+    size_t setting_count;
+    bool degrees; /* angles and their rates in degrees; as in the recording of the result */
+    /* the day, as it is printed; NULL: that of the environment variable SOURCE_DATE_EPOCH (seconds), else today, in UTC */
+    const char *date;
+    fbd_watch *
+        progress; /* called during the second run of its checks, or NULL; nonzero ends the note (`stopped`) */
+    void *progress_context;
+} fbd_note_options;
+
+/* Make the note of a run that was recorded with `table`; with error bars it states the errors of all results.
+ * For its checks it makes a second run by another method. To be freed with fbd_note_free; it is independent of
+ * the result and the model from then on. NULL with a note in `errors`: `not-recorded` for a run without
+ * `table`, `no-note` for a run that failed or was interrupted, `stopped`, those of fbd_diagram_svg, or
+ * memory is out. */
+FBD_API fbd_note *fbd_note_new(fbd_simulation *simulation, fbd_result *result,
+                               const fbd_note_options *options, fbd_errors *errors);
+FBD_API void fbd_note_free(fbd_note *note);
+
+/* The document, to be freed with fbd_free; NULL when memory is out. `stem`: name of the drawings beside it. */
+FBD_API char *fbd_note_write(const fbd_note *note, fbd_note_format format, const char *stem);
+
+/* The drawings as SVG, in the order of their numbers; NULL past the last one. They live as long as the note. */
+FBD_API size_t fbd_note_drawing_count(const fbd_note *note);
+FBD_API const char *fbd_note_drawing(const fbd_note *note, size_t index);
+
+/* The checks of the note (balance, derivations by hand, energy, another method), and how many are not met. */
+FBD_API size_t fbd_note_check_count(const fbd_note *note);
+FBD_API size_t fbd_note_failed_check_count(const fbd_note *note);
+
 /* ---------------------------------------------------------------- drawings */
 
 typedef struct fbd_drawing {
@@ -122,6 +168,7 @@ typedef struct fbd_drawing {
     bool solution;    /* of that worksheet: arrows by symbols, and the value of each symbol on its line */
     /* the force, in the scene's unit, that corresponds to 10 mm; 0: a round one that suits all bodies */
     double scale;
+    bool untitled; /* without the title of the scene and the time */
 } fbd_drawing;
 
 /* The free-body diagrams of a state as an SVG 1.1 document in millimetres, to be freed with fbd_free. `drawing`

@@ -102,6 +102,11 @@ typedef struct fbd_data_file {
 FBD_API size_t fbd_model_data_file_count(const fbd_model *model);
 FBD_API fbd_data_file fbd_model_data_file(const fbd_model *model, size_t index);
 
+/* The SHA-256 of the text of the model, as 64 hexadecimal digits, to be freed with fbd_free; NULL when memory is
+ * out. That of the text of a data file when it was read: lives as long as the model, NULL past the last one. */
+FBD_API char *fbd_model_hash(const fbd_model *model);
+FBD_API const char *fbd_model_data_hash(const fbd_model *model, size_t index);
+
 /* Set options to those of the file, as fbd_options_init where it gives none; `size` is the caller's sizeof of
  * the struct. The method lives as long as the model. */
 FBD_API void fbd_model_options(const fbd_model *model, fbd_options *options, size_t size);

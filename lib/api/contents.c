@@ -3,6 +3,7 @@
  * Public interface: the contents of a model file beside its bodies.
  */
 #include <math.h>
+#include <stdlib.h>
 
 #include "base/api_check.h"
 #include "fbd_grade.h"
@@ -29,6 +30,22 @@ fbd_data_file fbd_model_data_file(const fbd_model *model, size_t index)
         if (table->path && index-- == 0) return (fbd_data_file){table->name, table->path};
     }
     return (fbd_data_file){NULL, NULL};
+}
+
+const char *fbd_model_data_hash(const fbd_model *model, size_t index)
+{
+    for (size_t i = 0; model && i < model->scene->table_count; i++) {
+        const struct scene_table *table = &model->scene->tables[i];
+        if (table->path && index-- == 0) return table->shared ? table->shared->sha256 : NULL;
+    }
+    return NULL;
+}
+
+char *fbd_model_hash(const fbd_model *model)
+{
+    char *digits = model ? malloc(sha256_size) : NULL;
+    if (digits) sha256_text(model->source, model->source_length, digits);
+    return digits;
 }
 
 void fbd_model_options(const fbd_model *model, fbd_options *options, size_t size)

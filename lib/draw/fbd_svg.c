@@ -344,7 +344,7 @@ static void write_sheet(struct sheet *sheet)
     const char *given = fbd_model_title(sheet->model), *title = given[0] ? given : "Free-body diagram";
     double t = 0;
     fbd_state_get(sheet->state, "t", &t);
-    const double top = margin + 14, scale = fitting_size(sheet, top);
+    const double top = margin + (sheet->drawing->untitled ? 0 : 14), scale = fitting_size(sheet, top);
     struct vec size = lay_out(sheet, page_width / scale, top, NULL);
     char time[80], description[200];
     const char *what = sheet->drawing->worksheet ? "Free-body diagram, to be drawn," : "Free-body diagram";
@@ -354,10 +354,13 @@ static void write_sheet(struct sheet *sheet)
                  ? "%s: each body cut free"
                  : "%s: each force as an arrow at the point where it acts, each moment as an arc",
              time);
-    size.x = fmax(size.x, 2 * margin + fmax(svg_text_width(title, 4.8), svg_text_width(time, note_size)));
+    if (!sheet->drawing->untitled)
+        size.x = fmax(size.x, 2 * margin + fmax(svg_text_width(title, 4.8), svg_text_width(time, note_size)));
     svg_begin(text, size, scale, title, description);
-    svg_text_at(text, "heading", (struct vec){margin, margin + 4}, title);
-    svg_text_at(text, "note", (struct vec){margin, margin + 9}, time);
+    if (!sheet->drawing->untitled) {
+        svg_text_at(text, "heading", (struct vec){margin, margin + 4}, title);
+        svg_text_at(text, "note", (struct vec){margin, margin + 9}, time);
+    }
     lay_out(sheet, page_width / scale, top, text);
     text_add(text, "</svg>\n");
 }

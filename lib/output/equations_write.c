@@ -8,6 +8,7 @@ static const struct equations_pass *const formats[][4] = {
     [FBD_TEXT] = {&text_numbers, &text_symbols},
     [FBD_SYMBOLS] = {&text_symbols},
     [FBD_LATEX] = {&latex_equations},
+    [FBD_MATHML] = {&mathml_equations},
     [FBD_JSON] = {&json_equations, &json_kinematics, &json_forces},
 };
 

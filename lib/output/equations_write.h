@@ -31,8 +31,8 @@ struct equations_pass {
     void (*end)(struct writer *w);
 };
 
-extern const struct equations_pass text_numbers, text_symbols, latex_equations, json_equations,
-    json_kinematics, json_forces;
+extern const struct equations_pass text_numbers, text_symbols, latex_equations, mathml_equations,
+    json_equations, json_kinematics, json_forces;
 
 /* Write the equations of a state, with the passes of a format; text->failed when memory is out. */
 void equations_put(struct text *text, struct fbd_state *state, fbd_format format, bool components);

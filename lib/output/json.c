@@ -22,6 +22,40 @@ static void member(struct text *text, const char *name, double value, bool last)
     if (!last) text_add(text, ", ");
 }
 
+/* A file with the hash of its text. */
+static void write_hashed(struct text *text, const char *file, const char *digits)
+{
+    text_add(text, "\"file\": ");
+    text_json_string(text, file ? file : "");
+    text_printf(text, ", \"sha256\": \"%s\"", digits);
+}
+
+/* Write the origin of the result: program, model file and data files with their hashes, values of the parameters. */
+static void write_origin(struct text *text, const struct fbd_model *model)
+{
+    const struct scene *scene = model->scene;
+    char digits[sha256_size];
+    const char *between = "";
+    sha256_text(model->source, model->source_length, digits);
+    text_add(text, "  \"version\": \"" FBD_VERSION "\",\n  \"model\": {");
+    write_hashed(text, scene->file, digits);
+    text_add(text, ", \"data\": [");
+    for (size_t i = 0; i < scene->table_count; i++) {
+        const struct scene_table *table = &scene->tables[i];
+        if (!table->path || !table->shared) continue;
+        text_printf(text, "%s{\"table\": ", between);
+        text_json_string(text, table->name);
+        text_add(text, ", ");
+        write_hashed(text, table->path, table->shared->sha256);
+        text_add(text, "}");
+        between = ", ";
+    }
+    text_add(text, "]},\n  \"parameters\": {");
+    for (size_t i = 0; i < scene->parameter_count; i++)
+        member(text, scene->parameters[i].name, scene->parameters[i].value, i + 1 == scene->parameter_count);
+    text_add(text, "},\n");
+}
+
 static const char *outcome_name(fbd_outcome outcome)
 {
     switch (outcome) {
@@ -361,6 +395,7 @@ char *fbd_result_json(fbd_result *result)
                 result->degrees ? "  \"angles\": \"deg\",\n" : "", outcome_name(run->outcome));
     text_json_string(&text, run->reason);
     text_add(&text, ",\n");
+    write_origin(&text, model);
     state_ready(end);
     write_final(&text, result, end);
     write_points(&text, model, end);

@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/printed.h"
 #include "dynamics/friction.h"
 #include "expr/glyph.h"
 #include "model/tree.h"
@@ -262,20 +263,6 @@ const struct force_symbol *const *symbols_of_forces(const struct fbd_state *stat
 
 /* ---- printing */
 
-static const struct greek {
-    const char *name, *letter;
-} greek[] = {
-    {"alpha", "α"}, {"beta", "β"}, {"gamma", "γ"}, {"delta", "δ"}, {"theta", "θ"}, {"lambda", "λ"},
-    {"mu", "μ"},    {"phi", "φ"},  {"psi", "ψ"},   {"omega", "ω"}, {"rho", "ρ"},   {"tau", "τ"},
-};
-
-static const struct greek *greek_of(const char *name, size_t length)
-{
-    for (size_t i = 0; i < sizeof greek / sizeof *greek; i++)
-        if (strlen(greek[i].name) == length && memcmp(greek[i].name, name, length) == 0) return &greek[i];
-    return NULL;
-}
-
 static bool is_digit(char c)
 {
     return c >= '0' && c <= '9';
@@ -286,41 +273,10 @@ static bool is_word(char c)
     return is_digit(c) || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c & 0x80);
 }
 
-/* The length of an index for which Unicode has subscripts, else 0. */
-static size_t low_index(const char *index)
-{
-    size_t length = 0;
-    while (is_digit(index[length])) length++;
-    if (length == 0 && (*index == 'k' || *index == 's')) length = 1;
-    return is_word(index[length]) || index[length] == '_' ? 0 : length;
-}
-
-static void add_low(struct text *text, char c)
-{
-    if (is_digit(c))
-        text_printf(text, "\xE2\x82%c", 0x80 + (c - '0'));
-    else
-        text_add(text, c == 'k' ? "ₖ" : "ₛ");
-}
-
 const char *symbol_printed(const char *symbol, struct arena *arena)
 {
     struct text text = {0};
-    for (const char *c = symbol; *c;) {
-        size_t length = 0;
-        while (is_word(c[length])) length++;
-        const struct greek *letter = greek_of(c, length);
-        size_t low = *c == '_' ? low_index(c + 1) : 0;
-        if (letter)
-            text_add(&text, letter->letter);
-        else if (length)
-            text_add_bytes(&text, c, length);
-        else if (low)
-            for (size_t i = 0; i < low; i++) add_low(&text, c[1 + i]);
-        else if (*c != ' ')
-            text_add_bytes(&text, c, 1);
-        c += letter || length ? length : 1 + low;
-    }
+    text_symbol(&text, symbol);
     const char *printed = text.failed || !text.data ? NULL : arena_text(arena, text.data, text.length);
     text_free(&text);
     return printed;
@@ -336,7 +292,7 @@ static bool is_velocity(const char *word, size_t length)
 static void write_word(struct text *text, const char *word, size_t length)
 {
     bool function = length == 3 && (strncmp(word, "sin", 3) == 0 || strncmp(word, "cos", 3) == 0);
-    if (greek_of(word, length) || function)
+    if (greek_letter(word, length) || function)
         text_printf(text, "\\%.*s ", (int)length, word);
     else if (length > 1 && !is_digit(*word))
         text_printf(text, "\\mathit{%.*s}", (int)length, word);

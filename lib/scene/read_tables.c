@@ -266,7 +266,7 @@ static bool make_table(struct reader *reader, const struct pair *pair, const str
     return false;
 }
 
-static bool read_table(struct reader *reader, size_t index, struct table *table)
+static bool read_table(struct reader *reader, size_t index, struct shared_table *shared)
 {
     const struct pair *pair = &reader->tables->pairs[index];
     struct table_draft *draft = &reader->table_drafts[index];
@@ -291,7 +291,9 @@ static bool read_table(struct reader *reader, size_t index, struct table *table)
     reader->scene->tables[index].path = path;
     bool fine = path ? read_file(reader, index, pair->value, &keys, path, &columns, &points)
                      : read_points(reader, pair->value, &keys, &points);
-    fine = fine && check_order(reader, path, &points) && make_table(reader, pair, &keys, &points, table);
+    if (fine && path) sha256_text(reader->data.text, reader->data.length, shared->sha256);
+    fine = fine && check_order(reader, path, &points) &&
+           make_table(reader, pair, &keys, &points, &shared->table);
     data_columns_free(&columns);
     return fine;
 }
@@ -330,7 +332,7 @@ static void resolve(struct reader *reader, size_t index, struct pos at)
     draft->progress = in_progress;
     struct shared_table *shared = shared_table_new(entry->name);
     if (!shared) diag_out_of_memory(reader->errors);
-    bool fine = shared && read_table(reader, index, &shared->table);
+    bool fine = shared && read_table(reader, index, shared);
     draft->progress = fine ? done : failed;
     entry->names_parameters = reader->names_parameters;
     draft->varies = draft->varies || reader->names_parameters;

@@ -10,11 +10,13 @@
 #include <stdatomic.h>
 
 #include "base/diag.h"
+#include "base/sha256.h"
 #include "expr/table.h"
 
 struct shared_table {
     struct table table;
-    char *name; /* of the table */
+    char *name;               /* of the table */
+    char sha256[sha256_size]; /* of the text of its file; "" for points of the model file */
     atomic_size_t holders;
 };
 

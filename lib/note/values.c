@@ -1,0 +1,124 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "note/values.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/format.h"
+
+/* ---- units */
+
+/* N*m^2 as N·m². */
+static void print_unit(char *printed, size_t size, const char *prefix, const char *unit)
+{
+    struct text text = {0};
+    text_add(&text, prefix);
+    for (const char *c = unit; *c; c++) {
+        if (*c == '*')
+            text_add(&text, "·");
+        else if (*c == '^' && (c[1] == '2' || c[1] == '3'))
+            text_add(&text, *++c == '2' ? "²" : "³");
+        else
+            text_add_bytes(&text, c, 1);
+    }
+    snprintf(printed, size, "%s", text.data && text.length < size ? text.data : unit);
+    text_free(&text);
+}
+
+/* Units that begin with a newton, joule, watt or pascal take a prefix. */
+static bool takes_prefix(const char *unit)
+{
+    static const char *const begins[] = {"N", "J", "W", "Pa"};
+    for (size_t i = 0; i < sizeof begins / sizeof *begins; i++) {
+        const size_t length = strlen(begins[i]);
+        const char next = unit[length];
+        if (strncmp(unit, begins[i], length) == 0 && (next == '\0' || next == '*' || next == '/'))
+            return true;
+    }
+    return false;
+}
+
+static struct scaled_unit in_degrees(const char *unit)
+{
+    const double degree = 3.14159265358979323846 / 180;
+    struct scaled_unit scaled = {.size = degree};
+    snprintf(scaled.name, sizeof scaled.name, "%s", strcmp(unit, "rad") == 0 ? "°" : "°/s");
+    return scaled;
+}
+
+struct scaled_unit unit_for(const char *unit, double size, bool degrees)
+{
+    struct scaled_unit scaled = {.size = 1};
+    const char *prefix = "";
+    if (degrees && (strcmp(unit, "rad") == 0 || strcmp(unit, "rad/s") == 0)) return in_degrees(unit);
+    if (strcmp(unit, "1") == 0) return scaled;
+    if (takes_prefix(unit) && size >= 1e4) {
+        prefix = size >= 1e7 ? "M" : "k";
+        scaled.size = size >= 1e7 ? 1e6 : 1e3;
+    } else if (strcmp(unit, "m") == 0 && size > 0 && size < 1e-2) {
+        prefix = "m";
+        scaled.size = 1e-3;
+    }
+    print_unit(scaled.name, sizeof scaled.name, prefix, unit);
+    return scaled;
+}
+
+/* ---- numbers */
+
+static void write_power(struct text *text, int power)
+{
+    static const char *const raised[] = {"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
+    char digits[16];
+    snprintf(digits, sizeof digits, "%d", abs(power));
+    text_add(text, power < 0 ? "·10⁻" : "·10");
+    for (const char *c = digits; *c; c++) text_add(text, raised[*c - '0']);
+}
+
+/* Zeros at the end of digits with a point. */
+static void drop_zeros(char *digits)
+{
+    if (!strchr(digits, '.')) return;
+    char *end = digits + strlen(digits);
+    while (end[-1] == '0') *--end = '\0';
+    if (end[-1] == '.') end[-1] = '\0';
+}
+
+void number_write(struct text *text, double value, int digits)
+{
+    char number[64];
+    if (!isfinite(value)) {
+        text_add(text, "?");
+        return;
+    }
+    format_into(number, sizeof number, "%.*e", digits - 1, fabs(value));
+    char *e = strchr(number, 'e');
+    const int power = atoi(e + 1);
+    const bool plain = value == 0 || (power >= -4 && power < 6);
+    if (plain && power >= digits) digits = power + 1; /* all digits before the point */
+    if (plain)
+        format_into(number, sizeof number, "%.*f", value == 0 ? 0 : digits - 1 - power, fabs(value));
+    else
+        *e = '\0';
+    drop_zeros(number);
+    if (value < 0) text_add(text, "−");
+    text_add(text, number);
+    if (!plain) write_power(text, power);
+}
+
+void value_write(struct text *text, double value, const char *unit, int digits, bool degrees)
+{
+    const struct scaled_unit scaled = unit_for(unit, fabs(value), degrees);
+    number_write(text, value / scaled.size, digits);
+    if (scaled.name[0]) text_printf(text, scaled.name[0] == '\xC2' ? "%s" : "\u00a0%s", scaled.name);
+}
+
+/* ---- round-off */
+
+double rounded_off(double value, double error, double size)
+{
+    const double level = 1e-12;
+    const bool within = isfinite(error) && fabs(value) <= error;
+    return within || fabs(value) <= level * size ? 0 : value;
+}
