@@ -7,7 +7,9 @@
  *     rod.right.x, .vx, .ax ...    of a point in the world, at the end of the run
  *     min(block.x), max(rod.right.y)   over the run
  *     time(land), count(land)      of an event of the file: time of the first, number; also of a kind of event,
- *                                  time(stick), and of one body, time(block.stick)
+ *                                  time(stick), and of one body, time(block.stick); or of a word for what a
+ *                                  body does, time(block.slips) (row_words.h)
+ *     R                            a parameter of the file
  *     energy.kinetic, .potential, .work, .residual    at the end
  *     block.friction.work          work of a force or moment
  *     steps, rhs                   cost of the run
@@ -20,6 +22,7 @@
 
 #include "base/text.h"
 #include "batch/extremes.h"
+#include "batch/row_words.h"
 #include "output/run_columns.h"
 #include "record/ledger.h"
 
@@ -32,10 +35,11 @@ struct column {
         row_count,
         row_steps,
         row_rhs,
+        row_parameter, /* of the scene: parameters[index] */
     } kind;
     struct run_column quantity; /* for row_extreme its unit */
     int index;
-    /* time, count: which events; -1 for any */
+    /* time, count: which events; -1 for any. event: of fbd_event_kind, or of enum row_word */
     int event, body, watch;
 };
 
@@ -45,6 +49,7 @@ struct columns {
     struct extreme *extremes; /* quantities to watch; each run has its own values */
     size_t extreme_count;
     bool ledger; /* energies or works are required */
+    bool words;  /* the words of row_words.h are required */
 };
 
 /* Read lists of names, separated by commas; without any, `final` and `times`; angles in degrees if `degrees`.
@@ -57,6 +62,7 @@ struct observed {
     struct ensemble *run;
     struct ledger *ledger;          /* NULL when not required */
     const struct extreme *extremes; /* as in columns */
+    const struct word_log *words;   /* NULL when not required */
 };
 
 /* Append `,value` for each column; the value is empty if it does not exist. */
