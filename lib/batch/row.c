@@ -21,9 +21,10 @@ bool row_maker_init(struct row_maker *maker, const struct rows *table)
     *maker =
         (struct row_maker){.table = table,
                            .overrides = calloc(count + 1, sizeof *maker->overrides),
+                           .at = calloc(table->columns.at_count + 1, sizeof *maker->at),
                            .starts = calloc(varying + 1, sizeof *maker->starts),
                            .extremes = calloc(table->columns.extreme_count + 1, sizeof *maker->extremes)};
-    if (!maker->overrides || !maker->starts || !maker->extremes) return false;
+    if (!maker->overrides || !maker->starts || !maker->extremes || !maker->at) return false;
     for (size_t i = 0; i < varying; i++)
         maker->overrides[i] = (struct override){.name = table->source.parameters[i].name, .varies = true};
     for (size_t i = varying; i < count; i++) maker->overrides[i] = table->fixed[i - varying];
@@ -36,6 +37,7 @@ void row_maker_end(struct row_maker *maker)
     free(maker->overrides);
     free(maker->starts);
     free(maker->extremes);
+    free(maker->at);
     text_free(&maker->values);
     word_log_free(&maker->words);
     patch_free(maker->patch);
@@ -222,11 +224,15 @@ static bool carry(struct row_maker *maker, struct ensemble *run, struct ledger *
     if (ledger) run->observer = (struct observer){ledger, account, account_again};
     while (run->outcome == FBD_GOING) {
         if (maker->stop && maker->stop(maker->stop_context) != 0) return false;
+        const size_t seen = run->event_count;
         ensemble_advance(run);
         if (words && run->outcome != FBD_FAILED && run->outcome != FBD_OUT_OF_MEMORY &&
             !word_log_step(&maker->words, run, probe))
             run->outcome = FBD_OUT_OF_MEMORY;
         if (!(run->t > run->from)) continue; /* no step was made */
+        if (maker->table->columns.at_count &&
+            !columns_step(&maker->table->columns, run, seen, probe, maker->at))
+            run->outcome = FBD_FAILED;
         if (extremes && !extremes_step(maker->extremes, extremes, run, probe)) run->outcome = FBD_FAILED;
     }
     if (ledger && !ledger_at(ledger, run, ledger->work)) run->outcome = FBD_FAILED;
@@ -275,7 +281,7 @@ static enum row_end put_run(struct row_maker *maker, struct ensemble *run, struc
         lose(text);
         return row_failed;
     }
-    const struct observed observed = {run, ledger, maker->extremes, &maker->words};
+    const struct observed observed = {run, ledger, maker->extremes, maker->at, &maker->words};
     columns_put(columns, &observed, text);
     if (maker->story) story_put(&observed, maker->story);
     text_add(text, ",");
@@ -309,7 +315,8 @@ static enum row_end simulate(struct row_maker *maker, struct ensemble *run, stru
     bool ready = true;
     if (columns->ledger) ready = ledger_init(&ledger, model, ensemble_state(run), true);
     word_log_restart(&maker->words);
-    if (ready && (columns->extreme_count || wants_words(maker))) {
+    for (size_t i = 0; i < columns->at_count; i++) maker->at[i] = NAN;
+    if (ready && (columns->extreme_count || columns->at_count || wants_words(maker))) {
         probe = state_new(model);
         ready = probe != NULL;
         extremes_start(maker->extremes, columns->extreme_count, ensemble_state(run));

@@ -137,6 +137,23 @@ static bool add_group(struct list *list, const char *name)
     return fine;
 }
 
+/* at(EVENT, NAME). */
+static bool add_at(struct list *list, char *argument)
+{
+    char *comma = strchr(argument, ',');
+    struct column column = {.kind = row_at, .index = (int)list->columns->at_count};
+    if (!comma) return false;
+    *comma = '\0';
+    const char *name = comma + 1 + strspn(comma + 1, " ");
+    if (!find_event(list->model, argument, &column) || column.event >= word_slips ||
+        !run_columns_find(&list->known, name, &column.quantity))
+        return false;
+    if (column.quantity.kind != column_point && !column_is_entry(&column.quantity)) return false;
+    list->columns->at_count++;
+    column.title = arena_printf(list->arena, "at(%s %s) [%s]", argument, name, column.quantity.unit);
+    return add(list, column);
+}
+
 static bool add_parameter(struct list *list, const char *name)
 {
     const struct scene *scene = list->model->scene;
@@ -163,8 +180,9 @@ static bool cut_call(char *name, char **argument)
     return true;
 }
 
-static bool add_call(struct list *list, const char *function, const char *argument)
+static bool add_call(struct list *list, const char *function, char *argument)
 {
+    if (strcmp(function, "at") == 0) return add_at(list, argument);
     if (strcmp(function, "min") == 0) return add_extreme(list, -1, argument);
     if (strcmp(function, "max") == 0) return add_extreme(list, 1, argument);
     if (strcmp(function, "time") == 0) return add_event(list, row_time, argument);
@@ -197,13 +215,21 @@ static void note_unknown(struct list *list, const char *name)
              "a run has no quantity `%.80s`", name);
 }
 
+/* Up to the next comma outside of parentheses. */
+static size_t name_length(const char *text)
+{
+    size_t length = strcspn(text, ",(");
+    if (text[length] == '(') length += strcspn(text + length, ")");
+    return length + strcspn(text + length, ",");
+}
+
 static bool add_list(struct list *list, const char *text)
 {
     bool fine = true;
     for (const char *end = text; *end; text = end + 1) {
         char name[longest_output], shown[longest_output];
         text += strspn(text, " ");
-        size_t length = strcspn(text, ",");
+        size_t length = name_length(text);
         end = text + length;
         while (length && text[length - 1] == ' ') length--;
         if (length >= sizeof name) length = sizeof name - 1;
@@ -293,10 +319,28 @@ static void put(const struct column *column, const struct observed *o, struct co
     case row_extreme: put_number(text, o->extremes[column->index].value / column->quantity.size); return;
     case row_time:
     case row_count: put_event(column, o, text); return;
+    case row_at: put_number(text, o->at[column->index]); return;
     case row_parameter: put_number(text, o->run->model->scene->parameters[column->index].value); return;
     case row_steps: put_total(o->run, steps_of, text); return;
     case row_rhs: put_total(o->run, rhs_of, text); return;
     }
+}
+
+bool columns_step(const struct columns *columns, struct ensemble *run, size_t seen, struct fbd_state *probe,
+                  double *at)
+{
+    struct column_view view;
+    for (size_t e = seen; e < run->event_count; e++) {
+        for (size_t i = 0; i < columns->count; i++) {
+            const struct column *column = &columns->list[i];
+            if (column->kind != row_at || !isnan(at[column->index])) continue;
+            if (!is_meant(column, &run->events[e])) continue;
+            if (!ensemble_look_before(run, run->events[e].t, probe)) return false;
+            column_view_begin(&view, probe, NULL, NULL, NULL);
+            at[column->index] = run_column_value(&column->quantity, &view);
+        }
+    }
+    return true;
 }
 
 void columns_put(const struct columns *columns, const struct observed *observed, struct text *text)

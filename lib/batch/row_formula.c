@@ -35,22 +35,28 @@ static bool refuse(fbd_errors *errors, const char *text, const char *why)
 
 /* ---- the outputs that it names */
 
-/* The length of `min(NAME)`, `max(NAME)`, `time(NAME)` or `count(NAME)`, or 0. */
+/* The length of `min(NAME)`, `max(NAME)`, `time(NAME)`, `count(NAME)` or `at(EVENT, NAME)`, or 0. */
 static size_t call_length(const char *text, size_t name)
 {
     static const char *const functions[] = {"min", "max", "time", "count"};
+    if (text[name] != '(') return 0;
     const char *argument = text + name + 1, *end = argument + strspn(argument, inside);
-    if (text[name] != '(' || end == argument || *end != ')') return 0;
+    const bool at = name == 2 && strncmp(text, "at", 2) == 0;
+    if (at && *end == ',') end += 1 + strspn(end + 1, " ");
+    if (at) end += strspn(end, inside);
+    if (end == argument || *end != ')') return 0;
+    if (at) return (size_t)(end + 1 - text);
     for (size_t i = 0; i < sizeof functions / sizeof *functions; i++)
         if (strlen(functions[i]) == name && strncmp(functions[i], text, name) == 0)
             return (size_t)(end + 1 - text);
     return 0;
 }
 
-static bool add_output(struct row_formula *formula, char *at, size_t length, size_t name)
+static bool add_output(struct row_formula *formula, char *at, size_t length)
 {
     const char *output = arena_text(formula->arena, at, length);
-    if (length > name) at[name] = at[length - 1] = '_';
+    for (size_t i = 0; i < length; i++)
+        if (strchr("(, )", at[i])) at[i] = '_';
     const char *masked = arena_text(formula->arena, at, length);
     if (!output || !masked) return false;
     for (size_t i = 0; i < formula->count; i++)
@@ -69,7 +75,7 @@ static char *take_name(struct row_formula *formula, char *at)
     const bool constant = name == 2 && strncmp(at, "pi", 2) == 0;
     if (function || constant) return at + name;
     size_t length = call ? call : name;
-    return add_output(formula, at, length, name) ? at + length : NULL;
+    return add_output(formula, at, length) ? at + length : NULL;
 }
 
 /* Skip a number, and a unit behind it: `12 m/s` up to the end of its side. */
@@ -133,9 +139,10 @@ static struct symbol column_symbol(struct row_formula *formula, size_t index)
     const struct scene *scene = formula->rows->base->scene;
     const struct column *column = &formula->rows->columns.list[index];
     const bool time = column->kind == row_time;
-    const char *name = time                                                          ? "s"
-                       : column->kind == row_quantity || column->kind == row_extreme ? column->quantity.unit
-                                                                                     : "";
+    const char *name = time ? "s"
+                       : column->kind == row_quantity || column->kind == row_extreme || column->kind == row_at
+                           ? column->quantity.unit
+                           : "";
     struct unit unit = {.factor = 1};
     if (column->kind == row_parameter) return parameter_symbol(scene, column);
     if (name[0] && !unit_parse(name, strlen(name), scene->units, NULL, (struct pos){0, 0}, &unit))
