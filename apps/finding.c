@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "complain.h"
-#include "fbd_study.h"
+#include "fbd_find.h"
 #include "fbd_view.h"
 #include "place.h"
 #include "standard_streams.h"

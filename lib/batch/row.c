@@ -157,7 +157,7 @@ static const char *status_of(fbd_outcome outcome)
     return "failed";
 }
 
-/* ---- what happens */
+/* ---- happenings */
 
 /* The next in time of words and events: those of the start come first. */
 static const char *next_happening(const struct observed *o, size_t *word, size_t *event, int *body)
@@ -175,13 +175,13 @@ static const char *next_happening(const struct observed *o, size_t *word, size_t
     return o->run->model->plan.watches[next->watch].source->name;
 }
 
-/* Append what happens in a run, "block contact, block breakaway, land, block impact 3 times". */
+/* Append the happenings of a run, "block contact, block breakaway, land, block impact 3 times". */
 static void story_put(const struct observed *o, struct text *text)
 {
     const char *name, *last = NULL;
     size_t word = 0, event = 0, times = 0;
     int body = -1, last_body = -1;
-    do {
+    for (;;) {
         name = next_happening(o, &word, &event, &body);
         times++;
         if (name && last && strcmp(name, last) == 0 && body == last_body) continue;
@@ -193,7 +193,7 @@ static void story_put(const struct observed *o, struct text *text)
         text_add(text, name);
         last = name;
         last_body = body;
-    } while (name);
+    }
 }
 
 /* ---- the run */

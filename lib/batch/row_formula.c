@@ -170,12 +170,12 @@ bool row_formula_compile(struct row_formula *formula, const struct rows *rows, f
     for (size_t i = 0; i < formula->count; i++) formula->factors[i] = 1;
     const enum unit_system units = rows->base->scene->units;
     const struct scope scope = {.lookup = lookup, .context = formula, .units = units};
-    struct expr_want want = {.any_dim = true, .what = "left side"};
+    struct expr_want want = {{0}, true, false, false, false, false, "left side"};
     diag_in_file(errors, "--find");
     formula->sides[0] =
         expr_compile(formula->arena, formula->text, (struct pos){0, 0}, &scope, &want, errors);
     if (!formula->sides[0]) return false;
-    want = (struct expr_want){.dim = expr_dim(formula->sides[0]), .what = "right side"};
+    want = (struct expr_want){expr_dim(formula->sides[0]), false, false, false, false, false, "right side"};
     formula->sides[1] =
         expr_compile(formula->arena, formula->right, (struct pos){0, 0}, &scope, &want, errors);
     unit_name(want.dim, units, formula->unit, sizeof formula->unit);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Words for what a body does in a run, its start included, which logs no event:
+ * Words for outcomes of a body in a run, its start included, which logs no event:
  *
  *     slips   friction breaks away, or it slips from the start
  *     lifts   a contact opens, or one that touches at rest at the start opens there

@@ -78,7 +78,7 @@ enum row_end row_make(struct row_maker *maker, uint64_t run, struct text *text);
 struct row_look {
     double *values; /* of the columns, NAN for an empty one; the array is the caller's */
     const char *status, *reason;
-    struct text story; /* what happens: "block contact, block breakaway, land, block impact 3 times" */
+    struct text story; /* happenings: "block contact, block breakaway, land, block impact 3 times" */
     struct text row;
 };
 

@@ -44,7 +44,7 @@ static bool scan(struct fbd_find *find)
     struct trial last = {0}, trial;
     for (size_t i = 0; i < find->scan; i++) {
         if (!find_try(find, scan_point(find, i), false, &trial)) return false;
-        if (find->plan->statics && fbd_errors_failed_count(find->errors) > 0) return false;
+        if (fbd_errors_failed_count(find->errors) > 0) return false;
         note_scan(find, i, &trial);
         if (!trial.known && !find_add_gap(find, &trial)) return false;
         if (i > 0 && !find_solve(find, &last, &trial)) return false;

@@ -14,10 +14,11 @@
 
 #include "batch/row_formula.h"
 #include "batch/rows.h"
+#include "fbd_find.h"
 #include "fbd_study.h"
 
 enum find_kind {
-    find_happenings, /* the list of what happens */
+    find_happenings, /* the list of happenings changes */
     find_event,      /* one outcome happens, or not */
     find_equation,
     find_equilibrium,
@@ -30,7 +31,7 @@ struct trial {
     bool known, failed;  /* it has a result; it has none because the run failed */
     const char *outcome; /* outcomes: equal texts are equal outcomes */
     double f;            /* equations: left side minus right side; limits: the margin */
-    const char *story;   /* what happens, for the reader */
+    const char *story;   /* the happenings, for the reader */
     const char *broken;  /* statics: the first limit that is exceeded, or NULL */
     bool determinate;    /* statics: equilibrium determines all reactions */
     const char *status, *reason;
@@ -56,6 +57,7 @@ struct fbd_find {
     enum find_kind kind;
     const char *event; /* of find_event: as `block.slips` */
     const char *limit; /* of the margin of a trial */
+    bool limit_seen;   /* some trial has it */
     struct row_formula *formula;
 
     struct find_rows normal, tight;

@@ -6,10 +6,10 @@
 #include "fbd_view.h"
 #include "study/find.h"
 
-static bool refuse(struct fbd_find *find, const char *hint, const char *what, const char *text)
+static bool refuse(struct fbd_find *find, const char *hint, const char *message, const char *text)
 {
     diag_in_file(find->errors, "--find");
-    diag_add(find->errors, FBD_ERROR, "bad-find", (struct pos){0, 0}, hint, "%s `%.80s`", what, text);
+    diag_add(find->errors, FBD_ERROR, "bad-find", (struct pos){0, 0}, hint, "%s `%.80s`", message, text);
     return false;
 }
 

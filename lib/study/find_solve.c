@@ -99,6 +99,21 @@ static bool pass_neighbours(struct fbd_find *find, const struct trial *b, struct
     return true;
 }
 
+/* The stories a little beside the change, where they are those of the outcome and not of its threshold. */
+static bool take_stories(struct fbd_find *find, const struct trial *low, const struct trial *high,
+                         fbd_solution *solution)
+{
+    const double share = 1e-6, beside = share * (find->to - find->from);
+    struct trial below, above;
+    if (find->kind != find_event) return true;
+    if (!find_try(find, fmax(find->from, low->p - beside), false, &below) ||
+        !find_try(find, fmin(find->to, high->p + beside), false, &above))
+        return false;
+    if (below.known && !find_differs(find, low, &below)) solution->below = below.story;
+    if (above.known && !find_differs(find, high, &above)) solution->above = above.story;
+    return true;
+}
+
 /* ---- equations */
 
 struct search {
@@ -144,7 +159,7 @@ static const char *difference_text(struct fbd_find *find, const struct trial *tr
     return kept;
 }
 
-/* The error of a root: what a run of smaller tolerance has for the difference, by the slope. */
+/* The error of a root: the difference of a run of smaller tolerance there, divided by the slope. */
 static bool root_error(struct fbd_find *find, double p, double width, const struct trial *a,
                        const struct trial *b, double *error)
 {
@@ -262,6 +277,12 @@ static bool solve_outcome(struct fbd_find *find, const struct trial *a, const st
         const bool determinate = first.determinate && b->determinate;
         const char *broken = first.broken ? first.broken : b->broken;
         if (broken && determinate && !refine_change(find, &first, b, broken, &solution)) return false;
+        if (find->plan->statics) {
+            solution.below = first.story;
+            if (!find_differs(find, &high, b)) solution.above = b->story;
+        } else if (!take_stories(find, &low, &high, &solution)) {
+            return false;
+        }
         if (!find->plan->statics && !widen(find, &low, solution.value, high.p - low.p, &solution.error))
             return false;
         if (!add_solution(find, &solution)) return false;

@@ -17,7 +17,7 @@ static void put_value(struct text *text, const struct fbd_find *find, double val
 static void write_question(struct text *text, const struct fbd_find *find)
 {
     static const char *const words[] = {
-        [find_happenings] = "what happens changes", [find_equilibrium] = "equilibrium ceases or begins"};
+        [find_happenings] = "the happenings change", [find_equilibrium] = "equilibrium ceases or begins"};
     text_printf(text, "%s from ", find->parameter);
     text_number(text, find->from, digits);
     text_add(text, " to ");
@@ -61,13 +61,21 @@ static void write_sides(struct text *text, const fbd_solution *solution)
     write_side(text, "above", solution->above, common);
 }
 
+/* The digits of a value that are above its error. */
+static int digits_above(double value, double error)
+{
+    const double known = floor(log10(fabs(value) / error));
+    return (int)fmin(digits, fmax(3, isfinite(known) ? known : 0));
+}
+
 static void write_solution(struct text *text, const struct fbd_find *find, const fbd_solution *solution)
 {
     static const char *const notes[] = {[FBD_SOLUTION_ROOT] = "",
                                         [FBD_SOLUTION_CHANGE] = "",
                                         [FBD_SOLUTION_JUMP] = "   (no solution: the difference jumps there)"};
     text_printf(text, "  %s = ", find->parameter);
-    put_value(text, find, solution->value);
+    text_number(text, solution->value, digits_above(solution->value, solution->error));
+    if (find->shown_unit[0]) text_printf(text, " %s", find->shown_unit);
     text_add(text, solution->closed_form ? "   (closed form: the margin is linear)" : "   +- ");
     if (!solution->closed_form) text_number(text, solution->error, 2);
     text_printf(text, "%s\n", notes[solution->kind]);

@@ -160,8 +160,10 @@ static void judge(struct fbd_find *find, const fbd_statics *statics, struct tria
     trial->known = find->kind != find_limit || isfinite(trial->f);
 }
 
+/* At the end of a range in which no trial has that limit: friction of zero has none. */
 static void note_unknown_limit(struct fbd_find *find, const fbd_statics *statics)
 {
+    if (!find->limit) return;
     const char *names[100];
     size_t count = 0;
     for (; count < fbd_statics_limit_count(statics) && count < sizeof names / sizeof *names; count++)
@@ -181,7 +183,8 @@ static bool try_statics(struct fbd_find *find, struct trial *trial)
     trial->status = "done";
     if (statics) {
         judge(find, statics, trial);
-        if (!trial->known && find->runs == 1) note_unknown_limit(find, statics);
+        find->limit_seen |= isfinite(trial->f);
+        if (!find->limit_seen && trial->p == find->to) note_unknown_limit(find, statics);
     } else if (errors) {
         const fbd_error first = fbd_errors_get(errors, 0);
         trial->failed = true;
@@ -220,10 +223,8 @@ void find_free_trials(struct fbd_find *find)
 static bool goes_on(struct fbd_find *find)
 {
     const fbd_find_plan *plan = find->plan;
-    const fbd_progress progress = {.what = "find",
-                                   .share = fmin(1, (double)find->runs / (double)find->scan),
-                                   .written = find->runs,
-                                   .failed = find->failed};
+    const fbd_progress progress = {"find", .share = fmin(1, (double)find->runs / (double)find->scan),
+                                   .written = find->runs, .failed = find->failed};
     if (!plan->progress || plan->progress(plan->progress_context, &progress) == 0) return true;
     find->stopped = true;
     return false;
