@@ -12,6 +12,7 @@
 #include "fbd_grade.h"
 #include "fbd_study.h"
 #include "fbd_view.h"
+#include "finding.h"
 #include "fmu.h"
 #include "grading.h"
 #include "live_page.h"
@@ -375,6 +376,7 @@ static enum exit_code emit_c(const fbd_model *model, const struct options *optio
 
 static enum exit_code act(const fbd_model *model, const struct options *options, fbd_errors *errors)
 {
+    if (options->find) return finding(model, options, errors);
     switch (options->action) {
     case action_check: return check(model, errors);
     case action_check_hand: return check_hand(model, options, errors);

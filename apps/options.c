@@ -65,6 +65,8 @@ enum {
     option_fmu_version,
     option_full,
     option_degrees,
+    option_find,
+    option_runs,
 };
 
 static const struct option long_options[] = {
@@ -118,6 +120,8 @@ static const struct option long_options[] = {
     {"fmu-version", required_argument, NULL, option_fmu_version},
     {"full", no_argument, NULL, option_full},
     {"degrees", no_argument, NULL, option_degrees},
+    {"find", required_argument, NULL, option_find},
+    {"runs", required_argument, NULL, option_runs},
     {"schema", no_argument, NULL, option_schema},
     COMMAND_LINE_END,
 };
@@ -160,6 +164,16 @@ static bool take_number(const char *name, double least, double *value)
 static bool take_time(const char *name, double least, double *value)
 {
     return command_line_time(&line, name, optarg, least, value);
+}
+
+static bool take_runs(size_t *runs)
+{
+    unsigned long value;
+    if (!command_line_whole(&line, "--runs wants a number of runs from 3 to 1000000, not ", optarg, 3,
+                            1000000, &value))
+        return false;
+    *runs = value;
+    return true;
 }
 
 static bool fmu_can_be_made(void)
@@ -205,6 +219,8 @@ static bool take_drawing(struct options *options, int option)
     case option_details: options->details = true; return true;
     case option_page: options->page = optarg; return true;
     case option_exam: options->exam = true; return true;
+    case option_find: options->find = optarg; return true;
+    case option_runs: return take_runs(&options->find_runs);
     default: return usage("unknown option, or an option without its value", "");
     }
 }
@@ -362,6 +378,23 @@ static bool drawing_agrees(const struct options *options)
     return !options->svg || picture_can_be_written(&line, options->svg);
 }
 
+/* A search has a run or statics, and its own text and JSON. */
+static bool find_agrees(const struct options *options)
+{
+    if (options->action != action_run && options->action != action_static)
+        return usage("--find goes with a run or with --static", "");
+    if (options->svg || options->csv || options->html || options->plot || options->gnuplot ||
+        options->at_count || options->settle || options->watch || options->full || options->degrees)
+        return usage(
+            "--find goes with --set, --without, --static, --runs, --json, --until, --method, --tolerance, "
+            "--step and --no-structure only",
+            "");
+    if (options->run.error_bars || options->run.accuracy > 0)
+        return usage("--find has the errors of its values by itself: without --error-bars and --accuracy",
+                     "");
+    return true;
+}
+
 /* Refuse options that would have no effect. */
 static bool options_agree(const struct options *options)
 {
@@ -377,6 +410,8 @@ static bool options_agree(const struct options *options)
         return usage("--at goes with --svg, --equations, --linearize or --static", "");
     if (options->svg && stands_still && !draws && !rests)
         return usage("--svg belongs to a run, --equations, --static or --linearize", "");
+    if (options->find && !find_agrees(options)) return false;
+    if (options->find_runs && !options->find) return usage("--runs goes with --find", "");
     if (!drawing_agrees(options)) return false;
     if (options->latex && options->action != action_equations)
         return usage("--latex goes with --equations", "");

@@ -5,6 +5,7 @@
  */
 #include <fbd.h>
 #include <fbd_export.h>
+#include <fbd_find.h>
 #include <fbd_grade.h>
 #include <fbd_study.h>
 #include <fbd_view.h>

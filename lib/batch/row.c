@@ -4,6 +4,7 @@
  */
 #include "batch/row.h"
 #include "base/format.h"
+#include "base/number.h"
 #include "base/utf8.h"
 #include "loop/options.h"
 #include "record/finite_result.h"
@@ -20,9 +21,10 @@ bool row_maker_init(struct row_maker *maker, const struct rows *table)
     *maker =
         (struct row_maker){.table = table,
                            .overrides = calloc(count + 1, sizeof *maker->overrides),
+                           .at = calloc(table->columns.at_count + 1, sizeof *maker->at),
                            .starts = calloc(varying + 1, sizeof *maker->starts),
                            .extremes = calloc(table->columns.extreme_count + 1, sizeof *maker->extremes)};
-    if (!maker->overrides || !maker->starts || !maker->extremes) return false;
+    if (!maker->overrides || !maker->starts || !maker->extremes || !maker->at) return false;
     for (size_t i = 0; i < varying; i++)
         maker->overrides[i] = (struct override){.name = table->source.parameters[i].name, .varies = true};
     for (size_t i = varying; i < count; i++) maker->overrides[i] = table->fixed[i - varying];
@@ -35,7 +37,9 @@ void row_maker_end(struct row_maker *maker)
     free(maker->overrides);
     free(maker->starts);
     free(maker->extremes);
+    free(maker->at);
     text_free(&maker->values);
+    word_log_free(&maker->words);
     patch_free(maker->patch);
 }
 
@@ -153,6 +157,45 @@ static const char *status_of(fbd_outcome outcome)
     return "failed";
 }
 
+/* ---- happenings */
+
+/* The next in time of words and events: those of the start come first. */
+static const char *next_happening(const struct observed *o, size_t *word, size_t *event, int *body)
+{
+    const struct word_log *words = o->words;
+    while (*word < words->count && words->notes[*word].t > 0) (*word)++; /* of an event */
+    if (*word < words->count) {
+        *body = words->notes[*word].body;
+        return row_word_name(words->notes[(*word)++].word);
+    }
+    if (*event == o->run->event_count) return NULL;
+    const struct run_event *next = &o->run->events[(*event)++];
+    *body = next->body;
+    if (next->kind != FBD_EVENT_USER) return fbd_event_kind_name(next->kind);
+    return o->run->model->plan.watches[next->watch].source->name;
+}
+
+/* Append the happenings of a run, "block contact, block breakaway, land, block impact 3 times". */
+static void story_put(const struct observed *o, struct text *text)
+{
+    const char *name, *last = NULL;
+    size_t word = 0, event = 0, times = 0;
+    int body = -1, last_body = -1;
+    for (;;) {
+        name = next_happening(o, &word, &event, &body);
+        times++;
+        if (name && last && strcmp(name, last) == 0 && body == last_body) continue;
+        if (last && times > 1) text_printf(text, " %zu times", times);
+        times = 0;
+        if (!name) break;
+        if (last) text_add(text, ", ");
+        if (body >= 0) text_printf(text, "%s ", o->run->model->bodies[body].name);
+        text_add(text, name);
+        last = name;
+        last_body = body;
+    }
+}
+
 /* ---- the run */
 
 static bool account(void *context, struct ensemble *run, size_t group)
@@ -166,18 +209,31 @@ static void account_again(void *context, struct ensemble *run, size_t group)
     ledger_restart(context, run, group);
 }
 
+static bool wants_words(const struct row_maker *maker)
+{
+    return maker->table->columns.words || maker->story;
+}
+
 /* Carry the run to its end, with ledger and extremes if required. Returns false when it was stopped or memory
  * is out. */
 static bool carry(struct row_maker *maker, struct ensemble *run, struct ledger *ledger,
                   struct fbd_state *probe)
 {
     size_t extremes = maker->table->columns.extreme_count;
+    const bool words = wants_words(maker);
     if (ledger) run->observer = (struct observer){ledger, account, account_again};
     while (run->outcome == FBD_GOING) {
         if (maker->stop && maker->stop(maker->stop_context) != 0) return false;
+        const size_t seen = run->event_count;
         ensemble_advance(run);
+        if (words && run->outcome != FBD_FAILED && run->outcome != FBD_OUT_OF_MEMORY &&
+            !word_log_step(&maker->words, run, probe))
+            run->outcome = FBD_OUT_OF_MEMORY;
         if (!(run->t > run->from)) continue; /* no step was made */
-        if (probe && !extremes_step(maker->extremes, extremes, run, probe)) run->outcome = FBD_FAILED;
+        if (maker->table->columns.at_count &&
+            !columns_step(&maker->table->columns, run, seen, probe, maker->at))
+            run->outcome = FBD_FAILED;
+        if (extremes && !extremes_step(maker->extremes, extremes, run, probe)) run->outcome = FBD_FAILED;
     }
     if (ledger && !ledger_at(ledger, run, ledger->work)) run->outcome = FBD_FAILED;
     return true;
@@ -225,8 +281,9 @@ static enum row_end put_run(struct row_maker *maker, struct ensemble *run, struc
         lose(text);
         return row_failed;
     }
-    const struct observed observed = {run, ledger, maker->extremes};
+    const struct observed observed = {run, ledger, maker->extremes, maker->at, &maker->words};
     columns_put(columns, &observed, text);
+    if (maker->story) story_put(&observed, maker->story);
     text_add(text, ",");
     text_exact(text, (double)run->event_count);
     char reason[100];
@@ -257,7 +314,9 @@ static enum row_end simulate(struct row_maker *maker, struct ensemble *run, stru
     struct fbd_state *probe = NULL;
     bool ready = true;
     if (columns->ledger) ready = ledger_init(&ledger, model, ensemble_state(run), true);
-    if (ready && columns->extreme_count) {
+    word_log_restart(&maker->words);
+    for (size_t i = 0; i < columns->at_count; i++) maker->at[i] = NAN;
+    if (ready && (columns->extreme_count || columns->at_count || wants_words(maker))) {
         probe = state_new(model);
         ready = probe != NULL;
         extremes_start(maker->extremes, columns->extreme_count, ensemble_state(run));
@@ -360,6 +419,54 @@ void row_close(struct open_row *row)
 enum row_end row_put(struct row_maker *maker, const struct open_row *row, struct text *text)
 {
     return put_run(maker, row->run, NULL, text);
+}
+
+/* ---- as numbers */
+
+/* Cut the next field of a row in place, without its quotes. */
+static char *next_field(char **rest)
+{
+    char *field = *rest, *to = field;
+    const bool quoted = *field == '"';
+    char *from = field + quoted;
+    while (quoted ? *from && (from[0] != '"' || from[1] == '"') : *from && *from != ',' && *from != '\n') {
+        from += quoted && from[0] == '"';
+        *to++ = *from++;
+    }
+    if (quoted && *from) from++;
+    *rest = *from ? from + 1 : from;
+    *to = '\0';
+    return field;
+}
+
+static double field_value(const char *field)
+{
+    double value;
+    return number_read(field, strlen(field), &value) ? value : NAN;
+}
+
+enum row_end row_look(struct row_maker *maker, uint64_t run, struct row_look *look)
+{
+    const struct rows *rows = maker->table;
+    look->row.length = look->story.length = 0;
+    text_add(&look->story, "");
+    maker->story = &look->story;
+    enum row_end end = row_make(maker, run, &look->row);
+    maker->story = NULL;
+    if (end == row_stopped || look->row.failed || look->story.failed) return end;
+    char *rest = look->row.data;
+    for (size_t i = 0; i < 1 + rows->source.count; i++) next_field(&rest);
+    for (size_t i = 0; i < rows->columns.count; i++) look->values[i] = field_value(next_field(&rest));
+    next_field(&rest); /* the number of events */
+    look->status = next_field(&rest);
+    look->reason = next_field(&rest);
+    return end;
+}
+
+void row_look_free(struct row_look *look)
+{
+    text_free(&look->row);
+    text_free(&look->story);
 }
 
 enum row_end row_make(struct row_maker *maker, uint64_t run, struct text *text)

@@ -29,6 +29,9 @@ struct row_maker {
     size_t *starts;             /* of the texts of the values */
     struct text values;
     struct extreme *extremes;
+    double *at; /* columns.at_count */
+    struct word_log words;
+    struct text *story;  /* receives the happenings of the run (rows.h), or NULL */
     struct patch *patch; /* a scene into which the values of successive runs are patched, or NULL */
     uint64_t rows;       /* rows since the last attempt to make a patch */
     uint64_t served;     /* rows made with this patch */

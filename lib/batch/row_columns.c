@@ -102,6 +102,7 @@ static bool find_event(const struct fbd_model *model, const char *name, struct c
     if (dot && (column->body = find_body(model, name, (size_t)(dot - name))) < 0) return false;
     for (size_t k = 0; k < sizeof kinds / sizeof *kinds; k++)
         if (strcmp(fbd_event_kind_name(kinds[k]), dot ? dot + 1 : name) == 0) column->event = (int)kinds[k];
+    if (column->event < 0) column->event = row_word_find(dot ? dot + 1 : name);
     return column->event >= 0;
 }
 
@@ -109,6 +110,7 @@ static bool add_event(struct list *list, enum row_kind kind, const char *name)
 {
     struct column column = {.kind = kind};
     if (!find_event(list->model, name, &column)) return false;
+    list->columns->words |= column.event >= word_slips;
     column.title = arena_printf(list->arena, kind == row_time ? "time(%s) [s]" : "count(%s)", name);
     return add(list, column);
 }
@@ -135,6 +137,38 @@ static bool add_group(struct list *list, const char *name)
     return fine;
 }
 
+/* at(EVENT, NAME). */
+static bool add_at(struct list *list, char *argument)
+{
+    char *comma = strchr(argument, ',');
+    struct column column = {.kind = row_at, .index = (int)list->columns->at_count};
+    if (!comma) return false;
+    *comma = '\0';
+    const char *name = comma + 1 + strspn(comma + 1, " ");
+    if (!find_event(list->model, argument, &column) || column.event >= word_slips ||
+        !run_columns_find(&list->known, name, &column.quantity))
+        return false;
+    if (column.quantity.kind != column_point && !column_is_entry(&column.quantity)) return false;
+    list->columns->at_count++;
+    column.title = arena_printf(list->arena, "at(%s %s) [%s]", argument, name, column.quantity.unit);
+    return add(list, column);
+}
+
+static bool add_parameter(struct list *list, const char *name)
+{
+    const struct scene *scene = list->model->scene;
+    for (size_t i = 0; i < scene->parameter_count; i++) {
+        const struct parameter *parameter = &scene->parameters[i];
+        if (strcmp(parameter->name, name) != 0) continue;
+        const struct run_column quantity = {.name = parameter->name, .unit = parameter->unit, .size = 1};
+        return add(list, (struct column){.title = title(list, parameter->name, parameter->unit),
+                                         .kind = row_parameter,
+                                         .quantity = quantity,
+                                         .index = (int)i});
+    }
+    return false;
+}
+
 /* Cut FUNCTION(argument) in two; false for any other text. */
 static bool cut_call(char *name, char **argument)
 {
@@ -146,8 +180,9 @@ static bool cut_call(char *name, char **argument)
     return true;
 }
 
-static bool add_call(struct list *list, const char *function, const char *argument)
+static bool add_call(struct list *list, const char *function, char *argument)
 {
+    if (strcmp(function, "at") == 0) return add_at(list, argument);
     if (strcmp(function, "min") == 0) return add_extreme(list, -1, argument);
     if (strcmp(function, "max") == 0) return add_extreme(list, 1, argument);
     if (strcmp(function, "time") == 0) return add_event(list, row_time, argument);
@@ -163,7 +198,8 @@ static bool add_named(struct list *list, char *name)
     if (cut_call(name, &argument)) return add_call(list, name, argument);
     if (strcmp(name, "steps") == 0) return add(list, (struct column){.title = "steps", .kind = row_steps});
     if (strcmp(name, "rhs") == 0) return add(list, (struct column){.title = "rhs", .kind = row_rhs});
-    return run_columns_find(&list->known, name, &quantity) && add_quantity(list, &quantity);
+    if (run_columns_find(&list->known, name, &quantity)) return add_quantity(list, &quantity);
+    return add_parameter(list, name);
 }
 
 static void note_unknown(struct list *list, const char *name)
@@ -179,13 +215,21 @@ static void note_unknown(struct list *list, const char *name)
              "a run has no quantity `%.80s`", name);
 }
 
+/* Up to the next comma outside of parentheses. */
+static size_t name_length(const char *text)
+{
+    size_t length = strcspn(text, ",(");
+    if (text[length] == '(') length += strcspn(text + length, ")");
+    return length + strcspn(text + length, ",");
+}
+
 static bool add_list(struct list *list, const char *text)
 {
     bool fine = true;
     for (const char *end = text; *end; text = end + 1) {
         char name[longest_output], shown[longest_output];
         text += strspn(text, " ");
-        size_t length = strcspn(text, ",");
+        size_t length = name_length(text);
         end = text + length;
         while (length && text[length - 1] == ' ') length--;
         if (length >= sizeof name) length = sizeof name - 1;
@@ -206,7 +250,6 @@ bool columns_read(struct columns *columns, struct arena *arena, const struct fbd
     bool fine = true;
     *columns = (struct columns){0};
     if (!run_columns_make(&list.known, column_in_sweep, NULL)) arena->failed = true;
-    errors->file = "--output";
     for (size_t i = 0; i < count; i++)
         if (!add_list(&list, texts[i])) fine = false;
     if (count == 0) fine = add_list(&list, "final,times");
@@ -229,13 +272,19 @@ static void put_number(struct text *text, double value)
     if (isfinite(value)) text_exact(text, value);
 }
 
-static void put_event(const struct column *column, const struct ensemble *run, struct text *text)
+static void put_event(const struct column *column, const struct observed *o, struct text *text)
 {
+    const bool word = column->event >= word_slips;
     size_t count = 0;
     double first = NAN;
-    for (size_t i = 0; i < run->event_count; i++) {
-        if (!is_meant(column, &run->events[i])) continue;
-        if (count++ == 0) first = run->events[i].t;
+    for (size_t i = 0; !word && i < o->run->event_count; i++) {
+        if (!is_meant(column, &o->run->events[i])) continue;
+        if (count++ == 0) first = o->run->events[i].t;
+    }
+    for (size_t i = 0; word && i < o->words->count; i++) {
+        const struct word_note *note = &o->words->notes[i];
+        if ((int)note->word != column->event || (column->body >= 0 && note->body != column->body)) continue;
+        if (count++ == 0) first = note->t;
     }
     if (column->kind == row_count)
         text_printf(text, "%zu", count);
@@ -269,10 +318,29 @@ static void put(const struct column *column, const struct observed *o, struct co
     case row_quantity: put_number(text, run_column_value(&column->quantity, view)); return;
     case row_extreme: put_number(text, o->extremes[column->index].value / column->quantity.size); return;
     case row_time:
-    case row_count: put_event(column, o->run, text); return;
+    case row_count: put_event(column, o, text); return;
+    case row_at: put_number(text, o->at[column->index]); return;
+    case row_parameter: put_number(text, o->run->model->scene->parameters[column->index].value); return;
     case row_steps: put_total(o->run, steps_of, text); return;
     case row_rhs: put_total(o->run, rhs_of, text); return;
     }
+}
+
+bool columns_step(const struct columns *columns, struct ensemble *run, size_t seen, struct fbd_state *probe,
+                  double *at)
+{
+    struct column_view view;
+    for (size_t e = seen; e < run->event_count; e++) {
+        for (size_t i = 0; i < columns->count; i++) {
+            const struct column *column = &columns->list[i];
+            if (column->kind != row_at || !isnan(at[column->index])) continue;
+            if (!is_meant(column, &run->events[e])) continue;
+            if (!ensemble_look_before(run, run->events[e].t, probe)) return false;
+            column_view_begin(&view, probe, NULL, NULL, NULL);
+            at[column->index] = run_column_value(&column->quantity, &view);
+        }
+    }
+    return true;
 }
 
 void columns_put(const struct columns *columns, const struct observed *observed, struct text *text)

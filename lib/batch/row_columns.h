@@ -7,7 +7,10 @@
  *     rod.right.x, .vx, .ax ...    of a point in the world, at the end of the run
  *     min(block.x), max(rod.right.y)   over the run
  *     time(land), count(land)      of an event of the file: time of the first, number; also of a kind of event,
- *                                  time(stick), and of one body, time(block.stick)
+ *                                  time(stick), and of one body, time(block.stick); or of a word for an
+ *                                  outcome, time(block.slips) (row_words.h)
+ *     at(wall, ball.y)             a coordinate, a rate or of a point, just before the first of such an event
+ *     R                            a parameter of the file
  *     energy.kinetic, .potential, .work, .residual    at the end
  *     block.friction.work          work of a force or moment
  *     steps, rhs                   cost of the run
@@ -20,6 +23,7 @@
 
 #include "base/text.h"
 #include "batch/extremes.h"
+#include "batch/row_words.h"
 #include "output/run_columns.h"
 #include "record/ledger.h"
 
@@ -32,10 +36,12 @@ struct column {
         row_count,
         row_steps,
         row_rhs,
+        row_at,        /* a quantity just before the first of the events: at[index] of the run */
+        row_parameter, /* of the scene: parameters[index] */
     } kind;
     struct run_column quantity; /* for row_extreme its unit */
     int index;
-    /* time, count: which events; -1 for any */
+    /* time, count: which events; -1 for any. event: of fbd_event_kind, or of enum row_word */
     int event, body, watch;
 };
 
@@ -44,7 +50,9 @@ struct columns {
     size_t count, room;
     struct extreme *extremes; /* quantities to watch; each run has its own values */
     size_t extreme_count;
-    bool ledger; /* energies or works are required */
+    size_t at_count; /* columns of row_at */
+    bool ledger;     /* energies or works are required */
+    bool words;      /* the words of row_words.h are required */
 };
 
 /* Read lists of names, separated by commas; without any, `final` and `times`; angles in degrees if `degrees`.
@@ -57,7 +65,14 @@ struct observed {
     struct ensemble *run;
     struct ledger *ledger;          /* NULL when not required */
     const struct extreme *extremes; /* as in columns */
+    const double *at;               /* at_count: values of row_at, NAN until the event */
+    const struct word_log *words;   /* NULL when not required */
 };
+
+/* Take the values of row_at at the events of the last step, from event `seen` on. `probe` is a scratch state.
+ * False when the dense output is not available. */
+bool columns_step(const struct columns *columns, struct ensemble *run, size_t seen, struct fbd_state *probe,
+                  double *at);
 
 /* Append `,value` for each column; the value is empty if it does not exist. */
 void columns_put(const struct columns *columns, const struct observed *observed, struct text *text);

@@ -74,19 +74,19 @@ static bool check_parameter(const struct rows *rows, const struct rows_parameter
 static bool check_parameters(const struct rows *rows, fbd_errors *errors)
 {
     bool fine = true;
-    errors->file = "--vary";
+    errors->file = rows->source.option;
     for (size_t i = 0; i < rows->source.count; i++)
         if (!check_parameter(rows, &rows->source.parameters[i], errors)) fine = false;
     return fine;
 }
 
 /* Copy a note about a value itself. Returns false if it was an error. */
-static bool pass_on(const fbd_error *error, fbd_errors *errors)
+static bool pass_on(const struct rows *rows, const fbd_error *error, fbd_errors *errors)
 {
     const char *option = "--set ";
     bool value = error->file && strncmp(error->file, option, strlen(option)) == 0;
     if (!value && strcmp(error->id, "wrong-dimension") != 0) return true;
-    errors->file = value ? diag_hint(errors, "--vary %s", error->file + strlen(option))
+    errors->file = value ? diag_hint(errors, "%s %s", rows->source.option, error->file + strlen(option))
                          : diag_hint(errors, "%s", error->file ? error->file : "");
     diag_add(errors, error->severity, error->id, (struct pos){error->line, error->column},
              error->hint ? diag_hint(errors, "%s", error->hint) : NULL, "%s", error->message);
@@ -106,7 +106,7 @@ bool rows_try(const struct rows *rows, uint64_t run, fbd_errors *errors)
         diag_out_of_memory(errors);
     }
     for (const struct diag_note *note = fine ? notes->first : NULL; note; note = note->next)
-        if (!pass_on(&note->error, errors)) fine = false;
+        if (!pass_on(rows, &note->error, errors)) fine = false;
     fbd_errors_free(notes);
     row_maker_end(&maker);
     return fine;
@@ -218,6 +218,7 @@ bool rows_prepare(struct rows *rows, const struct rows_source *source, const fbd
     if (!options_choose(rows->base, &rows->options, &chosen, errors)) return false;
     if (refuse_errors(&rows->options, errors)) return false;
     warn_of_accuracy(rows, errors);
+    errors->file = rows->source.outputs;
     return columns_read(&rows->columns, &rows->arena, rows->base, plan->outputs, plan->output_count,
                         plan->degrees, errors);
 }

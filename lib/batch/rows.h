@@ -31,6 +31,7 @@ struct rows_source {
     /* Append the value of a parameter in run `run` (from 0), without its unit. Called by any thread. */
     void (*value)(const void *context, size_t parameter, uint64_t run, struct text *text);
     const void *context;
+    const char *option, *outputs; /* where they and the outputs were given, for messages: "--vary" */
 };
 
 struct rows;
@@ -72,5 +73,17 @@ enum row_end {
 
 /* Make run `run` (from 0) and append its row to `text`. */
 enum row_end row_make(struct row_maker *maker, uint64_t run, struct text *text);
+
+/* A row as numbers. All belongs to the look, and lasts until the next one. */
+struct row_look {
+    double *values; /* of the columns, NAN for an empty one; the array is the caller's */
+    const char *status, *reason;
+    struct text story; /* happenings: "block contact, block breakaway, land, block impact 3 times" */
+    struct text row;
+};
+
+/* Make run `run` and read its row. Memory is out if look->row or look->story has failed. */
+enum row_end row_look(struct row_maker *maker, uint64_t run, struct row_look *look);
+void row_look_free(struct row_look *look);
 
 #endif

@@ -41,7 +41,8 @@ struct rows_simd {
 bool rows_simd_suits(const struct rows *rows)
 {
     const struct columns *columns = &rows->columns;
-    return !columns->ledger && columns->extreme_count == 0 && batch_suits(rows->base);
+    return !columns->ledger && !columns->words && columns->at_count == 0 && columns->extreme_count == 0 &&
+           batch_suits(rows->base);
 }
 
 struct rows_simd *rows_simd_new(const struct rows *rows, unsigned lanes, fbd_stop *stop, void *stop_context)

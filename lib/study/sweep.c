@@ -70,7 +70,7 @@ static bool prepare(struct fbd_sweep *sweep, const fbd_sweep_plan *plan, fbd_err
         parameters[i] = (struct rows_parameter){.name = axes->members[i].name,
                                                 .unit = axes->members[i].unit,
                                                 .files = axes->members[i].kind == values_words};
-    const struct rows_source source = {parameters, axes->member_count, put_value, axes};
+    const struct rows_source source = {parameters, axes->member_count, put_value, axes, "--vary", "--output"};
     if (!rows_prepare(sweep->rows, &source, plan, errors)) return false;
     return rows_try(sweep->rows, 0, errors) &&
            (axes->runs == 1 || rows_try(sweep->rows, axes->runs - 1, errors));

@@ -5,8 +5,9 @@ from __future__ import annotations
 import os
 from typing import Any, Callable, Dict, Mapping, Optional, Sequence, Tuple, Union
 
-from . import _cost, _run, _sweep
+from . import _cost, _find, _run, _sweep
 from ._binding import ffi, lib
+from ._find import Found
 from ._library import bytes_of, made, path_of, run_options, settings_of, taken, text_at, whole
 from ._records import Coordinate, HandCheck, Inertia, Progress, from_struct, picture
 from ._run import Run
@@ -160,6 +161,21 @@ class Model:
         table = _sweep.sweep(self._source(), self._name, plan, whole(jobs, "jobs", 10000), progress)
         del kept
         return table
+
+    def find(self, question: str, *, statics: bool = False, runs: int = 0, until: Optional[float] = None,
+             tolerance: Optional[float] = None, step: Optional[float] = None, method: Optional[str] = None,
+             structure: bool = True, progress: Optional[Callable[[Progress], Any]] = None) -> Found:
+        """The values of a parameter at which something changes or has a given result.
+
+        >>> model.find("P = 0..40 N: crate tips")[0].value
+
+        question: as of ``fbd-run --find`` (docs/find.md); without a range, that of the file. statics: of the scene
+        at rest at its start. runs: of the first scan, 0 for 33. ``progress`` is called after runs, up to twenty
+        times a second; what is true ends the search with :class:`fbd.Error`. No solution is an empty result.
+        """
+        options: Dict[str, Any] = {"until": until, "tolerance": tolerance, "step": step, "method": method,
+                                   "structure": structure}
+        return _find.find(self._source(), self._name, question, self._parameters, statics, runs, progress, options)
 
     # ---- what it costs
 

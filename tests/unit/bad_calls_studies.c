@@ -4,6 +4,7 @@
  */
 #include "bad_calls.h"
 
+#include "fbd_find.h"
 #include "fbd_grade.h"
 #include "fbd_study.h"
 #include "fbd_workers.h"
@@ -36,6 +37,32 @@ void sweeps_that_cannot_be_made(void **context)
     REFUSES(fbd_sweep_parse, !fbd_sweep_parse(NULL, 0, "scene", &plan, errors));
     REFUSES(fbd_sweep_read, !fbd_sweep_read(NULL, &plan, errors));
     REFUSES(fbd_sweep_read, !fbd_sweep_read("-", NULL, errors));
+}
+
+/* ---- searches */
+
+void searches(void **context)
+{
+    (void)context;
+    const fbd_find_plan plan = {.size = sizeof plan}, hole = {.setting_count = 1}, few = {.runs = 2};
+    const size_t length = strlen(bad_calls_scene);
+    REFUSES(fbd_find_parse, !fbd_find_parse(NULL, 0, "scene", "k = 1..2", &plan, errors));
+    REFUSES(fbd_find_parse, !fbd_find_parse(bad_calls_scene, length, "scene", NULL, &plan, errors));
+    REFUSES(fbd_find_parse, !fbd_find_parse(bad_calls_scene, length, "scene", "k = 1..2", &hole, errors));
+    REFUSES(fbd_find_parse, !fbd_find_parse(bad_calls_scene, length, "scene", "k = 1..2", &few, errors));
+    fbd_find *find = fbd_find_parse(bad_calls_scene, length, NULL, "k = 1..2", NULL, errors);
+    assert_non_null(find);
+    ENDURES(fbd_find_free, fbd_find_free(NULL));
+    ANSWERS(fbd_find_solution_count, fbd_find_solution_count(NULL) == 0);
+    ANSWERS(fbd_find_solution, !fbd_find_solution(NULL, 0).below);
+    ANSWERS(fbd_find_solution, !fbd_find_solution(find, fbd_find_solution_count(find)).below);
+    ANSWERS(fbd_find_summary, !fbd_find_summary(NULL).parameter);
+    ANSWERS(fbd_find_gap_count, fbd_find_gap_count(NULL) == 0);
+    ANSWERS(fbd_find_gap_get, !fbd_find_gap_get(NULL, 0).reason);
+    ANSWERS(fbd_find_gap_get, !fbd_find_gap_get(find, fbd_find_gap_count(find)).reason);
+    ANSWERS(fbd_find_text, !fbd_find_text(NULL));
+    ANSWERS(fbd_find_json, !fbd_find_json(NULL));
+    fbd_find_free(find);
 }
 
 void sweeps(void **context)

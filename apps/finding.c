@@ -1,0 +1,91 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "finding.h"
+
+#include <errno.h>
+#include <string.h>
+
+#include "complain.h"
+#include "fbd_find.h"
+#include "fbd_view.h"
+#include "place.h"
+#include "standard_streams.h"
+#include "whole_file.h"
+
+static bool is_among(const fbd_error *note, fbd_errors *errors)
+{
+    for (size_t i = 0; i < fbd_errors_count(errors); i++) {
+        const fbd_error other = fbd_errors_get(errors, i);
+        if (strcmp(other.id, note->id) == 0 && strcmp(other.message, note->message) == 0) return true;
+    }
+    return false;
+}
+
+/* Print the notes that were not printed for the file. The exit code of the first error. */
+static enum exit_code print_notes(fbd_errors *notes, fbd_errors *errors)
+{
+    enum exit_code code = exit_done;
+    for (size_t i = 0; i < fbd_errors_count(notes); i++) {
+        const fbd_error note = fbd_errors_get(notes, i);
+        if (code == exit_done && note.severity == FBD_ERROR)
+            code = note.line > 0 ? exit_bad_model : exit_usage;
+        if (is_among(&note, errors)) continue;
+        char place[40] = "";
+        if (note.line > 0) snprintf(place, sizeof place, ":%d:%d", note.line, note.column);
+        complain("%s%s: %s: %s [%s]", note.file ? note.file : "fbd-run", place,
+                 note.severity == FBD_ERROR ? "error" : "warning", note.message, note.id);
+        if (note.hint) complain("    hint: %s", note.hint);
+    }
+    return exit_code_for(code, notes);
+}
+
+static bool write_text(const char *path, char *text)
+{
+    bool written = text != NULL;
+    if (!text)
+        complain("fbd-run: out of memory");
+    else if (path && !(written = whole_file_put(path, text)))
+        complain("fbd-run: cannot write `%s`: %s", path, strerror(errno));
+    else if (!path)
+        fputs(text, stdout);
+    fbd_free(text);
+    return written && (path || standard_output_arrives("fbd-run"));
+}
+
+/* The searched value exists, and no run of the search failed. */
+static enum exit_code verdict(const fbd_find *find)
+{
+    size_t solutions = 0, failed = 0;
+    for (size_t i = 0; i < fbd_find_solution_count(find); i++)
+        solutions += fbd_find_solution(find, i).kind != FBD_SOLUTION_JUMP;
+    for (size_t i = 0; i < fbd_find_gap_count(find); i++) failed += fbd_find_gap_get(find, i).failed;
+    if (failed)
+        complain("fbd-run: %zu runs of the search did not succeed, and their neighbourhood was not searched",
+                 failed);
+    return solutions > 0 && failed == 0 ? exit_done : exit_failed;
+}
+
+enum exit_code finding(const fbd_model *model, const struct options *options, fbd_errors *errors)
+{
+    size_t length;
+    const char *source = fbd_model_source(model, &length);
+    const fbd_find_plan plan = {.size = sizeof plan,
+                                .settings = options->settings,
+                                .setting_count = options->setting_count,
+                                .run = &options->run,
+                                .statics = options->action == action_static,
+                                .runs = options->find_runs};
+    fbd_errors *notes = fbd_errors_new();
+    fbd_find *find =
+        notes ? fbd_find_parse(source, length, fbd_model_file(model), options->find, &plan, notes) : NULL;
+    enum exit_code code = notes ? print_notes(notes, errors) : exit_failed;
+    if (find) {
+        const bool quiet = options->quiet || place_is_stdout(options->json);
+        bool written = quiet || write_text(NULL, fbd_find_text(find));
+        if (options->json && !write_text(options->json, fbd_find_json(find))) written = false;
+        fflush(stdout);
+        code = written ? verdict(find) : exit_failed;
+    }
+    fbd_find_free(find);
+    fbd_errors_free(notes);
+    return code;
+}

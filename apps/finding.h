@@ -1,0 +1,13 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * fbd-run --find: the values of a parameter at which something changes.
+ */
+#ifndef FBD_APPS_FINDING_H
+#define FBD_APPS_FINDING_H
+
+#include "options.h"
+
+/* Search and print. Notes that `errors` has already are not repeated. */
+enum exit_code finding(const fbd_model *model, const struct options *options, fbd_errors *errors);
+
+#endif
