@@ -82,8 +82,8 @@ bool batch_suits(const struct fbd_model *model)
 static bool is_quiet(const struct run *run)
 {
     return run->end.outcome == FBD_GOING && run->plain && !run->step.restart && run->step.crawl == 0 &&
-           run->options.step == 0 && !run->options.apart && !run_is_exact(run) &&
-           run->poles.count == 0 && !run->search.wakes && !run->contacts.due && !run->projected &&
+           run->options.step == 0 && !run->options.apart && !run_is_exact(run) && run->poles.count == 0 &&
+           !run->search.wakes && !run->contacts.due && !run->projected &&
            run->zeno_switches.end == HUGE_VAL && run->state->rest == 0;
 }
 

@@ -38,8 +38,7 @@ static struct misfit misfit_of(const struct tree_loop_sight *sight)
 struct closing state_close(struct fbd_state *state)
 {
     struct tree_loop_closing seen;
-    if (!state->tree->loop || !tree_loop_close(state->tree->loop, state->y, &seen))
-        return close_any(state);
+    if (!state->tree->loop || !tree_loop_close(state->tree->loop, state->y, &seen)) return close_any(state);
     const struct instant at = state_instant(state);
     tree_move_turned(state->model, &at, seen.turn);
     return (struct closing){misfit_of(&seen.before),

@@ -29,7 +29,7 @@ static size_t pushes_of(const struct tree *tree)
     return count;
 }
 
-/* What only jointed bodies need, only a system of unknowns, and only a loop: the numbers of such pieces. */
+/* Numbers of pieces that only jointed bodies need, only a system of unknowns, and only a loop. */
 static size_t bare_count(const struct tree *tree)
 {
     return tree_joins(tree) ? (size_t)tree->count : 0;
@@ -237,10 +237,8 @@ static void spread_borne(const struct tree *tree, struct tree_work *work, const 
 static void set_borne(const struct tree *tree, struct tree_work *work)
 {
     for (int i = 0; i < tree->count; i++) work->borne[i] = 0;
-    for (int k = 0; k < work->acting_count; k++)
-        spread_borne(tree, work, &tree->couplings[work->acting[k]]);
-    for (int k = work->acting_count; k-- > 0;)
-        spread_borne(tree, work, &tree->couplings[work->acting[k]]);
+    for (int k = 0; k < work->acting_count; k++) spread_borne(tree, work, &tree->couplings[work->acting[k]]);
+    for (int k = work->acting_count; k-- > 0;) spread_borne(tree, work, &tree->couplings[work->acting[k]]);
 }
 
 /* Set accelerations of bodies at rest on others to zero if they are within rounding. No step would be short

@@ -94,10 +94,10 @@ struct tree_work {
     double *wanted, *left;          /* unknowns: a right-hand side, and the residual of its solution */
     struct tree_rhs *sum;           /* of unknowns: tree.count, and n: results before a correction */
     double *sum_unit;
-    int *mark;                       /* count: the unknown to which the results of a tree belong */
-    struct tree_push *pushes;        /* of the active rows, in steps of a symmetric system: */
-    int *push_end;                   /* row_count + 1: after those of a place, the first at 1 */
-    int *acting;                     /* acting_count: couplings other than open contacts, in their order */
+    int *mark;                /* count: the unknown to which the results of a tree belong */
+    struct tree_push *pushes; /* of the active rows, in steps of a symmetric system: */
+    int *push_end;            /* row_count + 1: after those of a place, the first at 1 */
+    int *acting;              /* acting_count: couplings other than open contacts, in their order */
     int acting_count;
     size_t *envelope;                /* of the active unknowns, see constraint_solve.c: */
     int *unknown_at, *first, *reach; /* as in struct tree, which has them for all unknowns */
@@ -105,28 +105,28 @@ struct tree_work {
     int *rank;                       /* unknowns + 1: number of active unknowns before a place of the tree */
     int count;                       /* of active unknowns */
     size_t envelope_size;
-    double *unit;        /* n: accelerations that are added */
-    double *a, *a_along; /* n: accelerations of the last force_balance, and their variation */
-    double *taken;       /* n: the result of tree_rounding */
-    double most;         /* the largest scale of a row */
-    double *scale;       /* unknowns: largest possible diagonals, see constraint_solve.c */
-    double damping;      /* of a projection: relative squares of slopes below this are damped out */
-    double accuracy;     /* relative, of projected coordinates */
-    bool projecting;     /* the system is set up for a projection: no friction */
-    bool settling_down;  /* contacts are projected by their gaps only, without sticking friction */
+    double *unit;           /* n: accelerations that are added */
+    double *a, *a_along;    /* n: accelerations of the last force_balance, and their variation */
+    double *taken;          /* n: the result of tree_rounding */
+    double most;            /* the largest scale of a row */
+    double *scale;          /* unknowns: largest possible diagonals, see constraint_solve.c */
+    double damping;         /* of a projection: relative squares of slopes below this are damped out */
+    double accuracy;        /* relative, of projected coordinates */
+    bool projecting;        /* the system is set up for a projection: no friction */
+    bool settling_down;     /* contacts are projected by their gaps only, without sticking friction */
     struct tree_loop *loop; /* of three links, if that is the scene, or NULL: see tree_loop.h */
-    bool placed;        /* the places of the unknowns are final: there are no modes */
-    bool apart;         /* masses differ so much that solutions are refined by accelerations */
-    bool symmetric;     /* there is no friction in the system: it has been assembled by pushes */
-    bool direct;        /* factored without a shift: its solution needs no corrections */
-    bool shared;        /* indeterminate forces have been distributed, see rest_system.h */
-    double shared_size; /* then: the largest force before that, as the scale of rounding */
-    bool kept;          /* couplings_keep: sides of lines do not change */
-    bool complete;      /* A and F of the links are final, see tree_complete */
-    bool rates_only;    /* only the accelerations of the joints are required */
-    double fastest;     /* the speed of the fastest link; negative: not yet computed, see constraint.c; */
-    double spin;        /* then with the largest angular speed */
-    double *borne;      /* count, if there are contacts: largest acceleration by one force */
+    bool placed;            /* the places of the unknowns are final: there are no modes */
+    bool apart;             /* masses differ so much that solutions are refined by accelerations */
+    bool symmetric;         /* there is no friction in the system: it has been assembled by pushes */
+    bool direct;            /* factored without a shift: its solution needs no corrections */
+    bool shared;            /* indeterminate forces have been distributed, see rest_system.h */
+    double shared_size;     /* then: the largest force before that, as the scale of rounding */
+    bool kept;              /* couplings_keep: sides of lines do not change */
+    bool complete;          /* A and F of the links are final, see tree_complete */
+    bool rates_only;        /* only the accelerations of the joints are required */
+    double fastest;         /* the speed of the fastest link; negative: not yet computed, see constraint.c; */
+    double spin;            /* then with the largest angular speed */
+    double *borne;          /* count, if there are contacts: largest acceleration by one force */
 };
 
 /* Size of a workspace in bytes (a multiple of the size of a double), and its initialization. */

@@ -68,11 +68,11 @@ static double one_sided_value(const struct watchers *watchers, const struct watc
 }
 
 /* Has the rolling or touching body left its surface? Then there is no friction. */
-static bool is_off_its_surface(const struct view *view, const struct mode *mode)
+static bool is_off_its_surface(const struct fbd_state *state, const struct mode *mode)
 {
     if (mode->coupling < 0) return false;
-    int surface = view->state->model->tree->couplings[mode->coupling].surface;
-    return surface >= 0 && view->at.slip[surface] != stick;
+    int surface = state->model->tree->couplings[mode->coupling].surface;
+    return surface >= 0 && state->slip[surface] != stick;
 }
 
 /* The normal force while the contact is closed. */
@@ -122,7 +122,7 @@ static double friction_value(const struct watchers *watchers, const struct watch
     const struct mode *mode = &model->plan.modes[watcher->index];
     int slip = view->at.slip[watcher->index];
     *rate = 0;
-    if (is_off_its_surface(view, mode)) return HUGE_VAL;
+    if (is_off_its_surface(view->state, mode)) return HUGE_VAL;
     if (watcher->kind == watch_slip_stop) {
         if (slip == stick || friction_is_idle(model, watcher->index, &view->at, &view->flow)) return HUGE_VAL;
         if (mode->coupling >= 0) {
@@ -200,37 +200,49 @@ static void kink_margins(const struct watchers *watchers, const struct kink *kin
                  formula_branches(&kink->formula, &view->at), margins, rates, rates + 2 * kink->count);
 }
 
-/* Does the function depend on more than the state and its derivative, in the present modes? */
-static bool asks_forces(const struct watcher *watcher, const struct fbd_state *state)
+/* Functions depend in the present modes on positions and velocities; on their derivatives as well; on forces as well. */
+enum needs { needs_motion, needs_flow, needs_forces };
+
+static enum needs needs_of(const struct watcher *watcher, const struct fbd_state *state)
 {
     switch (watcher->kind) {
+    case watch_gap:
+    case watch_edge: return needs_motion;
     case watch_kink:
     case watch_user:
-    case watch_share:
+    case watch_share: return needs_flow;
+    case watch_lift: return state->slip[watcher->index] == stick ? needs_forces : needs_motion;
     case watch_slip_stop:
-    case watch_gap:
-    case watch_edge: return false;
-    case watch_lift:
-    case watch_stick_limit: return state->slip[watcher->index] == stick;
+    case watch_stick_limit:
+    case watch_normal_turns:
+        if (is_off_its_surface(state, mode_of(state, watcher->index))) return needs_motion;
+        if (watcher->kind == watch_slip_stop) return needs_flow;
+        if (watcher->kind == watch_stick_limit && state->slip[watcher->index] != stick) return needs_flow;
+        break;
     case watch_contact:
-    case watch_one_sided:
-    case watch_normal_turns: break;
+    case watch_one_sided: break;
     }
-    return true;
+    return needs_forces;
 }
 
-static bool any_asks_forces(const struct watcher_set *set, const struct fbd_state *state)
+static enum needs needs_of_set(const struct watcher_set *set, const struct fbd_state *state)
 {
-    for (size_t i = 0; i < set->count; i++)
-        if (asks_forces(&set->watchers[i], state)) return true;
-    return false;
+    enum needs most = state->model->names_places ? needs_flow : needs_motion;
+    for (size_t i = 0; i < set->count && most < needs_forces; i++) {
+        const enum needs own = needs_of(&set->watchers[i], state);
+        if (own > most) most = own;
+    }
+    return most;
 }
 
-/* Compute the derivatives at (t, y) in the present modes; with `forces` also the forces without friction and
- * their variations. */
-static void set_flow(struct view *view, bool forces)
+/* Compute that at (t, y) in the present modes: forces are those without friction, with their variations. */
+static void set_flow(struct view *view, enum needs needs)
 {
     struct fbd_state *state = view->state;
+    if (needs == needs_motion) {
+        tree_move(state->model, &view->at);
+        return;
+    }
     const struct plan *plan = &state->model->plan;
     struct scratch scratch = state_scratch(state);
     double *slots = scratch.slots, *slots_along = scratch.slots_along, *dy = scratch.dy;
@@ -242,7 +254,7 @@ static void set_flow(struct view *view, bool forces)
         view->flow = direction_extend(state->model, &view->at, &view->flow);
     }
     if (view->at.sliding) sliding_solve_along(state->model, &view->at, &view->flow);
-    if (!forces) return;
+    if (needs == needs_flow) return;
     force_balance(state->model, &view->at, slots);
     force_balance_along(state->model, &view->at, &view->flow, slots, slots_along);
     view->slots = slots;
@@ -265,12 +277,11 @@ void watchers_evaluate(const struct watchers *watchers, const struct watcher_set
                         .rest = t.rest,
                         .flow = {1, NULL},
                         .friction = -1};
-    if (set != &watchers->timed) set_flow(&view, any_asks_forces(set, state));
+    if (set != &watchers->timed) set_flow(&view, needs_of_set(set, state));
     int last_kink = -1;
     for (size_t i = 0; i < set->count; i++) {
         const struct watcher *watcher = &set->watchers[i];
-        assert(view.flow.dy || watcher->kind == watch_kink); /* a function of t alone needs no flow */
-        assert(view.slots || !asks_forces(watcher, state));
+        assert(view.slots || set == &watchers->timed || needs_of(watcher, state) < needs_forces);
         if (watches_share(watcher, &view)) {
             values[i] = shared_value(&view, watcher, &rates[i]);
             continue;
@@ -339,7 +350,7 @@ static double user_rate(const struct watch *watch, struct fbd_state *state)
 {
     struct view view = {.state = state, .at = state_instant(state)};
     double rate;
-    set_flow(&view, false);
+    set_flow(&view, needs_flow);
     user_value(watch, &view, &rate);
     return rate;
 }

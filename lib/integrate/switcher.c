@@ -164,7 +164,8 @@ enum stepper_status switcher_step(struct switcher *s, struct counted_system *sys
     if (status == stepper_underflow && s->steppers[1] && s->now == 1)
         status = step_explicitly(s, system, t, y, f, h, t_limit);
     s->made = s->now;
-    if (s->now == by_exact || status != stepper_ok || !s->steppers[1] || !(time_dd_since(t_limit, *t) > 0)) return status;
+    if (s->now == by_exact || status != stepper_ok || !s->steppers[1] || !(time_dd_since(t_limit, *t) > 0))
+        return status;
     if (s->stiffness.wait > 1) { /* as stiffness_due, without the rate */
         s->stiffness.wait--;
         return status;
@@ -211,7 +212,8 @@ int switcher_walk(struct switcher *s, struct time_dd t, double *y, double *f)
 
 bool switcher_lend(const struct switcher *s, struct stepper_state_view *view)
 {
-    if (s->now != 0 || s->made != 0 || s->steppers[by_exact] || !stepper_lend(s->steppers[0], view)) return false;
+    if (s->now != 0 || s->made != 0 || s->steppers[by_exact] || !stepper_lend(s->steppers[0], view))
+        return false;
     view->steps = INFINITY;
     if (!s->steppers[1]) return true;
     view->steps = s->stiffness.wait - 1;

@@ -31,35 +31,6 @@ static void bind_rates(struct run *run)
 
 /* ---- allocation and start */
 
-static bool chooses_structure(const struct run *run)
-{
-    return run->options.automatic && run->options.structure && run->options.step == 0;
-}
-
-static bool make_stepper(struct run *run)
-{
-    size_t n = (size_t)run->model->plan.n;
-    bool *angle = ARENA_ARRAY(run->memory, n, bool);
-    if (!angle) return false;
-    for (size_t i = 0; i < n; i++) angle[i] = run->model->scene->coordinates[i].angle;
-    if (chooses_structure(run)) {
-        if (run->kind != structure_fixed) run->kind = structure_of(run->model);
-        run->options.method = structure_method(run->model, run->kind);
-    }
-    struct stepper_options options = {.method = run->options.method,
-                                      .layout = {.pairs = n,
-                                                 .extra = (size_t)run->model->plan.own,
-                                                 .angle = angle},
-                                      .tolerance = run->options.tolerance,
-                                      .h_fixed = run->options.step};
-    bool automatic = run->options.automatic && plan_size(&run->model->plan) <= method_most_stiff_states;
-    automatic = automatic && !structure_is_exact(run->kind);
-    run->stepper = switcher_alloc(&options, automatic ? method_find("rodas5p") : NULL);
-    const struct method *parabola = structure_method(run->model, structure_constant);
-    return run->stepper &&
-           (run->kind != structure_flights || switcher_add_exact(run->stepper, &options, parabola));
-}
-
 /* Does a step need the forces at its end? Friction of single bodies does where it changes its own normal
  * force. */
 static bool asks_forces(const struct run *run)
@@ -129,7 +100,7 @@ static bool make_run(struct run *run, const struct state_start *begin)
     gsl_odeiv2_system system = {.jacobian = jacobian, .dimension = size};
     system.function = rates_call(run->rates, &system.params);
     counted_system_init(&run->system, &system);
-    if (!make_stepper(run)) return false;
+    if (!run_make_stepper(run)) return false;
     size_t modes = (size_t)plan->branches + 2 * plan->mode_count;
     return run->kind != structure_linear || linear_pace_init(&run->pace, size, modes);
 }
@@ -153,7 +124,7 @@ static bool hold_fixed(struct run *run)
 {
     size_t n = (size_t)run->model->plan.n;
     bool varies = run->kind == structure_general || run->kind == structure_flights;
-    bool asks = chooses_structure(run) && varies;
+    bool asks = run_chooses_structure(run) && varies;
     if (!asks || !state_is_fixed(run->state)) return true;
     run->kind = structure_fixed;
     memset(run->state->y + n, 0, n * sizeof *run->state->y);
@@ -161,7 +132,7 @@ static bool hold_fixed(struct run *run)
     rates_free(run->rates);
     run->rates = rates_new(run->during, rates_none);
     run->stepper = NULL;
-    return run->rates && make_stepper(run);
+    return run->rates && run_make_stepper(run);
 }
 
 static void start(struct run *run)
@@ -227,36 +198,6 @@ void run_free(struct run *run)
 
 /* ---- one turn of the loop */
 
-/* The matrices of a linear system depend on the modes only: branches, slips and pulls, one behind the other;
- * except in a Filippov sliding mode. */
-static bool start_linear(struct run *run)
-{
-    const int *modes = state_sliding(run->during) ? NULL : run->during->branch;
-    if (!linear_pace_start(&run->pace, &run->system, run->state->t, run->work.y, modes)) {
-        run_fail(run, FBD_OUT_OF_MEMORY, "out of memory");
-        return false;
-    }
-    const struct linear_modes *now = run->pace.now;
-    if (now && isfinite(now->rho)) switcher_set_linear(run->stepper, now->A, now->rho);
-    return true;
-}
-
-static bool has_closed_contact(const struct run *run)
-{
-    const struct tree *tree = run->model->tree;
-    for (int i = 0; i < tree->coupling_count; i++)
-        if (run->during->slip[tree->couplings[i].surface] == stick) return true;
-    return false;
-}
-
-/* Choose the method for the present modes. */
-static void choose_method(struct run *run)
-{
-    if (run->kind != structure_flights) return;
-    run->flies = !has_closed_contact(run);
-    switcher_use_exact(run->stepper, run->flies);
-}
-
 /* Start the stepper at the present state. */
 static bool restart(struct run *run)
 {
@@ -266,7 +207,7 @@ static bool restart(struct run *run)
     scan_forget(&run->search.moving);
     coupled_scales_join(&run->mechanisms, run->state);
     bind_rates(run);
-    choose_method(run);
+    run_choose_method(run);
     if (!run_is_exact(run)) roundoff_estimate(run);
     watchers_follow(&run->watchers, run->during);
     int status = switcher_reset(run->stepper, &run->system, run_end(run), run->work.y, run->work.f,
@@ -278,7 +219,7 @@ static bool restart(struct run *run)
     watchers_set_rounding(&run->watchers.moving, run->during, run->search.moving.series.rounding);
     if (run->step.first == 0) run->step.first = run->step.h;
     if (run_is_one_step(run)) run->step.h = run->options.until - run->state->t;
-    if (run->kind == structure_linear && !start_linear(run)) return false;
+    if (run->kind == structure_linear && !run_start_linear(run)) return false;
     run->step.restart = false;
     return true;
 }
@@ -356,16 +297,6 @@ static bool heed_poles(struct run *run)
     return !reached;
 }
 
-/* An exact method has no error estimate for its step size; its steps only have to resolve events. */
-static void set_linear_step(struct run *run)
-{
-    double resolved = run->search.moving.resolved;
-    const double other = 0.8;
-    double longest = (run->options.apart ? other : 1) * linear_pace_step(&run->pace, run->step.from);
-    run->step.h = fmin(longest, run->options.until - run->step.from);
-    if (resolved > 0) run->step.h = fmin(run->step.h, resolved);
-}
-
 /* ---- the stages of a turn: each continues the previous one; false ends the turn */
 
 struct turn {
@@ -391,9 +322,7 @@ static bool begin_step(struct run *run)
 static bool limit_step(struct run *run, struct turn *turn)
 {
     if (run->step.crawl == 0) run->step.not_finite = switcher_rejected(run->stepper, rejected_not_finite);
-    if (run->kind == structure_linear) set_linear_step(run);
-    if (run_is_one_step(run)) run->step.h = run->options.until - run->step.from;
-    if (run->flies && run->step.flight > 0) run->step.h = fmin(run->step.h, run->step.flight);
+    run_limit_method(run);
     desync_steps(run);
     if (run->options.step == 0 && !heed_poles(run)) return false;
     turn->limit = next_time(run, &turn->timed);
@@ -485,15 +414,6 @@ static bool apply_events(struct run *run, const struct turn *turn)
     return true;
 }
 
-/* An exact step may be of any length. But the farther contacts are searched, the more shapes may meet there, and mostly in
- * vain, so steps without a closed contact grow. */
-static void limit_flight(struct run *run)
-{
-    const double growth = 4, least = 1.0 / 64;
-    double length = run->state->t - run->step.from;
-    run->step.flight = fmax(growth * length, least * run->step.longest);
-}
-
 /* Log the results of the step, and prepare the watchers for the next one. */
 static void end_step(struct run *run, const struct turn *turn)
 {
@@ -512,7 +432,7 @@ static void end_step(struct run *run, const struct turn *turn)
     if (run->end.outcome == FBD_GOING && !run->plain)
         watchers_arm(&run->watchers, run->state, run->state->t - run->step.from);
     if (run->projected || run->model->plan.watch_count > 0) scan_forget(&run->search.moving);
-    limit_flight(run);
+    run_limit_flight(run);
 }
 
 fbd_outcome run_advance(struct run *run)

@@ -263,7 +263,7 @@ enum structure structure_of(const struct fbd_model *model)
     if (degree == expr_constant_between) return structure_constant;
     if (degree == expr_affine && model->plan.n <= linear_most_pairs) return structure_linear;
     if (velocity_free(model)) return structure_velocity_free;
-    const bool flights = has_contacts_only(model) &&
-                         worse(accelerations_vary(model, true), slides) == expr_constant_between;
+    const bool flights =
+        has_contacts_only(model) && worse(accelerations_vary(model, true), slides) == expr_constant_between;
     return flights ? structure_flights : structure_general;
 }
