@@ -215,6 +215,7 @@ void note_checks(struct making *making)
     const char *hand = check_hand(making, table);
     check_exact(making, table);
     if (!second_run(making, &second)) {
+        making->refused = true;
         if (!making->document->arena.failed)
             diag_add(making->list, FBD_ERROR, "stopped", (struct pos){0, 0}, NULL,
                      "the note was interrupted");

@@ -18,7 +18,10 @@ static void draw(struct making *making, const fbd_drawing *drawing, const char *
                  const char *alternative)
 {
     char *svg = fbd_diagram_svg(making->start, drawing, making->list);
-    if (svg) document_picture(making->document, svg, caption, alternative);
+    if (svg)
+        document_picture(making->document, svg, caption, alternative);
+    else
+        making->refused = true;
 }
 
 /* "crank, connecting_rod, piston" */

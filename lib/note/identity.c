@@ -35,7 +35,7 @@ static void add_date(struct making *making, struct block *table)
 static void row(struct making *making, struct block *table, const char *name, const char *value)
 {
     struct text shown = {0};
-    text_shown(&shown, value);
+    text_shown(&shown, value ? value : "");
     document_cell(making->document, table, name);
     document_cell(making->document, table, shown.data ? shown.data : "");
     making->document->arena.failed |= shown.failed;

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "note/note.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -52,15 +53,21 @@ static void compose(struct making *making)
                                                      note_statics,  note_results,  note_plots,
                                                      note_checks,   note_limits,   note_file};
     for (size_t i = 0; i < sizeof parts / sizeof *parts; i++)
-        if (!making->document->arena.failed && fbd_errors_failed_count(making->list) == 0) parts[i](making);
+        if (!making->document->arena.failed && !making->refused) parts[i](making);
+}
+
+void making_end_list(struct making *making, fbd_errors *others)
+{
+    making->document->arena.failed |= !others || others->out_of_memory;
+    fbd_errors_free(others);
 }
 
 /* The statics of the start, if it is in equilibrium; other scenes have none, for whatever reason. */
-static fbd_statics *statics_of(const fbd_state *start)
+static fbd_statics *statics_of(struct making *making)
 {
     fbd_errors *others = fbd_errors_new();
-    fbd_statics *statics = others ? fbd_statics_new(start, others) : NULL;
-    fbd_errors_free(others);
+    fbd_statics *statics = others ? fbd_statics_new(making->start, others) : NULL;
+    making_end_list(making, others);
     if (fbd_statics_holds(statics)) return statics;
     fbd_statics_free(statics);
     return NULL;
@@ -85,10 +92,11 @@ static bool begin(struct making *making)
     if (!making->view || !making->errors) return false;
     fbd_state_get(making->end, "t", &making->t);
     if (!fbd_simulation_errors(making->simulation, making->t, making->errors)) {
+        making->document->arena.failed |= !isnan(making->stats.error_estimate); /* there are error bars */
         free(making->errors);
         making->errors = NULL;
     }
-    if (is_at_rest(making)) making->statics = statics_of(making->start);
+    if (is_at_rest(making)) making->statics = statics_of(making);
     const char *title = fbd_model_title(making->model);
     making->document->title =
         arena_printf(&making->document->arena, "Calculation note%s%s", title[0] ? ": " : "", title);
@@ -109,12 +117,15 @@ static fbd_note *make(struct making *making)
     making->note = calloc(1, sizeof *making->note);
     if (!making->note) return diag_out_of_memory(making->list), NULL;
     making->document = &making->note->document;
-    const bool begun = begin(making);
-    if (begun) compose(making);
-    if ((!begun || making->document->arena.failed) && fbd_errors_failed_count(making->list) == 0)
+    if (begin(making))
+        compose(making);
+    else
+        making->refused = true;
+    if (making->document->arena.failed || (making->refused && fbd_errors_failed_count(making->list) == 0))
         diag_out_of_memory(making->list);
+    const bool made = !making->document->arena.failed && !making->refused;
     end(making);
-    if (fbd_errors_failed_count(making->list) == 0) return making->note;
+    if (made) return making->note;
     fbd_note_free(making->note);
     return NULL;
 }

@@ -35,12 +35,16 @@ struct making {
     double t;        /* of the end */
     double *errors;  /* of the final state, as fbd_simulation_errors; NULL without error bars */
     fbd_errors *list;
+    bool refused;     /* there is no note; the list has the reason */
     struct text text; /* scratch of the functions below */
 };
 
 /* A text made of pieces, copied into the document: begin, add to making->text, take. */
 struct text *making_begin(struct making *making);
 const char *making_take(struct making *making);
+
+/* Free a list of errors of a call whose failure is no error of the note, except for lack of memory. */
+void making_end_list(struct making *making, fbd_errors *others);
 
 /* A value with its unit, a bare number, and an error, as texts of the document. */
 const char *making_value(struct making *making, double value, const char *unit, int digits);

@@ -173,8 +173,7 @@ bool second_run(struct making *making, struct second_run *second)
     else if (others)
         second->reason = arena_printf(&making->document->arena, "%s", fbd_errors_get(others, 0).message);
     if (simulation && going && !second->reason) compare_runs(making, second, simulation);
-    making->document->arena.failed |= !others;
     fbd_simulation_free(simulation);
-    fbd_errors_free(others);
+    making_end_list(making, others);
     return going && !making->document->arena.failed;
 }

@@ -10,21 +10,23 @@
 
 /* ---- units */
 
-/* N*m^2 as N·m². */
+/* N*m^2 as N·m²; units are shorter than `size`. */
 static void print_unit(char *printed, size_t size, const char *prefix, const char *unit)
 {
-    struct text text = {0};
-    text_add(&text, prefix);
-    for (const char *c = unit; *c; c++) {
-        if (*c == '*')
-            text_add(&text, "·");
-        else if (*c == '^' && (c[1] == '2' || c[1] == '3'))
-            text_add(&text, *++c == '2' ? "²" : "³");
-        else
-            text_add_bytes(&text, c, 1);
+    size_t length = (size_t)snprintf(printed, size, "%s", prefix);
+    for (const char *c = unit; *c && length + sizeof "²" < size; c++) {
+        const char *sign = *c == '*'                  ? "·"
+                           : *c == '^' && c[1] == '2' ? "²"
+                           : *c == '^' && c[1] == '3' ? "³"
+                                                      : NULL;
+        if (sign) {
+            length += (size_t)snprintf(printed + length, size - length, "%s", sign);
+            c += *c == '^';
+        } else {
+            printed[length++] = *c;
+            printed[length] = '\0';
+        }
     }
-    snprintf(printed, size, "%s", text.data && text.length < size ? text.data : unit);
-    text_free(&text);
 }
 
 /* Units that begin with a newton, joule, watt or pascal take a prefix. */
@@ -54,7 +56,7 @@ struct scaled_unit unit_for(const char *unit, double size, bool degrees)
     const char *prefix = "";
     if (degrees && (strcmp(unit, "rad") == 0 || strcmp(unit, "rad/s") == 0)) return in_degrees(unit);
     if (strcmp(unit, "1") == 0) return scaled;
-    if (takes_prefix(unit) && size >= 1e4) {
+    if (takes_prefix(unit) && size >= 1e4 && isfinite(size)) {
         prefix = size >= 1e7 ? "M" : "k";
         scaled.size = size >= 1e7 ? 1e6 : 1e3;
     } else if (strcmp(unit, "m") == 0 && size > 0 && size < 1e-2) {

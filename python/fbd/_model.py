@@ -141,8 +141,19 @@ class Model:
         A run that fails is raised as :class:`fbd.RunFailed`, one that does not reach its accuracy as
         :class:`fbd.AccuracyNotReached`, both with the run; one that a lost contact ends is returned, with a warning.
         """
-        return _run.start(self._model, self.title, progress, every, ledger, components, until=until,
-                          tolerance=tolerance, step=step, method=method, accuracy=accuracy, error_bars=error_bars, structure=structure)
+        run = _run.start(self._model, self.title, progress, every, ledger, components, until=until,
+                         tolerance=tolerance, step=step, method=method, accuracy=accuracy, error_bars=error_bars, structure=structure)
+        run._parameters = self._parameters
+        return run
+
+    def note(self, path: Union[str, "os.PathLike[str]"], *, date: Optional[str] = None, **options: Any) -> Run:
+        """Run the model with error bars, and write its calculation note (:meth:`Run.note`). Options of :meth:`run`.
+
+        >>> model.note("note.html")
+        """
+        run = self.run(error_bars=True, **options)
+        run.note(path, date=date)
+        return run
 
     def sweep(self, vary: Vary, outputs: Union[str, Sequence[str]] = (), *, zip: bool = False, seed: int = 1,
               jobs: int = 0, until: Optional[float] = None, tolerance: Optional[float] = None,

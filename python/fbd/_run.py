@@ -5,14 +5,16 @@ from __future__ import annotations
 import difflib
 import html
 import math
+import os
 import threading
+from pathlib import Path
 from typing import TYPE_CHECKING, Any, Callable, Dict, Iterable, Iterator, List, Mapping, Optional, Tuple, Union, overload
 
 import numpy as np
 import numpy.typing as npt
 
 from ._binding import ffi, lib
-from ._library import bytes_of, checked, made, number, owned, positive, run_options, taken, text_at, view
+from ._library import bytes_of, checked, made, number, owned, positive, run_options, settings_of, taken, text_at, view
 from ._notes import AccuracyNotReached, Error, RunFailed, complaint, warn
 from ._records import Drift, Energy, Event, Progress, Stats, from_struct, preformatted
 from ._state import State
@@ -41,6 +43,17 @@ def _record(simulation: Any, watch: Watch, every: float, **recording: bool) -> A
     if held == ffi.NULL:
         raise MemoryError("fbd: out of memory")
     return held
+
+
+def _put(path: Path, text: str) -> None:
+    """Write a file whole, or not at all."""
+    beside = path.with_name(f"{path.name}.{os.getpid()}.tmp")
+    try:
+        beside.write_text(text, encoding="utf-8")
+        os.replace(beside, path)
+    except BaseException:
+        beside.unlink(missing_ok=True)
+        raise
 
 
 class Run(Mapping[str, Column]):
@@ -73,6 +86,7 @@ class Run(Mapping[str, Column]):
         self._places = {name: i for i, name in enumerate(self.columns)}
         self._events: Optional[Tuple[Event, ...]] = None
         self._replay: Any = None
+        self._parameters: Mapping[str, Any] = {}  # set by the caller of the model
 
     def _judge(self) -> None:
         """What fbd-run ends with another exit code for is raised, or warned of."""
@@ -290,6 +304,27 @@ class Run(Mapping[str, Column]):
         names = [ffi.NULL if text is None else ffi.new("char[]", bytes_of(text, "a name")) for text in (file, columns)]
         _, result = self._kept()
         return taken(checked(lib.fbd_result_gnuplot, result, *names))
+
+    def note(self, path: Union[str, "os.PathLike[str]"], *, date: Optional[str] = None) -> None:
+        """Write the calculation note of the run, as ``fbd-run --note``: ``.html``, or ``.md`` with drawings beside it.
+
+        With error bars it states the errors of the results. ``date`` is printed as it is; without it the day is that of
+        SOURCE_DATE_EPOCH, or today.
+        """
+        target = Path(os.fspath(path))
+        formats = {".html": lib.FBD_NOTE_HTML, ".md": lib.FBD_NOTE_MARKDOWN}
+        if target.suffix.lower() not in formats:
+            raise ValueError(f"a note ends in .html or .md, not `{target.name}`; fbd-run --note also makes .tex and .pdf")
+        settings, count, kept = settings_of(dict(self._parameters))
+        day = ffi.NULL if date is None else ffi.new("char[]", bytes_of(date, "the date"))
+        chosen = ffi.new("fbd_note_options *", {"settings": settings, "setting_count": count, "date": day})
+        with self._lock:
+            note = made(lib.fbd_note_new, lib.fbd_note_free, (), self._simulation, self._result, chosen)
+        text = taken(lib.fbd_note_write(note, formats[target.suffix.lower()], bytes_of(target.stem, "the name")))
+        for i in range(0 if target.suffix.lower() == ".html" else lib.fbd_note_drawing_count(note)):
+            _put(target.with_name(f"{target.stem}-{i + 1}.svg"), text_at(lib.fbd_note_drawing(note, i)))
+        _put(target, text)
+        del kept
 
     def __repr__(self) -> str:
         title = f" of `{self._title}`" if self._title else ""

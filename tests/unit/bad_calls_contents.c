@@ -27,6 +27,9 @@ void contents(void **context)
     ANSWERS(fbd_model_data_file_count, fbd_model_data_file_count(NULL) == 0);
     ANSWERS(fbd_model_data_file, !fbd_model_data_file(NULL, 0).path);
     ANSWERS(fbd_model_data_file, !fbd_model_data_file(model, past).table);
+    ANSWERS(fbd_model_hash, !fbd_model_hash(NULL));
+    ANSWERS(fbd_model_data_hash, !fbd_model_data_hash(NULL, 0));
+    ANSWERS(fbd_model_data_hash, !fbd_model_data_hash(model, past));
     ENDURES(fbd_model_options, fbd_model_options(model, NULL, sizeof(fbd_options)));
     fbd_options options;
     ENDURES(fbd_model_options, fbd_model_options(NULL, &options, sizeof options));

@@ -187,7 +187,7 @@ static void equations(void **context)
     ANSWERS(fbd_equations_find, !fbd_equations_find(all, NULL).body);
     ANSWERS(fbd_equation_term, is_nan(fbd_equation_term(NULL, "spring")));
     ANSWERS(fbd_equation_term, is_nan(fbd_equation_term(&first, NULL)));
-    fbd_equations_options written = {.format = (fbd_format)(FBD_JSON + 1)};
+    fbd_equations_options written = {.format = (fbd_format)(FBD_MATHML + 1)};
     REFUSES(fbd_equations_write, !fbd_equations_write(NULL, NULL, errors));
     REFUSES(fbd_equations_write, !fbd_equations_write(state, &written, errors));
     written = (fbd_equations_options){.size = 1};
@@ -290,6 +290,15 @@ static void results(void **context)
     REFUSES(fbd_result_gnuplot, !fbd_result_gnuplot(NULL, NULL, NULL, errors));
     ANSWERS(fbd_has_html, fbd_has_html() || true);
     REFUSES(fbd_result_html, !fbd_result_html(NULL, errors));
+    REFUSES(fbd_note_new, !fbd_note_new(NULL, result, NULL, errors));
+    REFUSES(fbd_note_new, !fbd_note_new(simulation, NULL, NULL, errors));
+    REFUSES(fbd_note_new, !fbd_note_new(simulation, result, &(fbd_note_options){.setting_count = 1}, errors));
+    ENDURES(fbd_note_free, fbd_note_free(NULL));
+    ANSWERS(fbd_note_write, !fbd_note_write(NULL, FBD_NOTE_HTML, "note"));
+    ANSWERS(fbd_note_drawing_count, fbd_note_drawing_count(NULL) == 0);
+    ANSWERS(fbd_note_drawing, !fbd_note_drawing(NULL, 0));
+    ANSWERS(fbd_note_check_count, fbd_note_check_count(NULL) == 0);
+    ANSWERS(fbd_note_failed_check_count, fbd_note_failed_check_count(NULL) == 0);
     ANSWERS(fbd_has_live, fbd_has_live() || true);
     REFUSES(fbd_result_live_html, !fbd_result_live_html(NULL, NULL, errors));
     REFUSES(fbd_result_page_data, !fbd_result_page_data(NULL, 0, errors));

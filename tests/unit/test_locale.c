@@ -74,13 +74,18 @@ static void put_run(struct text *text, const fbd_model *model)
     options.error_bars = true;
     fbd_simulation *simulation = fbd_simulation_new(model, &options, NULL);
     const fbd_recording recording = {
-        .every = 0.015625, .ledger = true, .csv = put_rows, .csv_context = text, .keep = true};
+        .every = 0.015625, .ledger = true, .csv = put_rows, .csv_context = text, .keep = true, .table = true};
     fbd_result *result = fbd_simulation_run(simulation, &recording);
     assert_non_null(result);
     put(text, "report", fbd_result_report(result, false));
     put(text, "json", fbd_result_json(result));
     put(text, "gnuplot", fbd_result_gnuplot(result, "a.pdf", NULL, NULL));
     if (fbd_has_html()) put(text, "html", fbd_result_html(result, NULL));
+    fbd_note *note = fbd_note_new(simulation, result, &(fbd_note_options){.date = "today"}, NULL);
+    assert_non_null(note);
+    put(text, "note.html", fbd_note_write(note, FBD_NOTE_HTML, NULL));
+    put(text, "note.tex", fbd_note_write(note, FBD_NOTE_LATEX, NULL));
+    fbd_note_free(note);
     text_add(text, fbd_simulation_reason(simulation));
     fbd_result_free(result);
     fbd_simulation_free(simulation);
@@ -92,6 +97,7 @@ static void put_state(struct text *text, const fbd_model *model, const char *nam
     assert_true(!name || fbd_state_set_text(state, name, value, NULL));
     const fbd_drawing drawing = {.components = true};
     put(text, "equations", fbd_equations_write(state, NULL, NULL));
+    put(text, "mathml", fbd_equations_write(state, &(fbd_equations_options){.format = FBD_MATHML}, NULL));
     put(text, "latex", fbd_equations_write(state, &(fbd_equations_options){.format = FBD_LATEX}, NULL));
     put(text, "svg", fbd_diagram_svg(state, &drawing, NULL));
     fbd_statics *statics = fbd_statics_new(state, NULL);
