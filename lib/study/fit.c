@@ -84,6 +84,11 @@ static bool make(struct fbd_fit *fit, const char *data, size_t length)
                 fit_data_read(&fit->data, &fit->arena, data, length, fit->data_name, model, fit->errors);
     if (fine) fit->data.unit = arena_text(&fit->arena, fit->data.unit, strlen(fit->data.unit));
     if (fine) set_tolerance(fit, model);
+    fbd_options run = *fit->plan->run;
+    if (fine) run.until = 1; /* any: the other options are checked */
+    fbd_simulation *simulation = fine ? fbd_simulation_new(model, &run, fit->errors) : NULL;
+    fine = simulation != NULL;
+    fbd_simulation_free(simulation);
     fbd_model_free(model);
     return fine && check_counts(fit) && fit_solve(fit);
 }

@@ -248,7 +248,8 @@ static void fits_that_cannot_be_made(void **unused)
     assert_refused(data, &(fbd_fit_plan){.parameters = hole, .parameter_count = 1}, "bad-call", 0, 0,
                    "missing");
     assert_refused(data, &(fbd_fit_plan){.progress = stop}, "stopped", 0, 0, "stopped");
-    assert_refused(data, &(fbd_fit_plan){.run = &(fbd_options){.method = "euler"}}, "no-fit", 0, 0, "euler");
+    assert_refused(data, &(fbd_fit_plan){.run = &(fbd_options){.method = "euler"}}, "unknown-method", 0, 0,
+                   "euler");
     struct asked asked = ask(data, &(fbd_fit_plan){.parameters = mass, .parameter_count = 1});
     assert_true(asked.fit || fbd_errors_failed_count(asked.errors) > 0); /* the mass tends to infinity */
     end(&asked);
