@@ -377,6 +377,7 @@ static enum exit_code emit_c(const fbd_model *model, const struct options *optio
 static enum exit_code act(const fbd_model *model, const struct options *options, fbd_errors *errors)
 {
     if (options->find) return finding(model, options, errors);
+    if (options->fit) return fitting(model, options, errors);
     switch (options->action) {
     case action_check: return check(model, errors);
     case action_check_hand: return check_hand(model, options, errors);

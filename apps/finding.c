@@ -2,6 +2,7 @@
 #include "finding.h"
 
 #include <errno.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "complain.h"
@@ -87,5 +88,94 @@ enum exit_code finding(const fbd_model *model, const struct options *options, fb
     }
     fbd_find_free(find);
     fbd_errors_free(notes);
+    return code;
+}
+
+/* ---- --fit */
+
+/* The text of a file, to be freed; NULL with a message. */
+static char *read_text(const char *path, size_t *length)
+{
+    FILE *file = fopen(path, "rb");
+    char *text = NULL;
+    size_t room = 0;
+    *length = 0;
+    for (size_t read = 1; file && read > 0; *length += read) {
+        if (*length == room) {
+            char *larger = realloc(text, room = room ? 2 * room : 65536);
+            if (!larger) break;
+            text = larger;
+        }
+        read = fread(text + *length, 1, room - *length, file);
+    }
+    const bool whole = file && feof(file) && !ferror(file);
+    if (!whole) complain("fbd-run: cannot read `%s`: %s", path, strerror(errno));
+    if (file) fclose(file);
+    if (whole) return text;
+    free(text);
+    return NULL;
+}
+
+/* Cut the list of parameters at its commas. */
+static size_t cut_list(char *list, const char **names, size_t room)
+{
+    size_t count = 0;
+    for (char *name = list ? strtok(list, ", ") : NULL; name && count < room; name = strtok(NULL, ", "))
+        names[count++] = name;
+    return count;
+}
+
+static fbd_fit *fit_to(const fbd_model *model, const struct options *options, char *list, fbd_errors *notes)
+{
+    enum { most_names = 100 };
+    const char *names[most_names];
+    size_t length, data_length;
+    const char *source = fbd_model_source(model, &length);
+    char *data = read_text(options->fit, &data_length);
+    const fbd_fit_plan plan = {.size = sizeof plan,
+                               .parameters = names,
+                               .parameter_count = cut_list(list, names, most_names),
+                               .settings = options->settings,
+                               .setting_count = options->setting_count,
+                               .run = &options->run};
+    fbd_fit *fit = data ? fbd_fit_parse(source, length, fbd_model_file(model), data, data_length,
+                                        options->fit, &plan, notes)
+                        : NULL;
+    free(data);
+    return fit;
+}
+
+/* A fit is done if the data determine all parameters. */
+static enum exit_code show_fit(const fbd_fit *fit, const struct options *options)
+{
+    const bool quiet = options->quiet || place_is_stdout(options->json);
+    bool written = quiet || write_text(NULL, fbd_fit_text(fit)), determined = true;
+    if (options->json && !write_text(options->json, fbd_fit_json(fit))) written = false;
+    for (size_t i = 0; i < fbd_fit_count(fit); i++) determined &= !isinf(fbd_fit_get(fit, i).error);
+    fflush(stdout);
+    return written && determined ? exit_done : exit_failed;
+}
+
+/* The exit code of a fit that was not made. */
+static enum exit_code blame_fit(fbd_errors *notes)
+{
+    for (size_t i = 0; i < fbd_errors_count(notes); i++) {
+        const fbd_error note = fbd_errors_get(notes, i);
+        if (note.severity == FBD_ERROR)
+            return exit_code_for(strcmp(note.id, "no-fit") == 0 ? exit_failed : exit_usage, notes);
+    }
+    return exit_usage; /* the data cannot be read */
+}
+
+enum exit_code fitting(const fbd_model *model, const struct options *options, fbd_errors *errors)
+{
+    fbd_errors *notes = fbd_errors_new();
+    char *list = options->parameters ? strdup(options->parameters) : NULL;
+    fbd_fit *fit = notes ? fit_to(model, options, list, notes) : NULL;
+    if (notes) print_notes(notes, errors);
+    enum exit_code code = fit ? show_fit(fit, options) : notes ? blame_fit(notes) : exit_failed;
+    fbd_fit_free(fit);
+    fbd_errors_free(notes);
+    free(list);
     return code;
 }

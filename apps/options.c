@@ -67,6 +67,8 @@ enum {
     option_degrees,
     option_find,
     option_runs,
+    option_fit,
+    option_parameters,
 };
 
 static const struct option long_options[] = {
@@ -122,6 +124,8 @@ static const struct option long_options[] = {
     {"degrees", no_argument, NULL, option_degrees},
     {"find", required_argument, NULL, option_find},
     {"runs", required_argument, NULL, option_runs},
+    {"fit", required_argument, NULL, option_fit},
+    {"parameters", required_argument, NULL, option_parameters},
     {"schema", no_argument, NULL, option_schema},
     COMMAND_LINE_END,
 };
@@ -220,6 +224,8 @@ static bool take_drawing(struct options *options, int option)
     case option_page: options->page = optarg; return true;
     case option_exam: options->exam = true; return true;
     case option_find: options->find = optarg; return true;
+    case option_fit: options->fit = optarg; return true;
+    case option_parameters: options->parameters = optarg; return true;
     case option_runs: return take_runs(&options->find_runs);
     default: return usage("unknown option, or an option without its value", "");
     }
@@ -378,11 +384,13 @@ static bool drawing_agrees(const struct options *options)
     return !options->svg || picture_can_be_written(&line, options->svg);
 }
 
-/* A search has a run or statics, and its own text and JSON. */
+/* A search and a fit have runs (a search also statics), and a text and JSON of their own. */
 static bool find_agrees(const struct options *options)
 {
+    if (options->fit && (options->find || options->action == action_static))
+        return usage("--fit goes without --find and --static", "");
     if (options->action != action_run && options->action != action_static)
-        return usage("--find goes with a run or with --static", "");
+        return usage("--find and --fit go with a run, --find also with --static", "");
     if (options->svg || options->csv || options->html || options->plot || options->gnuplot ||
         options->at_count || options->settle || options->watch || options->full || options->degrees)
         return usage(
@@ -390,8 +398,11 @@ static bool find_agrees(const struct options *options)
             "--step and --no-structure only",
             "");
     if (options->run.error_bars || options->run.accuracy > 0)
-        return usage("--find has the errors of its values by itself: without --error-bars and --accuracy",
+        return usage("--find and --fit have the errors of their values by themselves: without --error-bars "
+                     "and --accuracy",
                      "");
+    if (options->fit && isfinite(options->run.until))
+        return usage("--until does not go with --fit: a run ends at the last time of the data", "");
     return true;
 }
 
@@ -410,7 +421,8 @@ static bool options_agree(const struct options *options)
         return usage("--at goes with --svg, --equations, --linearize or --static", "");
     if (options->svg && stands_still && !draws && !rests)
         return usage("--svg belongs to a run, --equations, --static or --linearize", "");
-    if (options->find && !find_agrees(options)) return false;
+    if ((options->find || options->fit) && !find_agrees(options)) return false;
+    if (options->parameters && !options->fit) return usage("--parameters goes with --fit", "");
     if (options->find_runs && !options->find) return usage("--runs goes with --find", "");
     if (!drawing_agrees(options)) return false;
     if (options->latex && options->action != action_equations)

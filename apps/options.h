@@ -44,8 +44,10 @@ struct options {
     bool details, exam;
     char **answers;
     size_t answer_count;
-    const char *find; /* a question, or NULL */
-    size_t find_runs; /* of the scan of the range, or 0 */
+    const char *fit;        /* a file of measured data, or NULL */
+    const char *parameters; /* those to fit, with commas between; NULL for all */
+    const char *find;       /* a question, or NULL */
+    size_t find_runs;       /* of the scan of the range, or 0 */
     const char *fmu;
     int fmu_version; /* 0 when not given */
     bool watch, live;

@@ -63,6 +63,8 @@ const char options_help_without_run[] =
     "                       'mu: block slips', 'P = 0..40 N: crate tips', 'v0 = 5..20 m/s: ball.x = 12 m';\n"
     "                       with --static those at which the equilibrium ceases\n"
     "  --runs NUMBER        with --find: runs of the first scan of the range (default 33)\n"
+    "  --fit DATA.csv       the parameters that agree best with measured data: columns t, block.x, ...\n"
+    "  --parameters LIST    with --fit: of these, with commas between (default: all)\n"
     "  --explain            the effects simulated and not simulated, which are conservative and why\n"
     "  --check-hand         compare the hand derivations of the file with the assembled equations\n"
     "  --seed NUMBER        seed of its random states (default 1)\n"
@@ -86,6 +88,6 @@ const char options_help_without_run[] =
     "\n"
     "Exit codes: 0 done, 1 the run failed or ended early, the scene is not in equilibrium (--static), or "
     "there\n"
-    "is no such value (--find),\n"
+    "is no such value (--find, --fit),\n"
     "2 usage, 3 the model file is wrong, 4 a hand derivation differs or an answer does not pass, 5 the "
     "requested\naccuracy was not reached, 128 + signal: interrupted, with the results so far written.\n";

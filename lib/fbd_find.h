@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * fbd_find: values of a parameter at which an outcome changes or an equation holds. The rules of fbd.h apply.
+ * fbd_find: values of a parameter at which an outcome changes or an equation holds, and the fit of parameters to data. The rules
+ * of fbd.h apply.
  */
 #ifndef FBD_FIND_H
 #define FBD_FIND_H
@@ -98,6 +99,70 @@ FBD_API fbd_find_gap fbd_find_gap_get(const fbd_find *find, size_t index);
 /* As text, and as one JSON object; NULL when memory is out. */
 FBD_API char *fbd_find_text(const fbd_find *find);
 FBD_API char *fbd_find_json(const fbd_find *find);
+
+/* ---------------------------------------------------------------- fit to data */
+
+/* Parameters of a model that make its run agree best with measured data. */
+typedef struct fbd_fit fbd_fit;
+
+/* How they are fitted. */
+typedef struct fbd_fit_plan {
+    size_t size;                   /* sizeof(fbd_fit_plan), or 0 */
+    const char *const *parameters; /* names; NULL for all of the file that do not follow from others */
+    size_t parameter_count;
+    const fbd_setting *settings; /* parameters: where the search starts; others: their values */
+    size_t setting_count;
+    const fbd_options *run; /* NULL for the file's; the runs end at the last time of the data */
+    fbd_watch *progress;    /* called after every run, or NULL; nonzero ends the fit (`stopped`) */
+    void *progress_context;
+} fbd_fit_plan;
+
+/* Fit parameters to data: least squares by the Levenberg-Marquardt method (GSL, multifit_nlinear), from the values
+ * of the file. `data` is a CSV text: its header has `t` and names of coordinates, rates and user states, with a
+ * unit behind them ("pendulum.theta [deg]") or in the units of the model; then a row for each time, not before
+ * the last one; a cell may be empty. A column "NAME +-" (or "NAME ±") has the standard deviations of column NAME,
+ * for all columns or none; without them all columns must have one unit, and have one standard deviation, which
+ * follows from the residuals. The run is evaluated at the times of the data by its dense output. Derivatives by
+ * parameters are central differences with steps of the cube root of the tolerance times the value.
+ *
+ * NULL with notes in `errors`: those of a wrong file or option, `bad-data` (with line and column of the data),
+ * `unknown-column`, `unknown-parameter`, `no-fit` (a run fails, or there is no convergence), `stopped`. A parameter
+ * that the data do not determine is noted (`not-determined`, a warning), and its error is INFINITY. */
+FBD_API fbd_fit *fbd_fit_parse(const char *text, size_t length, const char *name, const char *data,
+                               size_t data_length, const char *data_name, const fbd_fit_plan *plan,
+                               fbd_errors *errors);
+FBD_API void fbd_fit_free(fbd_fit *fit);
+
+/* A fitted parameter, in the units of the model. `error` is its standard error, [low, high] its confidence
+ * interval of 95 % (Student's t, or normal where standard deviations are given), NAN without degrees of freedom.
+ * The name is NULL past the last one. */
+typedef struct fbd_fitted {
+    const char *name, *unit;
+    double value, error, low, high;
+} fbd_fitted;
+
+FBD_API size_t fbd_fit_count(const fbd_fit *fit);
+FBD_API fbd_fitted fbd_fit_get(const fbd_fit *fit, size_t index);
+
+/* The correlation of two fitted parameters; NAN where one is not determined. */
+FBD_API double fbd_fit_correlation(const fbd_fit *fit, size_t a, size_t b);
+
+/* The quality of the fit, and its cost. */
+typedef struct fbd_fit_quality {
+    size_t values;    /* measured values */
+    size_t freedom;   /* those less the parameters */
+    bool weighted;    /* by standard deviations: then squares are of residuals divided by these */
+    double squares;   /* sum of squares of the residuals */
+    double deviation; /* sqrt(squares / freedom) [*unit]; NAN without degrees of freedom */
+    const char *unit; /* of the residuals; "" if weighted */
+    size_t iterations, runs;
+} fbd_fit_quality;
+
+FBD_API fbd_fit_quality fbd_fit_summary(const fbd_fit *fit);
+
+/* As text, and as one JSON object; NULL when memory is out. */
+FBD_API char *fbd_fit_text(const fbd_fit *fit);
+FBD_API char *fbd_fit_json(const fbd_fit *fit);
 
 #ifdef __cplusplus
 }

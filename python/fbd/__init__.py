@@ -13,6 +13,7 @@ the manual.
 from ._cost import Cost, CostPoint, Effect, Effects
 from ._binding import lib as _lib
 from ._find import Found, Gap, Solution
+from ._fit import Fit, Fitted
 from ._library import taken as _taken
 from ._library import text_at as _text_at
 from ._grade import Finding, Grade, Key
@@ -30,7 +31,7 @@ __version__: str = _text_at(_lib.fbd_version())
 # Without `Warning`, which would take the place of Python's own.
 __all__ = [
     "AccuracyNotReached", "Arrow", "Coordinate", "Cost", "CostPoint", "Drift", "Effect", "Effects", "Energy",
-    "Equation", "Equations", "Error", "Event", "Finding", "Found", "Gap", "Grade", "HandCheck", "Inertia", "Key", "Limit", "Linearization", "Mode", "Model",
+    "Equation", "Equations", "Error", "Event", "Finding", "Fit", "Fitted", "Found", "Gap", "Grade", "HandCheck", "Inertia", "Key", "Limit", "Linearization", "Mode", "Model",
     "Note", "Progress", "Run", "RunFailed", "Solution", "State", "Statics", "Stats", "SweepTable", "Unbalanced",
     "assert_derivation", "schema",
 ]

@@ -5,9 +5,10 @@ from __future__ import annotations
 import os
 from typing import Any, Callable, Dict, Mapping, Optional, Sequence, Tuple, Union
 
-from . import _cost, _find, _run, _sweep
+from . import _cost, _find, _fit, _run, _sweep
 from ._binding import ffi, lib
 from ._find import Found
+from ._fit import Data, Fit
 from ._library import bytes_of, made, path_of, run_options, settings_of, taken, text_at, whole
 from ._records import Coordinate, HandCheck, Inertia, Progress, from_struct, picture
 from ._run import Run
@@ -187,6 +188,21 @@ class Model:
         options: Dict[str, Any] = {"until": until, "tolerance": tolerance, "step": step, "method": method,
                                    "structure": structure}
         return _find.find(self._source(), self._name, question, self._parameters, statics, runs, progress, options)
+
+    def fit(self, data: Data, parameters: Union[str, Sequence[str]] = (), *, tolerance: Optional[float] = None,
+            step: Optional[float] = None, method: Optional[str] = None, structure: bool = True,
+            progress: Optional[Callable[[Progress], Any]] = None) -> Fit:
+        """Fit parameters to measured data by least squares, from the values of this model.
+
+        >>> model.fit("measured.csv", ["m", "c"])["c"].error
+
+        data: the path of a CSV file, or a mapping from the names of columns ("t", "block.x [cm]", "block.x +-") to
+        numbers, nan for those that are missing (docs/fit.md). parameters: their names; without them all that do
+        not follow from others. ``progress`` is called after runs, up to twenty times a second; what is true ends
+        the fit with :class:`fbd.Error`.
+        """
+        options: Dict[str, Any] = {"tolerance": tolerance, "step": step, "method": method, "structure": structure}
+        return _fit.fit(self._source(), self._name, data, parameters, self._parameters, progress, options)
 
     # ---- what it costs
 

@@ -60,6 +60,7 @@ void note(const char *name);
 int bad_calls_count(void *context, const char *rows, size_t length);
 void sweeps_that_cannot_be_made(void **context);
 void searches(void **context);
+void fits(void **context);
 void sweeps(void **context);
 void studies(void **context);
 void methods_and_simplifications(void **context);

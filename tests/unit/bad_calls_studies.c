@@ -65,6 +65,25 @@ void searches(void **context)
     fbd_find_free(find);
 }
 
+void fits(void **context)
+{
+    (void)context;
+    static const char data[] = "t,slider.x\n1,2\n";
+    const fbd_fit_plan plan = {.size = sizeof plan}, hole = {.setting_count = 1};
+    const size_t length = strlen(bad_calls_scene);
+    REFUSES(fbd_fit_parse, !fbd_fit_parse(NULL, 0, "scene", data, strlen(data), "data", &plan, errors));
+    REFUSES(fbd_fit_parse, !fbd_fit_parse(bad_calls_scene, length, "scene", NULL, 0, "data", &plan, errors));
+    REFUSES(fbd_fit_parse,
+            !fbd_fit_parse(bad_calls_scene, length, "scene", data, strlen(data), NULL, &hole, errors));
+    ENDURES(fbd_fit_free, fbd_fit_free(NULL));
+    ANSWERS(fbd_fit_count, fbd_fit_count(NULL) == 0);
+    ANSWERS(fbd_fit_get, !fbd_fit_get(NULL, 0).name);
+    ANSWERS(fbd_fit_correlation, is_nan(fbd_fit_correlation(NULL, 0, 0)));
+    ANSWERS(fbd_fit_summary, is_nan(fbd_fit_summary(NULL).squares));
+    ANSWERS(fbd_fit_text, !fbd_fit_text(NULL));
+    ANSWERS(fbd_fit_json, !fbd_fit_json(NULL));
+}
+
 void sweeps(void **context)
 {
     (void)context;

@@ -442,6 +442,7 @@ int main(void)
         cmocka_unit_test(statics),
         cmocka_unit_test(sweeps_that_cannot_be_made),
         cmocka_unit_test(searches),
+        cmocka_unit_test(fits),
         cmocka_unit_test(sweeps),
         cmocka_unit_test(studies),
         cmocka_unit_test(methods_and_simplifications),
