@@ -220,6 +220,11 @@ pages: $(BUILD)/.tests
 	ninja -C $(BUILD)
 	FBD_ALL_PAGES=1 FBD_TEST_TIMEOUT=10 .ci/test $(BUILD) --no-rebuild page
 
+# The language server in Debian's neovim: diagnostics arrive, and fixes are applied.
+lsp-check: python
+	.ci/install-packages editor
+	tests/editor/lsp_check $(BUILD)-python/bin
+
 # A folder that can be served from anywhere: every model live, and these documents.
 SITE = $(BUILD)/site
 site: live
@@ -296,5 +301,5 @@ $(BUILD)-count/build.ninja:
 	.ci/install-packages run test lint
 	touch $@
 
-.PHONY: all run satellites mutants generators compare test sanitize tsan valgrind faults cross-check fuzz bench measurements effects instructions error-bars event-bars events late-times implicit tighter methods impacts failures gallery python live live-check site check-format format lint install uninstall dist dist-check pages deb deb-check clean
+.PHONY: all run satellites mutants generators compare test sanitize tsan valgrind faults cross-check fuzz bench measurements effects instructions error-bars event-bars events late-times implicit tighter methods impacts failures gallery python live live-check lsp-check site check-format format lint install uninstall dist dist-check pages deb deb-check clean
 .SECONDARY:

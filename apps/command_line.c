@@ -8,6 +8,7 @@
 #include "complain.h"
 #include "completion.h"
 #include "fbd_export.h"
+#include "model_names.h"
 #include "standard_streams.h"
 
 enum exit_code exit_code_for(enum exit_code code, fbd_errors *errors)
@@ -68,7 +69,8 @@ static bool says_itself(int option)
            option == option_completion;
 }
 
-static bool say(const struct command_line *line, int option, enum exit_code *code)
+/* `next`: the word after the option and its value, or NULL. */
+static bool say(const struct command_line *line, int option, const char *next, enum exit_code *code)
 {
     *code = exit_done;
     if (line->silent) return false;
@@ -76,7 +78,8 @@ static bool say(const struct command_line *line, int option, enum exit_code *cod
         for (int i = 0; i < 2 && line->help[i]; i++) fputs(line->help[i], stdout);
     else if (option == option_schema)
         print_schema(code);
-    else if (option == option_completion && !completion_write(line, optarg))
+    else if (option == option_completion && !completion_write(line, optarg) &&
+             !model_names_write(optarg, next))
         return no_completion(line, code);
     else if (option == option_version)
         printf("%s %s\n", line->program, fbd_version());
@@ -90,7 +93,7 @@ bool command_line_options(const struct command_line *line, int argc, char **argv
     *code = exit_usage;
     opterr = 0;
     for (int option; (option = getopt_long(argc, argv, "h", line->options, NULL)) != -1;) {
-        if (says_itself(option)) return say(line, option, code);
+        if (says_itself(option)) return say(line, option, argv[optind], code);
         if (option == '?') return refuse_option(line, argv[optind - 1]);
         if (!take(line, option, options)) return false;
     }

@@ -34,6 +34,22 @@ static struct piece doc_of(const struct command_line *line, const char *name)
 
 /* ---- shells */
 
+/* Options whose values are names, which the program lists by `--completion KIND MODEL`; `end` follows a name. */
+struct named {
+    const char *option, *kind, *end;
+};
+
+static const struct named *named_by(const char *option)
+{
+    static const struct named all[] = {
+        {"set", "parameters", "="}, {"vary", "parameters", "="}, {"method", "methods", ""},
+        {"body", "bodies", ""},     {"without", "effects", ""},
+    };
+    for (size_t i = 0; i < sizeof all / sizeof *all; i++)
+        if (strcmp(option, all[i].option) == 0) return &all[i];
+    return NULL;
+}
+
 /* True if the value of the option is a file. */
 static bool takes_file(const char *name)
 {
@@ -43,18 +59,28 @@ static bool takes_file(const char *name)
     return false;
 }
 
+static void write_bash_value(const struct command_line *line, const char *option)
+{
+    const struct named *named = named_by(option);
+    printf("    --%s)", option);
+    if (named)
+        printf(" COMPREPLY=($(compgen -S '%s' -W \"$(%s --completion %s \"$model\" 2>/dev/null)\" -- "
+               "\"$word\"));",
+               named->end, line->program, named->kind);
+    if (named && *named->end) printf(" compopt -o nospace 2>/dev/null;");
+    if (strcmp(option, "completion") == 0) printf(" COMPREPLY=($(compgen -W 'bash zsh fish' -- \"$word\"));");
+    printf(" return ;;\n");
+}
+
 static void write_bash(const struct command_line *line)
 {
     const char *function = strchr(line->program, '-') + 1;
     printf("# eval \"$(%s --completion bash)\"\n_fbd_%s() {\n    local word=${COMP_WORDS[COMP_CWORD]} "
-           "before=${COMP_WORDS[COMP_CWORD-1]}\n    case $before in\n",
+           "before=${COMP_WORDS[COMP_CWORD-1]} model\n    for model in \"${COMP_WORDS[@]:1}\"; do\n        "
+           "[[ $model == *.y?(a)ml ]] && break\n        model=\n    done\n    case $before in\n",
            line->program, function);
     for (const struct option *o = line->options; o->name; o++)
-        if (o->has_arg == required_argument && !takes_file(o->name))
-            printf("    --%s) %s ;;\n", o->name,
-                   strcmp(o->name, "completion") == 0
-                       ? "COMPREPLY=($(compgen -W 'bash zsh fish' -- \"$word\")); return"
-                       : "return");
+        if (o->has_arg == required_argument && !takes_file(o->name)) write_bash_value(line, o->name);
     printf("    esac\n    if [[ $word == -* ]]; then\n        COMPREPLY=($(compgen -W '");
     for (const struct option *o = line->options; o->name; o++)
         printf("%s--%s", o == line->options ? "" : " ", o->name);
@@ -71,6 +97,13 @@ static void write_zsh(const struct command_line *line)
     for (const struct option *o = line->options; o->name; o++) {
         struct piece doc = doc_of(line, o->name);
         bool value = o->has_arg == required_argument;
+        const struct named *named = named_by(o->name);
+        if (named) {
+            printf("        '*--%s[%.*s]:name:{compadd -S \"%s\" -- $(%s --completion %s "
+                   "\"${words[(r)*.y(a|)ml]}\" 2>/dev/null)}' \\\n",
+                   o->name, doc.length, doc.text, *named->end ? named->end : " ", line->program, named->kind);
+            continue;
+        }
         printf("        '*--%s[%.*s]%s' \\\n", o->name, doc.length, doc.text,
                !value                               ? ""
                : takes_file(o->name)                ? ":file:_files"
@@ -89,6 +122,14 @@ static void write_fish(const struct command_line *line)
     for (const struct option *o = line->options; o->name; o++) {
         struct piece doc = doc_of(line, o->name);
         bool value = o->has_arg == required_argument;
+        const struct named *named = named_by(o->name);
+        if (named) {
+            printf("complete -c %s -l %s -x -a '(%s --completion %s (string match -r \"\\S+\\.ya?ml\" "
+                   "(commandline)) "
+                   "2>/dev/null)%s' -d '%.*s'\n",
+                   line->program, o->name, line->program, named->kind, named->end, doc.length, doc.text);
+            continue;
+        }
         printf("complete -c %s -l %s%s -d '%.*s'\n", line->program, o->name,
                !value                               ? ""
                : takes_file(o->name)                ? " -r -F"

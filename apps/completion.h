@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Completion of a command line by the shell, generated from the option tables.
+ * Completion of a command line by the shell, generated from the option tables; names of the model come from the
+ * program itself (model_names.h).
  */
 #ifndef FBD_APPS_COMPLETION_H
 #define FBD_APPS_COMPLETION_H

@@ -133,6 +133,28 @@ static enum exit_code write_text(const char *path, char *text)
     return written ? exit_done : exit_failed;
 }
 
+/* The same for the JSON of a result. */
+static enum exit_code write_json(const struct options *options, char *text)
+{
+    *options->json_written = true;
+    return write_text(options->json, text);
+}
+
+/* With --check the notes as {"notes": [...]}, if --json asks for them; without a result also where standard output
+ * waits for one. A file that would have had it stays as it is. */
+static enum exit_code write_notes(const struct options *options, fbd_errors *errors, enum exit_code code)
+{
+    const bool asked = options->action == action_check ||
+                       (place_is_stdout(options->json) && fbd_errors_failed_count(errors) > 0);
+    if (!options->json || *options->json_written || !asked) return code;
+    char *notes = fbd_errors_json(errors),
+         *text = notes ? malloc(strlen(notes) + sizeof "{\"notes\":}\n") : NULL;
+    if (text) sprintf(text, "{\"notes\":%s}\n", notes);
+    fbd_free(notes);
+    enum exit_code written = write_text(options->json, text);
+    return code == exit_done ? written : code;
+}
+
 static enum exit_code write_picture(const char *path, char *svg)
 {
     if (!svg) return no_memory();
@@ -160,7 +182,7 @@ static enum exit_code show_statics(const struct options *options, fbd_state *sta
     enum exit_code written = exit_done, code = fbd_statics_holds(statics) ? exit_done : exit_failed;
     bool json_only = place_is_stdout(options->json);
     if (!json_only && !options->quiet) written = print(fbd_statics_text(statics), exit_done);
-    if (written == exit_done && options->json) written = write_text(options->json, fbd_statics_json(statics));
+    if (written == exit_done && options->json) written = write_json(options, fbd_statics_json(statics));
     fbd_statics_free(statics);
     if (written == exit_done) written = draw_state(options, state, errors);
     return written == exit_done ? code : written;
@@ -184,7 +206,7 @@ static enum exit_code show_equations(const struct options *options, fbd_state *s
     if (!data_alone(options)) code = print(fbd_equations_write(state, &written, NULL), code);
     written.format = FBD_JSON;
     if (code == exit_done && options->json)
-        code = write_text(options->json, fbd_equations_write(state, &written, NULL));
+        code = write_json(options, fbd_equations_write(state, &written, NULL));
     return code;
 }
 
@@ -205,8 +227,7 @@ static enum exit_code show_state(const fbd_model *model, const struct options *o
         fbd_linearization *linear = fbd_linearize(state, errors);
         code = linear ? exit_done : exit_failed;
         if (linear && !data_alone(options)) code = print(fbd_linearization_text(linear), exit_done);
-        if (code == exit_done && options->json)
-            code = write_text(options->json, fbd_linearization_json(linear));
+        if (code == exit_done && options->json) code = write_json(options, fbd_linearization_json(linear));
         if (code == exit_done && options->svg)
             code = write_picture(options->svg, fbd_linearization_svg(linear));
         fbd_linearization_free(linear);
@@ -331,6 +352,7 @@ static enum exit_code carry_and_write(fbd_simulation *simulation, const struct o
     if (result && !outputs_write(outputs, options, result, errors)) code = exit_failed;
     if (code == exit_done && !make_note(simulation, result, options, outputs, interrupt, errors, &noted))
         code = exit_failed;
+    *options->json_written = result && code == exit_done;
     bool closed = outputs_close(outputs, result && code == exit_done) && outputs_announce(options, code);
     if (code == exit_done && report) code = print(fbd_result_report(result, options->full), exit_done);
     if (!closed) code = exit_failed;
@@ -428,19 +450,22 @@ static bool find_scale(struct options *options, const fbd_model *model, fbd_erro
 
 static enum exit_code read_and_act(struct options *options)
 {
+    bool json_written = false;
+    options->json_written = &json_written;
     fbd_errors *errors = fbd_errors_new();
     if (!errors) return no_memory();
     fbd_model *model = fbd_model_read(options->model, options->settings, options->setting_count, errors);
     if (options->watched) watch_tell(options->watched, errors);
     enum exit_code missing = exit_bad_model;
     model = leave_out(model, options, errors, &missing);
-    enum exit_code code = !model ? missing
-                          : options_spare(options, errors) && find_scale(options, model, errors)
-                              ? act(model, options, errors)
-                              : exit_usage;
+    const bool spare = options_spare(options, errors);
+    enum exit_code code = !model                                        ? missing
+                          : spare && find_scale(options, model, errors) ? act(model, options, errors)
+                                                                        : exit_usage;
     fflush(stdout);
     fbd_errors_print(errors, stderr);
     code = exit_code_for(code, errors);
+    if (spare) code = write_notes(options, errors, code);
     fbd_errors_free(errors);
     fbd_model_free(model);
     return code;

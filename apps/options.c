@@ -430,8 +430,8 @@ static bool options_agree(const struct options *options)
     if (options->fmu_version && !options->fmu) return usage("--fmu-version goes with --fmu", "");
     if (options->live && !options->html) return usage("--live goes with --html", "");
     if (options->settle && !rests) return usage("--settle goes with --static", "");
-    if (stands_still && !rests && !draws && options->json)
-        return usage("--json belongs to a run, --equations, --linearize, --static or --grade", "");
+    if (stands_still && !rests && !draws && options->action != action_check && options->json)
+        return usage("--json belongs to a run, --check, --equations, --linearize, --static or --grade", "");
     if (stands_still && (options->csv || options->html || options->note || options->plot ||
                          options->gnuplot || options->ledger || options->every > 0))
         return usage("--csv, --html, --note, --plot, --gnuplot, --ledger and --every belong to a run", "");

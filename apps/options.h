@@ -52,6 +52,7 @@ struct options {
     int fmu_version; /* 0 when not given */
     bool watch, live;
     const struct watched_run *watched; /* of --watch, or NULL */
+    bool *json_written;                /* set when the JSON of a result has been written */
 };
 
 /* Read the command line. Returns true to go on; false with *code set when the program should exit (help,

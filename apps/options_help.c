@@ -23,7 +23,7 @@ const char options_help[] =
     "  --every TIME         output interval of the rows, in seconds (default: 1/500 of the run)\n"
     "  --ledger             add columns for every force, its work, and the energies\n"
     "  --json FILE          final state, events, forces, energy and cost as one object; with --equations,\n"
-    "                       --linearize or --static their results\n"
+    "                       --linearize or --static their results; with --check the errors\n"
     "  --error-bars         estimate the error of every number written, by a second run\n"
     "  --html FILE          one page that plays the motion, with plots, equations and events\n"
     "  --note FILE          a calculation note: assumptions, data, diagrams, equations, results, checks;\n"

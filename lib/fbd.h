@@ -111,6 +111,16 @@ FBD_API size_t fbd_errors_failed_count(const fbd_errors *errors);
 /* Note `index`, in the order of position in the file. */
 FBD_API fbd_error fbd_errors_get(fbd_errors *errors, size_t index);
 
+/* The correction of an error as an edit: `replace`, which stands at line and column of its file, becomes `with`. */
+typedef struct fbd_fix {
+    int line, column;           /* from 1, counted in characters */
+    const char *replace, *with; /* NULL when no edit is known */
+} fbd_fix;
+
+/* The edit that note `index` suggests, with all members 0 where none is known. It is checked against the text of
+ * the model: `replace` stands at its position. Its texts live as long as the list. */
+FBD_API fbd_fix fbd_errors_fix(fbd_errors *errors, size_t index);
+
 /* File `index` that the calls with this list have read or tried to read: the model file and the data files of
  * its tables; NULL past the last. Standard input is not listed. Lives as long as the list. */
 FBD_API size_t fbd_errors_file_count(const fbd_errors *errors);

@@ -189,8 +189,9 @@ FBD_API char *fbd_model_controls(const fbd_model *model, fbd_errors *errors);
 FBD_API char *fbd_model_without(const fbd_model *model, const char *const *effects, size_t count,
                                 fbd_errors *errors);
 
-/* The notes of a list, as one JSON list of {severity, id, message, hint, line, column}. To be freed with
- * fbd_free; NULL when memory is out. */
+/* The notes of a list, as one JSON list of {severity, id, message, hint, file, line, column, context_line,
+ * context_column, fix}, with null for an unknown hint, file or fix, and fix {line, column, replace, with} as fbd_fix. To be
+ * freed with fbd_free; NULL when memory is out. */
 FBD_API char *fbd_errors_json(fbd_errors *errors);
 
 /* The data of a page of --html about a run, as one JSON object (its format: lib/api/page_data.c), for a run

@@ -31,7 +31,7 @@ FBD_API bool fbd_document_take(fbd_document *document, const fbd_document *from,
                                size_t count);
 
 /* Compile a document as fbd_model_parse does a text, without its derivations unless `derivations`. fbd_model_source of the
- * model is empty. */
+ * model is empty; for fbd_check_hand the document must live. */
 FBD_API fbd_model *fbd_model_parse_document(const fbd_document *document, const fbd_setting *settings,
                                             size_t setting_count, bool derivations, fbd_errors *errors);
 

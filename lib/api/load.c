@@ -56,6 +56,7 @@ static fbd_model *compile(char *text, size_t length, const char *name, const fbd
         bool open = document_open(&document, text, length, name, errors);
         if (open) model = hands_compile(&document, overrides, count, errors);
         document_close(&document);
+        diag_place_fixes(errors, name, text, length);
     } else {
         diag_out_of_memory(errors);
     }

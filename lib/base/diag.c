@@ -66,6 +66,14 @@ static const char *shown_text(struct arena *arena, const char *text)
     return made;
 }
 
+/* The fix of a note with this hint, without its place. */
+static fbd_fix fix_of(const fbd_errors *errors, const char *hint)
+{
+    const struct diag_replacement *last = &errors->replacement;
+    return hint && hint == last->hint ? (fbd_fix){.replace = last->replace, .with = last->with}
+                                      : (fbd_fix){0};
+}
+
 static void add_note(fbd_errors *errors, fbd_error note, const char *format, va_list args)
 {
     if (!errors) return;
@@ -74,12 +82,14 @@ static void add_note(fbd_errors *errors, fbd_error note, const char *format, va_
     struct diag_note *entry = ARENA_NEW(&errors->arena, struct diag_note);
     const char *message = entry ? format_text(&errors->arena, format, args) : NULL;
     if (message) message = shown_text(&errors->arena, message);
+    const fbd_fix fix = fix_of(errors, note.hint);
     if (message && note.hint) note.hint = shown_text(&errors->arena, note.hint);
     if (!message) {
         errors->out_of_memory = true;
         return;
     }
     entry->error = note;
+    entry->fix = fix;
     entry->error.message = message;
     entry->error.file = errors->file;
     if (errors->last)
@@ -131,6 +141,19 @@ const char *diag_hint(fbd_errors *errors, const char *format, ...)
     char *text = format_text(&errors->arena, format, args);
     va_end(args);
     return text;
+}
+
+const char *diag_replace(fbd_errors *errors, const char *wrong, const char *with, const char *format, ...)
+{
+    if (!errors) return NULL;
+    va_list args;
+    va_start(args, format);
+    const char *hint = format_text(&errors->arena, format, args);
+    va_end(args);
+    const char *replace = arena_text(&errors->arena, wrong, strlen(wrong));
+    const char *word = arena_text(&errors->arena, with, strlen(with));
+    if (hint && replace && word) errors->replacement = (struct diag_replacement){hint, replace, word};
+    return hint;
 }
 
 void diag_in_file(fbd_errors *errors, const char *file)
@@ -252,7 +275,7 @@ const char *diag_nearest(fbd_errors *errors, const char *wrong, const char *cons
             best = i;
         }
     }
-    if (best < count) return diag_hint(errors, "did you mean `%s`?", names[best]);
+    if (best < count) return diag_replace(errors, wrong, names[best], "did you mean `%s`?", names[best]);
     enum { most_listed = 24 };
     char list[512] = "";
     size_t used = 0;
@@ -299,30 +322,35 @@ static bool sort_notes(fbd_errors *errors)
     size_t done = 0;
     for (struct diag_note *note = errors->first; note; note = note->next) {
         size_t place = done++;
-        for (; place > 0 && stands_after(errors->sorted[place - 1], &note->error); place--)
+        for (; place > 0 && stands_after(&errors->sorted[place - 1]->error, &note->error); place--)
             errors->sorted[place] = errors->sorted[place - 1];
-        errors->sorted[place] = &note->error;
+        errors->sorted[place] = note;
     }
     return true;
 }
 
 /* If memory for sorting is out, the notes are returned in the order of discovery. */
-static const fbd_error *unsorted(const fbd_errors *errors, size_t index)
+static const struct diag_note *unsorted(const fbd_errors *errors, size_t index)
 {
     const struct diag_note *note = errors->first;
     while (index-- > 0) note = note->next;
-    return &note->error;
+    return note;
 }
 
-const fbd_error *diag_get(fbd_errors *errors, size_t index)
+const struct diag_note *diag_note_at(fbd_errors *errors, size_t index)
 {
-    static const fbd_error no_memory = {.severity = FBD_ERROR,
-                                        .id = "out-of-memory",
-                                        .message = "out of memory"};
+    static const struct diag_note no_memory = {
+        .error = {.severity = FBD_ERROR, .id = "out-of-memory", .message = "out of memory"}};
     if (!errors) return NULL;
     if (index < errors->count)
         return errors->sorted || sort_notes(errors) ? errors->sorted[index] : unsorted(errors, index);
     return errors->out_of_memory && index == errors->count ? &no_memory : NULL;
+}
+
+const fbd_error *diag_get(fbd_errors *errors, size_t index)
+{
+    const struct diag_note *note = diag_note_at(errors, index);
+    return note ? &note->error : NULL;
 }
 
 fbd_error fbd_errors_get(fbd_errors *errors, size_t index)

@@ -16,7 +16,13 @@ struct pos {
 
 struct diag_note {
     fbd_error error;
+    fbd_fix fix; /* line 0 until diag_place_fixes has found it */
     struct diag_note *next;
+};
+
+/* The hint that was made last of those that replace a word. */
+struct diag_replacement {
+    const char *hint, *replace, *with;
 };
 
 /* A file that was read, or could not be read. */
@@ -29,7 +35,8 @@ struct fbd_errors {
     struct arena arena;
     struct diag_note *first, *last;
     struct diag_file *files;
-    fbd_error **sorted; /* filled by diag_get */
+    struct diag_note **sorted; /* filled by diag_get */
+    struct diag_replacement replacement;
     size_t count, errors, limit;
     const char *file; /* file name of notes added from now on */
     bool out_of_memory;
@@ -46,7 +53,15 @@ void diag_add_within(fbd_errors *errors, const char *id, struct pos at, struct p
 /* A hint built with printf that lives as long as `errors`. */
 const char *diag_hint(fbd_errors *errors, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
-/* A hint "did you mean 'x'?" for the nearest of `names`, or a list of them when none is near. */
+/* The same for a hint to write `with` instead of `wrong`. The note that is added next with this hint has that as its fix. */
+const char *diag_replace(fbd_errors *errors, const char *wrong, const char *with, const char *format, ...)
+    __attribute__((format(printf, 4, 5)));
+
+/* Find the words that the fixes of notes on `file` replace in its text: at the position of the note, or behind a quote or
+ * sign there. Fixes whose words are not there are dropped. */
+void diag_place_fixes(fbd_errors *errors, const char *file, const char *text, size_t length);
+
+/* A hint "did you mean 'x'?" for the nearest of `names`, which is also the fix, or a list of them when none is near. */
 const char *diag_nearest(fbd_errors *errors, const char *wrong, const char *const *names, size_t count);
 
 /* The present end of a list; the second function removes all notes added since. */
@@ -63,6 +78,7 @@ void diag_out_of_memory(fbd_errors *errors);
 void diag_in_file(fbd_errors *errors, const char *file);
 
 /* Note `index` in the order of fbd_errors_get, or NULL past the end; lives as long as the list. */
+const struct diag_note *diag_note_at(fbd_errors *errors, size_t index);
 const fbd_error *diag_get(fbd_errors *errors, size_t index);
 
 /* Add a file that is going to be read to the list of fbd_errors_file, once. */

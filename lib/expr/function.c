@@ -106,7 +106,9 @@ static const char *suggest_function(struct parser *p, const char *name)
     const char *const *tables = NULL;
     for (size_t i = 0; i < sizeof other_names / sizeof other_names[0]; i++)
         if (strcmp(other_names[i][0], name) == 0)
-            return diag_hint(p->errors, "write `%s`", other_names[i][1]);
+            return strchr(other_names[i][1], '^') /* in place of the whole call */
+                       ? diag_hint(p->errors, "write `%s`", other_names[i][1])
+                       : diag_replace(p->errors, name, other_names[i][1], "write `%s`", other_names[i][1]);
     if (explain_is_known(p->scope, name, strlen(name)))
         return diag_hint(p->errors, "`%s` is a value; a product is written `%s*(...)`", name, name);
     size_t count = p->scope->tables ? p->scope->tables(p->scope->context, &tables) : 0;

@@ -238,14 +238,14 @@ const char *unit_suggest(fbd_errors *errors, const char *name, size_t length)
     const char *names[row_count];
     for (size_t i = 0; i < sizeof habits / sizeof habits[0]; i++)
         if (is_called(habits[i][0], name, length)) return habits[i][1];
+    char copy[longest + 1];
+    const size_t copied = length < longest ? length : longest;
+    memcpy(copy, name, copied);
+    copy[copied] = '\0';
     const char *word = find_word(name, length);
-    if (word) return diag_hint(errors, "write `%s`", word);
+    if (word) return diag_replace(errors, copy, word, "write `%s`", word);
     for (size_t i = 0; i < sizeof habits / sizeof habits[0]; i++)
         if (same_word(habits[i][0], name, length)) return habits[i][1];
-    char copy[longest + 1];
-    if (length > longest) length = longest;
-    memcpy(copy, name, length);
-    copy[length] = '\0';
     for (size_t i = 0; i < row_count; i++) names[i] = table[i].name;
     return diag_nearest(errors, copy, names, row_count);
 }

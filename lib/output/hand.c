@@ -387,6 +387,15 @@ bool hand_check_document(const struct fbd_model *model, struct document *documen
     return differ >= 0 && !text->failed;
 }
 
+/* The file of a model, or the document that it was made of. */
+static bool open_model(struct document *document, const fbd_model *model, fbd_errors *errors)
+{
+    if (!model->root)
+        return document_open(document, model->source, model->source_length, model->scene->file, errors);
+    *document = (struct document){.file = model->scene->file, .root = model->root};
+    return true;
+}
+
 char *fbd_check_hand(const fbd_model *model, unsigned seed, size_t *differing)
 {
     size_t differ = 0;
@@ -397,7 +406,7 @@ char *fbd_check_hand(const fbd_model *model, unsigned seed, size_t *differing)
     fbd_errors *errors = fbd_errors_new();
     bool done = false;
     if (errors) {
-        done = document_open(&document, model->source, model->source_length, model->scene->file, errors);
+        done = open_model(&document, model, errors);
         document.like = model->scene;
         done = done && !errors->out_of_memory && hand_check_document(model, &document, seed, &text, &differ);
         document_close(&document);

@@ -181,7 +181,8 @@ static const char *translated(fbd_errors *errors, const struct group *group, con
         const struct field *field =
             strcmp(word, usual_keys[i][0]) == 0 ? find_field(group, usual_keys[i][1], &offset) : NULL;
         if (field && usual_keys[i][2]) return usual_keys[i][2];
-        if (field) return diag_hint(errors, "the key is `%s`: %s", field->key, field->doc);
+        if (field)
+            return diag_replace(errors, word, field->key, "the key is `%s`: %s", field->key, field->doc);
     }
     return NULL;
 }

@@ -272,7 +272,7 @@ bool value_flag(struct reader *reader, const struct node *node, const char *what
     if (truth && !node->quoted) return true;
     const char *word = scalar_boolean_word(node->text);
     const char *hint = truth  ? "leave out the quotes"
-                       : word ? diag_hint(reader->errors, "write `%s`", word)
+                       : word ? diag_replace(reader->errors, node->text, word, "write `%s`", word)
                               : "write `true` or `false`";
     return value_refuse(reader, node, what, "true or false", hint);
 }
@@ -306,7 +306,8 @@ static const char *usual_choice(fbd_errors *errors, const char *word, const char
     };
     for (size_t i = 0; i < sizeof words / sizeof *words; i++)
         for (size_t k = 0; k < count && strcmp(word, words[i][0]) == 0; k++)
-            if (strcmp(names[k], words[i][1]) == 0) return diag_hint(errors, "it is `%s`", names[k]);
+            if (strcmp(names[k], words[i][1]) == 0)
+                return diag_replace(errors, word, names[k], "it is `%s`", names[k]);
     return NULL;
 }
 

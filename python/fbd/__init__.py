@@ -17,8 +17,8 @@ from ._fit import Fit, Fitted
 from ._library import taken as _taken
 from ._library import text_at as _text_at
 from ._grade import Finding, Grade, Key
-from ._model import Model
-from ._notes import AccuracyNotReached, Error, Note, RunFailed, Warning
+from ._model import Model, check
+from ._notes import AccuracyNotReached, Error, Fix, Note, RunFailed, Warning
 from ._records import (Arrow, Coordinate, Drift, Energy, Equation, Event, HandCheck, Inertia, Limit, Mode, Progress,
                        Stats, Unbalanced)
 from ._run import Run
@@ -31,9 +31,9 @@ __version__: str = _text_at(_lib.fbd_version())
 # Without `Warning`, which would take the place of Python's own.
 __all__ = [
     "AccuracyNotReached", "Arrow", "Coordinate", "Cost", "CostPoint", "Drift", "Effect", "Effects", "Energy",
-    "Equation", "Equations", "Error", "Event", "Finding", "Fit", "Fitted", "Found", "Gap", "Grade", "HandCheck", "Inertia", "Key", "Limit", "Linearization", "Mode", "Model",
+    "Equation", "Equations", "Error", "Event", "Finding", "Fit", "Fitted", "Fix", "Found", "Gap", "Grade", "HandCheck", "Inertia", "Key", "Limit", "Linearization", "Mode", "Model",
     "Note", "Progress", "Run", "RunFailed", "Solution", "State", "Statics", "Stats", "SweepTable", "Unbalanced",
-    "assert_derivation", "schema",
+    "assert_derivation", "check", "schema",
 ]
 
 for _name in [*__all__, "Warning"]:

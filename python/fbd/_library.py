@@ -14,7 +14,7 @@ from typing import Any, Callable, Dict, Optional, Sequence, Tuple, Union
 import numpy as np
 
 from ._binding import ffi, lib
-from ._notes import Error, Note, warn
+from ._notes import Error, Fix, Note, warn
 
 lib.glue_quiet()
 
@@ -138,7 +138,8 @@ def view(pointer: Any, shape: Tuple[int, ...], owner: Any) -> "np.ndarray[Any, n
 # ---- lists of errors
 
 
-def _note(error: Any) -> Note:
+def _note(errors: Any, index: int) -> Note:
+    error, fix = lib.fbd_errors_get(errors, index), lib.fbd_errors_fix(errors, index)
     return Note(
         "error" if error.severity == lib.FBD_ERROR else "warning",
         text_at(error.id),
@@ -149,16 +150,23 @@ def _note(error: Any) -> Note:
         error.column,
         error.context_line,
         error.context_column,
+        None if fix.replace == ffi.NULL else Fix(fix.line, fix.column, text_at(fix.replace), text_at(getattr(fix, "with"))),
     )
+
+
+def notes_of(errors: Any) -> Tuple[Note, ...]:
+    """The notes of a list of the library."""
+    notes = tuple(_note(errors, i) for i in range(lib.fbd_errors_count(errors)))
+    if any(note.id == "out-of-memory" for note in notes):
+        raise MemoryError("fbd: out of memory")
+    return notes
 
 
 def _call(function: Callable[..., Any], arguments: Tuple[Any, ...]) -> Tuple[Any, Tuple[Note, ...]]:
     """Call a function that takes a list of errors last. Errors are raised; its result, and what is left to warn of."""
     errors = owned(lib.fbd_errors_new(), lib.fbd_errors_free)
     result = function(*arguments, errors)
-    notes = tuple(_note(lib.fbd_errors_get(errors, i)) for i in range(lib.fbd_errors_count(errors)))
-    if any(note.id == "out-of-memory" for note in notes):
-        raise MemoryError("fbd: out of memory")
+    notes = notes_of(errors)
     if lib.fbd_errors_failed_count(errors):
         raise Error(notes)
     return result, notes

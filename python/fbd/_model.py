@@ -2,6 +2,7 @@
 """A model: a file compiled, and what can be done with it."""
 from __future__ import annotations
 
+import json
 import os
 from typing import Any, Callable, Dict, Mapping, Optional, Sequence, Tuple, Union
 
@@ -9,13 +10,69 @@ from . import _cost, _find, _fit, _run, _sweep
 from ._binding import ffi, lib
 from ._find import Found
 from ._fit import Data, Fit
-from ._library import bytes_of, made, path_of, run_options, settings_of, taken, text_at, whole
+from ._library import (bytes_of, made, names_of, notes_of, owned, path_of, run_options, settings_of, taken, text_at,
+                       whole)
+from ._notes import Error, Note, complaint
 from ._records import Coordinate, HandCheck, Inertia, Progress, from_struct, picture
 from ._run import Run
 from ._state import Equations, Linearization, State, Statics, coordinates_of
 from ._sweep import SweepTable, Vary
 
 Values = Optional[Mapping[str, Any]]
+Hand = Mapping[str, Sequence[str]]
+
+
+def read_notes(source: bytes, name: bytes, parameters: Mapping[str, Any]) -> Tuple[Tuple[Note, ...], Tuple[str, ...]]:
+    """The notes on a text and on its start, and the files that have been read for it."""
+    errors = owned(lib.fbd_errors_new(), lib.fbd_errors_free)
+    settings, count, kept = settings_of(dict(parameters))
+    handle = lib.fbd_model_parse(source, len(source), name, settings, count, errors)
+    if handle != ffi.NULL:
+        handle = owned(handle, lib.fbd_model_free)
+        lib.fbd_state_close(owned(lib.fbd_state_new(handle), lib.fbd_state_free, handle), errors)
+        lib.fbd_model_check_key(handle, errors)
+    files = tuple(text_at(lib.fbd_errors_file(errors, i)) for i in range(lib.fbd_errors_file_count(errors)))
+    del kept
+    return notes_of(errors), files
+
+
+def check(model: Union[str, "os.PathLike[str]"], /, name: Optional[str] = None, **parameters: Any) -> Tuple[Note, ...]:
+    """All that is wrong or doubtful with a model file and its start, as ``fbd-run --check`` says; () for a right one.
+
+    ``model`` is a path, or the text of a model: a str of more than one line, which messages call ``name`` and
+    beside which data files are looked for.
+
+    >>> for note in fbd.check("pendulum.yaml"):
+    ...     print(note.line, note.message, note.fix)
+    """
+    if isinstance(model, str) and ("\n" in model or name is not None):
+        source, called = bytes_of(model, "the text"), bytes_of(name or "model", "the name")
+    else:
+        with open(model, "rb") as stream:
+            source, called = stream.read(), path_of(model)
+    return read_notes(source, called, parameters)[0]
+
+
+def _with_hand(source: bytes, name: bytes, parameters: Mapping[str, Any], hand: Hand) -> Any:
+    """The model with other derivations: of each body in place of its own, those of "" at the top of the file."""
+    document = made(lib.fbd_document_parse, lib.fbd_document_free, (), source, len(source), name)
+    entries = []
+    for body, lines in hand.items():
+        path = ["bodies", body, "hand"] if body else ["hand"]
+        value: Any = [lines] if isinstance(lines, str) else list(lines)
+        for key in reversed(path):
+            value = {key: value}
+        text = json.dumps(value, ensure_ascii=False).encode("utf-8")
+        entry = made(lib.fbd_document_parse, lib.fbd_document_free, (), text, len(text), b"the derivation")
+        entries.append(entry)
+        texts, count, kept = names_of(path, "a body")
+        if not lib.fbd_document_take(document, entry, texts, count):
+            raise Error((complaint("error", "unknown-body", f"the model has no body `{body}`"),))
+        del kept
+    settings, count, kept = settings_of(dict(parameters))
+    model = made(lib.fbd_model_parse_document, lib.fbd_model_free, (document, *entries), document, settings, count, True)
+    del kept
+    return model
 
 
 class Model:
@@ -115,11 +172,13 @@ class Model:
         state = self.state(values, **named)
         return (state.settle() if settle else state).statics()
 
-    def check_hand(self, seed: int = 1) -> HandCheck:
+    def check_hand(self, seed: int = 1, hand: Optional[Hand] = None) -> HandCheck:
         """Hold every ``hand:`` derivation of the file against the assembly at random states, lines of energy and
-        momentum against a run. The number of those that differ, with its ``text``."""
+        momentum against a run. The number of those that differ, with its ``text``. ``hand`` has other lines for some
+        bodies, ``{"block": ["m*a = T - f"]}``, of which "" stands for those of the whole scene."""
+        model = self._model if hand is None else _with_hand(self._source(), self._name, self._parameters, hand)
         differing = ffi.new("size_t *")
-        text = lib.fbd_check_hand(self._model, whole(seed, "the seed", 2**32 - 1), differing)
+        text = lib.fbd_check_hand(model, whole(seed, "the seed", 2**32 - 1), differing)
         return HandCheck(differing[0], taken(text))
 
     # ---- runs

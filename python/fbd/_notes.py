@@ -11,6 +11,24 @@ if TYPE_CHECKING:
     from ._run import Run
 
 
+class Fix(NamedTuple):
+    """An edit of the model text: ``replace``, which stands at line and column (of characters, from 1), becomes ``to``."""
+
+    line: int
+    column: int
+    replace: str
+    to: str
+
+    def apply(self, text: str) -> str:
+        """The text with this edit."""
+        lines = text.splitlines(keepends=True)
+        line, at = lines[self.line - 1], self.column - 1 + (self.line == 1 and text.startswith("\ufeff"))
+        if not line.startswith(self.replace, at):
+            raise ValueError(f"`{self.replace}` does not stand at {self.line}:{self.column} of the text")
+        lines[self.line - 1] = line[:at] + self.to + line[at + len(self.replace):]
+        return "".join(lines)
+
+
 class Note(NamedTuple):
     """One thing that is wrong with a model file or with a call. Its text is that of ``fbd-run``.
 
@@ -26,6 +44,7 @@ class Note(NamedTuple):
     column: int
     context_line: int  #: what was being read there
     context_column: int
+    fix: Optional[Fix] = None  #: the edit that the hint suggests, where it is one
 
     def __str__(self) -> str:
         place = f"{self.file}:" if self.file else ""

@@ -23,6 +23,26 @@ bash_completes() {
         [ "${COMPREPLY[*]}" = zsh ]' - "$FBD_RUN"
 }
 
+bash_completes_names() {
+    bash -c 'eval "$("$1" --completion bash)"
+        PATH=$(dirname "$1"):$PATH model=$2
+        offers() { # offers EXPECTED WORD...
+            expected=$1; shift
+            COMP_WORDS=(fbd-run "$@"); COMP_CWORD=$#; _fbd_run
+            [ "${COMPREPLY[*]}" = "$expected" ] || { echo "${COMPREPLY[*]} instead of $expected"; exit 1; }
+        }
+        offers "mu_s= mu_k=" "$model" --set mu_
+        offers block "$model" --body b
+        offers block.friction "$model" --without block.f
+        offers "rk8pd" --method rk8
+        offers "" nothing.yaml --set m
+        offers "" --body b' - "$FBD_RUN" "$FBD_SOURCE_ROOT/models/kinetics/incline.yaml"
+}
+
+names() { # names EXPECTED KIND MODEL: on one line, without messages
+    [ "$("$FBD_RUN" --completion "$2" "$3" 2>&1 | tr '\n' ' ')" = "$1" ]
+}
+
 hint() { # hint EXPECTED ARGUMENT...
     expected=$1
     shift
@@ -43,6 +63,10 @@ for program in fbd-run fbd-cost fbd-sweep; do
     done
 done
 check 'bash takes the script' bash_completes
+check 'and names of the model behind options' bash_completes_names
+check 'effects are those of --without' names 'block.gravity block.normal block.friction block.push ' effects \
+    "$FBD_SOURCE_ROOT/models/kinetics/incline.yaml"
+check 'a wrong model has no names' names '' parameters "$FBD_SOURCE_ROOT/tests/bad/axis_unknown.yaml"
 check 'a slip is answered' hint 'did you mean --accuracy?' --acuracy 1e-6 model.yaml
 check 'exchanged letters are answered' hint 'did you mean --until?' --untli 1 model.yaml
 check 'what is nothing like an option is said so' hint 'unknown option' --frobnicate model.yaml

@@ -14,4 +14,14 @@ same_options() { # same_options PROGRAM
 for program in fbd-run fbd-cost fbd-sweep; do
     check "the manual page of $program has the options of --help" same_options "$program"
 done
+
+server_options() { # server_options PROGRAM: as its parser has them
+    sed -n 's/.*add_argument("\(--[a-z-]*\)".*/\1/p' "$FBD_SOURCE_ROOT/python/fbd/${1#fbd-}.py" | { cat; echo --help; } | sort -u >"$scratch/help"
+    sed -n 's/^\.It Fl -\([a-z-]*\).*/--\1/p' "$FBD_SOURCE_ROOT/docs/man/$1.1" | sort -u >"$scratch/manual"
+    same "$scratch/help" "$scratch/manual"
+}
+
+for program in fbd-mcp fbd-lsp; do
+    check "the manual page of $program has its options" server_options "$program"
+done
 finish

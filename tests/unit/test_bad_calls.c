@@ -308,6 +308,8 @@ static void results(void **context)
     char *no_notes = fbd_errors_json(NULL);
     ANSWERS(fbd_errors_json, no_notes && strcmp(no_notes, "[]") == 0);
     fbd_free(no_notes);
+    ANSWERS(fbd_errors_fix, !fbd_errors_fix(NULL, 0).replace);
+    ANSWERS(fbd_errors_fix, !fbd_errors_fix(errors, past).replace);
     fbd_result_free(result);
     fbd_simulation_free(simulation);
 }
