@@ -34,12 +34,10 @@ struct sizes {
 
 static void take_sizes(struct making *making, fbd_state *state, size_t body, struct sizes *sizes)
 {
-    const size_t room = fbd_diagram(state, body, NULL, 0);
+    fbd_arrow *arrows;
+    const size_t count = making_arrows(making, state, body, &arrows);
     const fbd_pose pose = fbd_state_pose(state, body);
-    fbd_arrow *arrows = ARENA_ARRAY(&making->document->arena, room + 1, fbd_arrow);
-    if (!arrows) return;
-    const size_t count = fbd_diagram(state, body, arrows, room);
-    for (size_t i = 0; i < count && i < room; i++) {
+    for (size_t i = 0; i < count; i++) {
         const double force = hypot(arrows[i].fx, arrows[i].fy),
                      arm = hypot(arrows[i].x - pose.G[0], arrows[i].y - pose.G[1]);
         sizes->force = fmax(sizes->force, force);

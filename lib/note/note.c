@@ -2,6 +2,7 @@
 #include "note/note.h"
 
 #include <math.h>
+#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -42,6 +43,21 @@ const char *making_symbol(struct making *making, const char *name)
 {
     text_symbol(making_begin(making), name);
     return making_take(making);
+}
+
+size_t making_arrows(struct making *making, fbd_state *state, size_t body, fbd_arrow **arrows)
+{
+    struct arena *arena = &making->document->arena;
+    const size_t room = fbd_state_forces(state, body, NULL, 0);
+    fbd_listed_force *forces = room < SIZE_MAX ? ARENA_ARRAY(arena, room + 1, fbd_listed_force) : NULL;
+    *arrows = forces ? ARENA_ARRAY(arena, room + 1, fbd_arrow) : NULL;
+    const size_t count = *arrows ? fbd_state_forces(state, body, forces, room) : SIZE_MAX;
+    if (count == SIZE_MAX) {
+        arena->failed = true;
+        return 0;
+    }
+    for (size_t i = 0; i < count; i++) (*arrows)[i] = forces[i].arrow;
+    return count;
 }
 
 /* ---- the note */

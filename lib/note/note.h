@@ -46,6 +46,9 @@ const char *making_take(struct making *making);
 /* Free a list of errors of a call whose failure is no error of the note, except for lack of memory. */
 void making_end_list(struct making *making, fbd_errors *others);
 
+/* The forces on a body at a state: their number, and an array of the arena, NULL for none. */
+size_t making_arrows(struct making *making, fbd_state *state, size_t body, fbd_arrow **arrows);
+
 /* A value with its unit, a bare number, and an error, as texts of the document. */
 const char *making_value(struct making *making, double value, const char *unit, int digits);
 const char *making_number(struct making *making, double value, int digits);

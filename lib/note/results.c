@@ -144,13 +144,13 @@ static void list_forces_on(struct making *making, size_t body)
     struct document *document = making->document;
     struct arena *arena = &document->arena;
     const fbd_units units = fbd_model_units(making->model);
-    const size_t room = fbd_diagram(making->end, body, NULL, 0);
-    fbd_arrow *arrows = ARENA_ARRAY(arena, room + 1, fbd_arrow),
-              *errors = ARENA_ARRAY(arena, room + 1, fbd_arrow);
+    fbd_arrow *arrows;
+    const size_t room = making_arrows(making, making->end, body, &arrows);
+    fbd_arrow *errors = ARENA_ARRAY(arena, room + 1, fbd_arrow);
     double size = 0, couple_size = 0;
-    if (!arrows || !errors || room == 0) return;
-    fbd_diagram(making->end, body, arrows, room);
-    const bool bars = fbd_result_force_errors(making->result, body, errors, room) > 0;
+    if (!errors || room == 0) return;
+    const bool bars = making->errors != NULL;
+    if (bars && fbd_result_force_errors(making->result, body, errors, room) == 0) arena->failed = true;
     for (size_t i = 0; i < room; i++) {
         size = fmax(size, hypot(arrows[i].fx, arrows[i].fy));
         couple_size = fmax(couple_size, fabs(arrows[i].couple));

@@ -283,7 +283,7 @@ size_t fbd_result_force_errors(fbd_result *result, size_t body, fbd_arrow *arrow
     size_t count = fbd_diagram(fbd_result_state(result), body, arrows, room);
     fbd_arrow *others = calloc(room + 1, sizeof *others);
     if (!others) return 0;
-    fbd_diagram(bars->state, body, others, room);
+    if (fbd_diagram(bars->state, body, others, room) != count) count = 0; /* memory is out */
     for (size_t i = 0; i < count && i < room; i++) {
         arrows[i].fx = bars_difference(bars, arrows[i].fx, others[i].fx);
         arrows[i].fy = bars_difference(bars, arrows[i].fy, others[i].fy);
