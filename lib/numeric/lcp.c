@@ -5,14 +5,18 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/simd2.h"
 #include "numeric/lu.h"
 #include "numeric/tolerances.h"
 
-/* The rows w - M z - z_0 = q of the basic variables. Variable k < n is w_k, n + k is z_k, 2 n is z_0. */
+/* The rows w - M z - z_0 = q of the basic variables. Variable k < n is w_k, n + k is z_k, 2 n is z_0. The columns of basic
+ * variables are unit vectors and not stored. */
 struct tableau {
     size_t n, width;
-    double *T;            /* n rows of width: the columns of all variables, then q */
+    double *T;            /* n rows of width: the columns of the n + 1 other variables, then q */
     size_t *basic;        /* of each row */
+    size_t *other;        /* of each column */
+    size_t *place;        /* 2 n + 1: the row of each basic variable, n + the column of each other one */
     double *row, *column; /* n each: scale factors of rows and columns */
     double size;          /* largest entry of q */
 };
@@ -20,6 +24,14 @@ struct tableau {
 static double *row_of(const struct tableau *tableau, size_t i)
 {
     return tableau->T + i * tableau->width;
+}
+
+/* row -= share * by; two components at a time. */
+static void subtract_multiple(double *row, const double *by, double share, size_t width)
+{
+    size_t k = 0;
+    for (; k + 2 <= width; k += 2) simd2_store(row + k, simd2_load(row + k) - share * simd2_load(by + k));
+    for (; k < width; k++) row[k] -= share * by[k];
 }
 
 static void tableau_free(struct tableau *tableau)
@@ -56,10 +68,12 @@ static double cover_of(int cover, size_t i)
 
 static bool tableau_new(struct tableau *tableau, size_t n, const double *M, const double *q, int cover)
 {
-    *tableau = (struct tableau){.n = n, .width = 2 * n + 2};
+    *tableau = (struct tableau){.n = n, .width = n + 2};
     tableau->T = calloc(n * tableau->width + 2 * n + 1, sizeof *tableau->T);
-    tableau->basic = calloc(n + 1, sizeof *tableau->basic);
+    tableau->basic = calloc(4 * n + 2, sizeof *tableau->basic);
     if (!tableau->T || !tableau->basic) return false;
+    tableau->other = tableau->basic + n;
+    tableau->place = tableau->other + n + 1;
     tableau->row = tableau->T + n * tableau->width;
     tableau->column = tableau->row + n;
     equilibrate(tableau, M);
@@ -67,27 +81,43 @@ static bool tableau_new(struct tableau *tableau, size_t n, const double *M, cons
     if (tableau->size == 0) tableau->size = 1;
     for (size_t i = 0; i < n; i++) {
         double *row = row_of(tableau, i);
-        row[i] = 1;
-        for (size_t k = 0; k < n; k++) row[n + k] = -M[i * n + k] / (tableau->row[i] * tableau->column[k]);
-        row[2 * n] = -cover_of(cover, i);
-        row[2 * n + 1] = q[i] / (tableau->row[i] * tableau->size);
-        tableau->basic[i] = i;
+        for (size_t k = 0; k < n; k++) row[k] = -M[i * n + k] / (tableau->row[i] * tableau->column[k]);
+        row[n] = -cover_of(cover, i);
+        row[n + 1] = q[i] / (tableau->row[i] * tableau->size);
+        tableau->basic[i] = tableau->place[i] = i;
+    }
+    for (size_t k = 0; k <= n; k++) {
+        tableau->other[k] = n + k;
+        tableau->place[n + k] = n + k;
     }
     return true;
 }
 
-static void pivot(struct tableau *tableau, size_t r, size_t entering)
+/* Exchange the basic variable of row r for that of column e. */
+static void pivot(struct tableau *tableau, size_t r, size_t e)
 {
-    double *by = row_of(tableau, r), inverse = 1 / by[entering];
+    double *by = row_of(tableau, r), inverse = 1 / by[e];
+    size_t left = tableau->basic[r], entered = tableau->other[e];
     for (size_t k = 0; k < tableau->width; k++) by[k] *= inverse;
-    by[entering] = 1;
+    by[e] = inverse;
     for (size_t i = 0; i < tableau->n; i++) {
-        double *row = row_of(tableau, i), share = row[entering];
+        double *row = row_of(tableau, i), share = row[e];
         if (i == r || share == 0) continue;
-        for (size_t k = 0; k < tableau->width; k++) row[k] -= share * by[k];
-        row[entering] = 0;
+        row[e] = 0;
+        subtract_multiple(row, by, share, tableau->width);
     }
-    tableau->basic[r] = entering;
+    tableau->basic[r] = entered;
+    tableau->place[entered] = r;
+    tableau->other[e] = left;
+    tableau->place[left] = tableau->n + e;
+}
+
+/* The entry of row i in the column of w_k. */
+static double entry_of_w(const struct tableau *tableau, size_t i, size_t k)
+{
+    size_t place = tableau->place[k];
+    if (place < tableau->n) return place == i;
+    return row_of(tableau, i)[place - tableau->n];
 }
 
 /* Does row i come before row r in the ratios of (q, columns of w) to the entries a and b? */
@@ -97,11 +127,11 @@ static bool is_before(const struct tableau *tableau, size_t i, double a, size_t 
     size_t last = tableau->width - 1;
     double difference = own[last] / a - other[last] / b;
     for (size_t k = 0; fabs(difference) <= lcp_zero * (1 + fabs(other[last] / b)) && k < tableau->n; k++)
-        difference = own[k] / a - other[k] / b;
+        difference = entry_of_w(tableau, i, k) / a - entry_of_w(tableau, r, k) / b;
     return difference < 0;
 }
 
-/* The row whose variable first reaches zero as the entering one grows; n for none. z_0 has priority, since
+/* The row whose variable first reaches zero as the one of column `entering` grows; n for none. z_0 has priority, since
  * its leaving ends the method. */
 static size_t leaving_row(const struct tableau *tableau, size_t entering)
 {
@@ -144,12 +174,12 @@ static enum lcp run(struct tableau *tableau)
 {
     size_t n = tableau->n, most = 100 + 50 * n, r = lowest_row(tableau);
     if (r == n) return lcp_solved;
-    size_t entering = 2 * n;
+    size_t entering = n;
     for (size_t count = 0; count < most; count++) {
         size_t left = tableau->basic[r];
         pivot(tableau, r, entering);
         if (left == 2 * n) return lcp_solved;
-        entering = left < n ? left + n : left - n;
+        entering = tableau->place[left < n ? left + n : left - n] - n;
         r = leaving_row(tableau, entering);
         if (r == n) return lcp_ray;
     }
@@ -194,7 +224,7 @@ static bool polish(const struct tableau *tableau, const double *M, const double 
         memset(w, 0, n * sizeof *w);
         for (size_t i = 0; i < n; i++) {
             size_t k = tableau->basic[i];
-            double value = row_of(tableau, i)[2 * n + 1] * tableau->size;
+            double value = row_of(tableau, i)[n + 1] * tableau->size;
             if (k < n) w[k] = value * tableau->row[k];
             if (k >= n && k < 2 * n) z[k - n] = value / tableau->column[k - n];
         }
@@ -216,6 +246,16 @@ static bool fits(const struct tableau *tableau, const double *z, const double *w
         if (!(least >= -lcp_residual * most)) return false;
     }
     return true;
+}
+
+enum lcp lcp_find_basis(size_t n, const double *M, const double *q, int cover, bool *is_basic)
+{
+    struct tableau tableau;
+    enum lcp found = lcp_no_memory;
+    if (tableau_new(&tableau, n, M, q, cover)) found = run(&tableau);
+    for (size_t k = 0; k < n && found == lcp_solved; k++) is_basic[k] = tableau.place[n + k] < n;
+    tableau_free(&tableau);
+    return found;
 }
 
 enum lcp lcp_solve(size_t n, const double *M, const double *q, double *z, double *w)

@@ -52,6 +52,10 @@ static const double contact_level = 1e-8;
  * which may lose four more digits by its condition. */
 static const double lcp_zero = 1e-11, lcp_residual = 1e-7;
 
+/* Pivoting: equations that depend on others, and inequalities that are violated, relative to the largest; accelerations that
+ * are zero, which have ten times that by the equations that were left out; and accelerations of two solutions that differ. */
+static const double pivoting_zero = 1e-11, pivoting_residual = 1e-10, pivoting_difference = 1e-8;
+
 /* Least distance: round-off of a slope for each unit of a multiplier; and 1 / (1 + |x|^2), below which there is no point x of
  * a size that forces have. */
 static const double slope_rounding = 1e-15, least_distance_end = 1e-8;
