@@ -86,7 +86,7 @@ static bool meet(const struct pivoting_problem *problem, size_t i, size_t j)
            problem->rows[j].of == (int)i;
 }
 
-/* What the blocks are made from. */
+/* The order of the rows, and the block of each. */
 struct parts {
     struct place *places;   /* the rows in their order */
     size_t *queue, *number; /* rows that were reached; the block of each row, counted from 1 */
@@ -204,29 +204,73 @@ static void block_store(const struct pivoting_block *block, struct pivoting_prob
 
 /* ---- one block */
 
-/* Solve for the forces once more with all rows between their limits whose w is zero: they all carry a part. */
-static void let_all_carry(struct pivoting_block *block, struct pivoting_row *kept)
+/* Put all rows whose w is zero between their limits, so that each can carry a part. Returns whether modes have changed. */
+static bool let_all_carry(struct pivoting_block *block)
 {
-    bool same = true;
-    memcpy(kept, block->rows, block->n * sizeof *kept);
+    bool changed = false;
     for (size_t i = 0; i < block->n; i++) {
         struct pivoting_row *row = &block->rows[i];
         int mode = row->w > 0 ? at_low : row->w < 0 ? at_high : between;
-        same &= row->mode == mode;
+        changed |= row->mode != mode;
         row->mode = mode;
     }
-    if (same || pivoting_fit(block)) return;
-    for (size_t i = 0; i < block->n; i++) kept[i].mode = block->rows[i].mode;
-    memcpy(block->rows, kept, block->n * sizeof *kept);
+    return changed;
 }
 
-static enum pivoting follow_path(struct pivoting_block *block)
+/* The forces of the modes; if these are not final, those of the modes that the accelerations have, or the former ones. */
+static bool fit_all(struct pivoting_block *block, struct pivoting_row *kept)
+{
+    if (!pivoting_fit(block)) return false;
+    memcpy(kept, block->rows, block->n * sizeof *kept);
+    if (!let_all_carry(block) || pivoting_fit(block)) return true;
+    memcpy(block->rows, kept, block->n * sizeof *kept);
+    (void)let_all_carry(block);
+    return true;
+}
+
+static bool has_wrong_sign(const struct pivoting_row *row)
+{
+    return row->mode == at_high ? row->w > 0 : row->mode == at_low && row->w < 0;
+}
+
+/* Move the row that cannot satisfy a limit to this limit; or else let all rows carry whose w has the wrong sign, and
+ * those whose limits depend on them. */
+static void repair(struct pivoting_block *block)
+{
+    if (block->beyond < block->n) {
+        block->rows[block->beyond].mode = block->at;
+        return;
+    }
+    for (size_t i = 0; i < block->n; i++) {
+        struct pivoting_row *row = &block->rows[i];
+        if (row->of >= 0 && (has_wrong_sign(row) || has_wrong_sign(&block->rows[row->of])))
+            row->mode = between;
+    }
+    for (size_t i = 0; i < block->n; i++)
+        if (block->rows[i].of < 0 && has_wrong_sign(&block->rows[i])) block->rows[i].mode = between;
+}
+
+/* Few modes are wrong as a rule: exchange them, with a limit, since this may cycle. */
+static bool fit_nearby(struct pivoting_block *block, struct pivoting_row *kept)
+{
+    size_t most = 4 + block->n / 4;
+    for (size_t round = 0; round < most; round++) {
+        if (fit_all(block, kept)) return true;
+        repair(block);
+    }
+    return false;
+}
+
+static enum pivoting follow_path(struct pivoting_block *block, struct pivoting_row *kept)
 {
     enum { covers = 4 };
     for (int cover = 0; cover < covers; cover++) {
         enum lcp found = pivoting_lemke(block, cover);
         if (found == lcp_no_memory) return pivoting_no_memory;
-        if (found == lcp_solved && pivoting_fit(block)) return pivoting_unexamined;
+        if (found != lcp_solved) continue;
+        pivoting_guess(block);
+        (void)let_all_carry(block);
+        if (fit_all(block, kept)) return pivoting_unexamined;
     }
     return pivoting_ray;
 }
@@ -272,9 +316,9 @@ static enum pivoting enumerate(struct pivoting_block *block, enum pivoting found
     for (size_t i = 0; i < block->n; i++)
         block->rows[i].mode = block->rows[i].low == -HUGE_VAL ? between : at_low;
     do {
-        struct pivoting_row kept[pivoting_few];
+        struct pivoting_row kept[pivoting_few], other[pivoting_few];
         memcpy(kept, block->rows, bytes);
-        bool fits = pivoting_fit(block);
+        bool fits = fit_all(block, other);
         if (fits && result == pivoting_none) {
             memcpy(first, block->rows, bytes);
             result = pivoting_solved;
@@ -288,12 +332,11 @@ static enum pivoting enumerate(struct pivoting_block *block, enum pivoting found
 
 static enum pivoting block_solve(struct pivoting_block *block, bool examine, struct pivoting_row *kept)
 {
-    enum pivoting found = pivoting_fit(block) ? pivoting_unexamined : follow_path(block);
+    enum pivoting found = fit_nearby(block, kept) ? pivoting_unexamined : follow_path(block, kept);
     if (found == pivoting_no_memory) return found;
     if (!has_shares(block) && found == pivoting_unexamined) found = pivoting_solved;
     if (block->n <= pivoting_few && found != pivoting_solved && (examine || found == pivoting_ray))
         found = enumerate(block, found);
-    if (found < pivoting_ray) let_all_carry(block, kept);
     return found;
 }
 

@@ -17,6 +17,8 @@ struct pivoting_block {
     double *scale; /* 1 / sqrt(A_ii) */
     double size;   /* largest |b| of the whole problem, scaled */
     double level;  /* accelerations that are zero, at the present forces */
+    size_t beyond; /* after pivoting_fit: a row that cannot satisfy a limit, or n; */
+    int at;        /* the mode of that limit */
     void *memory;  /* of pivoting_modes.c */
 };
 
@@ -26,8 +28,12 @@ static inline bool pivoting_is_fixed(const struct pivoting_row *row)
     return row->low == row->high && row->low_share == row->high_share;
 }
 
-/* Set x and w of the present modes: the least admissible forces. False where limits or signs of w are violated. */
+/* Set x and w of the present modes: the least admissible forces. False where limits or signs of w are violated; x and w
+ * are set if only the latter are. */
 bool pivoting_fit(struct pivoting_block *block);
+
+/* Set x and w of the present modes without regard to limits: of a basis, which satisfies them but for its round-off. */
+void pivoting_guess(struct pivoting_block *block);
 
 /* Set the modes of the end of Lemke's path from start `cover` (lcp.h). */
 enum lcp pivoting_lemke(struct pivoting_block *block, int cover);

@@ -14,6 +14,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/simd2.h"
 #include "numeric/pivoting_block.h"
 #include "numeric/tolerances.h"
 
@@ -34,6 +35,7 @@ struct fit {
     size_t *order; /* m: first `rank` rows of V, orthonormal; then the places of normals of active limits */
     double *V;     /* m rows of m */
     double *right, *square; /* m: right-hand side and squared size of the remainder of each row */
+    double first;           /* the largest squared size */
     double *x, *step;       /* m */
     size_t *limit;          /* of each active limit: 2 a, or 2 a + 1 of the upper one */
     bool *is_active;        /* 2 m */
@@ -141,18 +143,26 @@ static double *vector_of(const struct fit *fit, size_t k)
 
 static double dot(const double *a, const double *b, size_t m)
 {
-    double even = 0, odd = 0;
+    simd2 even = {0, 0}, odd = {0, 0};
     size_t k = 0;
-    for (; k + 2 <= m; k += 2) {
-        even += a[k] * b[k];
-        odd += a[k + 1] * b[k + 1];
+    for (; k + 4 <= m; k += 4) {
+        even += simd2_load(a + k) * simd2_load(b + k);
+        odd += simd2_load(a + k + 2) * simd2_load(b + k + 2);
     }
-    return k < m ? even + odd + a[k] * b[k] : even + odd;
+    even += odd;
+    double sum = even[0] + even[1];
+    for (; k < m; k++) sum += a[k] * b[k];
+    return sum;
 }
 
 static void add_multiple(double *a, const double *b, double share, size_t m)
 {
-    for (size_t k = 0; k < m; k++) a[k] += share * b[k];
+    size_t k = 0;
+    for (; k + 4 <= m; k += 4) {
+        simd2_store(a + k, simd2_load(a + k) + share * simd2_load(b + k));
+        simd2_store(a + k + 2, simd2_load(a + k + 2) + share * simd2_load(b + k + 2));
+    }
+    for (; k < m; k++) a[k] += share * b[k];
 }
 
 /* Make remainder k orthogonal to the rows before it once more, and of length one. */
@@ -170,6 +180,7 @@ static void normalise(struct fit *fit, size_t k)
     fit->right[fit->order[k]] /= size;
 }
 
+/* Squares of small remainders are computed anew: their differences would be round-off. */
 static void remove_from_others(struct fit *fit, size_t k)
 {
     const double *own = vector_of(fit, k);
@@ -178,14 +189,15 @@ static void remove_from_others(struct fit *fit, size_t k)
         if (share == 0) continue;
         add_multiple(other, own, -share, fit->m);
         fit->right[fit->order[l]] -= share * fit->right[fit->order[k]];
-        fit->square[fit->order[l]] = dot(other, other, fit->m);
+        double *square = &fit->square[fit->order[l]];
+        *square -= share * share;
+        if (*square <= pivoting_zero * fit->first) *square = dot(other, other, fit->m);
     }
 }
 
 /* The rank of K, and x as its least solution. */
 static void solve_equations(struct fit *fit)
 {
-    double first = 0;
     size_t m = fit->m;
     for (size_t a = 0; a < m; a++) fit->square[a] = dot(fit->V + a * m, fit->V + a * m, m);
     memset(fit->x, 0, m * sizeof *fit->x);
@@ -196,8 +208,8 @@ static void solve_equations(struct fit *fit)
         size_t kept = fit->order[most];
         fit->order[most] = fit->order[k];
         fit->order[k] = kept;
-        if (k == 0) first = fit->square[kept];
-        if (!(fit->square[kept] > pivoting_zero * pivoting_zero * first)) break;
+        if (k == 0) fit->first = fit->square[kept];
+        if (!(fit->square[kept] > pivoting_zero * pivoting_zero * fit->first)) break;
         normalise(fit, k);
         remove_from_others(fit, k);
         add_multiple(fit->x, vector_of(fit, k), fit->right[kept], m);
@@ -316,7 +328,8 @@ static bool satisfy(struct fit *fit, size_t index, const struct bound *bound)
     for (;;) {
         double square = set_directions(fit, bound), full = HUGE_VAL, part = HUGE_VAL;
         size_t blocking = fit->active;
-        if (square > pivoting_zero * normal) full = -excess_of(fit, bound) / square;
+        if (fit->rank + fit->active < fit->m && square > pivoting_zero * normal)
+            full = -excess_of(fit, bound) / square;
         for (size_t k = 0; k < fit->active; k++) {
             if (!(fit->r[k] > 0) || !(fit->u[k] / fit->r[k] < part)) continue;
             part = fit->u[k] / fit->r[k];
@@ -335,23 +348,24 @@ static bool satisfy(struct fit *fit, size_t index, const struct bound *bound)
     }
 }
 
-static bool satisfy_all(struct fit *fit)
+/* Satisfy all limits. Returns one that cannot be satisfied, or 2 m. */
+static size_t satisfy_all(struct fit *fit)
 {
     struct bound bound = {0};
-    size_t most = 20 + 20 * fit->m;
+    size_t most = 20 + 20 * fit->m, index = 2 * fit->m;
     fit->active = 0;
     memset(fit->is_active, 0, 2 * fit->m * sizeof *fit->is_active);
     for (size_t round = 0; round < most; round++) {
-        size_t index = most_violated(fit, &bound);
-        if (index == 2 * fit->m) return true;
-        if (!satisfy(fit, index, &bound)) return false;
+        index = most_violated(fit, &bound);
+        if (index == 2 * fit->m || !satisfy(fit, index, &bound)) return index;
     }
-    return false;
+    return index;
 }
 
 /* ---- the results */
 
-static void set_forces(struct fit *fit)
+/* `limited`: forces beyond a limit by round-off are put to it. */
+static void set_forces(struct fit *fit, bool limited)
 {
     struct pivoting_block *block = fit->block;
     size_t n = block->n;
@@ -359,11 +373,10 @@ static void set_forces(struct fit *fit)
         for (size_t i = 0; i < n; i++) {
             struct pivoting_row *row = &block->rows[i];
             if ((row->of >= 0) != coupled) continue;
-            row->x = fit->base[i];
-            if (fit->gain[i] != 0) row->x += fit->gain[i] * block->rows[row->of].x;
-            if (fit->place[i] == n) continue;
             double of = coupled ? block->rows[row->of].x : 0;
-            row->x = fmin(fit->x[fit->place[i]], row->high + row->high_share * of);
+            row->x = fit->place[i] < n ? fit->x[fit->place[i]] : fit->base[i] + fit->gain[i] * of;
+            if (fit->place[i] == n || !limited) continue;
+            row->x = fmin(row->x, row->high + row->high_share * of);
             row->x = fmax(row->x, row->low + row->low_share * of);
         }
 }
@@ -395,14 +408,30 @@ static bool set_accelerations(struct fit *fit)
     return fits;
 }
 
-bool pivoting_fit(struct pivoting_block *block)
+static struct fit *fit_equations(struct pivoting_block *block)
 {
     struct fit *fit = block->memory;
     fit->block = block;
     set_places(fit);
     set_equations(fit);
     solve_equations(fit);
-    if (!satisfy_all(fit)) return false;
-    set_forces(fit);
+    return fit;
+}
+
+bool pivoting_fit(struct pivoting_block *block)
+{
+    struct fit *fit = fit_equations(block);
+    size_t index = satisfy_all(fit);
+    block->beyond = index < 2 * fit->m ? fit->row[index / 2] : block->n;
+    block->at = index % 2 == 0 ? at_low : at_high;
+    if (block->beyond < block->n) return false;
+    set_forces(fit, true);
     return set_accelerations(fit);
+}
+
+void pivoting_guess(struct pivoting_block *block)
+{
+    struct fit *fit = fit_equations(block);
+    set_forces(fit, false);
+    (void)set_accelerations(fit);
 }

@@ -32,9 +32,10 @@ static void add_body(const struct contact_rows *of, int body, double side, struc
 {
     if (body == the_ground) return;
     struct vec arm = vec_sub(point, of->bodies[body].at);
-    J[3 * body] = side * along.x;
-    J[3 * body + 1] = side * along.y;
-    J[3 * body + 2] = side * (arm.x * along.y - arm.y * along.x);
+    J += 3 * (size_t)body;
+    J[0] = side * along.x;
+    J[1] = side * along.y;
+    J[2] = side * (arm.x * along.y - arm.y * along.x);
 }
 
 static void add_row(struct contact_rows *of, int upper, int lower, struct vec point, struct vec along,
@@ -117,8 +118,10 @@ void contact_rows_wall(struct contact_rows *of, int courses, int wide, double mu
 {
     int count = courses * wide;
     contact_rows_new(of, (size_t)count, (size_t)count * 8);
-    for (int k = 0; k < count; k++)
-        set_brick(&of->bodies[k], 2 * (k % wide) + (k / wide) % 2, 0.5 + k / wide);
+    for (int k = 0; k < count; k++) {
+        int course = k / wide;
+        set_brick(&of->bodies[k], 2 * (k % wide) + course % 2, 0.5 + course);
+    }
     for (int k = 0; k < count; k++) lay_brick(of, k, wide, mu);
     contact_rows_assemble(of);
 }
