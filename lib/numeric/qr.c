@@ -143,3 +143,13 @@ void qr_add_solution(const struct qr *qr, double *b, double *x)
     substitute(qr, b);
     for (size_t k = 0; k < qr->rank; k++) x[qr->column[k]] += b[k];
 }
+
+void qr_divide_by_triangle(const struct qr *qr, const double *z, double *w)
+{
+    for (size_t k = 0; k < qr->cols; k++) {
+        const double *a = column_of(qr, k);
+        w[k] = k < qr->rank ? z[qr->column[k]] : 0;
+        for (size_t i = 0; i < k && k < qr->rank; i++) w[k] -= w[i] * a[i];
+        if (k < qr->rank) w[k] /= a[k];
+    }
+}
