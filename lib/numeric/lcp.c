@@ -5,9 +5,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/simd2.h"
 #include "numeric/lu.h"
 #include "numeric/tolerances.h"
+#include "numeric/vector.h"
 
 /* The rows w - M z - z_0 = q of the basic variables. Variable k < n is w_k, n + k is z_k, 2 n is z_0. The columns of basic
  * variables are unit vectors and not stored. */
@@ -29,14 +29,6 @@ static double *row_of(const struct tableau *tableau, size_t i)
     return tableau->T + i * tableau->width;
 }
 
-/* row -= share * by; two components at a time. */
-static void subtract_multiple(double *row, const double *by, double share, size_t width)
-{
-    size_t k = 0;
-    for (; k + 2 <= width; k += 2) simd2_store(row + k, simd2_load(row + k) - share * simd2_load(by + k));
-    for (; k < width; k++) row[k] -= share * by[k];
-}
-
 static void tableau_free(struct tableau *tableau)
 {
     free(tableau->T);
@@ -54,8 +46,10 @@ static void equilibrate(struct tableau *tableau, const double *M, int rounds)
         const double *other = rows ? tableau->column : tableau->row;
         for (size_t i = 0; i < n; i++) {
             double most = 0;
-            for (size_t k = 0; k < n; k++)
-                most = fmax(most, fabs(rows ? M[i * n + k] : M[k * n + i]) / (own[i] * other[k]));
+            for (size_t k = 0; k < n; k++) {
+                double a = rows ? M[i * n + k] : M[k * n + i];
+                if (a != 0) most = fmax(most, fabs(a) / (own[i] * other[k]));
+            }
             if (most > 0) own[i] *= sqrt(most);
         }
     }
@@ -88,7 +82,8 @@ static bool tableau_new(struct tableau *tableau, size_t n, const double *M, cons
     if (tableau->size == 0) tableau->size = 1;
     for (size_t i = 0; i < n; i++) {
         double *row = row_of(tableau, i);
-        for (size_t k = 0; k < n; k++) row[k] = -M[i * n + k] / (tableau->row[i] * tableau->column[k]);
+        for (size_t k = 0; k < n; k++)
+            if (M[i * n + k] != 0) row[k] = -M[i * n + k] / (tableau->row[i] * tableau->column[k]);
         row[n] = -cover_of(cover, i);
         row[n + 1] = q[i] / (tableau->row[i] * tableau->size);
         tableau->basic[i] = tableau->place[i] = i;
@@ -111,7 +106,7 @@ static void pivot(struct tableau *tableau, size_t r, size_t e)
         double *row = row_of(tableau, i), share = row[e];
         if (i == r || share == 0) continue;
         row[e] = 0;
-        subtract_multiple(row, by, share, tableau->width);
+        vector_add_multiple(row, by, -share, tableau->width);
     }
     tableau->basic[r] = entered;
     tableau->place[entered] = r;

@@ -143,10 +143,10 @@ static bool block_new(struct pivoting_block *block, const struct pivoting_proble
     block->A = calloc(most * (most + 1) + 1, sizeof *block->A);
     block->scale = block->A ? block->A + most * most : NULL;
     block->from = calloc(most + 1, sizeof *block->from);
-    block->memory = pivoting_fit_memory(most);
+    block->fit = pivoting_fit_new(most);
     for (size_t i = 0; i < problem->count; i++)
         block->size = fmax(block->size, scale_of(problem, i) * fabs(problem->rows[i].b));
-    return block->rows && block->A && block->from && block->memory;
+    return block->rows && block->A && block->from && block->fit;
 }
 
 static void block_free(struct pivoting_block *block)
@@ -154,7 +154,7 @@ static void block_free(struct pivoting_block *block)
     free(block->rows);
     free(block->A);
     free(block->from);
-    free(block->memory);
+    pivoting_fit_free(block->fit);
 }
 
 static void scale_row(struct pivoting_row *row, double own, double of)

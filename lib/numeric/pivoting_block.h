@@ -9,17 +9,19 @@
 #include "numeric/lcp.h"
 #include "numeric/pivoting.h"
 
+struct fit;
+
 struct pivoting_block {
     size_t n;
     struct pivoting_row *rows;
     double *A;
-    size_t *from;  /* index of each row in the problem */
-    double *scale; /* 1 / sqrt(A_ii) */
-    double size;   /* largest |b| of the whole problem, scaled */
-    double level;  /* accelerations that are zero, at the present forces */
-    size_t beyond; /* after pivoting_fit: a row that cannot satisfy a limit, or n; */
-    int at;        /* the mode of that limit */
-    void *memory;  /* of pivoting_modes.c */
+    size_t *from;    /* index of each row in the problem */
+    double *scale;   /* 1 / sqrt(A_ii) */
+    double size;     /* largest |b| of the whole problem, scaled */
+    double level;    /* accelerations that are zero, at the present forces */
+    size_t beyond;   /* after pivoting_fit: a row that cannot satisfy a limit, or n; */
+    int at;          /* the mode of that limit */
+    struct fit *fit; /* memory of pivoting_modes.c */
 };
 
 /* Is x_i prescribed, so that w_i may have any sign? */
@@ -38,7 +40,8 @@ void pivoting_guess(struct pivoting_block *block);
 /* Set the modes of the end of Lemke's path from start `cover` (lcp.h). */
 enum lcp pivoting_lemke(struct pivoting_block *block, int cover);
 
-/* Memory of pivoting_fit for blocks of at most `most` rows, to be freed with free(); NULL when memory is out. */
-void *pivoting_fit_memory(size_t most);
+/* Memory of pivoting_fit for blocks of at most `most` rows; NULL when there is none. */
+struct fit *pivoting_fit_new(size_t most);
+void pivoting_fit_free(struct fit *fit);
 
 #endif

@@ -4,6 +4,8 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "numeric/vector.h"
+
 static double *column_of(const struct qr *qr, size_t k)
 {
     return qr->R + k * qr->rows;
@@ -146,10 +148,12 @@ void qr_add_solution(const struct qr *qr, double *b, double *x)
 
 void qr_divide_by_triangle(const struct qr *qr, const double *z, double *w)
 {
+    size_t first = 0; /* components before it are zero */
     for (size_t k = 0; k < qr->cols; k++) {
         const double *a = column_of(qr, k);
-        w[k] = k < qr->rank ? z[qr->column[k]] : 0;
-        for (size_t i = 0; i < k && k < qr->rank; i++) w[k] -= w[i] * a[i];
-        if (k < qr->rank) w[k] /= a[k];
+        w[k] = 0;
+        if (k >= qr->rank) continue;
+        w[k] = (z[qr->column[k]] - vector_dot(w + first, a + first, k - first)) / a[k];
+        if (first == k && w[k] == 0) first++;
     }
 }

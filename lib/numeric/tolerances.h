@@ -56,9 +56,8 @@ static const double lcp_zero = 1e-11, lcp_basis_zero = 1e-9, lcp_residual = 1e-7
  * are zero, which have ten times that by the equations that were left out; and accelerations of two solutions that differ. */
 static const double pivoting_zero = 1e-11, pivoting_residual = 1e-10, pivoting_difference = 1e-8;
 
-/* Least distance: round-off of a slope for each unit of a multiplier; and 1 / (1 + |x|^2), below which there is no point x of
- * a size that forces have. */
-static const double slope_rounding = 1e-15, least_distance_end = 1e-8;
+/* Least distance: 1 / |x|^2, below which there is no point x of a size that forces have. */
+static const double least_distance_end = 1e-8;
 
 /* Singular values that are zero, relative to the largest: constraints that are redundant but for the digits of a file. */
 static const double singular_value_zero = 1e-10;
