@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * The last decomposition and the last complementarity problem of each part of the
- * indeterminate system (rest_system.h). A scene at rest solves them at the same position in the same modes
+ * The last decomposition and the last complementarity problem of each part of the indeterminate system
+ * (rest_system.h). A scene at rest solves them at the same position in the same modes
  * repeatedly, at nearly all of its cost. Bitwise equal input has the same results.
  */
 #ifndef FBD_DYNAMICS_REST_MEMO_H
