@@ -4,9 +4,11 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "numeric/tolerances.h"
+
 struct part_memo {
     double *matrix; /* the decomposed matrix */
-    struct svd svd;
+    struct qr qr;
     double *problem; /* M and q of n rows, then z and w */
     size_t n;
     enum lcp found;
@@ -31,19 +33,18 @@ static struct part_memo *part_of(struct rest_memo **memo, int which)
     return &(*memo)->parts[which];
 }
 
-const struct svd *rest_memo_svd(struct rest_memo **memo, int which, size_t rows, size_t cols, const double *a)
+const struct qr *rest_memo_qr(struct rest_memo **memo, int which, size_t rows, size_t cols, const double *a)
 {
     struct part_memo *part = part_of(memo, which);
     const size_t bytes = rows * cols * sizeof *a;
     if (!part) return NULL;
-    if (part->matrix && part->svd.rows == rows && part->svd.cols == cols &&
-        memcmp(part->matrix, a, bytes) == 0)
-        return &part->svd;
+    if (part->matrix && part->qr.rows == rows && part->qr.cols == cols && memcmp(part->matrix, a, bytes) == 0)
+        return &part->qr;
     free(part->matrix);
-    svd_free(&part->svd);
+    qr_free(&part->qr);
     part->matrix = malloc(bytes + 1);
     if (part->matrix) memcpy(part->matrix, a, bytes);
-    if (part->matrix && svd_decompose(&part->svd, rows, cols, a)) return &part->svd;
+    if (part->matrix && qr_decompose(&part->qr, rows, cols, a, singular_value_zero)) return &part->qr;
     free(part->matrix);
     part->matrix = NULL;
     return NULL;
@@ -82,7 +83,7 @@ void rest_memo_free(struct rest_memo *memo)
 {
     for (int i = 0; memo && i < memo->count; i++) {
         free(memo->parts[i].matrix);
-        svd_free(&memo->parts[i].svd);
+        qr_free(&memo->parts[i].qr);
         free(memo->parts[i].problem);
     }
     if (memo) free(memo->parts);

@@ -1,21 +1,20 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * The last singular value decomposition and the last complementarity problem of each part of the
- * indeterminate system (rest_system.h). A scene at rest solves them at the same position in the same modes
+ * The last decomposition and the last complementarity problem of each part of the indeterminate system
+ * (rest_system.h). A scene at rest solves them at the same position in the same modes
  * repeatedly, at nearly all of its cost. Bitwise equal input has the same results.
  */
 #ifndef FBD_DYNAMICS_REST_MEMO_H
 #define FBD_DYNAMICS_REST_MEMO_H
 
 #include "numeric/lcp.h"
-#include "numeric/svd.h"
+#include "numeric/qr.h"
 
 struct rest_memo;
 
-/* svd_decompose for part `which`; the result belongs to *memo, which is allocated if NULL. NULL when memory
+/* qr_decompose for part `which`; the result belongs to *memo, which is allocated if NULL. NULL when memory
  * is out. */
-const struct svd *rest_memo_svd(struct rest_memo **memo, int which, size_t rows, size_t cols,
-                                const double *a);
+const struct qr *rest_memo_qr(struct rest_memo **memo, int which, size_t rows, size_t cols, const double *a);
 
 /* lcp_solve for part `which`. */
 enum lcp rest_memo_lcp(struct rest_memo **memo, int which, size_t n, const double *M, const double *q,

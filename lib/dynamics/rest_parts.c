@@ -3,6 +3,7 @@
  * The indeterminate reactions, part by part: which null vectors interact, and a basis of least reactions.
  */
 #include <math.h>
+#include <string.h>
 
 #include "dynamics/rest_memo.h"
 #include "dynamics/rest_system.h"
@@ -54,7 +55,8 @@ static bool find_parts(struct rest_system *system, const double *rows)
     return true;
 }
 
-/* In one part: the least reactions, and a basis in which the norm of their change by w is |w|. */
+/* In one part: the least reactions, and a basis in which the norm of their change by w is |w|: with R Z P = Q U, that of the
+ * null vectors Z P U^-1. */
 static bool set_part_basis(struct rest_system *system, const double *RZ, int which, double *start)
 {
     size_t m = system->m, d = system->basis_count, count = system->reactions, size = 0;
@@ -62,22 +64,21 @@ static bool set_part_basis(struct rest_system *system, const double *RZ, int whi
     for (size_t k = 0; column && k < d; k++)
         if (system->part[k] == which) column[size++] = k;
     double *own = ARENA_ARRAY(system->arena, count * size + 1, double);
-    double *y = ARENA_ARRAY(system->arena, 2 * size + 1, double), *z = y ? y + size : NULL;
+    double *y = ARENA_ARRAY(system->arena, 3 * size + count + 1, double), *z = y ? y + size : NULL;
     if (!column || !own || !y) return false;
     for (size_t i = 0; i < count; i++)
         for (size_t k = 0; k < size; k++) own[i * size + k] = RZ[i * d + column[k]];
-    const struct svd *least = rest_memo_svd(&system->state->tree->memo, which, count, size, own);
+    const struct qr *least = rest_memo_qr(&system->state->tree->memo, which, count, size, own);
     if (!least) return false;
-    svd_add_solution(least, system->r, y);
+    double *w = z + size, *r = w + size;
+    memcpy(r, system->r, count * sizeof *r);
+    qr_add_solution(least, r, y);
     for (size_t j = 0; j < m; j++) {
         double *row = system->basis + j * d;
         for (size_t k = 0; k < size; k++) z[k] = row[column[k]];
-        for (size_t l = 0; l < size; l++) {
-            start[j] -= z[l] * y[l];
-            row[column[l]] = 0;
-            for (size_t k = 0; k < least->rank && k < size; k++)
-                row[column[l]] += z[k] * least->V[l * size + k] / least->S[l];
-        }
+        for (size_t k = 0; k < size; k++) start[j] -= z[k] * y[k];
+        qr_divide_by_triangle(least, z, w);
+        for (size_t k = 0; k < size; k++) row[column[k]] = w[k];
     }
     return true;
 }

@@ -7,14 +7,21 @@
 
 #include "numeric/lu.h"
 #include "numeric/tolerances.h"
+#include "numeric/vector.h"
 
-/* The rows w - M z - z_0 = q of the basic variables. Variable k < n is w_k, n + k is z_k, 2 n is z_0. */
+/* The rows w - M z - z_0 = q of the basic variables. Variable k < n is w_k, n + k is z_k, 2 n is z_0. The columns of basic
+ * variables are unit vectors and not stored. */
 struct tableau {
     size_t n, width;
-    double *T;            /* n rows of width: the columns of all variables, then q */
-    size_t *basic;        /* of each row */
-    double *row, *column; /* n each: scale factors of rows and columns */
-    double size;          /* largest entry of q */
+    double *T;              /* n rows of width: the columns of the n + 1 other variables, then q */
+    size_t *basic;          /* of each row */
+    size_t *other;          /* of each column */
+    size_t *place;          /* 2 n + 1: the row of each basic variable, n + the column of each other one */
+    double *row, *column;   /* n each: scale factors of rows and columns */
+    double *pivots, *ratio; /* n each: the column of the entering variable; ratios of tied rows */
+    size_t *tied;           /* n: rows that are tied */
+    double size;            /* largest entry of q */
+    double zero;            /* pivots that are round-off */
 };
 
 static double *row_of(const struct tableau *tableau, size_t i)
@@ -29,9 +36,8 @@ static void tableau_free(struct tableau *tableau)
 }
 
 /* Divide rows and columns alternately by the roots of their largest entries (Ruiz 2001). */
-static void equilibrate(struct tableau *tableau, const double *M)
+static void equilibrate(struct tableau *tableau, const double *M, int rounds)
 {
-    enum { rounds = 6 };
     size_t n = tableau->n;
     for (size_t i = 0; i < n; i++) tableau->row[i] = tableau->column[i] = 1;
     for (int round = 0; round < 2 * rounds; round++) {
@@ -40,8 +46,10 @@ static void equilibrate(struct tableau *tableau, const double *M)
         const double *other = rows ? tableau->column : tableau->row;
         for (size_t i = 0; i < n; i++) {
             double most = 0;
-            for (size_t k = 0; k < n; k++)
-                most = fmax(most, fabs(rows ? M[i * n + k] : M[k * n + i]) / (own[i] * other[k]));
+            for (size_t k = 0; k < n; k++) {
+                double a = rows ? M[i * n + k] : M[k * n + i];
+                if (a != 0) most = fmax(most, fabs(a) / (own[i] * other[k]));
+            }
             if (most > 0) own[i] *= sqrt(most);
         }
     }
@@ -54,75 +62,99 @@ static double cover_of(int cover, size_t i)
     return cover == 0 ? 1 : 0.25 + 1.5 * fmod(golden * cover * (double)(i + 1), 1);
 }
 
-static bool tableau_new(struct tableau *tableau, size_t n, const double *M, const double *q, int cover)
+/* `rounds` of equilibration. */
+static bool tableau_new(struct tableau *tableau, size_t n, const double *M, const double *q, int cover,
+                        int rounds)
 {
-    *tableau = (struct tableau){.n = n, .width = 2 * n + 2};
-    tableau->T = calloc(n * tableau->width + 2 * n + 1, sizeof *tableau->T);
-    tableau->basic = calloc(n + 1, sizeof *tableau->basic);
+    *tableau = (struct tableau){.n = n, .width = n + 2, .zero = lcp_zero};
+    tableau->T = calloc(n * tableau->width + 4 * n + 1, sizeof *tableau->T);
+    tableau->basic = calloc(5 * n + 2, sizeof *tableau->basic);
     if (!tableau->T || !tableau->basic) return false;
+    tableau->other = tableau->basic + n;
+    tableau->place = tableau->other + n + 1;
     tableau->row = tableau->T + n * tableau->width;
     tableau->column = tableau->row + n;
-    equilibrate(tableau, M);
+    tableau->pivots = tableau->column + n;
+    tableau->ratio = tableau->pivots + n;
+    tableau->tied = tableau->place + 2 * n + 1;
+    equilibrate(tableau, M, rounds);
     for (size_t i = 0; i < n; i++) tableau->size = fmax(tableau->size, fabs(q[i]) / tableau->row[i]);
     if (tableau->size == 0) tableau->size = 1;
     for (size_t i = 0; i < n; i++) {
         double *row = row_of(tableau, i);
-        row[i] = 1;
-        for (size_t k = 0; k < n; k++) row[n + k] = -M[i * n + k] / (tableau->row[i] * tableau->column[k]);
-        row[2 * n] = -cover_of(cover, i);
-        row[2 * n + 1] = q[i] / (tableau->row[i] * tableau->size);
-        tableau->basic[i] = i;
+        for (size_t k = 0; k < n; k++)
+            if (M[i * n + k] != 0) row[k] = -M[i * n + k] / (tableau->row[i] * tableau->column[k]);
+        row[n] = -cover_of(cover, i);
+        row[n + 1] = q[i] / (tableau->row[i] * tableau->size);
+        tableau->basic[i] = tableau->place[i] = i;
+    }
+    for (size_t k = 0; k <= n; k++) {
+        tableau->other[k] = n + k;
+        tableau->place[n + k] = n + k;
     }
     return true;
 }
 
-static void pivot(struct tableau *tableau, size_t r, size_t entering)
+/* Exchange the basic variable of row r for that of column e. */
+static void pivot(struct tableau *tableau, size_t r, size_t e)
 {
-    double *by = row_of(tableau, r), inverse = 1 / by[entering];
+    double *by = row_of(tableau, r), inverse = 1 / by[e];
+    size_t left = tableau->basic[r], entered = tableau->other[e];
     for (size_t k = 0; k < tableau->width; k++) by[k] *= inverse;
-    by[entering] = 1;
+    by[e] = inverse;
     for (size_t i = 0; i < tableau->n; i++) {
-        double *row = row_of(tableau, i), share = row[entering];
+        double *row = row_of(tableau, i), share = row[e];
         if (i == r || share == 0) continue;
-        for (size_t k = 0; k < tableau->width; k++) row[k] -= share * by[k];
-        row[entering] = 0;
+        row[e] = 0;
+        vector_add_multiple(row, by, -share, tableau->width);
     }
-    tableau->basic[r] = entering;
+    tableau->basic[r] = entered;
+    tableau->place[entered] = r;
+    tableau->other[e] = left;
+    tableau->place[left] = tableau->n + e;
 }
 
-/* Does row i come before row r in the ratios of (q, columns of w) to the entries a and b? */
-static bool is_before(const struct tableau *tableau, size_t i, double a, size_t r, double b)
+/* The entry of row i in the column of w_k. */
+static double entry_of_w(const struct tableau *tableau, size_t i, size_t k)
 {
-    const double *own = row_of(tableau, i), *other = row_of(tableau, r);
-    size_t last = tableau->width - 1;
-    double difference = own[last] / a - other[last] / b;
-    for (size_t k = 0; fabs(difference) <= lcp_zero * (1 + fabs(other[last] / b)) && k < tableau->n; k++)
-        difference = own[k] / a - other[k] / b;
-    return difference < 0;
+    size_t place = tableau->place[k];
+    if (place < tableau->n) return place == i;
+    return row_of(tableau, i)[place - tableau->n];
 }
 
-/* The row whose variable first reaches zero as the entering one grows; n for none. z_0 has priority, since
+/* Keep of the tied rows those with the least ratio of their entries in a column, that of w_k or q (k = n), to those in the
+ * column of the entering variable. Returns how many. */
+static size_t keep_least(const struct tableau *tableau, size_t k, size_t count)
+{
+    size_t *tied = tableau->tied, kept = 0;
+    double *ratio = tableau->ratio, least = HUGE_VAL;
+    for (size_t t = 0; t < count; t++) {
+        size_t i = tied[t];
+        ratio[t] = (k < tableau->n ? entry_of_w(tableau, i, k) : row_of(tableau, i)[tableau->width - 1]) /
+                   tableau->pivots[i];
+        least = fmin(least, ratio[t]);
+    }
+    double most = least + tableau->zero * (1 + fabs(least));
+    for (size_t t = 0; t < count; t++)
+        if (ratio[t] <= most) tied[kept++] = tied[t];
+    return kept;
+}
+
+/* The row whose variable first reaches zero as the one of column `entering` grows; n for none. z_0 has priority, since
  * its leaving ends the method. */
 static size_t leaving_row(const struct tableau *tableau, size_t entering)
 {
-    size_t best = tableau->n, last = tableau->width - 1;
-    for (size_t i = 0; i < tableau->n; i++) {
-        double a = row_of(tableau, i)[entering];
-        if (!(a > lcp_zero)) continue;
-        if (best == tableau->n) {
-            best = i;
-            continue;
-        }
-        double b = row_of(tableau, best)[entering];
-        if (is_before(tableau, i, a, best, b)) best = i;
+    size_t n = tableau->n, count = 0;
+    for (size_t i = 0; i < n; i++) {
+        tableau->pivots[i] = row_of(tableau, i)[entering];
+        if (tableau->pivots[i] > tableau->zero) tableau->tied[count++] = i;
     }
-    for (size_t i = 0; best < tableau->n && i < tableau->n; i++) {
-        const double *row = row_of(tableau, i), *first = row_of(tableau, best);
-        if (tableau->basic[i] != 2 * tableau->n || !(row[entering] > lcp_zero)) continue;
-        double own = row[last] / row[entering], least = first[last] / first[entering];
-        if (own <= least + lcp_zero * (1 + fabs(least))) best = i;
-    }
-    return best;
+    if (count == 0) return n;
+    count = keep_least(tableau, n, count);
+    for (size_t t = 0; t < count; t++)
+        if (tableau->basic[tableau->tied[t]] == 2 * n) return tableau->tied[t];
+    for (size_t k = 0; k < n && count > 1; k++) count = keep_least(tableau, k, count);
+    return tableau->tied[0];
 }
 
 /* The row that is farthest below zero relative to its cover, or n. */
@@ -144,12 +176,12 @@ static enum lcp run(struct tableau *tableau)
 {
     size_t n = tableau->n, most = 100 + 50 * n, r = lowest_row(tableau);
     if (r == n) return lcp_solved;
-    size_t entering = 2 * n;
+    size_t entering = n;
     for (size_t count = 0; count < most; count++) {
         size_t left = tableau->basic[r];
         pivot(tableau, r, entering);
         if (left == 2 * n) return lcp_solved;
-        entering = left < n ? left + n : left - n;
+        entering = tableau->place[left < n ? left + n : left - n] - n;
         r = leaving_row(tableau, entering);
         if (r == n) return lcp_ray;
     }
@@ -194,7 +226,7 @@ static bool polish(const struct tableau *tableau, const double *M, const double 
         memset(w, 0, n * sizeof *w);
         for (size_t i = 0; i < n; i++) {
             size_t k = tableau->basic[i];
-            double value = row_of(tableau, i)[2 * n + 1] * tableau->size;
+            double value = row_of(tableau, i)[n + 1] * tableau->size;
             if (k < n) w[k] = value * tableau->row[k];
             if (k >= n && k < 2 * n) z[k - n] = value / tableau->column[k - n];
         }
@@ -218,6 +250,19 @@ static bool fits(const struct tableau *tableau, const double *z, const double *w
     return true;
 }
 
+enum lcp lcp_find_basis(size_t n, const double *M, const double *q, int cover, bool *is_basic)
+{
+    struct tableau tableau;
+    enum lcp found = lcp_no_memory;
+    if (tableau_new(&tableau, n, M, q, cover, 0)) {
+        tableau.zero = lcp_basis_zero;
+        found = run(&tableau);
+    }
+    for (size_t k = 0; k < n && found == lcp_solved; k++) is_basic[k] = tableau.place[n + k] < n;
+    tableau_free(&tableau);
+    return found;
+}
+
 enum lcp lcp_solve(size_t n, const double *M, const double *q, double *z, double *w)
 {
     return lcp_solve_from(n, M, q, 0, z, w);
@@ -225,9 +270,10 @@ enum lcp lcp_solve(size_t n, const double *M, const double *q, double *z, double
 
 enum lcp lcp_solve_from(size_t n, const double *M, const double *q, int cover, double *z, double *w)
 {
+    enum { rounds = 6 };
     struct tableau tableau;
     enum lcp found = lcp_no_memory;
-    if (tableau_new(&tableau, n, M, q, cover)) found = run(&tableau);
+    if (tableau_new(&tableau, n, M, q, cover, rounds)) found = run(&tableau);
     if (found == lcp_solved && !polish(&tableau, M, q, z, w)) found = lcp_no_memory;
     if (found == lcp_solved && !fits(&tableau, z, w)) found = lcp_lost;
     tableau_free(&tableau);

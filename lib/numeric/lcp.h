@@ -32,4 +32,8 @@ enum lcp lcp_solve(size_t n, const double *M, const double *q, double *z, double
  * a ray or fails by rounding, another may succeed. */
 enum lcp lcp_solve_from(size_t n, const double *M, const double *q, int cover, double *z, double *w);
 
+/* The same, but only which z_k are basic in the solution; the others are zero. O(n^2) for each pivot. M and q are of one size
+ * already: they are not scaled. */
+enum lcp lcp_find_basis(size_t n, const double *M, const double *q, int cover, bool *is_basic);
+
 #endif

@@ -2,9 +2,7 @@
  *
  * The point of a polyhedron that is nearest to the origin: least |x| with G x >= h.
  *
- * Lawson and Hanson, Solving Least Squares Problems, chapter 23: with u >= 0 that minimises |E u - f|, E the
- * rows of G as columns with h below them and f = (0, ..., 0, 1), and r = E u - f, x = -r / r_last; r = 0
- * means that there is no such point.
+ * By the dual active-set method (active_set.h), from the origin.
  */
 #ifndef FBD_NUMERIC_LEAST_DISTANCE_H
 #define FBD_NUMERIC_LEAST_DISTANCE_H

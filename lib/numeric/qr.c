@@ -4,6 +4,8 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "numeric/vector.h"
+
 static double *column_of(const struct qr *qr, size_t k)
 {
     return qr->R + k * qr->rows;
@@ -142,4 +144,16 @@ void qr_add_solution(const struct qr *qr, double *b, double *x)
     for (size_t k = 0; k < qr->rank; k++) reflect(qr, k, b);
     substitute(qr, b);
     for (size_t k = 0; k < qr->rank; k++) x[qr->column[k]] += b[k];
+}
+
+void qr_divide_by_triangle(const struct qr *qr, const double *z, double *w)
+{
+    size_t first = 0; /* components before it are zero */
+    for (size_t k = 0; k < qr->cols; k++) {
+        const double *a = column_of(qr, k);
+        w[k] = 0;
+        if (k >= qr->rank) continue;
+        w[k] = (z[qr->column[k]] - vector_dot(w + first, a + first, k - first)) / a[k];
+        if (first == k && w[k] == 0) first++;
+    }
 }

@@ -33,6 +33,9 @@ void qr_free(struct qr *qr);
 /* x += a least-squares solution of |A x - b|: zero outside the columns of the basis. b is overwritten. */
 void qr_add_solution(const struct qr *qr, double *b, double *x);
 
+/* w = the row vector with w R = z P: zero beyond the rank. A P R^-1 has orthonormal columns. */
+void qr_divide_by_triangle(const struct qr *qr, const double *z, double *w);
+
 /* Entry i of null vector k, 0 <= k < cols - rank: A times a null vector is zero. */
 static inline double qr_null(const struct qr *qr, size_t i, size_t k)
 {

@@ -48,13 +48,16 @@ static const double contact_level = 1e-8;
 
 /* ---- linear algebra */
 
-/* Linear complementarity: entries of the scaled tableau that are zero; and the residual of a solution by the matrix itself,
- * which may lose four more digits by its condition. */
-static const double lcp_zero = 1e-11, lcp_residual = 1e-7;
+/* Linear complementarity: entries of the scaled tableau that are zero, after some and after some hundred pivots; and the
+ * residual of a solution by the matrix itself, which may lose four more digits by its condition. */
+static const double lcp_zero = 1e-11, lcp_basis_zero = 1e-9, lcp_residual = 1e-7;
 
-/* Least distance: round-off of a slope for each unit of a multiplier; and 1 / (1 + |x|^2), below which there is no point x of
- * a size that forces have. */
-static const double slope_rounding = 1e-15, least_distance_end = 1e-8;
+/* Pivoting: equations that depend on others, and inequalities that are violated, relative to the largest; accelerations that
+ * are zero, which have ten times that by the equations that were left out; and accelerations of two solutions that differ. */
+static const double pivoting_zero = 1e-11, pivoting_residual = 1e-10, pivoting_difference = 1e-8;
+
+/* Least distance: 1 / |x|^2, below which there is no point x of a size that forces have. */
+static const double least_distance_end = 1e-8;
 
 /* Singular values that are zero, relative to the largest: constraints that are redundant but for the digits of a file. */
 static const double singular_value_zero = 1e-10;

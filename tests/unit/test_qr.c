@@ -126,12 +126,35 @@ static void nothing_and_zero_have_rank_zero(void **unused)
     qr_free(&qr);
 }
 
+/* The columns of A P R^-1, from the rows of A. */
+static void rows_divided_by_the_triangle_have_orthonormal_columns(void **unused)
+{
+    (void)unused;
+    enum { rows = 12, cols = 9 };
+    for (uint64_t seed = 1; seed <= 100; seed++) {
+        struct random_numbers numbers = {seed};
+        double a[rows * cols], q[rows * cols];
+        struct qr qr;
+        fill(&numbers, rows, cols, 1 + seed % cols, a);
+        assert_true(qr_decompose(&qr, rows, cols, a, 1e-10));
+        for (size_t i = 0; i < rows; i++) qr_divide_by_triangle(&qr, a + i * cols, q + i * cols);
+        for (size_t k = 0; k < cols; k++)
+            for (size_t l = 0; l < cols; l++) {
+                double sum = 0;
+                for (size_t i = 0; i < rows; i++) sum += q[i * cols + k] * q[i * cols + l];
+                assert_true(fabs(sum - (k == l && k < qr.rank)) < 1e-9); /* rounding, by the condition */
+            }
+        qr_free(&qr);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(ranks_solutions_and_null_vectors_are_those_of_singular_values),
         cmocka_unit_test(null_vectors_touch_only_what_their_equations_touch),
         cmocka_unit_test(nothing_and_zero_have_rank_zero),
+        cmocka_unit_test(rows_divided_by_the_triangle_have_orthonormal_columns),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
