@@ -7,6 +7,7 @@
 #include <float.h>
 #include <string.h>
 
+#include "dynamics/closed_loops.h"
 #include "dynamics/friction.h"
 #include "dynamics/tree_bare.h"
 #include "dynamics/tree_system.h"
@@ -29,6 +30,12 @@ static size_t pushes_of(const struct tree *tree)
     return count;
 }
 
+static size_t loops_size(const struct fbd_model *model)
+{
+    size_t size = closed_loops_size(model);
+    return size > 0 ? sizeof(struct closed_loops) + size : 0;
+}
+
 size_t tree_work_size(const struct fbd_model *model)
 {
     const struct tree *tree = model->tree;
@@ -36,7 +43,7 @@ size_t tree_work_size(const struct fbd_model *model)
     size_t ints = (links + 6 * unknowns + 3) / 2 * 2;
     size_t link = sizeof(struct tree_state) + 2 * sizeof(struct tree_rhs) + sizeof(struct tree_variation) +
                   sizeof(struct tree_bare);
-    return links * link + (size_t)tree->row_count * sizeof(struct row) +
+    return links * link + loops_size(model) + (size_t)tree->row_count * sizeof(struct row) +
            (size_t)tree->coupling_count * sizeof(struct coupling_state) +
            pushes_of(tree) * sizeof(struct tree_push) + doubles_of(model) * sizeof(double) +
            unknowns * sizeof(size_t) + ints * sizeof(int);
@@ -51,7 +58,8 @@ void tree_work_init(struct tree_work *work, const struct fbd_model *model, void 
     work->sum = work->x + links;
     work->variation = (struct tree_variation *)(work->sum + links);
     work->bare = (struct tree_bare *)(work->variation + links);
-    work->rows = (struct row *)(work->bare + links);
+    work->loops = (struct closed_loops *)(work->bare + links);
+    work->rows = (struct row *)((char *)work->loops + loops_size(model));
     work->couplings = (struct coupling_state *)(work->rows + tree->row_count);
     work->pushes = (struct tree_push *)(work->couplings + tree->coupling_count);
     work->lower = (double *)(work->pushes + pushes_of(tree));
@@ -83,6 +91,10 @@ void tree_work_init(struct tree_work *work, const struct fbd_model *model, void 
     work->rank = work->place + unknowns;
     work->push_end = work->rank + unknowns + 1;
     work->is_loop = tree_loop_find(model, &work->loop);
+    if (loops_size(model) > 0 && !work->is_loop)
+        closed_loops_init(work->loops, model, work->loops + 1);
+    else
+        work->loops = NULL;
     work->damping = 1e-6;
     work->accuracy = 1e-10;
     work->links[0].turn = work->links[0].e = (struct vec){1, 0};
