@@ -68,7 +68,7 @@ size_t closed_loops_size(const struct fbd_model *model)
 /* The inertia of each joint with all links behind it, in the position where they reach farthest. */
 static void set_units(const struct tree *tree, double *mass, double *unit)
 {
-    for (int i = 1; i < tree->joined; i++) {
+    for (int i = 0; i < tree->joined; i++) {
         mass[i] = tree->links[i].mass;
         unit[i] = tree->links[i].I_O;
     }
@@ -104,7 +104,6 @@ void closed_loops_init(struct closed_loops *loops, const struct fbd_model *model
     loops->a = loops->v + links;
     for (int k = 0; k < loops->independent_count; k++) loops->basis[k] = loops->a + (size_t)(k + 1) * links;
     loops->known = (bool *)(loops->a + (size_t)(loops->independent_count + 1) * links);
-    loops->q[0] = loops->v[0] = loops->a[0] = 0;
     set_units(tree, loops->a, loops->unit);
 }
 
