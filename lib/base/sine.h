@@ -100,4 +100,14 @@ static inline struct vec unit_by_sine(double angle)
     return vec_without_rounding(unit);
 }
 
+/* The unit vector at `angle`, given the one at an angle `from`: if that is near, by the series of sine and
+ * cosine, exact to rounding. */
+static inline struct vec unit_turned_on(struct vec unit, double from, double angle)
+{
+    const double near = 5e-6, by = angle - from, half = by * by / 2;
+    if (!(fabs(by) <= near)) return unit_by_sine(angle);
+    return vec_without_rounding(
+        (struct vec){unit.x - (half * unit.x + by * unit.y), unit.y - (half * unit.y - by * unit.x)});
+}
+
 #endif

@@ -4,6 +4,7 @@
 #include <float.h>
 #include <string.h>
 
+#include "dynamics/closed_loops.h"
 #include "dynamics/contact.h"
 #include "dynamics/tree_system.h"
 
@@ -488,6 +489,7 @@ static void bring_back(const struct place *place)
 void return_to_constraints(const struct fbd_model *model, const struct instant *at, double *y)
 {
     if (!has_couplings(model) || (at->tree->loop && tree_loop_return(at->tree->loop, y))) return;
+    if (at->tree->loops && closed_loops_close(at->tree->loops, at->tree, model->plan.n, y)) return;
     struct place place = {.model = model, .at = *at, .returning = true};
     place.at.y = place.y = y;
     bring_back(&place);

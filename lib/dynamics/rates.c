@@ -155,7 +155,9 @@ static bool bind_rows(struct rates *rates)
         rates->rows[rates->count++] = row_of_loop(rates);
         return true;
     }
-    if (tree_is_bare(model))
+    if (state->tree->loops)
+        rates->rows[rates->count++] = (struct row){.function = loops_row, .all = rates};
+    else if (tree_is_bare(model))
         rates->rows[rates->count++] = row_of_bare_tree(rates);
     else if (tree_joins(tree) || model->names_places)
         return false;
@@ -221,6 +223,7 @@ struct rates_census rates_census(const struct rates *rates)
                      : function == part_row                          ? &census.parts
                      : function == formulas_row                      ? &census.formulas
                      : function == alone_row                         ? &census.alone
+                     : function == loops_row                         ? &census.loops
                      : rates->rows[i].links                          ? &census.bare
                                                                      : &census.whole;
         (*count)++;

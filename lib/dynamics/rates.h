@@ -18,6 +18,7 @@
  *   alone        tree_alone.c                                           other bodies that stand alone
  *   bare tree    tree_bare.h                                            pivots under gravity and the like
  *   loop         tree_loop.h                                            slider-cranks, four-bars
+ *   loops        closed_loops.h                                         pivots and slides, their loops closed by pins
  *   whole        forward.h                                              all others
  *   own          z' = f(t, q, v, z)                                     user states
  *
@@ -52,7 +53,7 @@ struct fbd_state *rates_state(void *params);
 
 /* The number of rows of each kind. */
 struct rates_census {
-    int steady, held, affine, sine, parts, formulas, alone, own, bare, whole;
+    int steady, held, affine, sine, parts, formulas, alone, own, bare, loops, whole;
 };
 
 struct rates_census rates_census(const struct rates *rates);

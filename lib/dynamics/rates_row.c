@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/sine.h"
+#include "dynamics/closed_loops.h"
 #include "dynamics/friction.h"
 #include "dynamics/tree.h"
 #include "dynamics/user_states.h"
@@ -208,6 +209,17 @@ int driven_loop_row(double t, const double y[], double dydt[], void *params)
     tree_loop_forces(row->loop, &at, state->slots, f);
     if (!tree_loop_rates(row->loop, f, y, y + 3, dydt + 3)) return whole_row(t, y, dydt, params);
     for (int i = 0; i < 3; i++) dydt[i] = y[3 + i];
+    return 0;
+}
+
+int loops_row(double t, const double y[], double dydt[], void *params)
+{
+    const struct row *row = params;
+    const struct fbd_state *state = row->all->state;
+    struct instant at = smooth_instant(state, t, y);
+    force_slots(state->model, &at, state->slots);
+    if (!closed_loops_rates(state->tree->loops, &at, state->model->plan.n, state->slots, dydt))
+        return whole_row(t, y, dydt, params);
     return 0;
 }
 

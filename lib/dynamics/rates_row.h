@@ -42,6 +42,6 @@ struct rates {
 
 rates_function steady_row, held_row, no_row, affine_row, sine_row, swing_row, part_row, formulas_row,
     alone_row, whole_row, bare_row, pole_row, two_pivots_row, three_pivots_row, loop_row, driven_loop_row,
-    own_row, all_rows;
+    loops_row, own_row, all_rows;
 
 #endif

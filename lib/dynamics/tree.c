@@ -7,6 +7,7 @@
 #include <float.h>
 #include <string.h>
 
+#include "dynamics/closed_loops.h"
 #include "dynamics/friction.h"
 #include "dynamics/tree_bare.h"
 #include "dynamics/tree_system.h"
@@ -45,6 +46,12 @@ static size_t loop_count(const struct fbd_model *model)
     return tree_loop_may_be(model) ? 1 : 0;
 }
 
+static size_t loops_size(const struct fbd_model *model)
+{
+    size_t size = closed_loops_size(model);
+    return size > 0 ? sizeof(struct closed_loops) + size : 0;
+}
+
 size_t tree_work_size(const struct fbd_model *model)
 {
     const struct tree *tree = model->tree;
@@ -53,7 +60,7 @@ size_t tree_work_size(const struct fbd_model *model)
     size_t link = sizeof(struct tree_state) + sizeof(struct tree_rhs) + sizeof(struct tree_variation);
     return links * link + sum_count(tree) * sizeof(struct tree_rhs) +
            bare_count(tree) * sizeof(struct tree_bare) + loop_count(model) * sizeof(struct tree_loop) +
-           (size_t)tree->row_count * sizeof(struct row) +
+           loops_size(model) + (size_t)tree->row_count * sizeof(struct row) +
            (size_t)tree->coupling_count * sizeof(struct coupling_state) +
            pushes_of(tree) * sizeof(struct tree_push) + doubles_of(model) * sizeof(double) +
            unknowns * sizeof(size_t) + ints * sizeof(int);
@@ -69,7 +76,8 @@ void tree_work_init(struct tree_work *work, const struct fbd_model *model, void 
     work->variation = (struct tree_variation *)(work->sum + sum_count(tree));
     work->bare = (struct tree_bare *)(work->variation + links);
     struct tree_loop *loop = (struct tree_loop *)(work->bare + bare_count(tree));
-    work->rows = (struct row *)(loop + loop_count(model));
+    struct closed_loops *loops = (struct closed_loops *)(loop + loop_count(model));
+    work->rows = (struct row *)((char *)loops + loops_size(model));
     work->couplings = (struct coupling_state *)(work->rows + tree->row_count);
     work->pushes = (struct tree_push *)(work->couplings + tree->coupling_count);
     work->lower = (double *)(work->pushes + pushes_of(tree));
@@ -102,6 +110,10 @@ void tree_work_init(struct tree_work *work, const struct fbd_model *model, void 
     work->push_end = work->rank + unknowns + 1;
     work->acting = work->push_end + tree->row_count + 1;
     if (loop_count(model) > 0 && tree_loop_find(model, loop)) work->loop = loop;
+    if (loops_size(model) > 0 && !work->loop) {
+        work->loops = loops;
+        closed_loops_init(loops, model, loops + 1);
+    }
     work->damping = 1e-6;
     work->accuracy = 1e-10;
     work->links[0].turn = work->links[0].e = (struct vec){1, 0};

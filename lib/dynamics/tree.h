@@ -77,6 +77,7 @@ struct tree_push {
 };
 
 struct tree_bare;
+struct closed_loops;
 struct row;
 struct coupling_state;
 
@@ -87,6 +88,7 @@ struct tree_work {
     struct tree_bare *bare;                         /* tree.count if bodies are jointed, see tree_bare.h */
     struct row *rows;                               /* row_count: constraints, see constraint.h */
     struct coupling_state *couplings;               /* coupling_count: their references from the start */
+    struct closed_loops *loops;                     /* or NULL, see closed_loops.h */
     double *lower, *upper, *diagonal, *inverse, *z; /* the system of tree_system.h */
     struct rest_memo *memo;                         /* rest_memo.h */
     double *whole;                  /* lower and upper parts of the system before it was factored */

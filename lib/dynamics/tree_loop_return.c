@@ -23,30 +23,18 @@ static bool goes_on(const struct tree_loop *loop, int i)
     return i == 1 || (i == 2 && loop->chain);
 }
 
-/* The direction at an angle near the one before: by the series of sine and cosine, exact to rounding. */
-static struct vec turned_on(struct vec turn, double by)
-{
-    double half = by * by / 2;
-    return vec_without_rounding(
-        (struct vec){turn.x - (half * turn.x + by * turn.y), turn.y - (half * turn.y - by * turn.x)});
-}
-
 /* Turn the links to y. `known`: `at` is the loop at another y. */
 static void turn_links(const struct tree_loop *loop, const double *y, bool known, struct look *at)
 {
-    const double near = 5e-6;
     double angle = 0;
     for (int i = 0; i < 3; i++) {
         const struct tree_loop_link *link = &loop->links[i];
         angle = goes_on(loop, i) ? angle + link->along : link->along;
         if (link->turns) angle += y[link->coordinate];
-        double by = angle - at->angle[i];
         if (!link->turns)
             at->turn[i] = (struct vec){1, 0};
-        else if (known && fabs(by) <= near)
-            at->turn[i] = turned_on(at->turn[i], by);
         else
-            at->turn[i] = unit_by_sine(angle);
+            at->turn[i] = known ? unit_turned_on(at->turn[i], at->angle[i], angle) : unit_by_sine(angle);
         at->angle[i] = angle;
     }
 }

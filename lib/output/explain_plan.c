@@ -121,6 +121,7 @@ static void write_rows(struct text *text, struct rates_census rows)
         {rows.formulas, "with formulas"},
         {rows.own, "rates of the states of the file"},
         {rows.bare, "chains of pivots with constant forces, without their places in the world"},
+        {rows.loops, "loops closed by pins, in independent coordinates"},
         {rows.whole, "all bodies together, by the recursion"},
     };
     for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++)

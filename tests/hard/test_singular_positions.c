@@ -74,6 +74,7 @@ static void tighter_is_no_worse(void **unused)
             printf("# seed %d, %d windows at %g: speed off by %.1e\n", seed, row.windows, tolerances[i], off);
             check_that(&checks, "it goes round to the end", done);
             check_that(&checks, "no worse than at a larger tolerance", off <= most);
+            check_that(&checks, "no floor of accuracy", tolerances[i] > 1e-11 || off <= 5e-10);
             best = fmin(best, off);
         }
     }
