@@ -82,15 +82,17 @@ static bool make(struct fbd_fit *fit, const char *data, size_t length)
                                        fit->plan->setting_count, fit->errors);
     bool fine = model && choose(fit, model) &&
                 fit_data_read(&fit->data, &fit->arena, data, length, fit->data_name, model, fit->errors);
-    if (fine) fit->data.unit = arena_text(&fit->arena, fit->data.unit, strlen(fit->data.unit));
-    if (fine) set_tolerance(fit, model);
-    fbd_options run = *fit->plan->run;
-    if (fine) run.until = 1; /* any: the other options are checked */
-    fbd_simulation *simulation = fine ? fbd_simulation_new(model, &run, fit->errors) : NULL;
-    fine = simulation != NULL;
-    fbd_simulation_free(simulation);
+    if (fine) {
+        fbd_options run = *fit->plan->run;
+        run.until = 1; /* any: the other options are checked */
+        fbd_simulation *simulation = fbd_simulation_new(model, &run, fit->errors);
+        fine = simulation != NULL;
+        fbd_simulation_free(simulation);
+        fit->data.unit = arena_text(&fit->arena, fit->data.unit, strlen(fit->data.unit));
+        set_tolerance(fit, model);
+    }
     fbd_model_free(model);
-    return fine && check_counts(fit) && fit_solve(fit);
+    return fine && fit->data.unit && check_counts(fit) && fit_solve(fit);
 }
 
 static bool is_asked(fbd_fit_plan *plan, fbd_options *run, const char *text, const char *data,

@@ -281,8 +281,8 @@ static bool add_row(struct csv *csv, const struct cell *cells, const double *num
 
 static bool read_row(struct csv *csv)
 {
-    double numbers[most_columns];
-    struct cell cells[most_columns];
+    double numbers[most_columns] = {NAN};
+    struct cell cells[most_columns] = {{0}};
     begin_line(csv);
     for (size_t i = 0; i < csv->column_count; i++) {
         cells[i] = next_cell(csv);
