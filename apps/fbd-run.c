@@ -450,8 +450,7 @@ static bool find_scale(struct options *options, const fbd_model *model, fbd_erro
 
 static enum exit_code read_and_act(struct options *options)
 {
-    bool json_written = false;
-    options->json_written = &json_written;
+    *options->json_written = false;
     fbd_errors *errors = fbd_errors_new();
     if (!errors) return no_memory();
     fbd_model *model = fbd_model_read(options->model, options->settings, options->setting_count, errors);
@@ -496,9 +495,11 @@ int main(int argc, char **argv)
 {
     struct options options;
     enum exit_code code;
+    bool json_written;
     standard_streams_begin();
     gsl_set_error_handler_off(); /* every status is checked instead */
     if (options_read(argc, argv, &options, &code)) {
+        options.json_written = &json_written;
         code = options.action == action_grade     ? grading(&options)
                : options.action == action_handout ? handout(&options)
                : options.watch                    ? run_again_and_again(&options)

@@ -9,7 +9,7 @@ import select
 import signal
 import time
 import warnings
-from typing import Any, Callable, Dict, Sequence
+from typing import Any, Callable, Dict, List, Sequence
 
 from ._json_rpc import coded
 from ._model import read_notes
@@ -58,7 +58,7 @@ def _answer(function: Callable[[], Dict[str, Any]]) -> Dict[str, Any]:
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always")
         try:
-            answer = {"value": function()}
+            answer: Dict[str, Any] = {"value": function()}
         except Error as error:
             answer = {"notes": [note_json(note) for note in error.notes], "text": str(error)}
         except Exception as error:  # pylint: disable=broad-exception-caught # bad arguments, and whatever else
@@ -78,7 +78,8 @@ def _child(function: Callable[[], Dict[str, Any]], end: int) -> None:
 
 
 def _read_all(end: int, seconds: float) -> bytes:
-    limit, pieces = time.monotonic() + seconds, []
+    limit = time.monotonic() + seconds
+    pieces: List[bytes] = []
     while True:
         left = limit - time.monotonic()
         if left <= 0 or not select.select([end], [], [], left)[0]:

@@ -339,8 +339,8 @@ class Mcp(Server):
     # ---- tools
 
     def call_tool(self, params: Json) -> Json:
-        name, arguments = params.get("name"), params.get("arguments") or {}
-        if not isinstance(name, str) or name not in self.listed:
+        name, arguments = str(params.get("name")), params.get("arguments") or {}
+        if name not in self.listed:
             raise RpcError(INVALID_PARAMS, f"there is no tool `{name}`; there are {', '.join(self.listed)}")
         validate(arguments, self.listed[name]["inputSchema"], f"`{name}`")
         if name in ("language", "example"):
