@@ -124,9 +124,7 @@ static bool advance(struct making *making, struct second_run *second, fbd_simula
     fbd_outcome outcome = FBD_GOING;
     double from = 0, to = 0;
     while (outcome == FBD_GOING) {
-        const fbd_progress progress = {.what = "run",
-                                       .share = to / fmax(making->t, 1e-300),
-                                       .t = to,
+        const fbd_progress progress = {"run", .share = to / fmax(making->t, 1e-300), .t = to,
                                        .until = making->t};
         const fbd_note_options *options = making->options;
         if (options->progress && options->progress(options->progress_context, &progress) != 0) return false;
@@ -151,6 +149,8 @@ static void compare_runs(struct making *making, struct second_run *second, fbd_s
         making->document->arena.failed = true;
     else if (fbd_simulation_state(simulation, to, other))
         compare_states(making, second, other);
+    else
+        making->document->arena.failed = true;
     compare_events(making, second, simulation);
     fbd_state_free(other);
 }

@@ -57,7 +57,7 @@ static void write_operator(struct mathml *math, const char *sign, size_t length)
         text_printf(math->text, "<mo>%.*s</mo>", (int)length, sign);
 }
 
-/* One letter is italic by itself, longer words are upright; a dotted letter is two characters, which would be upright. */
+/* One letter is italic, longer words are upright; a dotted letter is two characters, which would be upright. */
 static void write_name(struct mathml *math, const char *word, size_t length, int dots)
 {
     static const char *const marks[] = {"", "\u0307", "\u0308"};

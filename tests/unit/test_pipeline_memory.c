@@ -112,12 +112,6 @@ static bool run_and_write_with(const char *scene, fbd_options options)
     done = done && some(fbd_result_report(result, false)) && some(fbd_result_json(result));
     done = done && (!fbd_has_html() || some(fbd_result_html(result, errors)));
     done = done && some(fbd_result_gnuplot(result, "a.svg", NULL, errors));
-    fbd_note *note =
-        done ? fbd_note_new(simulation, result, &(fbd_note_options){.date = "today"}, errors) : NULL;
-    done = done && note && some(fbd_note_write(note, FBD_NOTE_HTML, NULL)) &&
-           some(fbd_note_write(note, FBD_NOTE_MARKDOWN, NULL)) &&
-           some(fbd_note_write(note, FBD_NOTE_LATEX, NULL));
-    fbd_note_free(note);
     fbd_simulation *again = done ? fbd_simulation_again(simulation, options.error_bars, errors) : NULL;
     done = done && again;
     fbd_simulation_free(again);
