@@ -463,8 +463,7 @@ static void bring_back(const struct place *place)
     enum { most_corrections = 12 };
     struct tree_work *work = place->at.tree;
     prepare(place);
-    double length = arm_length(place), least = rounding(place);
-    double misfit = misfit_of(place).position;
+    double length = arm_length(place), least = rounding(place), misfit = misfit_of(place).position;
     bool moved = false;
     for (int k = 0; k < most_corrections && misfit > least; k++) {
         double damping = position_damping(place, misfit, length);
@@ -475,10 +474,9 @@ static void bring_back(const struct place *place)
         move(place, false, 1);
         look(place);
         moved = true;
-        double after = misfit_of(place).position;
-        bool slow = after > 0.9 * misfit;
-        misfit = after;
-        if (slow) break;
+        double before = misfit;
+        misfit = misfit_of(place).position;
+        if (misfit > 0.9 * before) break;
     }
     if (moved) prepare(place);
     factor(place, fmin(1, epsilon / work->accuracy));
@@ -490,9 +488,9 @@ void return_to_constraints(const struct fbd_model *model, const struct instant *
 {
     if (!has_couplings(model) || (at->tree->loop && tree_loop_return(at->tree->loop, y))) return;
     if (at->tree->loops && closed_loops_close(at->tree->loops, at->tree, model->plan.n, y)) return;
-    struct place place = {.model = model, .at = *at, .returning = true};
-    place.at.y = place.y = y;
-    bring_back(&place);
+    struct instant here = *at;
+    here.y = y;
+    bring_back(&(struct place){model, here, y, .returning = true});
 }
 
 void state_return(struct fbd_state *state)

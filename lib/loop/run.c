@@ -341,17 +341,6 @@ static bool go_beyond(struct run *run, struct turn *turn)
     return run->end.outcome == FBD_GOING && begin_step(run) && limit_step(run, turn);
 }
 
-/* Closed loops follow from independent coordinates in steps without a Jacobian, and so does their projection. */
-static enum stepper_status step_once(struct run *run, struct turn *turn)
-{
-    struct closed_loops *loops = run->during->tree->loops;
-    closed_loops_suspend(loops, false);
-    enum stepper_status status = switcher_step(run->stepper, &run->system, &turn->t, run->work.y, run->work.f,
-                                               &run->step.h, turn->limit);
-    closed_loops_agree(run->state->tree->loops, loops);
-    return status;
-}
-
 /* Make one accepted step, to y and its slopes. A step rejected by defect control is repeated with a quarter
  * of its length. */
 static bool make_step(struct run *run, struct turn *turn)
@@ -359,7 +348,10 @@ static bool make_step(struct run *run, struct turn *turn)
     enum { most_times = 30 };
     const double shorter = 0.25;
     for (int time = 0;; time++) {
-        enum stepper_status status = step_once(run, turn);
+        closed_loops_suspend(run->during->tree->loops, false);
+        enum stepper_status status = switcher_step(run->stepper, &run->system, &turn->t, run->work.y,
+                                                   run->work.f, &run->step.h, turn->limit);
+        closed_loops_agree(run->state->tree->loops, run->during->tree->loops);
         if (status == stepper_underflow && !run->plain && go_beyond(run, turn)) continue;
         if (run->end.outcome != FBD_GOING) return false;
         if (status != stepper_ok) run_fail_step(run, status);
