@@ -291,40 +291,6 @@ static enum exit_code blame(fbd_errors *errors)
     return first.line > 0 ? exit_bad_model : exit_usage;
 }
 
-/* Check that the checks of a note are met. */
-static enum exit_code checked(const fbd_note *note)
-{
-    const size_t failed = fbd_note_failed_check_count(note);
-    if (failed == 0) return exit_done;
-    complain("fbd-run: %zu of %zu checks of the note are not met: see `Checks` in it", failed,
-             fbd_note_check_count(note));
-    return exit_inaccurate;
-}
-
-/* Make the note of a run that came to its end, and write it into its open files. Sets *code to that of its checks. False
- * with a message when it cannot be made. */
-static bool make_note(fbd_simulation *simulation, fbd_result *result, const struct options *options,
-                      struct outputs *outputs, const struct interrupt *interrupt, fbd_errors *errors,
-                      enum exit_code *code)
-{
-    const fbd_outcome outcome = fbd_result_outcome(result);
-    if (!options->note || outcome == FBD_FAILED || outcome == FBD_INTERRUPTED) return true;
-    struct run_progress progress;
-    const fbd_note_options chosen = {.size = sizeof chosen,
-                                     .settings = options->settings,
-                                     .setting_count = options->setting_count,
-                                     .degrees = options->degrees,
-                                     .progress = run_progress_watch,
-                                     .progress_context = &progress};
-    run_progress_begin(&progress, interrupt, false);
-    fbd_note *note = fbd_note_new(simulation, result, &chosen, errors);
-    run_progress_end(&progress);
-    outputs->note_made = note && note_write(&outputs->note, note);
-    if (note) *code = checked(note);
-    fbd_note_free(note);
-    return outputs->note_made;
-}
-
 /* Run the simulation to its end or interruption, and write the requested outputs. */
 static enum exit_code carry_and_write(fbd_simulation *simulation, const struct options *options,
                                       struct outputs *outputs, const struct interrupt *interrupt,
@@ -350,7 +316,8 @@ static enum exit_code carry_and_write(fbd_simulation *simulation, const struct o
                    ferror(outputs->files[output_csv].stream); /* reported at closing */
     enum exit_code code = result ? exit_done : refused ? exit_failed : no_memory(), noted = exit_done;
     if (result && !outputs_write(outputs, options, result, errors)) code = exit_failed;
-    if (code == exit_done && !make_note(simulation, result, options, outputs, interrupt, errors, &noted))
+    if (code == exit_done &&
+        !outputs_make_note(simulation, result, options, outputs, interrupt, errors, &noted))
         code = exit_failed;
     *options->json_written = result && code == exit_done;
     bool closed = outputs_close(outputs, result && code == exit_done) && outputs_announce(options, code);

@@ -8,8 +8,8 @@
 #include "complain.h"
 #include "fbd_export.h"
 #include "gnuplot.h"
-#include "interrupt.h"
 #include "live_page.h"
+#include "run_progress.h"
 
 /* Close the note and its drawings. */
 static bool note_end(struct outputs *outputs, bool keep)
@@ -108,4 +108,36 @@ bool outputs_announce(const struct options *options, enum exit_code code)
     if (live_page_announce(options->html, options->watched->stamp)) return true;
     complain("fbd-run: cannot write the stamp of `%s`: %s", options->html, strerror(errno));
     return false;
+}
+
+/* Check that the checks of a note are met. */
+static enum exit_code checked(const fbd_note *note)
+{
+    const size_t failed = fbd_note_failed_check_count(note);
+    if (failed == 0) return exit_done;
+    complain("fbd-run: %zu of %zu checks of the note are not met: see `Checks` in it", failed,
+             fbd_note_check_count(note));
+    return exit_inaccurate;
+}
+
+bool outputs_make_note(fbd_simulation *simulation, fbd_result *result, const struct options *options,
+                       struct outputs *outputs, const struct interrupt *interrupt, fbd_errors *errors,
+                       enum exit_code *code)
+{
+    const fbd_outcome outcome = fbd_result_outcome(result);
+    if (!options->note || outcome == FBD_FAILED || outcome == FBD_INTERRUPTED) return true;
+    struct run_progress progress;
+    const fbd_note_options chosen = {.size = sizeof chosen,
+                                     .settings = options->settings,
+                                     .setting_count = options->setting_count,
+                                     .degrees = options->degrees,
+                                     .progress = run_progress_watch,
+                                     .progress_context = &progress};
+    run_progress_begin(&progress, interrupt, false);
+    fbd_note *note = fbd_note_new(simulation, result, &chosen, errors);
+    run_progress_end(&progress);
+    outputs->note_made = note && note_write(&outputs->note, note);
+    if (note) *code = checked(note);
+    fbd_note_free(note);
+    return outputs->note_made;
 }

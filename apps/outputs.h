@@ -5,6 +5,7 @@
 #ifndef FBD_APPS_OUTPUTS_H
 #define FBD_APPS_OUTPUTS_H
 
+#include "interrupt.h"
 #include "note.h"
 #include "options.h"
 #include "whole_file.h"
@@ -30,5 +31,11 @@ bool outputs_announce(const struct options *options, enum exit_code code);
 
 /* Rename the files to their final names, or remove them all. False with a message. */
 bool outputs_close(struct outputs *outputs, bool keep);
+
+/* Make the note of a run that came to its end, and write it into its open files. Sets *code to that of its checks. False
+ * with a message when it cannot be made. */
+bool outputs_make_note(fbd_simulation *simulation, fbd_result *result, const struct options *options,
+                       struct outputs *outputs, const struct interrupt *interrupt, fbd_errors *errors,
+                       enum exit_code *code);
 
 #endif

@@ -103,7 +103,8 @@ void closed_loops_init(struct closed_loops *loops, const struct fbd_model *model
     loops->v = loops->q + links;
     loops->a = loops->v + links;
     for (int k = 0; k < loops->independent_count; k++) loops->basis[k] = loops->a + (size_t)(k + 1) * links;
-    loops->known = (bool *)(loops->a + (size_t)(loops->independent_count + 1) * links);
+    void *behind = loops->a + (size_t)(loops->independent_count + 1) * links;
+    loops->known = behind;
     set_units(tree, loops->a, loops->unit);
 }
 

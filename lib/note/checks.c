@@ -223,7 +223,10 @@ void note_checks(struct making *making)
     if (second.reason)
         document_paragraph(making->document, "The run by another method (%s) was not completed: %s.",
                            second.method, second.reason);
-    if (!hand) document_paragraph(making->document, "The file contains no derivation by hand (`hand:`).");
-    if (hand) document_paragraph(making->document, "The derivations by hand:");
-    if (hand) document_verbatim(making->document, hand, strlen(hand));
+    if (!hand) {
+        document_paragraph(making->document, "The file contains no derivation by hand (`hand:`).");
+    } else {
+        document_paragraph(making->document, "The derivations by hand:");
+        document_verbatim(making->document, hand, strlen(hand));
+    }
 }

@@ -15,10 +15,9 @@ static void print_unit(char *printed, size_t size, const char *prefix, const cha
 {
     size_t length = (size_t)snprintf(printed, size, "%s", prefix);
     for (const char *c = unit; *c && length + sizeof "²" < size; c++) {
-        const char *sign = *c == '*'                  ? "·"
-                           : *c == '^' && c[1] == '2' ? "²"
-                           : *c == '^' && c[1] == '3' ? "³"
-                                                      : NULL;
+        const char *sign = *c == '*' ? "·" : NULL;
+        if (strncmp(c, "^2", 2) == 0) sign = "²";
+        if (strncmp(c, "^3", 2) == 0) sign = "³";
         if (sign) {
             length += (size_t)snprintf(printed + length, size - length, "%s", sign);
             c += *c == '^';

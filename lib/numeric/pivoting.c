@@ -66,8 +66,9 @@ static struct place *ordered(const struct pivoting_problem *problem)
 {
     enum { rounds = 4 };
     size_t n = problem->count;
-    struct place *places = calloc(2 * n + 1, sizeof *places), *next = places + n;
+    struct place *places = calloc(2 * n + 1, sizeof *places);
     if (!places) return NULL;
+    struct place *next = places + n;
     for (size_t i = 0; i < n; i++) places[i] = (struct place){key_of_contents(&problem->rows[i]), i};
     for (int round = 0; round < rounds; round++) {
         for (size_t i = 0; i < n; i++) next[i] = (struct place){key_of_neighbours(problem, places, i), i};
