@@ -140,13 +140,21 @@ static enum exit_code write_json(const struct options *options, char *text)
     return write_text(options->json, text);
 }
 
+/* Then the message is all that there is. */
+static bool is_out_of_memory(fbd_errors *errors)
+{
+    for (size_t i = 0; i < fbd_errors_count(errors); i++)
+        if (strcmp(fbd_errors_get(errors, i).id, "out-of-memory") == 0) return true;
+    return false;
+}
+
 /* With --check the notes as {"notes": [...]}, if --json asks for them; without a result also where standard output
  * waits for one. A file that would have had it stays as it is. */
 static enum exit_code write_notes(const struct options *options, fbd_errors *errors, enum exit_code code)
 {
     const bool asked = options->action == action_check ||
                        (place_is_stdout(options->json) && fbd_errors_failed_count(errors) > 0);
-    if (!options->json || *options->json_written || !asked) return code;
+    if (!options->json || *options->json_written || !asked || is_out_of_memory(errors)) return code;
     char *notes = fbd_errors_json(errors),
          *text = notes ? malloc(strlen(notes) + sizeof "{\"notes\":}\n") : NULL;
     if (text) sprintf(text, "{\"notes\":%s}\n", notes);
