@@ -55,6 +55,8 @@ def check(model: Union[str, "os.PathLike[str]"], /, name: Optional[str] = None, 
 
 def _with_hand(source: bytes, name: bytes, parameters: Mapping[str, Any], hand: Hand) -> Any:
     """The model with other derivations: of each body in place of its own, those of "" at the top of the file."""
+    if not isinstance(hand, Mapping) or not all(isinstance(body, str) for body in hand):
+        raise TypeError(f"`hand` is a mapping from the names of bodies to derivations, not {hand!r}")
     document = made(lib.fbd_document_parse, lib.fbd_document_free, (), source, len(source), name)
     entries = []
     for body, lines in hand.items():
