@@ -406,6 +406,24 @@ static bool find_agrees(const struct options *options)
     return true;
 }
 
+/* The outputs of a run. */
+static bool outputs_agree(const struct options *options)
+{
+    const bool stands_still = options->action != action_run;
+    if (stands_still && (options->csv || options->html || options->note || options->plot ||
+                         options->gnuplot || options->ledger || options->every > 0))
+        return usage("--csv, --html, --note, --plot, --gnuplot, --ledger and --every belong to a run", "");
+    if (options->note && options->without_count > 0)
+        return usage("--note describes the file as it is: comment its entries out, instead of --without", "");
+    if (options->plot_of && !options->plot && !options->gnuplot)
+        return usage("--plot-of goes with --plot or --gnuplot", "");
+    if (options->plot && !plot_can_be_written(options->plot)) return false;
+    if (!options->csv && options->ledger) return usage("--ledger goes with --csv", "");
+    if (!options->csv && !options->html && !options->note && options->every > 0)
+        return usage("--every goes with --csv, --html or --note", "");
+    return true;
+}
+
 /* Refuse options that would have no effect. */
 static bool options_agree(const struct options *options)
 {
@@ -432,17 +450,7 @@ static bool options_agree(const struct options *options)
     if (options->settle && !rests) return usage("--settle goes with --static", "");
     if (stands_still && !rests && !draws && options->action != action_check && options->json)
         return usage("--json belongs to a run, --check, --equations, --linearize, --static or --grade", "");
-    if (stands_still && (options->csv || options->html || options->note || options->plot ||
-                         options->gnuplot || options->ledger || options->every > 0))
-        return usage("--csv, --html, --note, --plot, --gnuplot, --ledger and --every belong to a run", "");
-    if (options->note && options->without_count > 0)
-        return usage("--note describes the file as it is: comment its entries out, instead of --without", "");
-    if (options->plot_of && !options->plot && !options->gnuplot)
-        return usage("--plot-of goes with --plot or --gnuplot", "");
-    if (options->plot && !plot_can_be_written(options->plot)) return false;
-    if (!options->csv && options->ledger) return usage("--ledger goes with --csv", "");
-    if (!options->csv && !options->html && !options->note && options->every > 0)
-        return usage("--every goes with --csv, --html or --note", "");
+    if (!outputs_agree(options)) return false;
     if (options->full && (stands_still || options->quiet || options_use_stdout(options)))
         return usage("--full applies to the report, which --quiet, data on standard output and options "
                      "without a run leave out",

@@ -66,8 +66,7 @@ static bool make_run(struct run *run, const struct state_start *begin)
     run->during = state_new(run->model);
     run->work.y = ARENA_ARRAY(memory, 5 * size + roundoff_size(run->model), double);
     if (!run->state || !run->during || !run->work.y || !run_make_scans(run)) return false;
-    if (run->state->tree)
-        run->state->tree->accuracy = run->during->tree->accuracy = projected_accuracy(&run->options);
+    run->state->tree->accuracy = run->during->tree->accuracy = projected_accuracy(&run->options);
     if (!poles_init(&run->poles, run->model, memory)) return false;
     if (!coupled_scales_init(&run->mechanisms, run->model, memory)) return false;
     run->work.f = run->work.y + size;
@@ -91,7 +90,7 @@ static bool make_run(struct run *run, const struct state_start *begin)
     run->decided.slips = run->decided.branches + plan->branches;
     run->decided.pulls = run->decided.slips + plan->mode_count;
     const struct tree *tree = run->model->tree;
-    bool meets = tree && tree->meeting_count > 0, couples = tree && tree->coupling_count > 0;
+    bool meets = tree->meeting_count > 0, couples = tree->coupling_count > 0;
     run->lazy = !meets && !asks_forces(run);
     bool quiet =
         run->lazy && plan->mode_count == 0 && run->watchers.timed.count + run->watchers.moving.count == 0;
@@ -231,7 +230,7 @@ static struct time_dd next_time(struct run *run, bool *found)
 {
     const double stretch = 1.02; /* the stepper may lengthen a step by 1 % to end at its limit */
     double until = fmin(run->options.until, run->zeno_switches.end);
-    if (run->model->tree) until = fmin(until, zeno_next_rest(run));
+    until = fmin(until, zeno_next_rest(run));
     int status = 0;
     if (run->search.timed.count > 0)
         status = scan_interval(&run->search.timed, run->state->t,

@@ -143,7 +143,7 @@ static void check_exact(struct making *making, struct block *table)
     const size_t count = fbd_model_coordinate_count(making->model);
     double worst = NAN;
     for (size_t i = 0; i < 2 * count; i++) {
-        const fbd_coordinate c = fbd_model_coordinate(making->model, i % count);
+        const fbd_coordinate c = fbd_model_coordinate(making->model, i < count ? i : i - count);
         double exact, rate, value = 0;
         if (!fbd_model_exact(making->model, i, making->t, &exact, &rate)) continue;
         fbd_state_get(making->end, i < count ? c.name : c.rate_name, &value);

@@ -89,11 +89,11 @@ static void tick(struct plot *plot, double place, bool time)
 static void draw_axes(struct plot *plot)
 {
     const double air = 1e-9;
-    for (double k = ceil(plot->low.x / plot->step.x - air); k * plot->step.x <= plot->high.x * (1 + air); k++)
-        tick(plot, k * plot->step.x, true);
-    for (double k = round(plot->low.y / plot->step.y); k * plot->step.y <= plot->high.y + air * plot->step.y;
-         k++)
-        tick(plot, k * plot->step.y, false);
+    const double x = plot->step.x * ceil(plot->low.x / plot->step.x - air);
+    for (int k = 0; x + k * plot->step.x <= plot->high.x * (1 + air); k++)
+        tick(plot, x + k * plot->step.x, true);
+    for (int k = 0; plot->low.y + k * plot->step.y <= plot->high.y + air * plot->step.y; k++)
+        tick(plot, plot->low.y + k * plot->step.y, false);
     svg_text(&plot->text, "axis-label", (struct vec){(left + width - right) / 2, height - 3}, 3.4, "t [s]");
 }
 

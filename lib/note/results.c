@@ -6,6 +6,7 @@
 #include <stdint.h>
 #include <string.h>
 
+#include "base/format.h"
 #include "base/number.h"
 #include "note/note.h"
 
@@ -52,8 +53,8 @@ static const char *detail_of(struct making *making, const char *detail)
 static void event_row(struct making *making, struct block *table, const fbd_event *event)
 {
     struct document *document = making->document;
-    char kind[40] = "";
-    strncat(kind, fbd_event_kind_name(event->kind), sizeof kind - 1);
+    char kind[40];
+    format_into(kind, sizeof kind, "%s", fbd_event_kind_name(event->kind));
     for (char *c = kind; *c; c++)
         if (*c == '_') *c = ' ';
     document_cell(document, table, making_value(making, event->t, "s", note_digits + 3));

@@ -145,9 +145,7 @@ static void compare_runs(struct making *making, struct second_run *second, fbd_s
     double from, to;
     fbd_state *other = fbd_state_new(making->model);
     fbd_simulation_interval(simulation, &from, &to);
-    if (!other)
-        making->document->arena.failed = true;
-    else if (fbd_simulation_state(simulation, to, other))
+    if (other && fbd_simulation_state(simulation, to, other))
         compare_states(making, second, other);
     else
         making->document->arena.failed = true;

@@ -95,7 +95,7 @@ void number_write(struct text *text, double value, int digits)
     }
     format_into(number, sizeof number, "%.*e", digits - 1, fabs(value));
     char *e = strchr(number, 'e');
-    const int power = atoi(e + 1);
+    const int power = (int)strtol(e + 1, NULL, 10);
     const bool plain = value == 0 || (power >= -4 && power < 6);
     if (plain && power >= digits) digits = power + 1; /* all digits before the point */
     if (plain)
