@@ -132,6 +132,7 @@ static double friction_value(const struct watchers *watchers, const struct watch
         }
         double acceleration, speed = friction_surface_speed(mode, &view->at, &acceleration);
         int index = model->plan.n + mode->coordinate;
+        assert(view->flow.dy);
         *rate = slip * (view->flow.dy[index] - acceleration);
         return slip * (view->at.y[index] - speed) + watchers->quiet[watcher->index];
     }
@@ -303,6 +304,7 @@ void watchers_evaluate(const struct watchers *watchers, const struct watcher_set
             break;
         }
         case watch_contact:
+            assert(view.slots && view.slots_along);
             values[i] = watchers_contact_slack(state->model, view.at.tree, &plan->contacts[watcher->index]) -
                         view.slots[plan->contacts[watcher->index].slot];
             rates[i] = -view.slots_along[plan->contacts[watcher->index].slot];

@@ -142,9 +142,7 @@ static void write_character(struct text *text, const struct utf8_shown *next, bo
         text_add(text, "\\ ");
     else if (latex && !(!exact && next->text[0] == '-'))
         text_add(text, latex);
-    else if (next->plain && !is_european(next->text, next->length))
-        text_add(text, "?");
-    else if (next->plain)
+    else if (next->plain && is_european(next->text, next->length))
         text_add_bytes(text, next->text, next->length);
     else
         text_add(text, "?");

@@ -45,8 +45,9 @@ static void write_table(struct text *text, const struct block *block)
     text_add(text, "\n");
     for (const struct cell *cell = block->first; cell; cell = cell->next) {
         cells[column++] = cell->text;
-        if (column == count) write_row(text, cells, column);
-        column %= count;
+        if (column < count) continue;
+        write_row(text, cells, column);
+        column = 0;
     }
     text_add(text, "\n");
 }

@@ -75,10 +75,12 @@ static bool agrees(struct fbd_find *find, double p, const struct trial *low, boo
 static bool widen(struct fbd_find *find, const struct trial *low, double p, double least, double *error)
 {
     bool below = true, above = false;
-    for (*error = least; *error < scan_step(find); *error *= 10) {
+    *error = least;
+    while (*error < scan_step(find)) {
         if (p - *error >= find->from && !agrees(find, p - *error, low, &below)) return false;
         if (p + *error <= find->to && !agrees(find, p + *error, low, &above)) return false;
         if (below && !above) return true;
+        *error *= 10;
     }
     *error = scan_step(find);
     return true;

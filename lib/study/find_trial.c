@@ -74,7 +74,7 @@ static bool prepare_runs(struct fbd_find *find)
     if (!prepare_rows(find, &find->normal, parameter, find->errors)) return false;
     if (find->formula && !row_formula_compile(find->formula, find->normal.rows, find->errors)) return false;
     if (!rows_try(find->normal.rows, 0, find->errors)) return false;
-    size_t count;
+    size_t count = 0;
     outputs_of(find, &count);
     find->look.values = ARENA_ARRAY(&find->arena, count, double);
     find->tight.options = tight_options(find);
