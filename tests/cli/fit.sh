@@ -4,22 +4,7 @@
 # fbd-run --fit: a damped pendulum measured with noise of a fixed seed; exit codes, text and JSON.
 set -u
 . "$FBD_SOURCE_ROOT/tests/tools/tap.sh"
-cd "$scratch" || exit 1
-
-run() { # run ARGUMENT...: output and diagnostics apart, exit code kept
-    "$FBD_RUN" "$@" >out 2>err
-}
-
-says() { # says PATTERN FILE
-    grep -E -- "$1" "$2" && return 0
-    cat "$2"
-    return 1
-}
-
-# json EXPRESSION: of the object `it`, printed to out, with its parameters by name
-json() {
-    python3 -c "import json, sys; it = json.load(open('out')); of = {p['name']: p for p in it['parameters']}; sys.exit(not ($1))"
-}
+. "$FBD_SOURCE_ROOT/tests/tools/answers.sh"
 
 cat >pendulum.yaml <<'END'
 fbd: 1

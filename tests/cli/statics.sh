@@ -4,23 +4,8 @@
 # fbd-run --static: exit codes, text and JSON.
 set -u
 . "$FBD_SOURCE_ROOT/tests/tools/tap.sh"
+. "$FBD_SOURCE_ROOT/tests/tools/answers.sh"
 models="$FBD_SOURCE_ROOT/models"
-cd "$scratch" || exit 1
-
-run() { # run ARGUMENT...: output and diagnostics apart, exit code kept
-    "$FBD_RUN" "$@" >out 2>err
-}
-
-says() { # says PATTERN FILE
-    grep -E -- "$1" "$2" && return 0
-    cat "$2"
-    return 1
-}
-
-# json EXPRESSION: of the object `it`, printed to out
-json() {
-    python3 -c "import json, sys; it = json.load(open('out')); sys.exit(not ($1))"
-}
 
 check 'a scene that rests is 0' exits 0 run --static "$models/statics/beam.yaml"
 check 'without a diagnostic' test ! -s err
