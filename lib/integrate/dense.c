@@ -60,10 +60,10 @@ struct single {
 struct own {
     const gsl_odeiv2_step_type *const *type;
     int (*prepare)(gsl_odeiv2_step *step, const gsl_odeiv2_system *sys);
-    void (*eval)(const gsl_odeiv2_step *step, double theta, double *y);
+    void (*eval)(const gsl_odeiv2_step *step, double at, double *y); /* at theta; an exact one at t - t0 */
     int (*powers)(const gsl_odeiv2_step *step, size_t i, const struct powers_piece *piece,
                   double *c); /* or NULL */
-    bool free_of_evaluations;
+    bool exact; /* without evaluations */
 };
 
 static const struct own owns[] = {
@@ -391,9 +391,9 @@ int dense_eval(struct dense *d, struct time_dd t, double *y)
         int code = prepare(d);
         if (code != GSL_SUCCESS) return code;
     }
-    double theta = time_dd_since(t, d->t0) / d->h;
+    double since = time_dd_since(t, d->t0), theta = since / d->h;
     if (d->own)
-        d->own->eval(d->step, theta, y);
+        d->own->eval(d->step, d->own->exact ? since : theta, y);
     else
         eval_all(d, theta, y);
     return GSL_SUCCESS;
@@ -408,7 +408,7 @@ static struct powers_piece piece_between(const struct dense *d, struct time_dd f
 int dense_powers_of_ends(struct dense *d, struct time_dd from, struct time_dd to, size_t i, double *c)
 {
     size_t n = d->pairs;
-    if (i >= 2 * n || d->prepared || (d->own && d->own->free_of_evaluations)) return -1;
+    if (i >= 2 * n || d->prepared || (d->own && d->own->exact)) return -1;
     const struct powers_piece piece = piece_between(d, from, to);
     set_pair(d, i % n);
     return i < n ? q_powers(&d->pair[i], d->h, &piece, c) : v_powers(&d->pair[i - n], &piece, c);

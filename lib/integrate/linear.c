@@ -7,13 +7,13 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "integrate/linear_doublings.h"
 #include "integrate/stiffness.h"
 #include "numeric/tolerances.h"
 
-enum { terms = 26, rungs = 128, works = 4, power_room = linear_most_powers + 1 };
+enum { terms = linear_terms, works = 4, power_room = linear_most_powers + 1 };
 
 static const double series_reach = 2 + rounded_reach; /* of h rho: a step of 2 / rho may be rounded up */
-static const double lowest_rung = 0.125;              /* its h rho */
 
 struct linear {
     size_t dim;
@@ -26,8 +26,7 @@ struct linear {
     struct powers_piece piece;
     int degree;     /* of that piece; below zero: none */
     double *A;      /* dim x dim */
-    int made, room; /* doublings computed for this matrix, and that there is memory for */
-    double *ladder; /* for each, dim x dim: Phi and the exponential; NULL until a step needs them */
+    struct doublings doublings;
     double memory[];
 };
 
@@ -51,7 +50,7 @@ static void *linear_alloc(size_t dim)
 static void linear_free(void *state)
 {
     struct linear *s = state;
-    free(s->ladder);
+    doublings_free(&s->doublings);
     free(s);
 }
 
@@ -75,8 +74,6 @@ static int linear_set_driver(void *state, const gsl_odeiv2_driver *driver)
     return GSL_SUCCESS;
 }
 
-/* ---- small matrices, row by row */
-
 static inline void apply_matrix(size_t dim, const double *matrix, const double *x, double *result)
 {
     if (dim == 2) { /* one body on a slide or a pivot, the most frequent scene */
@@ -89,105 +86,6 @@ static inline void apply_matrix(size_t dim, const double *matrix, const double *
         double sum = 0;
         for (size_t j = 0; j < dim; j++) sum += matrix[i * dim + j] * x[j];
         result[i] = sum;
-    }
-}
-
-static void multiply(size_t dim, const double *a, const double *b, double *result)
-{
-    for (size_t i = 0; i < dim; i++) {
-        for (size_t j = 0; j < dim; j++) {
-            double sum = 0;
-            for (size_t k = 0; k < dim; k++) sum += a[i * dim + k] * b[k * dim + j];
-            result[i * dim + j] = sum;
-        }
-    }
-}
-
-/* ---- doublings */
-
-static double *phi_of(const struct linear *s, int rung)
-{
-    return s->ladder + 2 * (size_t)rung * s->dim * s->dim;
-}
-
-static double *exponential_of(const struct linear *s, int rung)
-{
-    return phi_of(s, rung) + s->dim * s->dim;
-}
-
-static double height_of(const struct linear *s, int rung)
-{
-    return ldexp(lowest_rung / s->rho, rung);
-}
-
-/* sum += term, element by element; is every term negligible compared with its sum? */
-static bool add_small(size_t size, const double *term, double *sum)
-{
-    bool small = true;
-    for (size_t i = 0; i < size; i++) {
-        small &= fabs(term[i]) <= series_rest * fabs(sum[i]);
-        sum[i] += term[i];
-    }
-    return small;
-}
-
-/* Phi by its series, and e^(hA) = 1 + A Phi. The memory of the next doubling holds the terms. */
-static void set_lowest(struct linear *s)
-{
-    size_t dim = s->dim, size = dim * dim;
-    double h = height_of(s, 0), *phi = phi_of(s, 0), *exponential = exponential_of(s, 0);
-    double *term = phi_of(s, 1), *next = exponential_of(s, 1);
-    memset(phi, 0, size * sizeof *phi);
-    for (size_t i = 0; i < dim; i++) phi[i * dim + i] = h;
-    memcpy(term, phi, size * sizeof *phi);
-    for (size_t k = 1; k <= terms; k++) {
-        multiply(dim, s->A, term, next);
-        for (size_t i = 0; i < size; i++) term[i] = next[i] * (h / (double)(k + 1));
-        if (add_small(size, term, phi) && k >= dim) break;
-    }
-    multiply(dim, s->A, phi, exponential);
-    for (size_t i = 0; i < dim; i++) exponential[i * dim + i] += 1;
-}
-
-static void set_next(struct linear *s, int rung)
-{
-    size_t dim = s->dim, size = dim * dim;
-    const double *phi = phi_of(s, rung - 1), *exponential = exponential_of(s, rung - 1);
-    double *twice = phi_of(s, rung);
-    multiply(dim, exponential, phi, twice);
-    for (size_t i = 0; i < size; i++) twice[i] += phi[i];
-    multiply(dim, exponential, exponential, exponential_of(s, rung));
-}
-
-/* The index of the longest doubling within a step of size h, 1 at least: that of index 0 takes both to compute. */
-static int rung_of(const struct linear *s, double h)
-{
-    int rung;
-    frexp(h * s->rho / lowest_rung, &rung);
-    return rung > rungs ? rungs - 1 : rung > 1 ? rung - 1 : 1;
-}
-
-/* Memory for the doublings of a step of size h. False when there is none. */
-static bool make_room(struct linear *s, double h)
-{
-    enum { at_once = 16 };
-    int rung = rung_of(s, h);
-    if (rung < s->room) return true;
-    int room = (rung / at_once + 1) * at_once;
-    double *ladder = realloc(s->ladder, 2 * (size_t)room * s->dim * s->dim * sizeof *ladder);
-    if (!ladder) return false;
-    s->ladder = ladder;
-    s->room = room;
-    return true;
-}
-
-static void need_rung(struct linear *s, int rung)
-{
-    for (; s->made <= rung; s->made++) {
-        if (s->made == 0)
-            set_lowest(s);
-        else
-            set_next(s, s->made);
     }
 }
 
@@ -284,26 +182,25 @@ static void climb_rest(const struct linear *s, double h, const double *f, double
 /* y0 + Phi(h) f0 for a step beyond the range of the series: split h into the lengths of the doublings,
  * advancing the slope f over each, and use the series for the remainder. A step of exactly one such length
  * may be shorter by the rounding of the time. */
-static void leap(struct linear *s, double h, double *y)
+static void leap(const struct linear *s, double h, double *y)
 {
     size_t dim = s->dim;
     double *f = s->work, *step = f + dim, *rise = step + 2 * dim, rest = h;
-    int rung = rung_of(s, h);
-    need_rung(s, rung);
     memcpy(f, s->f0, dim * sizeof *f);
     memset(rise, 0, dim * sizeof *rise);
-    double height = height_of(s, rung);
-    while (rung >= 0) {
-        if (!(rest >= (1 - negligible_sum) * height)) {
-            rung--;
-            height /= 2;
+    int k = doublings_within(&s->doublings, h);
+    double length = doublings_length(&s->doublings, k);
+    while (k >= 0) {
+        if (!(rest >= (1 - negligible_sum) * length)) {
+            k--;
+            length /= 2;
             continue;
         }
-        apply_matrix(dim, phi_of(s, rung), f, step);
+        apply_matrix(dim, doublings_phi(&s->doublings, k), f, step);
         for (size_t i = 0; i < dim; i++) rise[i] += step[i];
-        apply_matrix(dim, exponential_of(s, rung), f, step);
+        apply_matrix(dim, doublings_exponential(&s->doublings, k), f, step);
         memcpy(f, step, dim * sizeof *f);
-        rest -= height;
+        rest -= length;
     }
     climb_rest(s, rest, f, step, rise);
     for (size_t i = 0; i < dim; i++) y[i] = s->y0[i] + rise[i];
@@ -317,7 +214,7 @@ void linear_set_matrix(gsl_odeiv2_step *step, const double *A, double rho)
     if (rho == s->rho && memcmp(A, s->A, size) == 0) return; /* as before the reset, with its doublings */
     memcpy(s->A, A, size);
     s->rho = rho;
-    s->made = 0;
+    doublings_restart(&s->doublings, s->dim, rho);
 }
 
 static int set_matrix(struct linear *s, double t, const double *y, const gsl_odeiv2_system *sys)
@@ -327,7 +224,7 @@ static int set_matrix(struct linear *s, double t, const double *y, const gsl_ode
     if (status != GSL_SUCCESS) return status;
     s->rho = stiffness_rate(s->dim, s->A, s->work);
     if (!isfinite(s->rho)) return GSL_FAILURE;
-    s->made = 0;
+    doublings_restart(&s->doublings, s->dim, s->rho);
     s->has_matrix = true;
     return GSL_SUCCESS;
 }
@@ -348,11 +245,11 @@ static int linear_apply(void *state, size_t dim, double t, double h, double y[],
     s->degree = -1;
     memcpy(s->y0, y, dim * sizeof *y);
     memset(yerr, 0, dim * sizeof *yerr);
-    if (!(h * s->rho < ldexp(lowest_rung, rungs))) return GSL_FAILURE; /* longer than the longest doubling */
+    if (!(h * s->rho < linear_reach)) return GSL_FAILURE;
     if (h * s->rho <= series_reach) {
         set_terms(s);
         sum_terms(s, 1, y);
-    } else if (make_room(s, h)) {
+    } else if (doublings_reach(&s->doublings, s->A, h)) {
         leap(s, h, y);
     } else {
         return GSL_ENOMEM; /* a shorter step needs none */
@@ -372,13 +269,13 @@ int linear_dense_prepare(gsl_odeiv2_step *step, const gsl_odeiv2_system *sys)
     return step->type == step_linear && ((struct linear *)step->state)->stepped ? GSL_SUCCESS : GSL_EINVAL;
 }
 
-void linear_dense_eval(const gsl_odeiv2_step *step, double theta, double *y)
+void linear_dense_eval(const gsl_odeiv2_step *step, double since, double *y)
 {
-    struct linear *s = step->state;
+    const struct linear *s = step->state;
     if (s->has_terms)
-        sum_terms(s, theta, y);
+        sum_terms(s, since / s->h, y);
     else
-        leap(s, theta * s->h, y);
+        leap(s, since, y);
 }
 
 /* The series about the middle m of a piece, where the slope is f0 + A (y(m) - y0). Over half of a step h rho

@@ -38,11 +38,11 @@ extern const gsl_odeiv2_step_type *const step_linear;
  * that the Jacobian is not evaluated. */
 void linear_set_matrix(gsl_odeiv2_step *step, const double *A, double rho);
 
-/* As those of dop853; exact, without evaluations. Powers, linear_most_powers at most, exist where the last
+/* As those of dop853, but at the time `since` the start of the step [s]; exact, without evaluations. Powers, linear_most_powers at most, exist where the last
  * step is a series (h rho <= 2); else -1. */
 enum { linear_most_powers = 20 };
 int linear_dense_prepare(gsl_odeiv2_step *step, const gsl_odeiv2_system *sys);
-void linear_dense_eval(const gsl_odeiv2_step *step, double theta, double *y);
+void linear_dense_eval(const gsl_odeiv2_step *step, double since, double *y);
 int linear_dense_powers(const gsl_odeiv2_step *step, size_t i, const struct powers_piece *piece, double *c);
 
 /* The degree of the polynomial of the last step, 0 where it is not a polynomial. */

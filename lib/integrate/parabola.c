@@ -102,10 +102,9 @@ int parabola_dense_prepare(gsl_odeiv2_step *step, const gsl_odeiv2_system *sys)
                                                                                     : GSL_EINVAL;
 }
 
-void parabola_dense_eval(const gsl_odeiv2_step *step, double theta, double *y)
+void parabola_dense_eval(const gsl_odeiv2_step *step, double since, double *y)
 {
-    const struct parabola *s = step->state;
-    move(s, theta * s->h, y);
+    move(step->state, since, y);
 }
 
 int parabola_dense_powers(const gsl_odeiv2_step *step, size_t i, const struct powers_piece *piece, double *c)

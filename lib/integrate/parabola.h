@@ -20,9 +20,9 @@
 
 extern const gsl_odeiv2_step_type *const step_parabola;
 
-/* As those of dop853; exact, without evaluations. */
+/* As those of dop853, but at the time `since` the start of the step [s]; exact, without evaluations. */
 int parabola_dense_prepare(gsl_odeiv2_step *step, const gsl_odeiv2_system *sys);
-void parabola_dense_eval(const gsl_odeiv2_step *step, double theta, double *y);
+void parabola_dense_eval(const gsl_odeiv2_step *step, double since, double *y);
 int parabola_dense_powers(const gsl_odeiv2_step *step, size_t i, const struct powers_piece *piece, double *c);
 
 #endif

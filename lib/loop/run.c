@@ -33,6 +33,14 @@ static void bind_rates(struct run *run)
 
 /* ---- allocation and start */
 
+/* Do the works of all loads follow from potentials? */
+static bool has_potentials(const struct fbd_model *model)
+{
+    for (size_t i = 0; i < model->load_count; i++)
+        if (model->loads[i].potential_kind == potential_none) return false;
+    return true;
+}
+
 /* Does a step need the forces at its end? Friction of single bodies does where it changes its own normal
  * force. */
 static bool asks_forces(const struct run *run)
@@ -102,6 +110,7 @@ static bool make_run(struct run *run, const struct state_start *begin)
     system.function = rates_call(run->rates, &system.params);
     counted_system_init(&run->system, &system);
     if (!run_make_stepper(run)) return false;
+    run->leaps = run->plain && run->kind == structure_linear && has_potentials(run->model);
     size_t modes = (size_t)plan->branches + 2 * plan->mode_count;
     return run->kind != structure_linear || linear_pace_init(&run->pace, size, modes);
 }
