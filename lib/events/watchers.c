@@ -24,6 +24,7 @@ static void add_kinks(struct watchers *watchers, const struct plan *plan)
         const struct kink *kink = &plan->kinks[i];
         for (size_t part = 0; part < kink->count; part++) {
             bool timed = expr_switch_is_time(kink->formula.expr, part);
+            if (timed) watchers->timed_affine &= expr_switch_is_affine_in_time(kink->formula.expr, part);
             for (int end = 0; end < 2; end++)
                 add(timed ? &watchers->timed : &watchers->moving,
                     (struct watcher){watch_kink, (int)i, (int)part, end});
@@ -145,7 +146,7 @@ bool watchers_init(struct watchers *watchers, const struct fbd_model *model, dou
     size_t margins = 0;
     for (size_t i = 0; i < plan->kink_count; i++)
         if (plan->kinks[i].count > margins) margins = plan->kinks[i].count;
-    *watchers = (struct watchers){0};
+    *watchers = (struct watchers){.timed_affine = true};
     add_all(watchers, model); /* once to count, once to fill */
     size_t timed = watchers->timed.count, moving = watchers->moving.count;
     watchers->timed = (struct watcher_set){.watchers = ARENA_ARRAY(memory, timed + 1, struct watcher)};

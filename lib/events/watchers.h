@@ -50,6 +50,7 @@ struct watcher_set {
 
 struct watchers {
     struct watcher_set timed;    /* functions of t alone */
+    bool timed_affine;           /* each is a + b t while the branches last */
     struct watcher_set moving;   /* all others */
     struct affine *affine;       /* per moving function: its affine form in the present modes */
     bool any_affine, all_affine; /* is any, or every active one, affine */

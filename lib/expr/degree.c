@@ -48,12 +48,13 @@ static enum expr_degree degree_after(const struct instr *instr, enum expr_degree
 
 /* Set the degrees of time and variables; slots beyond `last` count as nonlinear. Returns true if the program
  * has jumps: then a register may be written by either side of an `if`. */
-static bool begin(const struct expr *expr, int last, enum expr_degree degree[frame_limit])
+static bool begin(const struct expr *expr, enum expr_degree of_time, int last,
+                  enum expr_degree degree[frame_limit])
 {
     size_t first = expr->uses_time;
     bool jumps = false;
     memset(degree, 0, frame_limit * sizeof *degree);
-    if (expr->uses_time) degree[0] = expr_nonlinear;
+    if (expr->uses_time) degree[0] = of_time;
     for (size_t i = 0; i < expr->variables; i++)
         degree[first + i] = expr->slots[i] <= last ? expr_affine : expr_nonlinear;
     for (size_t i = 0; i < expr->operations; i++)
@@ -72,7 +73,7 @@ enum expr_degree expr_degree(const struct expr *expr)
 {
     enum expr_degree degree[frame_limit];
     if (expr_is_constant(expr)) return expr_constant_between;
-    bool jumps = begin(expr, INT_MAX, degree);
+    bool jumps = begin(expr, expr_nonlinear, INT_MAX, degree);
     for (size_t i = 0; i < expr->operations; i++) {
         const struct instr *instr = &expr->code[i];
         if (instr->op != op_jump && instr->op != op_jump_unless) take(instr, jumps, degree);
@@ -93,16 +94,33 @@ bool expr_switch_depends(const struct expr *expr, size_t index, size_t on)
     return false;
 }
 
-enum expr_degree expr_switch_degree(const struct expr *expr, size_t index, int last)
+/* A quotient by a divisor that varies is not affine. */
+static enum expr_degree switching_degree(const struct instr *instr, const enum expr_degree *degree)
+{
+    enum expr_degree a = degree[instr->a], b = degree[instr->b];
+    return op_is_by_quotient(instr->op) && b != expr_constant_between ? of_any(a, b) : larger(a, b);
+}
+
+static enum expr_degree switch_degree(const struct expr *expr, size_t index, enum expr_degree of_time, int last)
 {
     enum expr_degree degree[frame_limit], worst = expr_constant_between;
-    bool jumps = begin(expr, last, degree);
+    bool jumps = begin(expr, of_time, last, degree);
     for (size_t i = 0; i < expr->operations; i++) {
         const struct instr *instr = &expr->code[i];
         if (instr->op == op_jump || instr->op == op_jump_unless) continue;
         if (op_is_switch(instr->op) && (size_t)instr->extra == index)
-            worst = larger(worst, larger(degree[instr->a], degree[instr->b]));
+            worst = larger(worst, switching_degree(instr, degree));
         take(instr, jumps, degree);
     }
     return worst;
+}
+
+enum expr_degree expr_switch_degree(const struct expr *expr, size_t index, int last)
+{
+    return switch_degree(expr, index, expr_nonlinear, last);
+}
+
+bool expr_switch_is_affine_in_time(const struct expr *expr, size_t index)
+{
+    return switch_degree(expr, index, expr_affine, 0) != expr_nonlinear;
 }

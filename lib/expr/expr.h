@@ -233,6 +233,9 @@ bool expr_switch_jumps(const struct expr *expr, size_t index);
 /* The degree of the switching function of one switch; slots beyond `last` count as not affine. */
 enum expr_degree expr_switch_degree(const struct expr *expr, size_t index, int last);
 
+/* True if the switching function is a + b t with constants a and b while the branches of all switches last. */
+bool expr_switch_is_affine_in_time(const struct expr *expr, size_t index);
+
 /* True for a relay, whose value depends on the previous motion. */
 bool expr_switch_remembers(const struct expr *expr, size_t index);
 

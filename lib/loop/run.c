@@ -214,6 +214,7 @@ static bool restart(struct run *run)
     run_evaluate(run);
     memcpy(run->work.y, run->state->y, plan_size(&run->model->plan) * sizeof *run->work.y);
     scan_forget(&run->search.timed);
+    run->search.knows_timed = false;
     scan_forget(&run->search.moving);
     coupled_scales_join(&run->mechanisms, run->state);
     bind_rates(run);
@@ -240,10 +241,7 @@ static struct time_dd next_time(struct run *run, bool *found)
     const double stretch = 1.02; /* the stepper may lengthen a step by 1 % to end at its limit */
     double until = fmin(run->options.until, run->zeno_switches.end);
     until = fmin(until, zeno_next_rest(run));
-    int status = 0;
-    if (run->search.timed.count > 0)
-        status = scan_interval(&run->search.timed, run->state->t,
-                               fmin(until, run->state->t + stretch * run->step.h));
+    int status = run_find_timed(run, fmin(until, run->state->t + stretch * run->step.h));
     *found = status == 1;
     /* Where functions of time vary too fast for so long a step, it ends where they have been searched. */
     if (status == 2 && run->search.timed.clear > run->state->t) return time_dd_at(run->search.timed.clear);

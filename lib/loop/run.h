@@ -101,6 +101,7 @@ struct snap {
 /* Search for events, besides the watchers. */
 struct event_search {
     struct scan timed, moving;
+    bool knows_timed; /* timed.t and timed.crossed are those of the next zero (functions that are affine) */
     bool *reads;  /* for each group of moving functions: the components that it reads */
     bool *wanted; /* the groups that are searched at present */
     bool paced,
@@ -257,6 +258,10 @@ void run_limit_flight(struct run *run);
 
 /* Event functions and their scans (run_watch.c). False when memory is out. */
 bool run_make_scans(struct run *run);
+
+/* The first event up to `to` that depends on time alone, in search.timed: 1 found, 0 none, 2 given up (scan_interval).
+ * (run_time.c) */
+int run_find_timed(struct run *run, double to);
 
 /* The time of the timed events that the scan has found; flags those of that time in
  * run->search.timed.crossed. (run_time.c) */

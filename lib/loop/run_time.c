@@ -27,6 +27,50 @@ static struct time_dd at_once(struct time_dd start)
     return (struct time_dd){start.t, nextafter(start.rest + least, HUGE_VAL)};
 }
 
+/* ---- functions of time that are affine */
+
+/* Each function a + b t has one zero, from present values and rates: note the first one, and those that are zero to the
+ * rounding of that time. It remains until the branches change. */
+static void note_first_zero(struct run *run)
+{
+    struct scan *scan = &run->search.timed;
+    double *values = run->work.values, *rates = values + scan->count, *roundings = rates + scan->count;
+    struct time_dd now = run_end(run);
+    watchers_evaluate_timed(&run->watchers, run->during, now, values, rates, roundings);
+    double first = HUGE_VAL;
+    for (size_t i = 0; i < scan->count; i++) {
+        bool ahead = rates[i] < 0 && values[i] > 0;
+        values[i] = ahead ? values[i] / -rates[i] : HUGE_VAL;
+        first = fmin(first, values[i]);
+    }
+    scan->t = time_dd_after(now, first).t;
+    for (size_t i = 0; i < scan->count; i++)
+        scan->crossed[i] = values[i] < HUGE_VAL && values[i] - first <= near * DBL_EPSILON * fabs(scan->t);
+}
+
+int run_find_timed(struct run *run, double to)
+{
+    struct scan *scan = &run->search.timed;
+    if (scan->count == 0) return 0;
+    if (!run->watchers.timed_affine) return scan_interval(scan, run->state->t, to);
+    if (!run->search.knows_timed) note_first_zero(run);
+    run->search.knows_timed = true;
+    return scan->t <= to;
+}
+
+/* Functions that are zero at the same time, to the rounding of their values, are simultaneous. */
+static void drop_later(struct run *run, struct time_dd t)
+{
+    const struct scan *scan = &run->search.timed;
+    double *values = run->work.values, *rates = values + scan->count, *roundings = rates + scan->count;
+    size_t count = 0;
+    for (size_t i = 0; i < scan->count; i++) count += scan->crossed[i];
+    if (count < 2) return;
+    watchers_evaluate_timed(&run->watchers, run->during, t, values, rates, roundings);
+    for (size_t i = 0; i < scan->count; i++)
+        if (scan->crossed[i] && rates[i] < 0 && values[i] > roundings[i]) scan->crossed[i] = false;
+}
+
 /* The time at which the first of the functions that crossed is zero, by Newton's method from a double: values
  * include their low parts, so only the curvature over some roundings of the time is left to a second
  * iteration. A function with zero slope there keeps the time of the search. */
@@ -42,22 +86,20 @@ struct time_dd run_pin_timed(struct run *run)
         for (size_t i = 0; i < scan->count; i++)
             if (scan->crossed[i] && rates[i] < 0) move = fmin(move, -values[i] / rates[i]);
         if (!(fabs(move) <= near * DBL_EPSILON * fabs(scan->t))) break;
+        if (fabs(move) <= DBL_EPSILON * DBL_EPSILON * fabs(scan->t)) break;
         struct time_dd next = time_dd_after(t, move);
         if (time_dd_since(next, start) <= 0) next = at_once(start);
         t = next;
     }
     if (time_dd_since(time_dd_at(run->options.until), t) <= 0) t = time_dd_at(run->options.until);
-    /* Functions that are zero at the same time, to the rounding of their values, are simultaneous. */
-    watchers_evaluate_timed(&run->watchers, run->during, t, values, rates, roundings);
-    for (size_t i = 0; i < scan->count; i++)
-        if (scan->crossed[i] && rates[i] < 0 && values[i] > roundings[i]) scan->crossed[i] = false;
+    drop_later(run, t);
     return t.t == run->options.until && t.rest == 0 ? t : before_end(t, run->options.until);
 }
 
 double run_time_to_switch(struct run *run)
 {
     struct time_dd end = time_dd_at(run->options.until);
-    bool found = scan_interval(&run->search.timed, run->state->t, end.t) == 1;
+    bool found = run_find_timed(run, end.t) == 1;
     return time_dd_since(found ? run_pin_timed(run) : end, run_end(run));
 }
 
