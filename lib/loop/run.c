@@ -65,6 +65,17 @@ static double projected_accuracy(const struct run_options *options)
     return fmax(options->tolerance, least);
 }
 
+static bool make_linear(struct run *run)
+{
+    const struct fbd_model *model = run->model;
+    run->keeps_force = ARENA_ARRAY(run->memory, model->load_count, bool);
+    if (!run->keeps_force) return false;
+    for (size_t i = 0; i < model->load_count; i++)
+        run->keeps_force[i] = structure_keeps_force(model, &model->loads[i]);
+    size_t modes = (size_t)model->plan.branches + 2 * model->plan.mode_count;
+    return linear_pace_init(&run->pace, plan_size(&model->plan), modes);
+}
+
 static bool make_run(struct run *run, const struct state_start *begin)
 {
     const struct plan *plan = &run->model->plan;
@@ -111,8 +122,7 @@ static bool make_run(struct run *run, const struct state_start *begin)
     counted_system_init(&run->system, &system);
     if (!run_make_stepper(run)) return false;
     run->leaps = run->plain && run->kind == structure_linear && has_potentials(run->model);
-    size_t modes = (size_t)plan->branches + 2 * plan->mode_count;
-    return run->kind != structure_linear || linear_pace_init(&run->pace, size, modes);
+    return run->kind != structure_linear || make_linear(run);
 }
 
 static void refuse(struct run *run, struct lack *lack)

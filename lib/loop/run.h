@@ -173,6 +173,7 @@ struct run {
     struct rates *rates; /* in the modes of `during` */
     struct switcher *stepper;
     struct linear_pace pace; /* of a linear system */
+    bool *keeps_force;       /* of a linear system, for each load: structure_keeps_force */
     struct roundoff roundoff;
     struct drift drift; /* residuals of the constraints */
     bool projected;
@@ -238,6 +239,11 @@ static inline struct time_dd run_end(const struct run *run)
 {
     return state_moment(run->state);
 }
+
+/* Is the force of a load constant over the last step? Where it is, its work between two times of the step is their
+ * difference times its power in the mean state: the mean positions, and the mean velocities, by the displacements. */
+bool run_keeps_force(const struct run *run, size_t load);
+bool run_look_mean(struct run *run, struct time_dd from, struct time_dd to, struct fbd_state *state);
 
 /* Number of panels of the last step for Gauss's rule with five points, such that the error of an integral of
  * powers is below that of the motion. For linear systems each panel is half a radian, or a decay by

@@ -35,3 +35,27 @@ bool run_look(struct run *run, struct time_dd t, struct fbd_state *state)
     state_evaluate(state);
     return true;
 }
+
+bool run_keeps_force(const struct run *run, size_t load)
+{
+    if (run->flies || run->kind == structure_constant) return true;
+    if (run->kind != structure_linear || !run->keeps_force[load]) return false;
+    int pair = run->model->bodies[run->model->loads[load].body].friction;
+    return pair < 0 || (run->during->slip[pair] != stick && !state_sliding(run->during));
+}
+
+bool run_look_mean(struct run *run, struct time_dd from, struct time_dd to, struct fbd_state *state)
+{
+    double length = time_dd_since(to, from), *begin = run->work.sample;
+    state_copy(state, run->during);
+    state_set_moment(state, time_dd_after(from, length / 2));
+    if (!run_coordinates(run, from, begin) || !run_coordinates(run, to, state->y)) return false;
+    size_t n = (size_t)run->model->plan.n;
+    for (size_t i = 0; i < n; i++) {
+        double moved = state->y[i] - begin[i];
+        state->y[i] = begin[i] + moved / 2;
+        state->y[n + i] = moved / length;
+    }
+    state_evaluate(state);
+    return true;
+}

@@ -48,6 +48,17 @@ static void note_first_zero(struct run *run)
         scan->crossed[i] = values[i] < HUGE_VAL && values[i] - first <= near * DBL_EPSILON * fabs(scan->t);
 }
 
+/* Has a function whose zero rounds to this time crossed there? */
+static bool has_crossed(struct run *run, double t)
+{
+    const struct scan *scan = &run->search.timed;
+    double *values = run->work.values, *rates = values + scan->count, *roundings = rates + scan->count;
+    watchers_evaluate_timed(&run->watchers, run->during, time_dd_at(t), values, rates, roundings);
+    bool crossed = false;
+    for (size_t i = 0; i < scan->count; i++) crossed |= scan->crossed[i] && values[i] < 0;
+    return crossed;
+}
+
 int run_find_timed(struct run *run, double to)
 {
     struct scan *scan = &run->search.timed;
@@ -55,7 +66,7 @@ int run_find_timed(struct run *run, double to)
     if (!run->watchers.timed_affine) return scan_interval(scan, run->state->t, to);
     if (!run->search.knows_timed) note_first_zero(run);
     run->search.knows_timed = true;
-    return scan->t <= to;
+    return scan->t < to || (scan->t == to && has_crossed(run, to));
 }
 
 /* Functions that are zero at the same time, to the rounding of their values, are simultaneous. */

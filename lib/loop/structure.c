@@ -212,6 +212,11 @@ static enum expr_degree degree_of_load(const struct fbd_model *model, const stru
     return expr_nonlinear;
 }
 
+bool structure_keeps_force(const struct fbd_model *model, const struct model_load *load)
+{
+    return degree_of_load(model, &model->bodies[load->body], load) == expr_constant_between;
+}
+
 /* With all contacts open, if `open`. */
 static enum expr_degree accelerations_vary(const struct fbd_model *model, bool open)
 {

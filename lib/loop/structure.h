@@ -27,6 +27,9 @@ enum structure structure_of(const struct fbd_model *model);
  * them at three evaluations. */
 const struct method *structure_method(const struct fbd_model *model, enum structure structure);
 
+/* Is the force of a load constant while modes and branches last? That of friction, while it slips. */
+bool structure_keeps_force(const struct fbd_model *model, const struct model_load *load);
+
 /* Does that method make steps of any length without truncation error? */
 static inline bool structure_is_exact(enum structure structure)
 {
