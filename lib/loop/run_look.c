@@ -38,10 +38,11 @@ bool run_look(struct run *run, struct time_dd t, struct fbd_state *state)
 
 bool run_keeps_force(const struct run *run, size_t load)
 {
+    if (state_sliding(run->during)) return false; /* the weights of its branches vary */
     if (run->flies || run->kind == structure_constant) return true;
     if (run->kind != structure_linear || !run->keeps_force[load]) return false;
     int pair = run->model->bodies[run->model->loads[load].body].friction;
-    return pair < 0 || (run->during->slip[pair] != stick && !state_sliding(run->during));
+    return pair < 0 || run->during->slip[pair] != stick;
 }
 
 bool run_look_mean(struct run *run, struct time_dd from, struct time_dd to, struct fbd_state *state)
