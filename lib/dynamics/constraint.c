@@ -156,9 +156,22 @@ const struct constraint_form constraint_forms[constraint_kinds] = {
     [constraint_contact] = {.rows = contact_rows},
 };
 
+/* A coupling that has ended has rows without forces, wherever its ends are. */
+static void clear(const struct coupling *coupling, struct row *rows)
+{
+    for (int k = 0; k < coupling->row_count; k++) {
+        start_row(&rows[k], (struct jet){0});
+        rows[k].lambda = 0;
+    }
+}
+
 static void evaluate(const struct view *view, int i)
 {
     const struct coupling *coupling = &view->tree->couplings[i];
+    if (view->work->couplings[i].gone) {
+        clear(coupling, &view->work->rows[coupling->first_row]);
+        return;
+    }
     constraint_forms[coupling->kind].rows(view, coupling, &view->work->couplings[i],
                                           &view->work->rows[coupling->first_row]);
 }
@@ -176,7 +189,8 @@ void constraints_select(const struct tree *tree, const struct instant *at)
     work->acting_count = 0;
     for (int i = 0; i < tree->coupling_count; i++) {
         const struct coupling *coupling = &tree->couplings[i];
-        const bool open = coupling->kind == constraint_contact && at->slip[coupling->surface] != stick;
+        const bool open = work->couplings[i].gone ||
+                          (coupling->kind == constraint_contact && at->slip[coupling->surface] != stick);
         if (!open) work->acting[work->acting_count++] = i;
     }
 }

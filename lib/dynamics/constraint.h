@@ -62,6 +62,7 @@ struct coupling_state {
     double laid[2];   /* at the start: wound length on the end discs; of a belt: its rows */
     double foot;      /* slot: the arc length of its point, by constraints_follow */
     int feature;      /* contact: its feature; no_feature while it is open */
+    bool gone;        /* it has ended, by its `until` */
 };
 
 enum { no_feature = -1 };

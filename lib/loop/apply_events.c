@@ -132,6 +132,27 @@ static bool fired_now(const struct run *run, int watch)
     return fabs(run->watchers.fired[watch] - run->state->t) <= instant;
 }
 
+/* A coupling ends: from now on it has no force, and does not close again. */
+static void end_coupling(struct run *run, int watch)
+{
+    const struct watch *ending = &run->model->plan.watches[watch];
+    const struct tree *tree = run->model->tree;
+    const int constraint = ending->source->ends - 1;
+    struct fbd_state *state = run->state;
+    if (ending->ends < 0 || state->tree->couplings[ending->ends].gone) return;
+    for (int i = 0; i < tree->coupling_count; i++) {
+        const struct coupling *coupling = &tree->couplings[i];
+        if (coupling->constraint != constraint) continue;
+        state->tree->couplings[i].gone = true;
+        state->tree->couplings[i].feature = no_feature;
+        const int modes[] = {coupling->pair, coupling->surface};
+        for (int k = 0; k < 2; k++)
+            if (modes[k] >= 0) state->slip[modes[k]] = slip_plus;
+    }
+    log_event(run, FBD_EVENT_COUPLING_ENDS, constraint_first_body(&run->model->scene->constraints[constraint]), -1, watch);
+    run->ended = true;
+}
+
 /* `touched`: the function is exactly zero and may get either sign; otherwise it has changed its sign. */
 static void user_event(struct run *run, int watch, bool touched)
 {
@@ -140,18 +161,40 @@ static void user_event(struct run *run, int watch, bool touched)
     run->watchers.armed[watch] = touched ? 0 : -run->watchers.armed[watch];
     run->watchers.fired[watch] = run->state->t;
     if (!counts) return;
+    if (source->ends > 0) {
+        end_coupling(run, watch);
+        return;
+    }
     log_event(run, FBD_EVENT_USER, -1, -1, watch);
     if (source->stop && run->end.outcome == FBD_GOING) run->end.outcome = FBD_STOPPED;
 }
 
-/* Is one of the user events that have crossed the end of the run? */
+/* End the couplings whose conditions are true, as after a jump of a force. Returns whether any has ended since the
+ * modes were settled. */
+static bool end_couplings(struct run *run)
+{
+    const struct plan *plan = &run->model->plan;
+    const struct instant at = state_instant(run->state);
+    for (size_t i = 0; run->end.outcome == FBD_GOING && i < plan->watch_count; i++) {
+        const struct watch *watch = &plan->watches[i];
+        if (watch->ends < 0) continue;
+        const double value = formula_value(&watch->left, &at) - formula_value(&watch->right, &at);
+        if (watch->source->direction * value > 0) end_coupling(run, (int)i);
+    }
+    const bool any = run->ended && run->end.outcome == FBD_GOING;
+    run->ended = false;
+    return any;
+}
+
+/* Is one of the user events that have crossed the end of the run, or of a coupling? */
 static bool stops(const struct run *run)
 {
     const struct watcher_set *set = &run->watchers.moving;
     for (size_t i = 0; i < set->count; i++) {
         int index = set->watchers[i].index;
         if (!run->search.moving.crossed[i] || set->watchers[i].kind != watch_user) continue;
-        if (run->model->plan.watches[index].source->stop && counts_now(run, index)) return true;
+        const struct user_event *source = run->model->plan.watches[index].source;
+        if ((source->stop || source->ends > 0) && counts_now(run, index)) return true;
     }
     return false;
 }
@@ -410,7 +453,7 @@ static void close_up(struct run *run)
     state_evaluate(run->state);
 }
 
-void run_apply(struct run *run, const bool *timed, const bool *moving)
+static void apply_once(struct run *run, const bool *timed, const bool *moving)
 {
     const struct plan *plan = &run->model->plan;
     const struct watcher_set *sets[] = {&run->watchers.timed, &run->watchers.moving};
@@ -427,6 +470,7 @@ void run_apply(struct run *run, const bool *timed, const bool *moving)
         for (size_t i = 0; crossed[s] && i < sets[s]->count; i++)
             if (crossed[s][i]) happen(run, &sets[s]->watchers[i], crossing);
     zeno_switch_end(run);
+    run->ended = false; /* settling follows */
     if (run->contacts.due) run_contacts(run);
     run->contacts.due = false;
     if (!settle(run) && run->end.outcome == FBD_GOING) fail_unsettled(run);
@@ -446,4 +490,18 @@ void run_apply(struct run *run, const bool *timed, const bool *moving)
     run->recent.moment = run_end(run);
     if (run->end.outcome == FBD_GOING) count_crowd(run);
     if (moving) count_around(run);
+}
+
+void run_apply(struct run *run, const bool *timed, const bool *moving)
+{
+    apply_once(run, timed, moving);
+    run_apply_endings(run);
+}
+
+void run_apply_endings(struct run *run)
+{
+    while (end_couplings(run)) { /* each ends once */
+        state_copy(run->during, run->state);
+        apply_once(run, NULL, NULL);
+    }
 }

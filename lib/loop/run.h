@@ -185,6 +185,7 @@ struct run {
     struct decided decided;
     struct contacts_work contacts;
     struct snap snap;
+    bool ended;          /* a coupling has ended, and the modes are not settled yet */
     double *impact_work; /* per load: total work of impacts */
     struct energy_guard energy;
     double liveliest; /* the largest kinetic energy of jointed bodies so far */
@@ -291,6 +292,9 @@ void step_past_switch(struct run *run);
 /* Apply the events at run->state: `timed` and `moving` flag the functions of each set that have crossed; NULL
  * for none. Settles the modes. */
 void run_apply(struct run *run, const bool *timed, const bool *moving);
+
+/* End the couplings whose conditions are true at run->state, and settle the modes. `during` is free. */
+void run_apply_endings(struct run *run);
 
 /* Log the user events that have crossed at t; false when one of them ends the run. */
 bool log_user_events(struct run *run, double t);

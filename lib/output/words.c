@@ -29,6 +29,7 @@ const char *fbd_event_kind_name(fbd_event_kind kind)
     case FBD_EVENT_SLIDING: return "sliding";
     case FBD_EVENT_SLIDING_ENDS: return "sliding_ends";
     case FBD_EVENT_TRACK_END: return "track_end";
+    case FBD_EVENT_COUPLING_ENDS: return "coupling_ends";
     }
     return "";
 }
@@ -199,6 +200,9 @@ void event_detail(const struct fbd_model *model, const struct run_event *event, 
     case FBD_EVENT_SLIDING: sliding_detail(model, event, name, detail, size); return;
     case FBD_EVENT_SLIDING_ENDS: snprintf(detail, size, "%s leaves its switch", name); return;
     case FBD_EVENT_TRACK_END: snprintf(detail, size, "an end of its track"); return;
+    case FBD_EVENT_COUPLING_ENDS:
+        snprintf(detail, size, "%s ends: %s", name, model->plan.watches[event->watch].source->text);
+        return;
     }
 }
 

@@ -19,6 +19,7 @@ struct coupling_keys {
     const char *name;
     const struct node *between, *through, *radii, *body, *on, *center, *wound, *around;
     const struct node *x, *y, *from, *to; /* slot */
+    const struct node *until;             /* condition at which a constraint ends */
     double stiffness, free_length, coefficient, length, radius, tension, along;
     bool inside, crossed, closed;
     struct value mu_s, mu_k, restitution, reel;
@@ -89,6 +90,8 @@ struct constraint {
     struct value mu_s,
         mu_k; /* roll: expr NULL for rolling without slip; contact: expr NULL for no friction; groove */
     struct contact_law contact; /* point_absent: the whole body */
+    const struct node *until;   /* the condition at which it ends, while the file is read; or NULL */
+    bool ends;                  /* it has one: an event of the scene has its index (struct user_event) */
 };
 
 /* The properties of a kind. */

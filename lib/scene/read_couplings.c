@@ -44,6 +44,8 @@ static bool read_constraint(struct reader *reader, const struct chosen *chosen,
     constraint->at = chosen->at;
     constraint->length = keys->length;
     constraint->length_given = keys->length > 0;
+    constraint->until = keys->until;
+    constraint->ends = keys->until != NULL;
     const bool fine = constraint_laws[constraint->kind].read(reader, keys, constraint);
     if (fine) place_slips(reader, constraint);
     return fine;

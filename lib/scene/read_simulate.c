@@ -40,6 +40,53 @@ static bool read_when(struct reader *reader, const struct node *when, char *rela
     return value_relation(reader, when, &want, &scope, &event->left, relation, &event->right);
 }
 
+/* ---- the ends of couplings */
+
+static size_t count_endings(const struct scene *scene)
+{
+    size_t count = 0;
+    for (size_t i = 0; i < scene->constraint_count; i++) count += scene->constraints[i].ends;
+    return count;
+}
+
+static bool read_until(struct reader *reader, const struct constraint *constraint, struct user_event *event)
+{
+    const struct scene *scene = reader->scene;
+    const struct node *until = constraint->until;
+    struct names names = {.reader = reader,
+                          .place = place_event,
+                          .body = scene->body_count == 1 ? 0 : ground_body,
+                          .of = constraint};
+    struct scope scope = names_scope(&names);
+    const struct expr_want want = {.any_dim = true, .what = "until"};
+    static const char hint[] = "write for example `tension > 500 N` or `t > 2 s`";
+    char relation = 0;
+    if (until->length == 0) return value_refuse(reader, until, "until", "a condition", hint);
+    *event = (struct user_event){.name = constraint->name,
+                                 .at = until->at,
+                                 .text = arena_text(reader->arena, until->text, until->length),
+                                 .ends = 1 + (int)(constraint - scene->constraints)};
+    if (!value_relation(reader, until, &want, &scope, &event->left, &relation, &event->right)) return false;
+    event->direction = relation == '<' ? -1 : 1;
+    if (relation == '<' || relation == '>') return true;
+    diag_add(reader->errors, FBD_ERROR, "expression-syntax", until->at, hint,
+             "`until` must be a comparison with `<` or `>`, which becomes true");
+    return false;
+}
+
+/* Append them to the events, which have room for them. */
+static bool read_endings(struct reader *reader)
+{
+    struct scene *scene = reader->scene;
+    bool fine = true;
+    for (size_t i = 0; i < scene->constraint_count; i++)
+        if (scene->constraints[i].ends)
+            fine = read_until(reader, &scene->constraints[i], &scene->events[scene->event_count++]) && fine;
+    return fine;
+}
+
+/* ---- events */
+
 static bool read_event(struct reader *reader, const struct node *node, struct user_event *event)
 {
     struct event_keys keys = {0};
@@ -83,23 +130,26 @@ static bool name_events(struct reader *reader)
     return fine;
 }
 
+/* `node` may be NULL. */
 static bool read_events(struct reader *reader, const struct node *node)
 {
     enum { most_events = 1000 };
     struct scene *scene = reader->scene;
-    bool list = node->kind == node_list, fine = true;
-    size_t count = list ? node->count : 1;
+    bool list = node && node->kind == node_list, fine = true;
+    size_t count = list ? node->count : node != NULL, endings = count_endings(scene);
     if (count > most_events) {
         diag_add(reader->errors, FBD_ERROR, "too-many-events", node->at, NULL, "more than %d events",
                  most_events);
         return false;
     }
-    scene->events = ARENA_ARRAY(reader->arena, count, struct user_event);
+    if (count + endings == 0) return true;
+    scene->events = ARENA_ARRAY(reader->arena, count + endings, struct user_event);
     if (!scene->events) return false;
     scene->event_count = count;
     for (size_t i = 0; i < count; i++)
         if (!read_event(reader, list ? node->items[i] : node, &scene->events[i])) fine = false;
-    return name_events(reader) && fine;
+    fine = name_events(reader) && fine;
+    return read_endings(reader) && fine;
 }
 
 /* ---- the run */
@@ -177,7 +227,7 @@ static bool check_accuracy(struct reader *reader, const struct node *map, const 
     return fields_exclude(reader, map, "accuracy", "step", hint) && fine;
 }
 
-static bool read_run(struct reader *reader, const struct node *map, struct pos at)
+static bool read_run(struct reader *reader, const struct node *map, struct pos at, const struct node **events)
 {
     struct simulate *simulate = &reader->scene->simulate;
     struct simulate_keys keys = {0};
@@ -192,12 +242,15 @@ static bool read_run(struct reader *reader, const struct node *map, struct pos a
                                   .propagate = keys.impacts == impacts_propagate,
                                   .method = method_choices[keys.method].name};
     if (!read_output(reader, keys.output, output)) fine = false;
-    return (!keys.events || read_events(reader, keys.events)) && fine;
+    *events = keys.events;
+    return fine;
 }
 
 bool simulate_read(struct reader *reader, const struct scene_keys *keys)
 {
     const struct pair *simulate = node_find(reader->root, "simulate");
-    bool run = !keys->simulate || read_run(reader, keys->simulate, simulate->at);
+    const struct node *events = NULL;
+    bool run = !keys->simulate || read_run(reader, keys->simulate, simulate->at, &events);
+    run = read_events(reader, events) && run;
     return read_output(reader, keys->output, node_find(reader->root, "output")) && run;
 }
