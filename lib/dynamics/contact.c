@@ -303,6 +303,7 @@ struct gap meeting_probe(const struct fbd_model *model, const struct instant *at
 {
     const struct meeting *meeting = &model->tree->meetings[index];
     const struct contact_shape *a = &meeting->shape[0], *b = &meeting->shape[1];
+    if (at->tree->couplings[meeting->first_coupling].gone) return nothing;
     int coupling = -1, closed = closed_couplings(model, at, index, &coupling);
     if (closed == meeting->coupling_count) return nothing;
     if (meeting->stop != 0) return feature_gap(model, at->tree, index, 0);
@@ -431,6 +432,7 @@ int meeting_touching(const struct fbd_model *model, const struct tree_work *work
     const struct meeting *meeting = &model->tree->meetings[index];
     const struct contact_shape *a = &meeting->shape[0], *b = &meeting->shape[1];
     struct outermost found = {0};
+    if (work->couplings[meeting->first_coupling].gone) return 0;
     if (meeting->thin) return thin_touching(model, work, index, near, features);
     if (meeting->stop != 0) {
         if (fabs(feature_gap(model, work, index, 0).x) <= near) consider(&found, 0, 0);

@@ -12,10 +12,11 @@ static const struct field name_fields[] = {
 static const struct group named = {"a coupling", NULL, FIELDS(name_fields), NULL, 0, "with a name"};
 
 /* The keys of every constraint. */
-static const struct field until_fields[] = {
-    FIELD_NODE(COUPLING(until), "until", field_scalar, 0, NULL,
-               "the condition at which it ends, as `tension > 500 N` or `t > 2 s`; default never"),
-};
+#define UNTIL_ROW                                                                                            \
+    FIELD_NODE(COUPLING(until), "until", field_scalar, 0, NULL,                                              \
+               "the condition at which it ends, as `tension > 500 N` or `t > 2 s`; default never")
+
+static const struct field until_fields[] = {UNTIL_ROW};
 static const struct group ending = {"a coupling", NULL, FIELDS(until_fields), &named, 0, "which may end"};
 
 #define BETWEEN_ROW                                                                                          \
@@ -175,6 +176,7 @@ static const struct field contact_fields[] = {
     FIELD_CHOICE(COUPLING(law), "law", laws, "the law of impact, which defines e"),
     FIELD_CHOICE(COUPLING(side), "side", contact_sides,
                  "with a line of the ground: the side of it on which the body stays; default `start`"),
+    UNTIL_ROW,
 };
 const struct group contact_group = {"a contact", NULL, FIELDS(contact_fields),
                                     NULL,        0,    "two bodies, or a body and the ground, that meet"};
