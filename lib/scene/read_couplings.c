@@ -46,9 +46,13 @@ static bool read_constraint(struct reader *reader, const struct chosen *chosen,
     constraint->length_given = keys->length > 0;
     constraint->until = keys->until;
     constraint->ends = keys->until != NULL;
-    const bool fine = constraint_laws[constraint->kind].read(reader, keys, constraint);
-    if (fine) place_slips(reader, constraint);
-    return fine;
+    if (!constraint_laws[constraint->kind].read(reader, keys, constraint)) return false;
+    place_slips(reader, constraint);
+    if (!keys->until || !constraint_laws[constraint->kind].strands) return true;
+    diag_add(reader->errors, FBD_ERROR, "not-here", keys->until->at,
+             "let a `rod` or a `rope` without `around` end, which carries the same load",
+             "a belt, and a rope with friction on a drum, cannot end");
+    return false;
 }
 
 /* ---- forces */
