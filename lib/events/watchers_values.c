@@ -436,6 +436,14 @@ static void calm_driven(struct watchers *watchers, const struct fbd_state *state
     }
 }
 
+/* Does the coupling that begins or ends there wait for the other one, or has it begun or ended? */
+static bool watch_is_over(const struct fbd_state *state, const struct watch *watch)
+{
+    const struct coupling_state *couplings = state->tree->couplings;
+    return (watch->begins >= 0 && !couplings[watch->begins].waits) ||
+           (watch->ends >= 0 && couplings[watch->ends].gone);
+}
+
 void watchers_arm(struct watchers *watchers, struct fbd_state *state, double step)
 {
     const struct plan *plan = &state->model->plan;
@@ -445,7 +453,7 @@ void watchers_arm(struct watchers *watchers, struct fbd_state *state, double ste
     if (state->model->names_reactions) reactions_copy(state->model, state->y, state->extended);
     for (size_t i = 0; i < plan->watch_count; i++) {
         const struct watch *watch = &plan->watches[i];
-        if (watch->ends >= 0 && state->tree->couplings[watch->ends].gone) {
+        if (watch_is_over(state, watch)) {
             watchers->armed[i] = 0;
             continue;
         }

@@ -132,27 +132,6 @@ static bool fired_now(const struct run *run, int watch)
     return fabs(run->watchers.fired[watch] - run->state->t) <= instant;
 }
 
-/* A coupling ends: from now on it has no force, and does not close again. */
-static void end_coupling(struct run *run, int watch)
-{
-    const struct watch *ending = &run->model->plan.watches[watch];
-    const struct tree *tree = run->model->tree;
-    const int constraint = ending->source->ends - 1;
-    struct fbd_state *state = run->state;
-    if (ending->ends < 0 || state->tree->couplings[ending->ends].gone) return;
-    for (int i = 0; i < tree->coupling_count; i++) {
-        const struct coupling *coupling = &tree->couplings[i];
-        if (coupling->constraint != constraint) continue;
-        state->tree->couplings[i].gone = true;
-        state->tree->couplings[i].feature = no_feature;
-        const int modes[] = {coupling->pair, coupling->surface};
-        for (int k = 0; k < 2; k++)
-            if (modes[k] >= 0) state->slip[modes[k]] = slip_plus;
-    }
-    log_event(run, FBD_EVENT_COUPLING_ENDS, constraint_first_body(&run->model->scene->constraints[constraint]), -1, watch);
-    run->ended = true;
-}
-
 /* `touched`: the function is exactly zero and may get either sign; otherwise it has changed its sign. */
 static void user_event(struct run *run, int watch, bool touched)
 {
@@ -161,29 +140,12 @@ static void user_event(struct run *run, int watch, bool touched)
     run->watchers.armed[watch] = touched ? 0 : -run->watchers.armed[watch];
     run->watchers.fired[watch] = run->state->t;
     if (!counts) return;
-    if (source->ends > 0) {
-        end_coupling(run, watch);
+    if (watch_of_coupling(source)) {
+        run_change_coupling(run, watch);
         return;
     }
     log_event(run, FBD_EVENT_USER, -1, -1, watch);
     if (source->stop && run->end.outcome == FBD_GOING) run->end.outcome = FBD_STOPPED;
-}
-
-/* End the couplings whose conditions are true, as after a jump of a force. Returns whether any has ended since the
- * modes were settled. */
-static bool end_couplings(struct run *run)
-{
-    const struct plan *plan = &run->model->plan;
-    const struct instant at = state_instant(run->state);
-    for (size_t i = 0; run->end.outcome == FBD_GOING && i < plan->watch_count; i++) {
-        const struct watch *watch = &plan->watches[i];
-        if (watch->ends < 0) continue;
-        const double value = formula_value(&watch->left, &at) - formula_value(&watch->right, &at);
-        if (watch->source->direction * value > 0) end_coupling(run, (int)i);
-    }
-    const bool any = run->ended && run->end.outcome == FBD_GOING;
-    run->ended = false;
-    return any;
 }
 
 /* Is one of the user events that have crossed the end of the run, or of a coupling? */
@@ -194,7 +156,7 @@ static bool stops(const struct run *run)
         int index = set->watchers[i].index;
         if (!run->search.moving.crossed[i] || set->watchers[i].kind != watch_user) continue;
         const struct user_event *source = run->model->plan.watches[index].source;
-        if ((source->stop || source->ends > 0) && counts_now(run, index)) return true;
+        if ((source->stop || watch_of_coupling(source)) && counts_now(run, index)) return true;
     }
     return false;
 }
@@ -500,7 +462,7 @@ void run_apply(struct run *run, const bool *timed, const bool *moving)
 
 void run_apply_endings(struct run *run)
 {
-    while (end_couplings(run)) { /* each ends once */
+    while (run_change_couplings(run)) { /* each begins and ends once */
         state_copy(run->during, run->state);
         apply_once(run, NULL, NULL);
     }

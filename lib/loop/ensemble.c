@@ -356,7 +356,7 @@ static void scatter_modes(const struct group *group, const struct fbd_state *par
     }
 }
 
-/* The couplings that have ended. Those of one constraint are successive, here and in the whole. */
+/* The couplings that have begun or ended, with the references of those that begin. Those of one constraint are successive, here and in the whole. */
 static void scatter_ends(const struct group *group, const struct fbd_state *part, struct fbd_state *state)
 {
     const struct tree *tree = group->model->tree, *whole = state->model->tree;
@@ -365,7 +365,10 @@ static void scatter_ends(const struct group *group, const struct fbd_state *part
         const int constraint = group->selection ? group->selection->constraints[local] : local;
         if (i == 0 || tree->couplings[i - 1].constraint != local) k = 0;
         while (whole->couplings[k].constraint != constraint) k++;
-        state->tree->couplings[k++].gone = part->tree->couplings[i].gone;
+        state->tree->couplings[k].gone = part->tree->couplings[i].gone;
+        state->tree->couplings[k].waits = part->tree->couplings[i].waits;
+        if (tree->couplings[i].source->begins) state->tree->couplings[k] = part->tree->couplings[i];
+        k++;
     }
 }
 

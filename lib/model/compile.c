@@ -223,7 +223,7 @@ static bool set_named_couplings(struct builder *builder)
         if (!source) return false;
         const struct constraint_law *law = &constraint_laws[constraint->kind];
         bool rubs = law->load_kind == load_normal && constraint->mu_s.expr;
-        source->kind = rubs ? load_friction : law->load_kind;
+        source->kind = rubs ? load_friction : law->load == no_load ? load_rope : law->load_kind;
         source->name = law->load_name ? arena_printf(&model->arena, "%s%s", constraint->name, law->load_name)
                                       : constraint->name;
         source->at = constraint->at;

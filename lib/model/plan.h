@@ -125,7 +125,7 @@ struct watch {
     const struct user_event *source;
     struct formula left, right;
     bool reacts; /* it names a reaction */
-    int ends;    /* the first coupling of the constraint that ends there, or -1 */
+    int begins, ends; /* the first coupling of the constraint that begins or ends there, or -1 */
 };
 
 /* Variables that a sum of forces may depend on. */

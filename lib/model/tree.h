@@ -149,7 +149,7 @@ struct tree {
     int joined_watched;             /* those of them that are jointed: they come first */
     int coupling_count, row_count;  /* see coupling.h */
     struct coupling *couplings;
-    bool ends;         /* some of them may end, by their `until` */
+    bool ends;         /* some of them begin or end during a run */
     bool reacts;       /* events name the forces of pivots */
     int meeting_count; /* see contact.h */
     struct meeting *meetings;

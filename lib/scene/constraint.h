@@ -19,7 +19,7 @@ struct coupling_keys {
     const char *name;
     const struct node *between, *through, *radii, *body, *on, *center, *wound, *around;
     const struct node *x, *y, *from, *to; /* slot */
-    const struct node *until;             /* condition at which a constraint ends */
+    const struct node *since, *until;     /* conditions at which a constraint begins and ends */
     double stiffness, free_length, coefficient, length, radius, tension, along;
     bool inside, crossed, closed;
     struct value mu_s, mu_k, restitution, reel;
@@ -90,8 +90,8 @@ struct constraint {
     struct value mu_s,
         mu_k; /* roll: expr NULL for rolling without slip; contact: expr NULL for no friction; groove */
     struct contact_law contact; /* point_absent: the whole body */
-    const struct node *until;   /* the condition at which it ends, while the file is read; or NULL */
-    bool ends;                  /* it has one: an event of the scene has its index (struct user_event) */
+    const struct node *since, *until; /* the conditions at which it begins and ends, while the file is read; or NULL */
+    bool begins, ends;                /* it has them: events of the scene have its index (struct user_event) */
 };
 
 /* The properties of a kind. */
@@ -128,6 +128,7 @@ extern const struct constraint_law constraint_laws[constraint_kinds];
 static inline bool constraint_has_load(const struct constraint *constraint)
 {
     const struct constraint_law *law = &constraint_laws[constraint->kind];
+    if (constraint->begins) return true; /* for the work of its impact */
     return law->load == always_load || (law->load == load_if_it_presses && constraint->presses != 0);
 }
 

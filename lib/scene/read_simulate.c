@@ -40,37 +40,43 @@ static bool read_when(struct reader *reader, const struct node *when, char *rela
     return value_relation(reader, when, &want, &scope, &event->left, relation, &event->right);
 }
 
-/* ---- the ends of couplings */
+/* ---- the begin and the end of couplings */
 
 static size_t count_endings(const struct scene *scene)
 {
     size_t count = 0;
-    for (size_t i = 0; i < scene->constraint_count; i++) count += scene->constraints[i].ends;
+    for (size_t i = 0; i < scene->constraint_count; i++)
+        count += (size_t)scene->constraints[i].begins + (size_t)scene->constraints[i].ends;
     return count;
 }
 
-static bool read_until(struct reader *reader, const struct constraint *constraint, struct user_event *event)
+/* The condition in the key `from` or `until`. The reactions of the coupling need no prefix in its `until`. */
+static bool read_ending(struct reader *reader, const struct constraint *constraint, bool begins,
+                        struct user_event *event)
 {
     const struct scene *scene = reader->scene;
-    const struct node *until = constraint->until;
+    const char *key = begins ? "from" : "until";
+    const struct node *when = begins ? constraint->since : constraint->until;
+    const int index = 1 + (int)(constraint - scene->constraints);
     struct names names = {.reader = reader,
                           .place = place_event,
                           .body = scene->body_count == 1 ? 0 : ground_body,
-                          .of = constraint};
+                          .of = begins ? NULL : constraint};
     struct scope scope = names_scope(&names);
-    const struct expr_want want = {.any_dim = true, .what = "until"};
-    static const char hint[] = "write for example `tension > 500 N` or `t > 2 s`";
+    const struct expr_want want = {.any_dim = true, .what = key};
+    const char *hint = begins ? "write for example `t > 2 s`" : "write for example `force > 500 N` or `t > 2 s`";
     char relation = 0;
-    if (until->length == 0) return value_refuse(reader, until, "until", "a condition", hint);
     *event = (struct user_event){.name = constraint->name,
-                                 .at = until->at,
-                                 .text = arena_text(reader->arena, until->text, until->length),
-                                 .ends = 1 + (int)(constraint - scene->constraints)};
-    if (!value_relation(reader, until, &want, &scope, &event->left, &relation, &event->right)) return false;
+                                 .at = when->at,
+                                 .text = arena_text(reader->arena, when->text, when->length),
+                                 .begins = begins ? index : 0,
+                                 .ends = begins ? 0 : index};
+    if (when->length == 0) return value_refuse(reader, when, key, "a condition", hint);
+    if (!value_relation(reader, when, &want, &scope, &event->left, &relation, &event->right)) return false;
     event->direction = relation == '<' ? -1 : 1;
     if (relation == '<' || relation == '>') return true;
-    diag_add(reader->errors, FBD_ERROR, "expression-syntax", until->at, hint,
-             "`until` must be a comparison with `<` or `>`, which becomes true");
+    diag_add(reader->errors, FBD_ERROR, "expression-syntax", when->at, hint,
+             "`%s` must be a comparison with `<` or `>`, which becomes true", key);
     return false;
 }
 
@@ -79,9 +85,13 @@ static bool read_endings(struct reader *reader)
 {
     struct scene *scene = reader->scene;
     bool fine = true;
-    for (size_t i = 0; i < scene->constraint_count; i++)
-        if (scene->constraints[i].ends)
-            fine = read_until(reader, &scene->constraints[i], &scene->events[scene->event_count++]) && fine;
+    for (size_t i = 0; i < scene->constraint_count; i++) {
+        const struct constraint *constraint = &scene->constraints[i];
+        if (constraint->begins)
+            fine = read_ending(reader, constraint, true, &scene->events[scene->event_count++]) && fine;
+        if (constraint->ends)
+            fine = read_ending(reader, constraint, false, &scene->events[scene->event_count++]) && fine;
+    }
     return fine;
 }
 

@@ -200,7 +200,7 @@ struct user_event {
     const struct expr *left, *right; /* crosses where left - right = 0; right may be NULL */
     int direction;                   /* +1 rising, -1 falling, 0 both */
     bool stop;
-    int ends; /* 1 + index of the constraint that ends there, by its `until`; 0 of other events */
+    int begins, ends; /* 1 + index of the constraint that begins or ends there; 0 of other events */
 };
 
 /* A point whose position, velocity and acceleration in the world are output. */

@@ -178,6 +178,95 @@ static void a_packed_state_goes_on(void **unused)
     checks_end(&checks);
 }
 
+/* ---- couplings that begin */
+
+/* A bullet stays in the block of a pendulum: m u L = (I + m L^2) omega. The impact takes the rest of its energy. */
+static void a_bullet_stays(void **unused)
+{
+    const double m = 0.02, M = 2, L = 1, u = 300, r = 0.05, I = M * (0.4 * r * r + L * L), omega = m * u * L / (I + m * L * L);
+    const double taken = m * u * u / 2 - (I + m * L * L) * omega * omega / 2;
+    struct checks checks = {0};
+    (void)unused;
+    struct trial trial = trial_parse(
+        "fbd: 1\nground: {points: {A: [0, 0]}}\nbodies:\n  bullet: {mass: 0.02, motion: particle, initial: {x: -3, y: -1, "
+        "vx: 300}}\n  block: {shape: sphere, radius: 0.05, mass: 2, motion: {pivot: {at: A, point: [0, 1]}}, forces: "
+        "[gravity]}\ncouplings:\n  - pin: {name: stuck, between: [bullet, block], from: bullet.x > block.G.x}\n"
+        "simulate: {until: 0.5, tolerance: 1e-12}\n");
+    trial_start(&trial, NULL);
+    check_close(&checks, "t", trial_to_event(&trial, FBD_EVENT_COUPLING_BEGINS, "stuck", 0), 0.01, same);
+    check_close(&checks, "omega", trial_get(&trial, "block.omega"), omega, same);
+    check_close(&checks, "vx", trial_get(&trial, "bullet.vx"), omega * L, same);
+    trial_close(&trial);
+    trial = run_of(
+        "fbd: 1\nground: {points: {A: [0, 0]}}\nbodies:\n  bullet: {mass: 0.02, motion: particle, initial: {x: -3, y: -1, "
+        "vx: 300}}\n  block: {shape: sphere, radius: 0.05, mass: 2, motion: {pivot: {at: A, point: [0, 1]}}, forces: "
+        "[gravity]}\ncouplings:\n  - pin: {name: stuck, between: [bullet, block], from: bullet.x > block.G.x}\n"
+        "simulate: {until: 0.5, tolerance: 1e-12}\n");
+    check_close(&checks, "work", fbd_result_work(trial.result, "bullet", "stuck"), -taken, 1e-6);
+    check_energy(&checks, &trial);
+    trial_close(&trial);
+    checks_end(&checks);
+}
+
+/* A rod catches a block, m v^2/2 is lost, and lets go of it. A rope whose ends approach each other begins slack. A rope
+ * takes the velocity along it. */
+static void couplings_begin(void **unused)
+{
+    static const struct {
+        const char *coupling;
+        double takes, vx, vy;
+    } cases[] = {{"rod: {name: grip, between: [b, ground.A], from: t > 0.5 s}", 8, 0, 3},
+                 {"rope: {name: grip, through: [b, ground.A], from: t > 0.5 s}", 8, 0, 3},
+                 {"rope: {name: grip, through: [b, ground.B], from: t > 0.5 s}", 0, 4, 3},
+                 {"rope: {name: grip, through: [b, ground.A], length: 5, from: t > 0.5 s}", 0, 4, 3}};
+    struct checks checks = {0};
+    (void)unused;
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        char text[text_room], takes[60];
+        snprintf(text, sizeof text,
+                 "fbd: 1\nground: {points: {A: [0, 1.5], B: [9, 1.5]}}\nbodies: {b: {mass: 1, motion: particle, initial: "
+                 "{vx: 4, vy: 3}}}\ncouplings:\n  - %s\nsimulate: {until: 0.6, tolerance: 1e-12}\n",
+                 cases[i].coupling);
+        struct trial trial = trial_parse(text);
+        trial_start(&trial, NULL);
+        check_close(&checks, "t", trial_to_event(&trial, FBD_EVENT_COUPLING_BEGINS, "grip", 0), 0.5, same);
+        check_close(&checks, "vx", trial_get(&trial, "vx"), cases[i].vx, same);
+        check_close(&checks, "vy", trial_get(&trial, "vy"), cases[i].vy, same);
+        const fbd_event event = fbd_simulation_event(trial.simulation, 0);
+        snprintf(takes, sizeof takes, "takes %.6g J", cases[i].takes);
+        check_that(&checks, takes, strstr(event.detail, takes));
+        check_that(&checks, "one event", fbd_simulation_event_count(trial.simulation) < 3);
+        trial_close(&trial);
+    }
+    checks_end(&checks);
+}
+
+/* Positions that do not fit, and friction of a guide in the impact, are refused by name. */
+static void other_begins_are_refused(void **unused)
+{
+    static const struct {
+        const char *body, *coupling, *words;
+    } cases[] = {{"motion: particle, initial: {vx: 1}", "pin: {name: grip, between: [b, ground.A], from: t > 0.5 s}",
+                  "`grip` begins (t > 0.5 s), and does not fit: it is off by 1.58"},
+                 {"motion: slide, initial: {v: 9}, forces: [gravity, normal, friction: {name: rub, coefficient: 0.1}]",
+                  "rod: {name: grip, between: [b, ground.A], from: t > 0.5 s}", "friction `rub` of a guide"}};
+    struct checks checks = {0};
+    (void)unused;
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        char text[text_room];
+        snprintf(text, sizeof text,
+                 "fbd: 1\nground: {points: {A: [0, 1.5]}}\nbodies: {b: {mass: 1, %s}}\ncouplings:\n  - %s\nsimulate: "
+                 "{until: 1}\n",
+                 cases[i].body, cases[i].coupling);
+        struct trial trial = trial_parse(text);
+        trial_start(&trial, NULL);
+        while (fbd_simulation_advance(trial.simulation) == FBD_GOING) {}
+        check_that(&checks, cases[i].words, strstr(fbd_simulation_reason(trial.simulation), cases[i].words));
+        trial_close(&trial);
+    }
+    checks_end(&checks);
+}
+
 /* ---- random chains of bodies, one of whose couplings ends */
 
 enum { most_links = 3 };
@@ -317,6 +406,9 @@ int main(void)
         cmocka_unit_test(events_name_reactions),
         cmocka_unit_test(jumps_and_starts_end_couplings),
         cmocka_unit_test(a_packed_state_goes_on),
+        cmocka_unit_test(a_bullet_stays),
+        cmocka_unit_test(couplings_begin),
+        cmocka_unit_test(other_begins_are_refused),
         cmocka_unit_test(chains_go_on_without),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
