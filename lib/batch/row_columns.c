@@ -264,7 +264,7 @@ bool columns_read(struct columns *columns, struct arena *arena, const struct fbd
 
 static bool is_meant(const struct column *column, const struct run_event *event)
 {
-    if (column->watch >= 0) return event->kind == FBD_EVENT_USER && event->watch == column->watch;
+    if (column->watch >= 0) return event->watch == column->watch;
     return (int)event->kind == column->event && (column->body < 0 || event->body == column->body);
 }
 

@@ -29,7 +29,7 @@ static struct symbol dotted_symbol(const struct names *names, const char *name, 
     if (!reader->drafts[index].motion_known) return failed_before;
     struct symbol own = coordinate_symbol(names, index, dot + 1);
     if (own.kind == symbol_unknown) own = mass_symbol(names, index, dot + 1);
-    if (own.kind == symbol_unknown) own = joint_reaction_symbol(names, index, dot + 1);
+    if (own.kind == symbol_unknown) own = joint_reaction_symbol(names, index, dot + 1, at);
     if (own.kind == symbol_unknown && names->place == place_hand)
         own = other_acceleration_symbol(names, index, dot + 1);
     if (own.kind == symbol_unknown && names->place == place_hand)

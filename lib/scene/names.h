@@ -95,7 +95,7 @@ bool names_point(const struct body *owner, const char *name, size_t length, stru
 struct symbol reaction_symbol(const struct names *names, const char *name, struct pos at);
 
 /* `arm.pin.x`, `block.normal` of the joint of a body, given the name behind the body. */
-struct symbol joint_reaction_symbol(const struct names *names, int body, const char *name);
+struct symbol joint_reaction_symbol(const struct names *names, int body, const char *name, struct pos at);
 
 /* `tension` in the `until` of a coupling. */
 struct symbol own_reaction_symbol(const struct names *names, const char *name);

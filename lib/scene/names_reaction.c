@@ -88,12 +88,43 @@ static bool is_called(const char *name, const char *text, size_t length)
     return name && strncmp(name, text, length) == 0 && name[length] == '\0';
 }
 
+/* A reaction elsewhere than in events. */
+static struct symbol misplaced(const struct names *names, const char *name, struct pos at)
+{
+    diag_add(names->reader->errors, FBD_ERROR, "not-here", at,
+             "write the law that causes it, as k*x of a spring; events (`when`, `until`, `from`) may name reactions",
+             "`%s` is a reaction, which follows from the forces: no force may depend on it", name);
+    return failed_before;
+}
+
+/* Has a list of the file an entry with this name? In `couplings` it stands behind its kind. */
+static bool lists(const struct node *list, const char *name, size_t length)
+{
+    for (size_t i = 0; list && list->kind == node_list && i < list->count; i++) {
+        const struct node *entry = list->items[i];
+        const struct pair *own = entry->kind == node_map ? node_find(entry, "name") : NULL;
+        if (entry->kind == node_map && !own && entry->count == 1 && entry->pairs[0].value->kind == node_map)
+            own = node_find(entry->pairs[0].value, "name");
+        if (own && own->value->kind == node_scalar && is_called(own->value->text, name, length)) return true;
+    }
+    return false;
+}
+
+static bool is_listed(const struct reader *reader, const char *name, size_t length)
+{
+    const struct pair *couplings = node_find(reader->root, "couplings"), *contacts = node_find(reader->root, "contacts");
+    return lists(couplings ? couplings->value : NULL, name, length) ||
+           lists(contacts ? contacts->value : NULL, name, length);
+}
+
 struct symbol reaction_symbol(const struct names *names, const char *name, struct pos at)
 {
     const struct scene *scene = names->reader->scene;
     const char *dot = strrchr(name, '.');
     const size_t length = (size_t)(dot - name);
     const int part = part_called(dot + 1);
+    if (names->place == place_load && part >= 0 && is_listed(names->reader, name, length))
+        return misplaced(names, name, at);
     if (names->place != place_event) return unknown;
     for (size_t i = 0; i < scene->constraint_count; i++) {
         const struct constraint *constraint = &scene->constraints[i];
@@ -120,10 +151,12 @@ struct symbol own_reaction_symbol(const struct names *names, const char *name)
 
 /* ---- joints */
 
-/* `pin.x` of a body on a pivot. */
+/* `pin.x` of a body on a pivot, unless it is a point of the body. */
 static int part_of_pin(const struct body *body, const char *name)
 {
     static const char pin[] = "pin.";
+    struct point point;
+    if (names_point(body, pin, strlen(pin) - 1, &point)) return -1;
     if (!motion_joint(&body->motion)->has_axis || strncmp(name, pin, strlen(pin)) != 0) return -1;
     const int part = part_called(name + strlen(pin));
     return part <= reaction_force ? part : -1;
@@ -141,9 +174,11 @@ static int part_of_guide(const struct body *body, const char *name)
     return -1;
 }
 
-struct symbol joint_reaction_symbol(const struct names *names, int body, const char *name)
+struct symbol joint_reaction_symbol(const struct names *names, int body, const char *name, struct pos at)
 {
     const struct body *owner = &names->reader->scene->bodies[body];
+    const bool guided = names->reader->drafts[body].has_normal && strcmp(name, "normal") == 0;
+    if (names->place == place_load && (guided || part_of_pin(owner, name) >= 0)) return misplaced(names, name, at);
     if (names->place != place_event) return unknown;
     int part = part_of_pin(owner, name);
     if (part < 0) part = part_of_guide(owner, name);
