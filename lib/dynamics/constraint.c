@@ -235,8 +235,8 @@ void constraints_start(const struct fbd_model *model, const struct instant *at)
     struct view view = {model, tree, work, false, at, NULL};
     for (int i = 0; i < tree->coupling_count; i++) {
         const bool waits = tree->couplings[i].source->begins;
-        work->couplings[i] = (struct coupling_state){
-            .side = {1, 1}, .feature = no_feature, .gone = waits, .waits = waits};
+        work->couplings[i] =
+            (struct coupling_state){.side = {1, 1}, .feature = no_feature, .gone = waits, .waits = waits};
         if (!waits) start(&view, i);
     }
     for (int i = 0; i < tree->coupling_count; i++)

@@ -92,7 +92,8 @@ static double row_answer(const struct tree_work *work, const struct tree *tree, 
 static bool is_rubbing(const struct tree *tree, int index, const struct instant *at)
 {
     const struct coupling *coupling = &tree->couplings[index];
-    return coupling->law->surface && !at->tree->couplings[index].gone && coupling->pair >= 0 && slip_side(at->slip[coupling->pair]) != 0 &&
+    return coupling->law->surface && !at->tree->couplings[index].gone && coupling->pair >= 0 &&
+           slip_side(at->slip[coupling->pair]) != 0 &&
            (coupling->surface < 0 || at->slip[coupling->surface] == stick);
 }
 
@@ -346,8 +347,7 @@ void tree_take_multipliers(const struct fbd_model *model, const struct instant *
     for (int j = 0; j < tree->row_count; j++) work->rows[j].lambda = work->z[j];
     for (int i = 0; i < tree->coupling_count; i++) {
         int j = tree->couplings[i].first_row;
-        if (is_rubbing(tree, i, at))
-            work->rows[j + 1].lambda = tree_rubbing_share(model, at, j) * work->z[j];
+        if (is_rubbing(tree, i, at)) work->rows[j + 1].lambda = tree_rubbing_share(model, at, j) * work->z[j];
     }
 }
 

@@ -39,8 +39,8 @@ static void end_coupling(struct run *run, int watch)
         for (int k = 0; k < 2; k++)
             if (modes[k] >= 0) state->slip[modes[k]] = slip_plus;
     }
-    log_event(run, FBD_EVENT_COUPLING_ENDS, constraint_first_body(&run->model->scene->constraints[constraint]), -1,
-              watch);
+    log_event(run, FBD_EVENT_COUPLING_ENDS,
+              constraint_first_body(&run->model->scene->constraints[constraint]), -1, watch);
     run->ended = true;
 }
 
@@ -67,7 +67,8 @@ static bool fits(struct run *run, int index, int watch)
     for (int k = 0; k < coupling->row_count; k++) off = hypot(off, sign * rows[k].g.x < 0 ? 0 : rows[k].g.x);
     if (off <= level * reach_of(run)) return true;
     run_fail(run, FBD_BROKEN,
-             "at t = %.9g the coupling `%s` begins (%s), and does not fit: it is off by %.6g %s. Let it begin where "
+             "at t = %.9g the coupling `%s` begins (%s), and does not fit: it is off by %.6g %s. Let it "
+             "begin where "
              "its ends fit",
              run_time(run), coupling->name, run->model->plan.watches[watch].source->text, off,
              run->model->scene->units == unit_si ? "m" : "ft");
@@ -94,7 +95,8 @@ static void open_modes(struct run *run)
     for (size_t i = 0; i < plan->mode_count; i++) {
         const struct mode *mode = &plan->modes[i];
         int *slip = &run->state->slip[i];
-        if (mode_is_friction(mode) || mode->kind == mode_rope || mode->kind == mode_contact) *slip = slip_plus;
+        if (mode_is_friction(mode) || mode->kind == mode_rope || mode->kind == mode_contact)
+            *slip = slip_plus;
         if (mode->kind == mode_surface && *slip == stick)
             *slip = run->model->tree->couplings[mode->coupling].pair >= 0 ? slip_plus : loose;
     }
@@ -126,10 +128,11 @@ static bool start_pieces(struct run *run, int watch, int constraint)
     for (int i = first; i < tree->coupling_count && tree->couplings[i].constraint == constraint; i++) {
         const struct coupling *coupling = &tree->couplings[i];
         if (!fits(run, i, watch)) return false;
-        if (coupling->pair >= 0) state->slip[coupling->pair] = one_sided_at(run->model, &at, coupling->pair).excess <
-                                                                       -one_sided_at(run->model, &at, coupling->pair).near
-                                                                   ? slip_plus
-                                                                   : stick;
+        if (coupling->pair >= 0)
+            state->slip[coupling->pair] = one_sided_at(run->model, &at, coupling->pair).excess <
+                                                  -one_sided_at(run->model, &at, coupling->pair).near
+                                              ? slip_plus
+                                              : stick;
     }
     return true;
 }
@@ -143,10 +146,12 @@ static void begin_coupling(struct run *run, int watch)
     const double before = total_kinetic_energy(run->state);
     const char *guide = rubbing_guide(run);
     if (guide) {
-        run_fail(run, FBD_BROKEN,
-                 "at t = %.9g the coupling `%s` begins by an impact, of which the friction `%s` of a guide would take "
-                 "its share: this is not computed. Give the guide no friction, or end the run earlier by an event",
-                 run_time(run), coupling->name, guide);
+        run_fail(
+            run, FBD_BROKEN,
+            "at t = %.9g the coupling `%s` begins by an impact, of which the friction `%s` of a guide would "
+            "take "
+            "its share: this is not computed. Give the guide no friction, or end the run earlier by an event",
+            run_time(run), coupling->name, guide);
         return;
     }
     if (!start_pieces(run, watch, constraint)) return;

@@ -306,7 +306,8 @@ void run_watch_slots(struct run *run, struct time_dd *t)
 {
     const struct tree *tree = run->model->tree;
     for (int i = 0; tree && i < tree->coupling_count; i++) {
-        if (!slot_is_open(&tree->couplings[i], run->during->slip) || run->during->tree->couplings[i].gone) continue;
+        if (!slot_is_open(&tree->couplings[i], run->during->slip) || run->during->tree->couplings[i].gone)
+            continue;
         for (int k = 0; k < 2 && run->end.outcome == FBD_GOING; k++) {
             const struct end end = {run, i, k, false};
             if (isfinite(coupling_room(run->model, run->during->tree, i, k).size)) watch_passing(&end, t);

@@ -52,7 +52,8 @@ static struct formula make_formula(struct builder *builder, const struct value *
     if (switches > 0) {
         formula.branch = plan->branches;
         plan->branches += (int)switches;
-        add_kink(builder, &(struct kink){.formula = formula, .body = body, .load = load, .own = own, .count = switches});
+        add_kink(builder, &(struct kink){
+                              .formula = formula, .body = body, .load = load, .own = own, .count = switches});
     }
     if (poles > 0 && (body >= 0 || own >= 0))
         add_pole(builder, &(struct pole){formula, body, load, own, poles});

@@ -88,12 +88,12 @@ struct model_absolute {
     int body;
     struct vec point;
     enum absolute_kind kind;
-    int coordinate; /* absolute_acceleration */
-    int pair;       /* absolute_slip: index into plan.modes, or -1 when that mode was removed */
-    bool even;      /* absolute_slip: remains a magnitude beyond the end of a mode, see slips.c */
-    enum reaction_part part;  /* absolute_reaction: */
-    struct range couplings;   /* those of its constraint; none for others */
-    int load;                 /* the spring or damper, or -1 */
+    int coordinate;          /* absolute_acceleration */
+    int pair;                /* absolute_slip: index into plan.modes, or -1 when that mode was removed */
+    bool even;               /* absolute_slip: remains a magnitude beyond the end of a mode, see slips.c */
+    enum reaction_part part; /* absolute_reaction: */
+    struct range couplings;  /* those of its constraint; none for others */
+    int load;                /* the spring or damper, or -1 */
 };
 
 /* A load with everything that it refers to resolved. */

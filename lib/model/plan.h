@@ -124,7 +124,7 @@ struct pole {
 struct watch {
     const struct user_event *source;
     struct formula left, right;
-    bool reacts; /* it names a reaction */
+    bool reacts;      /* it names a reaction */
     int begins, ends; /* the first coupling of the constraint that begins or ends there, or -1 */
 };
 

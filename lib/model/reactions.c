@@ -50,9 +50,11 @@ void reactions_find(struct fbd_model *model)
         const int begins = plan->watches[i].source->begins, ends = plan->watches[i].source->ends;
         plan->watches[i].begins = begins > 0 ? couplings_of(tree, begins - 1).first : -1;
         plan->watches[i].ends = ends > 0 ? couplings_of(tree, ends - 1).first : -1;
-        plan->watches[i].reacts = reacts(model, &plan->watches[i].left) || reacts(model, &plan->watches[i].right);
+        plan->watches[i].reacts =
+            reacts(model, &plan->watches[i].left) || reacts(model, &plan->watches[i].right);
     }
-    for (size_t i = 0; i < plan->kink_count; i++) plan->kinks[i].reacts = reacts(model, &plan->kinks[i].formula);
-    for (size_t c = 0; c < model->scene->constraint_count; c++) 
+    for (size_t i = 0; i < plan->kink_count; i++)
+        plan->kinks[i].reacts = reacts(model, &plan->kinks[i].formula);
+    for (size_t c = 0; c < model->scene->constraint_count; c++)
         tree->ends |= model->scene->constraints[c].begins || model->scene->constraints[c].ends;
 }

@@ -90,8 +90,9 @@ struct constraint {
     struct value mu_s,
         mu_k; /* roll: expr NULL for rolling without slip; contact: expr NULL for no friction; groove */
     struct contact_law contact; /* point_absent: the whole body */
-    const struct node *since, *until; /* the conditions at which it begins and ends, while the file is read; or NULL */
-    bool begins, ends;                /* it has them: events of the scene have its index (struct user_event) */
+    const struct node *since,
+        *until;        /* the conditions at which it begins and ends, while the file is read; or NULL */
+    bool begins, ends; /* it has them: events of the scene have its index (struct user_event) */
 };
 
 /* The properties of a kind. */

@@ -23,8 +23,8 @@ static const struct field since_fields[] = {
     UNTIL_ROW,
 };
 static const struct group ending = {"a coupling", NULL, FIELDS(until_fields), &named, 0, "which may end"};
-static const struct group beginning = {
-    "a coupling", NULL, FIELDS(since_fields), &named, 0, "which may begin and end"};
+static const struct group beginning = {"a coupling", NULL, FIELDS(since_fields),
+                                       &named,       0,    "which may begin and end"};
 
 #define BETWEEN_ROW                                                                                          \
     FIELD_ENTRIES(COUPLING(between), "between", field_list, required, each_word, NULL,                       \

@@ -119,7 +119,8 @@ static struct symbol initial_symbol(const struct names *names, const char *name,
 
 /* In a derivation an unknown name may be a force of the diagram; and points and the angle of the current body
  * need no prefix. */
-static struct symbol or_force(const struct names *names, const char *name, struct symbol symbol, struct pos at)
+static struct symbol or_force(const struct names *names, const char *name, struct symbol symbol,
+                              struct pos at)
 {
     if (names->place != place_hand || symbol.kind != symbol_unknown) return symbol;
     if (!names->reader->drafts[names->body].motion_known) return failed_before;

@@ -91,7 +91,7 @@ bool names_point(const struct body *owner, const char *name, size_t length, stru
 /* ---- reactions in events (names_reaction.c) */
 
 /* `cord.tension`, `hinge.x`, `floor.normal` of a coupling or contact. symbol_unknown if no coupling has that name,
- * symbol_failed after noting what it has. */
+ * symbol_failed after noting its reactions. */
 struct symbol reaction_symbol(const struct names *names, const char *name, struct pos at);
 
 /* `arm.pin.x`, `block.normal` of the joint of a body, given the name behind the body. */

@@ -24,24 +24,24 @@ static int part_called(const char *name)
 
 /* ---- couplings */
 
-/* Each strand of a belt, or of a rope on a rough drum, has a tension of its own. */
+/* The reactions of each kind; a belt, and a rope on a rough drum, have a tension in each strand. */
 static bool has_part(const struct constraint *constraint, enum reaction_part part)
 {
-    const struct constraint_law *law = &constraint_laws[constraint->kind];
-    const bool slot = constraint->kind == constraint_slot;
-    if (law->strands) return false;
-    switch (part) {
-    case reaction_x:
-    case reaction_y:
-    case reaction_force: return true;
-    case reaction_tension: return law->length;
-    case reaction_normal: return law->surface || slot;
-    case reaction_friction: return law->surface;
+    switch (constraint->kind) {
+    case constraint_belt:
+    case constraint_capstan: return false;
+    case constraint_rod:
+    case constraint_rope: return part <= reaction_tension;
+    case constraint_slot: return part <= reaction_force || part == reaction_normal;
+    case constraint_roll:
+    case constraint_groove:
+    case constraint_contact: return part != reaction_tension;
+    default: return part <= reaction_force;
     }
-    return false;
 }
 
-static const char *list_parts(const struct names *names, const char *name, const struct constraint *constraint)
+static const char *list_parts(const struct names *names, const char *name,
+                              const struct constraint *constraint)
 {
     struct reader *reader = names->reader;
     const char *list = NULL;
@@ -57,8 +57,9 @@ static struct symbol refuse(const struct names *names, const char *name, const c
                             const struct constraint *constraint)
 {
     const char *hint = list_parts(names, name, constraint);
-    diag_add(names->reader->errors, FBD_ERROR, "unknown-name", at, diag_hint(names->reader->errors, "%s", hint),
-             "the coupling `%s` has no reaction called `%s`", name, part);
+    diag_add(names->reader->errors, FBD_ERROR, "unknown-name", at,
+             diag_hint(names->reader->errors, "%s", hint), "the coupling `%s` has no reaction called `%s`",
+             name, part);
     return failed_before;
 }
 
@@ -92,7 +93,8 @@ static bool is_called(const char *name, const char *text, size_t length)
 static struct symbol misplaced(const struct names *names, const char *name, struct pos at)
 {
     diag_add(names->reader->errors, FBD_ERROR, "not-here", at,
-             "write the law that causes it, as k*x of a spring; events (`when`, `until`, `from`) may name reactions",
+             "write the law that causes it, as k*x of a spring; events (`when`, `until`, `from`) may name "
+             "reactions",
              "`%s` is a reaction, which follows from the forces: no force may depend on it", name);
     return failed_before;
 }
@@ -112,7 +114,8 @@ static bool lists(const struct node *list, const char *name, size_t length)
 
 static bool is_listed(const struct reader *reader, const char *name, size_t length)
 {
-    const struct pair *couplings = node_find(reader->root, "couplings"), *contacts = node_find(reader->root, "contacts");
+    const struct pair *couplings = node_find(reader->root, "couplings"),
+                      *contacts = node_find(reader->root, "contacts");
     return lists(couplings ? couplings->value : NULL, name, length) ||
            lists(contacts ? contacts->value : NULL, name, length);
 }
@@ -178,12 +181,15 @@ struct symbol joint_reaction_symbol(const struct names *names, int body, const c
 {
     const struct body *owner = &names->reader->scene->bodies[body];
     const bool guided = names->reader->drafts[body].has_normal && strcmp(name, "normal") == 0;
-    if (names->place == place_load && (guided || part_of_pin(owner, name) >= 0)) return misplaced(names, name, at);
+    if (names->place == place_load && (guided || part_of_pin(owner, name) >= 0))
+        return misplaced(names, name, at);
     if (names->place != place_event) return unknown;
     int part = part_of_pin(owner, name);
     if (part < 0) part = part_of_guide(owner, name);
     if (part < 0) return unknown;
-    const struct absolute reaction = {
-        .body = body, .point = {.kind = point_fixed}, .kind = absolute_reaction, .part = part};
+    const struct absolute reaction = {.body = body,
+                                      .point = {.kind = point_fixed},
+                                      .kind = absolute_reaction,
+                                      .part = part};
     return names_absolute(names->reader, names->place, &reaction);
 }

@@ -25,19 +25,34 @@ static bool read_direction(struct reader *reader, const struct node *node, char 
     return false;
 }
 
+/* A condition in the key `key`; `of`: the reactions of this constraint need no prefix in it; or NULL. */
+struct condition {
+    const struct node *node;
+    const char *key, *hint;
+    const struct constraint *of;
+};
+
+static bool read_condition(struct reader *reader, const struct condition *condition, char *relation,
+                           struct user_event *event)
+{
+    const struct node *node = condition->node;
+    struct names names = {.reader = reader,
+                          .place = place_event,
+                          .body = reader->scene->body_count == 1 ? 0 : ground_body,
+                          .of = condition->of};
+    struct scope scope = names_scope(&names);
+    const struct expr_want want = {.any_dim = true, .what = condition->key};
+    event->at = node->at;
+    event->text = arena_text(reader->arena, node->text, node->length);
+    if (node->length == 0) return value_refuse(reader, node, condition->key, "a condition", condition->hint);
+    return value_relation(reader, node, &want, &scope, &event->left, relation, &event->right);
+}
+
 static bool read_when(struct reader *reader, const struct node *when, char *relation,
                       struct user_event *event)
 {
-    struct names names = {.reader = reader,
-                          .place = place_event,
-                          .body = reader->scene->body_count == 1 ? 0 : ground_body};
-    struct scope scope = names_scope(&names);
-    const struct expr_want want = {.any_dim = true, .what = "when"};
-    if (when->length == 0)
-        return value_refuse(reader, when, "when", "a condition", "write for example `x = 2[m]`");
-    event->at = when->at;
-    event->text = arena_text(reader->arena, when->text, when->length);
-    return value_relation(reader, when, &want, &scope, &event->left, relation, &event->right);
+    return read_condition(reader, &(struct condition){when, "when", "write for example `x = 2[m]`", NULL},
+                          relation, event);
 }
 
 /* ---- the begin and the end of couplings */
@@ -50,33 +65,25 @@ static size_t count_endings(const struct scene *scene)
     return count;
 }
 
-/* The condition in the key `from` or `until`. The reactions of the coupling need no prefix in its `until`. */
+/* The condition in the key `from` or `until`. */
 static bool read_ending(struct reader *reader, const struct constraint *constraint, bool begins,
                         struct user_event *event)
 {
-    const struct scene *scene = reader->scene;
-    const char *key = begins ? "from" : "until";
-    const struct node *when = begins ? constraint->since : constraint->until;
-    const int index = 1 + (int)(constraint - scene->constraints);
-    struct names names = {.reader = reader,
-                          .place = place_event,
-                          .body = scene->body_count == 1 ? 0 : ground_body,
-                          .of = begins ? NULL : constraint};
-    struct scope scope = names_scope(&names);
-    const struct expr_want want = {.any_dim = true, .what = key};
-    const char *hint = begins ? "write for example `t > 2 s`" : "write for example `force > 500 N` or `t > 2 s`";
+    const struct condition condition = {.node = begins ? constraint->since : constraint->until,
+                                        .key = begins ? "from" : "until",
+                                        .hint = begins ? "write for example `t > 2 s`"
+                                                       : "write for example `force > 500 N` or `t > 2 s`",
+                                        .of = begins ? NULL : constraint};
+    const int index = 1 + (int)(constraint - reader->scene->constraints);
     char relation = 0;
     *event = (struct user_event){.name = constraint->name,
-                                 .at = when->at,
-                                 .text = arena_text(reader->arena, when->text, when->length),
                                  .begins = begins ? index : 0,
                                  .ends = begins ? 0 : index};
-    if (when->length == 0) return value_refuse(reader, when, key, "a condition", hint);
-    if (!value_relation(reader, when, &want, &scope, &event->left, &relation, &event->right)) return false;
+    if (!read_condition(reader, &condition, &relation, event)) return false;
     event->direction = relation == '<' ? -1 : 1;
     if (relation == '<' || relation == '>') return true;
-    diag_add(reader->errors, FBD_ERROR, "expression-syntax", when->at, hint,
-             "`%s` must be a comparison with `<` or `>`, which becomes true", key);
+    diag_add(reader->errors, FBD_ERROR, "expression-syntax", condition.node->at, condition.hint,
+             "`%s` must be a comparison with `<` or `>`, which becomes true", condition.key);
     return false;
 }
 

@@ -97,8 +97,8 @@ enum { most_absolutes = 1000 };
 enum reaction_part {
     reaction_x, /* of the force on the first of its bodies in the file */
     reaction_y,
-    reaction_force,    /* its magnitude */
-    reaction_tension,  /* of a rope, rod, spring or damper: positive when it pulls; the largest one of a rope's pieces */
+    reaction_force, /* its magnitude */
+    reaction_tension, /* of a rope, rod, spring or damper: positive when it pulls; the largest one of a rope's pieces */
     reaction_normal,   /* of a contact the sum over its points */
     reaction_friction, /* to the left of an observer who stands on the surface */
 };
@@ -141,18 +141,18 @@ struct absolute {
         absolute_force,        /* in derivations: the force or moment of the diagram called `force` */
         absolute_ax,           /* acceleration of a point in the world */
         absolute_ay,
-        absolute_alpha,   /* angular acceleration */
-        absolute_inertia, /* moment of inertia about a point of the body */
-        absolute_work,    /* of a force during a run */
-        absolute_impulse, /* of a force during a run */
+        absolute_alpha,    /* angular acceleration */
+        absolute_inertia,  /* moment of inertia about a point of the body */
+        absolute_work,     /* of a force during a run */
+        absolute_impulse,  /* of a force during a run */
         absolute_reaction, /* in events: of a constraint, a spring or damper, or the joint of the body */
     } kind;
-    int part; /* of absolute_reaction: enum reaction_part */
-    const char *force; /* of absolute_reaction: name of the spring or damper; or NULL */
+    int part;                    /* of absolute_reaction: enum reaction_part */
+    const char *force;           /* of absolute_reaction: name of the spring or damper; or NULL */
     const struct force_sum *sum; /* of a declared symbol, whose key is then `force` */
-    int roll;                    /* absolute_slip of a rolling body, absolute_reaction: 1 + index of its constraint; else 0 */
-    bool angular;                /* absolute_slip of a bearing */
-    bool moves;                  /* named by an equation of motion or an event; else only by derivations */
+    int roll; /* absolute_slip of a rolling body, absolute_reaction: 1 + index of its constraint; else 0 */
+    bool angular; /* absolute_slip of a bearing */
+    bool moves;   /* named by an equation of motion or an event; else only by derivations */
 };
 
 /* The force of a pivot in an event. */

@@ -20,10 +20,11 @@
  * of its string on the bob flies along a parabola. */
 static void a_string_breaks(void **unused)
 {
-    static const char *const kinds[] = {"rope: {name: cord, through: [ground.A, bob], until: tension > 30 N}",
-                                        "rod: {name: cord, between: [bob, ground.A], until: tension > 30 N}",
-                                        "rope: {name: cord, through: [ground.A, bob], until: cord.force > 30}",
-                                        "rod: {name: cord, between: [ground.A, bob], until: -30 > -tension}"};
+    static const char *const kinds[] = {
+        "rope: {name: cord, through: [ground.A, bob], until: tension > 30 N}",
+        "rod: {name: cord, between: [bob, ground.A], until: tension > 30 N}",
+        "rope: {name: cord, through: [ground.A, bob], until: cord.force > 30}",
+        "rod: {name: cord, between: [ground.A, bob], until: -30 > -tension}"};
     const double m = 1.5, L = 2, start = 1.4, c0 = cos(start), c = (30 / (m * g) + 2 * c0) / 3;
     const double v = sqrt(2 * g * L * (c - c0)), s = sqrt(1 - c * c);
     struct checks checks = {0};
@@ -31,8 +32,10 @@ static void a_string_breaks(void **unused)
     for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++) {
         char text[text_room];
         snprintf(text, sizeof text,
-                 "fbd: 1\nground: {points: {A: [0, 0]}}\nbodies:\n  bob: {mass: %.17g, motion: particle, initial: {x: "
-                 "%.17g, y: %.17g}, forces: [gravity]}\ncouplings:\n  - %s\nsimulate: {until: 3, tolerance: 1e-12}\n",
+                 "fbd: 1\nground: {points: {A: [0, 0]}}\nbodies:\n  bob: {mass: %.17g, motion: particle, "
+                 "initial: {x: "
+                 "%.17g, y: %.17g}, forces: [gravity]}\ncouplings:\n  - %s\nsimulate: {until: 3, tolerance: "
+                 "1e-12}\n",
                  m, L * sin(start), -L * c0, kinds[i]);
         struct trial trial = trial_parse(text);
         trial_start(&trial, NULL);
@@ -57,13 +60,16 @@ static void events_name_reactions(void **unused)
         double t;
     } cases[] = {
         /* A load that grows by 2 N/s, over a rope. */
-        {"bodies: {b: {mass: 1, motion: {slide: {along: 90 deg}}, initial: {x: -1}, forces: [gravity, applied: {value: \"-2[N/s]*t\"}]}}\n"
+        {"bodies: {b: {mass: 1, motion: {slide: {along: 90 deg}}, initial: {x: -1}, forces: [gravity, "
+         "applied: {value: \"-2[N/s]*t\"}]}}\n"
          "couplings: [rope: {name: cord, through: [ground.A, b]}]\n",
          "cord.tension > 11.81 N", 1},
         /* The pin of a balanced wheel with a growing force on it. */
-        {"bodies: {b: {mass: 1, inertia: 1, motion: pivot, forces: [gravity, applied: {fx: \"3[N/s]*t\", fy: 9.81}]}}\n",
+        {"bodies: {b: {mass: 1, inertia: 1, motion: pivot, forces: [gravity, applied: {fx: \"3[N/s]*t\", fy: "
+         "9.81}]}}\n",
          "b.pin.x < -4.5 N", 1.5},
-        {"bodies: {b: {mass: 1, inertia: 1, motion: pivot, forces: [gravity, applied: {fx: \"3[N/s]*t\", fy: 9.81}]}}\n",
+        {"bodies: {b: {mass: 1, inertia: 1, motion: pivot, forces: [gravity, applied: {fx: \"3[N/s]*t\", fy: "
+         "9.81}]}}\n",
          "b.pin.force > 4.5 N", 1.5},
         /* A block pressed on its floor, and its friction, which is positive while it slips to the right. */
         {"bodies: {b: {mass: 1, motion: slide, initial: {v: 30}, forces: [gravity, normal, friction: 0.5, "
@@ -83,14 +89,17 @@ static void events_name_reactions(void **unused)
          "applied: {fx: 0, fy: \"-3[N/s]*t\"}]}}\ncouplings: [roll: {name: tread, body: b, on: floor}]\n",
          "tread.normal > 12.81 N", 1},
         /* A mass on a spring, k/m = pi^2/4: at t = 2/3 the force is k cos(pi/3). */
-        {"bodies: {b: {mass: 1, motion: slide, initial: {x: 1}}}\ncouplings: [spring: {name: coil, between: [b, "
+        {"bodies: {b: {mass: 1, motion: slide, initial: {x: 1}}}\ncouplings: [spring: {name: coil, between: "
+         "[b, "
          "ground.A], stiffness: 2.4674011002723395}]\n",
          "coil.tension < 1.2337005501361697 N", 2.0 / 3},
-        {"bodies: {b: {mass: 1, motion: slide, initial: {x: 1}}}\ncouplings: [spring: {name: coil, between: [b, "
+        {"bodies: {b: {mass: 1, motion: slide, initial: {x: 1}}}\ncouplings: [spring: {name: coil, between: "
+         "[b, "
          "ground.A], stiffness: 2.4674011002723395}]\n",
          "coil.x > -1.2337005501361697 N", 2.0 / 3},
         /* A contact: a box under a growing load, on two corners. */
-        {"bodies: {b: {shape: prism, a: 1, b: 1, mass: 1, motion: planar, initial: {y: 0.5}, forces: [gravity, "
+        {"bodies: {b: {shape: prism, a: 1, b: 1, mass: 1, motion: planar, initial: {y: 0.5}, forces: "
+         "[gravity, "
          "applied: {fx: 0, fy: \"-3[N/s]*t\"}]}}\ncontacts: [{name: touch, between: [b, ground.floor]}]\n",
          "touch.normal > 12.81 N", 1},
     };
@@ -99,12 +108,14 @@ static void events_name_reactions(void **unused)
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         char text[text_room];
         snprintf(text, sizeof text,
-                 "fbd: 1\nground: {points: {A: [0, 0]}, lines: {floor: {along: 0}}}\n%ssimulate: {until: 3, tolerance: "
+                 "fbd: 1\nground: {points: {A: [0, 0]}, lines: {floor: {along: 0}}}\n%ssimulate: {until: 3, "
+                 "tolerance: "
                  "1e-12, events: [{name: hit, when: %s}]}\n",
                  cases[i].scene, cases[i].when);
         struct trial trial = trial_parse(text);
         trial_start(&trial, NULL);
-        check_close(&checks, cases[i].when, trial_to_event(&trial, FBD_EVENT_USER, "hit", 0), cases[i].t, same);
+        check_close(&checks, cases[i].when, trial_to_event(&trial, FBD_EVENT_USER, "hit", 0), cases[i].t,
+                    same);
         trial_close(&trial);
     }
     checks_end(&checks);
@@ -127,10 +138,14 @@ static void jumps_and_starts_end_couplings(void **unused)
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         char text[text_room];
         snprintf(text, sizeof text,
-                 "fbd: 1\nground: {points: {A: [0, 0]}}\nbodies:\n  b: {mass: 1, motion: particle, initial: {y: -1}, "
-                 "forces: [gravity]}\n  c: {mass: 1, motion: particle, initial: {y: -2}, forces: [gravity, applied: "
-                 "{value: \"if(t > 0.5, 10[N], 0)\", angle: -90 deg}]}\ncouplings:\n  - rope: {name: upper, through: "
-                 "[ground.A, b], until: %s}\n  - rope: {name: lower, through: [b, c], until: %s}\nsimulate: {until: 1}\n",
+                 "fbd: 1\nground: {points: {A: [0, 0]}}\nbodies:\n  b: {mass: 1, motion: particle, initial: "
+                 "{y: -1}, "
+                 "forces: [gravity]}\n  c: {mass: 1, motion: particle, initial: {y: -2}, forces: [gravity, "
+                 "applied: "
+                 "{value: \"if(t > 0.5, 10[N], 0)\", angle: -90 deg}]}\ncouplings:\n  - rope: {name: upper, "
+                 "through: "
+                 "[ground.A, b], until: %s}\n  - rope: {name: lower, through: [b, c], until: %s}\nsimulate: "
+                 "{until: 1}\n",
                  cases[i].upper, cases[i].lower);
         struct trial trial = run_of(text);
         static const char *const names[] = {"upper", "lower"};
@@ -154,9 +169,10 @@ static void a_packed_state_goes_on(void **unused)
     double numbers[room];
     struct checks checks = {0};
     (void)unused;
-    struct trial trial = trial_parse(
-        "fbd: 1\nground: {points: {A: [0, 0]}}\nbodies: {b: {mass: 1, motion: particle, initial: {y: -1}, forces: "
-        "[gravity]}}\ncouplings: [rope: {name: cord, through: [ground.A, b], until: t > 0.5 s}]\nsimulate: {until: 2}\n");
+    struct trial trial = trial_parse("fbd: 1\nground: {points: {A: [0, 0]}}\nbodies: {b: {mass: 1, motion: "
+                                     "particle, initial: {y: -1}, forces: "
+                                     "[gravity]}}\ncouplings: [rope: {name: cord, through: [ground.A, b], "
+                                     "until: t > 0.5 s}]\nsimulate: {until: 2}\n");
     trial_start(&trial, NULL);
     trial_to(&trial, 1);
     const size_t count = fbd_state_pack(trial.state, numbers, room);
@@ -166,7 +182,8 @@ static void a_packed_state_goes_on(void **unused)
     fbd_errors *errors = fbd_errors_new();
     fbd_simulation *later = fbd_simulation_from(state, &options, errors);
     assert_non_null(later);
-    while (fbd_simulation_advance(later) == FBD_GOING) {}
+    while (fbd_simulation_advance(later) == FBD_GOING) {
+    }
     assert_true(fbd_simulation_state(later, 2, state));
     double y;
     assert_true(fbd_state_get(state, "b.y", &y));
@@ -183,25 +200,30 @@ static void a_packed_state_goes_on(void **unused)
 /* A bullet stays in the block of a pendulum: m u L = (I + m L^2) omega. The impact takes the rest of its energy. */
 static void a_bullet_stays(void **unused)
 {
-    const double m = 0.02, M = 2, L = 1, u = 300, r = 0.05, I = M * (0.4 * r * r + L * L), omega = m * u * L / (I + m * L * L);
+    const double m = 0.02, M = 2, L = 1, u = 300, r = 0.05, I = M * (0.4 * r * r + L * L),
+                 omega = m * u * L / (I + m * L * L);
     const double taken = m * u * u / 2 - (I + m * L * L) * omega * omega / 2;
     struct checks checks = {0};
     (void)unused;
-    struct trial trial = trial_parse(
-        "fbd: 1\nground: {points: {A: [0, 0]}}\nbodies:\n  bullet: {mass: 0.02, motion: particle, initial: {x: -3, y: -1, "
-        "vx: 300}}\n  block: {shape: sphere, radius: 0.05, mass: 2, motion: {pivot: {at: A, point: [0, 1]}}, forces: "
-        "[gravity]}\ncouplings:\n  - pin: {name: stuck, between: [bullet, block], from: bullet.x > block.G.x}\n"
-        "simulate: {until: 0.5, tolerance: 1e-12}\n");
+    struct trial trial = trial_parse("fbd: 1\nground: {points: {A: [0, 0]}}\nbodies:\n  bullet: {mass: 0.02, "
+                                     "motion: particle, initial: {x: -3, y: -1, "
+                                     "vx: 300}}\n  block: {shape: sphere, radius: 0.05, mass: 2, motion: "
+                                     "{pivot: {at: A, point: [0, 1]}}, forces: "
+                                     "[gravity]}\ncouplings:\n  - pin: {name: stuck, between: [bullet, "
+                                     "block], from: bullet.x > block.G.x}\n"
+                                     "simulate: {until: 0.5, tolerance: 1e-12}\n");
     trial_start(&trial, NULL);
     check_close(&checks, "t", trial_to_event(&trial, FBD_EVENT_COUPLING_BEGINS, "stuck", 0), 0.01, same);
     check_close(&checks, "omega", trial_get(&trial, "block.omega"), omega, same);
     check_close(&checks, "vx", trial_get(&trial, "bullet.vx"), omega * L, same);
     trial_close(&trial);
-    trial = run_of(
-        "fbd: 1\nground: {points: {A: [0, 0]}}\nbodies:\n  bullet: {mass: 0.02, motion: particle, initial: {x: -3, y: -1, "
-        "vx: 300}}\n  block: {shape: sphere, radius: 0.05, mass: 2, motion: {pivot: {at: A, point: [0, 1]}}, forces: "
-        "[gravity]}\ncouplings:\n  - pin: {name: stuck, between: [bullet, block], from: bullet.x > block.G.x}\n"
-        "simulate: {until: 0.5, tolerance: 1e-12}\n");
+    trial = run_of("fbd: 1\nground: {points: {A: [0, 0]}}\nbodies:\n  bullet: {mass: 0.02, motion: particle, "
+                   "initial: {x: -3, y: -1, "
+                   "vx: 300}}\n  block: {shape: sphere, radius: 0.05, mass: 2, motion: {pivot: {at: A, "
+                   "point: [0, 1]}}, forces: "
+                   "[gravity]}\ncouplings:\n  - pin: {name: stuck, between: [bullet, block], from: bullet.x "
+                   "> block.G.x}\n"
+                   "simulate: {until: 0.5, tolerance: 1e-12}\n");
     check_close(&checks, "work", fbd_result_work(trial.result, "bullet", "stuck"), -taken, 1e-6);
     check_energy(&checks, &trial);
     trial_close(&trial);
@@ -224,7 +246,8 @@ static void couplings_begin(void **unused)
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         char text[text_room], takes[60];
         snprintf(text, sizeof text,
-                 "fbd: 1\nground: {points: {A: [0, 1.5], B: [9, 1.5]}}\nbodies: {b: {mass: 1, motion: particle, initial: "
+                 "fbd: 1\nground: {points: {A: [0, 1.5], B: [9, 1.5]}}\nbodies: {b: {mass: 1, motion: "
+                 "particle, initial: "
                  "{vx: 4, vy: 3}}}\ncouplings:\n  - %s\nsimulate: {until: 0.6, tolerance: 1e-12}\n",
                  cases[i].coupling);
         struct trial trial = trial_parse(text);
@@ -246,21 +269,24 @@ static void other_begins_are_refused(void **unused)
 {
     static const struct {
         const char *body, *coupling, *words;
-    } cases[] = {{"motion: particle, initial: {vx: 1}", "pin: {name: grip, between: [b, ground.A], from: t > 0.5 s}",
-                  "`grip` begins (t > 0.5 s), and does not fit: it is off by 1.58"},
-                 {"motion: slide, initial: {v: 9}, forces: [gravity, normal, friction: {name: rub, coefficient: 0.1}]",
-                  "rod: {name: grip, between: [b, ground.A], from: t > 0.5 s}", "friction `rub` of a guide"}};
+    } cases[] = {
+        {"motion: particle, initial: {vx: 1}", "pin: {name: grip, between: [b, ground.A], from: t > 0.5 s}",
+         "`grip` begins (t > 0.5 s), and does not fit: it is off by 1.58"},
+        {"motion: slide, initial: {v: 9}, forces: [gravity, normal, friction: {name: rub, coefficient: 0.1}]",
+         "rod: {name: grip, between: [b, ground.A], from: t > 0.5 s}", "friction `rub` of a guide"}};
     struct checks checks = {0};
     (void)unused;
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         char text[text_room];
         snprintf(text, sizeof text,
-                 "fbd: 1\nground: {points: {A: [0, 1.5]}}\nbodies: {b: {mass: 1, %s}}\ncouplings:\n  - %s\nsimulate: "
+                 "fbd: 1\nground: {points: {A: [0, 1.5]}}\nbodies: {b: {mass: 1, %s}}\ncouplings:\n  - "
+                 "%s\nsimulate: "
                  "{until: 1}\n",
                  cases[i].body, cases[i].coupling);
         struct trial trial = trial_parse(text);
         trial_start(&trial, NULL);
-        while (fbd_simulation_advance(trial.simulation) == FBD_GOING) {}
+        while (fbd_simulation_advance(trial.simulation) == FBD_GOING) {
+        }
         check_that(&checks, cases[i].words, strstr(fbd_simulation_reason(trial.simulation), cases[i].words));
         trial_close(&trial);
     }
@@ -307,10 +333,11 @@ static void write_chain(const struct chain *chain, const char *until, char *text
     size_t used = (size_t)snprintf(text, size, "fbd: 1\nground: {points: {A: [0, 0]}}\nbodies:\n");
     for (int k = 0; k < chain->count; k++) {
         const double *q = chain->start[k];
-        used += (size_t)snprintf(text + used, size - used,
-                                 "  b%d: {shape: rod, length: 1, mass: %.17g, motion: planar, forces: [gravity], initial: "
-                                 "{x: %.17g, y: %.17g, theta: %.17g rad, vx: %.17g, vy: %.17g, omega: %.17g}}\n",
-                                 k, chain->mass[k], q[0], q[1], q[2], q[3], q[4], q[5]);
+        used += (size_t)snprintf(
+            text + used, size - used,
+            "  b%d: {shape: rod, length: 1, mass: %.17g, motion: planar, forces: [gravity], initial: "
+            "{x: %.17g, y: %.17g, theta: %.17g rad, vx: %.17g, vy: %.17g, omega: %.17g}}\n",
+            k, chain->mass[k], q[0], q[1], q[2], q[3], q[4], q[5]);
     }
     bool any = false;
     for (int k = 0; k < chain->count; k++) {
@@ -318,9 +345,10 @@ static void write_chain(const struct chain *chain, const char *until, char *text
         if (k > 0) snprintf(end, sizeof end, "b%d.right", k - 1);
         if (k == chain->cut && !until) continue;
         const bool ends = k == chain->cut && until[0];
-        used += (size_t)snprintf(text + used, size - used, "%s  - %s: {name: j%d, between: [b%d.left, %s]%s%s}\n",
-                                 any ? "" : "couplings:\n", chain->kind[k] == joined_by_rod ? "rod" : "pin", k, k, end,
-                                 ends ? ", until: " : "", ends ? until : "");
+        used +=
+            (size_t)snprintf(text + used, size - used, "%s  - %s: {name: j%d, between: [b%d.left, %s]%s%s}\n",
+                             any ? "" : "couplings:\n", chain->kind[k] == joined_by_rod ? "rod" : "pin", k, k,
+                             end, ends ? ", until: " : "", ends ? until : "");
         any = true;
     }
     snprintf(text + used, size - used, "simulate: {until: 2, tolerance: 1e-12}\n");
@@ -366,7 +394,8 @@ static void check_chain(struct checks *checks, const struct chain *given, struct
     trial_start(&trial, NULL);
     const double t = trial_to_event(&trial, FBD_EVENT_COUPLING_ENDS, NULL, 0);
     check_that(checks, "it ends by then", t <= wanted + grown);
-    if (by_force) check_close(checks, "force at the end", force_without_end(given, t), force, grown * (1 + force));
+    if (by_force)
+        check_close(checks, "force at the end", force_without_end(given, t), force, grown * (1 + force));
     struct chain rest = *given, after = *given, without = *given;
     take_chain(&trial, &rest);
     trial_to(&trial, t + later);
