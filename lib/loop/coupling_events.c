@@ -114,6 +114,21 @@ static void strike_two_sided(struct run *run)
     impulse_look(state);
 }
 
+/* Open one-sided constraints that separate after the impact. */
+static void open_separating(struct run *run)
+{
+    const struct plan *plan = &run->model->plan;
+    const struct instant at = state_instant(run->state);
+    impulse_look(run->state);
+    for (int i = 0; i < (int)plan->mode_count; i++) {
+        const struct mode *mode = &plan->modes[i];
+        if (!mode_is_one_sided(mode) || run->state->slip[i] != stick) continue;
+        if (!one_sided_at(run->model, &at, i).parts) continue;
+        run->state->slip[i] = slip_plus;
+        run->state->tree->couplings[mode->coupling].feature = no_feature;
+    }
+}
+
 /* Let all its pieces begin; false where their positions do not fit. */
 static bool start_pieces(struct run *run, int watch, int constraint)
 {
@@ -160,6 +175,7 @@ static void begin_coupling(struct run *run, int watch)
     strike_two_sided(run);
     const double after = total_kinetic_energy(run->state);
     run_strike_closed(run);
+    open_separating(run);
     run->impact_work[coupling->load] += after - before;
     struct run_event *event =
         log_event(run, FBD_EVENT_COUPLING_BEGINS,

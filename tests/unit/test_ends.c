@@ -264,6 +264,29 @@ static void couplings_begin(void **unused)
     checks_end(&checks);
 }
 
+/* A hook of 2 kg catches a box of 1 kg on its floor at 1 m/s: both rise with 2/3 m/s, a third of a joule is lost, and
+ * the weight of the box stops them after 2/3 m/s : (g/3), when the box is back on its floor. */
+static void a_hook_lifts_a_box(void **unused)
+{
+    struct checks checks = {0};
+    (void)unused;
+    struct trial trial = run_of("fbd: 1\nground: {lines: {floor: {along: 0}}}\nbodies:\n  box: {shape: "
+                                "prism, a: 0.4, b: 0.2, mass: 1, motion: "
+                                "planar, initial: {y: 0.1}, forces: [gravity]}\n  hook: {mass: 2, motion: "
+                                "{slide: {along: 90 deg}}, initial: {x: 2, "
+                                "v: 1}}\ncontacts: [{name: floor, between: [box, ground.floor], static: "
+                                "0.5}]\ncouplings:\n  - rod: {name: link, "
+                                "between: [box.G, hook], from: t > 0.5 s}\nsimulate: {until: 0.6}\n");
+    check_close(&checks, "begins", trial_event(&trial, FBD_EVENT_COUPLING_BEGINS, "link", 0), 0.5, same);
+    check_close(&checks, "lifts", trial_event(&trial, FBD_EVENT_LIFT_OFF, NULL, 0), 0.5, same);
+    check_close(&checks, "v", get(&trial, "box.vy"), 2.0 / 3 - g / 3 * 0.1, same);
+    check_close(&checks, "v", get(&trial, "hook.v"), 2.0 / 3 - g / 3 * 0.1, same);
+    check_close(&checks, "work", fbd_result_work(trial.result, "box", "link"), -1.0 / 3, same);
+    check_energy(&checks, &trial);
+    trial_close(&trial);
+    checks_end(&checks);
+}
+
 /* Positions that do not fit, and friction of a guide in the impact, are refused by name. */
 static void other_begins_are_refused(void **unused)
 {
@@ -437,6 +460,7 @@ int main(void)
         cmocka_unit_test(a_packed_state_goes_on),
         cmocka_unit_test(a_bullet_stays),
         cmocka_unit_test(couplings_begin),
+        cmocka_unit_test(a_hook_lifts_a_box),
         cmocka_unit_test(other_begins_are_refused),
         cmocka_unit_test(chains_go_on_without),
     };
