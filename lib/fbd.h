@@ -305,7 +305,10 @@ typedef enum fbd_event_kind {
     FBD_EVENT_JAM,
     /* several motions are consistent with the forces, or with the impact; one of them is taken */
     FBD_EVENT_SEVERAL,
-    FBD_EVENT_TRACK_END, /* a body reaches an end of its track: the run ends */
+    FBD_EVENT_TRACK_END,     /* a body reaches an end of its track: the run ends */
+    FBD_EVENT_COUPLING_ENDS, /* the condition of its `until` becomes true */
+    /* the condition of its `from` becomes true: a plastic impact, if its ends move relative to each other */
+    FBD_EVENT_COUPLING_BEGINS,
 } fbd_event_kind;
 
 typedef struct fbd_event {
@@ -318,8 +321,8 @@ typedef struct fbd_event {
 } fbd_event;
 
 /* "breakaway", "stick", "reversal", "contact_lost", "user", "rope_slack", "rope_taut", "lift_off", "landing",
- * "switch", "impact", "contact", "rest", "sliding", "sliding_ends", "jam", "several", "track_end"; ""
- * for other values */
+ * "switch", "impact", "contact", "rest", "sliding", "sliding_ends", "jam", "several", "track_end",
+ * "coupling_ends", "coupling_begins"; "" for other values */
 FBD_API const char *fbd_event_kind_name(fbd_event_kind kind);
 
 typedef enum fbd_outcome {

@@ -9,8 +9,8 @@
 #include "dynamics/state.h"
 #include "fbd_view.h"
 
-/* Of a coupling: zero, sides, directions and turns of a rope's ends. */
-enum { numbers_of_a_coupling = 9 };
+/* Of a coupling: zero, sides, directions and turns of a rope's ends; 0, 1 if it has ended, 2 if it has not begun. */
+enum { numbers_of_a_coupling = 10 };
 
 static size_t coupling_count(const struct fbd_model *model)
 {
@@ -61,6 +61,7 @@ static void put_coupling(struct packing *packing, const struct coupling_state *c
         put(packing, coupling->turned[end]);
         put(packing, coupling->laid[end]);
     }
+    put(packing, coupling->gone + coupling->waits);
 }
 
 /* NOLINTNEXTLINE(readability-non-const-parameter): `put` writes them */
@@ -90,7 +91,9 @@ static bool are_signs(const struct fbd_model *model, const double *memories, con
     for (size_t i = 0; i < count; i++)
         if (!is_sign(memories[i], false)) return false;
     for (size_t i = 0; i < coupling_count(model); i++, couplings += numbers_of_a_coupling)
-        if (!is_sign(couplings[1], true) || !is_sign(couplings[5], true)) return false;
+        if (!is_sign(couplings[1], true) || !is_sign(couplings[5], true) ||
+            (couplings[9] != 0 && couplings[9] != 1 && couplings[9] != 2))
+            return false;
     return true;
 }
 
@@ -103,6 +106,8 @@ static void take_coupling(const double *numbers, struct coupling_state *coupling
         coupling->turned[end] = numbers[3 + 4 * end];
         coupling->laid[end] = numbers[4 + 4 * end];
     }
+    coupling->gone = numbers[9] != 0;
+    coupling->waits = numbers[9] == 2;
 }
 
 bool fbd_state_unpack(fbd_state *state, const double *numbers, size_t count)

@@ -76,12 +76,12 @@ static bool add_extreme(struct list *list, int sign, const char *name)
 
 /* ---- events */
 
-static const fbd_event_kind kinds[] = {FBD_EVENT_BREAKAWAY,    FBD_EVENT_STICK,      FBD_EVENT_REVERSAL,
-                                       FBD_EVENT_CONTACT_LOST, FBD_EVENT_ROPE_SLACK, FBD_EVENT_ROPE_TAUT,
-                                       FBD_EVENT_LIFT_OFF,     FBD_EVENT_LANDING,    FBD_EVENT_SWITCH,
-                                       FBD_EVENT_IMPACT,       FBD_EVENT_CONTACT,    FBD_EVENT_REST,
-                                       FBD_EVENT_JAM,          FBD_EVENT_SEVERAL,    FBD_EVENT_SLIDING,
-                                       FBD_EVENT_SLIDING_ENDS, FBD_EVENT_TRACK_END};
+static const fbd_event_kind kinds[] = {
+    FBD_EVENT_BREAKAWAY,  FBD_EVENT_STICK,         FBD_EVENT_REVERSAL,       FBD_EVENT_CONTACT_LOST,
+    FBD_EVENT_ROPE_SLACK, FBD_EVENT_ROPE_TAUT,     FBD_EVENT_LIFT_OFF,       FBD_EVENT_LANDING,
+    FBD_EVENT_SWITCH,     FBD_EVENT_IMPACT,        FBD_EVENT_CONTACT,        FBD_EVENT_REST,
+    FBD_EVENT_JAM,        FBD_EVENT_SEVERAL,       FBD_EVENT_SLIDING,        FBD_EVENT_SLIDING_ENDS,
+    FBD_EVENT_TRACK_END,  FBD_EVENT_COUPLING_ENDS, FBD_EVENT_COUPLING_BEGINS};
 
 static int find_body(const struct fbd_model *model, const char *name, size_t length)
 {
@@ -263,7 +263,7 @@ bool columns_read(struct columns *columns, struct arena *arena, const struct fbd
 
 static bool is_meant(const struct column *column, const struct run_event *event)
 {
-    if (column->watch >= 0) return event->kind == FBD_EVENT_USER && event->watch == column->watch;
+    if (column->watch >= 0) return event->watch == column->watch;
     return (int)event->kind == column->event && (column->body < 0 || event->body == column->body);
 }
 

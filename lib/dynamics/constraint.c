@@ -156,9 +156,22 @@ const struct constraint_form constraint_forms[constraint_kinds] = {
     [constraint_contact] = {.rows = contact_rows},
 };
 
+/* A coupling that has ended has rows without forces, wherever its ends are. */
+static void clear(const struct coupling *coupling, struct row *rows)
+{
+    for (int k = 0; k < coupling->row_count; k++) {
+        start_row(&rows[k], (struct jet){0});
+        rows[k].lambda = 0;
+    }
+}
+
 static void evaluate(const struct view *view, int i)
 {
     const struct coupling *coupling = &view->tree->couplings[i];
+    if (view->work->couplings[i].gone) {
+        clear(coupling, &view->work->rows[coupling->first_row]);
+        return;
+    }
     constraint_forms[coupling->kind].rows(view, coupling, &view->work->couplings[i],
                                           &view->work->rows[coupling->first_row]);
 }
@@ -176,7 +189,8 @@ void constraints_select(const struct tree *tree, const struct instant *at)
     work->acting_count = 0;
     for (int i = 0; i < tree->coupling_count; i++) {
         const struct coupling *coupling = &tree->couplings[i];
-        const bool open = coupling->kind == constraint_contact && at->slip[coupling->surface] != stick;
+        const bool open = work->couplings[i].gone ||
+                          (coupling->kind == constraint_contact && at->slip[coupling->surface] != stick);
         if (!open) work->acting[work->acting_count++] = i;
     }
 }
@@ -206,18 +220,35 @@ void zero_start(const struct view *view, const struct coupling *coupling, struct
                                          : rows[coupling->row_count - 1].g.x;
 }
 
+static void start(const struct view *view, int index)
+{
+    const struct coupling *coupling = &view->tree->couplings[index];
+    const struct constraint_form *form = &constraint_forms[coupling->kind];
+    struct coupling_state *state = &view->work->couplings[index];
+    if (form->start) form->start(view, coupling, state, &view->work->rows[coupling->first_row]);
+}
+
 void constraints_start(const struct fbd_model *model, const struct instant *at)
 {
     const struct tree *tree = model->tree;
     struct tree_work *work = at->tree;
     struct view view = {model, tree, work, false, at, NULL};
     for (int i = 0; i < tree->coupling_count; i++) {
-        const struct coupling *coupling = &tree->couplings[i];
-        const struct constraint_form *form = &constraint_forms[coupling->kind];
-        work->couplings[i] = (struct coupling_state){.side = {1, 1}, .feature = no_feature};
-        if (form->start) form->start(&view, coupling, &work->couplings[i], &work->rows[coupling->first_row]);
+        const bool waits = tree->couplings[i].source->begins;
+        work->couplings[i] =
+            (struct coupling_state){.side = {1, 1}, .feature = no_feature, .gone = waits, .waits = waits};
+        if (!waits) start(&view, i);
     }
-    for (int i = 0; i < tree->coupling_count; i++) rope_start_wrap(tree, work, i);
+    for (int i = 0; i < tree->coupling_count; i++)
+        if (!work->couplings[i].gone) rope_start_wrap(tree, work, i);
+}
+
+void coupling_begin(const struct fbd_model *model, const struct instant *at, int index)
+{
+    struct view view = {model, model->tree, at->tree, false, at, NULL};
+    at->tree->couplings[index] = (struct coupling_state){.side = {1, 1}, .feature = no_feature};
+    start(&view, index);
+    rope_start_wrap(model->tree, at->tree, index);
 }
 
 void constraints_follow(const struct fbd_model *model, struct tree_work *work)
@@ -226,7 +257,7 @@ void constraints_follow(const struct fbd_model *model, struct tree_work *work)
     for (int i = 0; i < model->tree->coupling_count; i++) {
         const struct coupling *coupling = &model->tree->couplings[i];
         const struct constraint_form *form = &constraint_forms[coupling->kind];
-        if (form->follow) form->follow(&view, coupling, &work->couplings[i]);
+        if (form->follow && !work->couplings[i].gone) form->follow(&view, coupling, &work->couplings[i]);
     }
 }
 

@@ -62,12 +62,17 @@ struct coupling_state {
     double laid[2];   /* at the start: wound length on the end discs; of a belt: its rows */
     double foot;      /* slot: the arc length of its point, by constraints_follow */
     int feature;      /* contact: its feature; no_feature while it is open */
+    bool gone;        /* it has ended, or not begun: its rows are empty */
+    bool waits;       /* it has not begun */
 };
 
 enum { no_feature = -1 };
 
 /* Set the references of the couplings from the positions of the links. */
 void constraints_start(const struct fbd_model *model, const struct instant *at);
+
+/* Let coupling `index` begin at the positions of the links, with references from there. */
+void coupling_begin(const struct fbd_model *model, const struct instant *at, int index);
 
 /* Copy the references of the couplings from `from`, a state of the same scene or of one whose couplings
  * include these. */

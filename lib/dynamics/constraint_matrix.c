@@ -41,6 +41,7 @@ bool tree_takes_part(const struct tree *tree, const struct instant *at, int k)
         return !at->tree->projecting && at->slip[tree->links[link].pair] != stick;
     }
     const struct coupling *coupling = &tree->couplings[tree->coupling_of_row[k]];
+    if (at->tree->couplings[tree->coupling_of_row[k]].gone) return false;
     if (coupling->kind == constraint_contact) return contact_takes_part(coupling, at, k);
     bool has_mode =
         coupling->kind == constraint_rope || (coupling->pair >= 0 && k == coupling->first_row + 1);
@@ -88,9 +89,11 @@ static double row_answer(const struct tree_work *work, const struct tree *tree, 
 }
 
 /* Does it slip on its surface with friction? */
-static bool is_rubbing(const struct coupling *coupling, const struct instant *at)
+static bool is_rubbing(const struct tree *tree, int index, const struct instant *at)
 {
-    return coupling->law->surface && coupling->pair >= 0 && slip_side(at->slip[coupling->pair]) != 0 &&
+    const struct coupling *coupling = &tree->couplings[index];
+    return coupling->law->surface && !at->tree->couplings[index].gone && coupling->pair >= 0 &&
+           slip_side(at->slip[coupling->pair]) != 0 &&
            (coupling->surface < 0 || at->slip[coupling->surface] == stick);
 }
 
@@ -99,7 +102,8 @@ static bool is_rubbing(const struct coupling *coupling, const struct instant *at
 double tree_rubbing_share(const struct fbd_model *model, const struct instant *at, int k)
 {
     const struct coupling *coupling = &model->tree->couplings[model->tree->coupling_of_row[k]];
-    if (at->tree->projecting || k != coupling->first_row || !is_rubbing(coupling, at)) return 0;
+    if (at->tree->projecting || k != coupling->first_row) return 0;
+    if (!is_rubbing(model->tree, model->tree->coupling_of_row[k], at)) return 0;
     const struct formula *mu = &model->plan.modes[coupling->pair].mu_k;
     return -at->slip[coupling->pair] * at->pull[coupling->pair] *
            friction_coefficient(model, coupling->pair, mu, at, NULL, NULL);
@@ -191,7 +195,7 @@ static void set_places(const struct fbd_model *model, const struct instant *at)
     for (int r = 0; r < count; r++) work->reach[r] = work->rank[work->reach[r]];
     work->count = count;
     work->envelope_size = size;
-    work->placed = model->plan.mode_count == 0;
+    work->placed = model->plan.mode_count == 0 && !tree->ends;
 }
 
 /* By the accelerations for each unknown. Column p has entries in rows q whose envelope contains it, and in its
@@ -343,8 +347,7 @@ void tree_take_multipliers(const struct fbd_model *model, const struct instant *
     for (int j = 0; j < tree->row_count; j++) work->rows[j].lambda = work->z[j];
     for (int i = 0; i < tree->coupling_count; i++) {
         int j = tree->couplings[i].first_row;
-        if (is_rubbing(&tree->couplings[i], at))
-            work->rows[j + 1].lambda = tree_rubbing_share(model, at, j) * work->z[j];
+        if (is_rubbing(tree, i, at)) work->rows[j + 1].lambda = tree_rubbing_share(model, at, j) * work->z[j];
     }
 }
 
@@ -356,7 +359,7 @@ void tree_apply_variations(const struct fbd_model *model, const struct instant *
     for (int j = 0; j < tree->row_count; j++) apply_ports_along(&work->rows[j], work->x);
     for (int i = 0; i < tree->coupling_count; i++) {
         const struct coupling *coupling = &tree->couplings[i];
-        if (!is_rubbing(coupling, at)) continue;
+        if (!is_rubbing(tree, i, at)) continue;
         double d_mu;
         friction_coefficient(model, coupling->pair, &model->plan.modes[coupling->pair].mu_k, at, along,
                              &d_mu);

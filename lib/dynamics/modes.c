@@ -96,6 +96,7 @@ static int decide_one_sided(const struct settling *settling, int pair)
 {
     const struct fbd_state *state = settling->state;
     struct instant at = state_instant(state);
+    if (mode_has_ended(state, pair)) return slip_plus;
     struct one_sided now = one_sided_at(state->model, &at, pair);
     bool closed = state->slip[pair] == stick;
     bool near = fabs(now.excess) <= 1e3 * now.near && !now.parts;
@@ -108,6 +109,7 @@ static int decide_one_sided(const struct settling *settling, int pair)
 static int decide_friction(const struct settling *settling, int pair)
 {
     if (friction_is_never(&settling->state->model->plan.modes[pair])) return slip_plus;
+    if (mode_has_ended(settling->state, pair)) return slip_plus;
     double v = settling_velocity(settling->state, settling->decided, pair);
     int aside = settling->state->sliding ? settling->state->sliding->aside[pair] : 0;
     return v > 0 ? slip_plus : v < 0 ? slip_minus : aside != 0 ? aside : together;

@@ -42,6 +42,9 @@ bool tree_find_margin(struct fbd_state *state, const struct instant *at, bool gu
  * it, in state->slip, and mark them decided. False when its load is not redundant. */
 bool tree_give_shared(struct fbd_state *state, int pair, struct decided *decided);
 
+/* Is it a mode of a coupling that has ended? Then it is open, and has no events. */
+bool mode_has_ended(const struct fbd_state *state, int pair);
+
 /* The velocity of a friction constraint relative to its surface. */
 double slip_velocity(const struct fbd_model *model, int pair, const struct instant *at);
 

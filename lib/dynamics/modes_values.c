@@ -7,6 +7,12 @@
 #include "dynamics/constraint.h"
 #include "dynamics/modes.h"
 
+bool mode_has_ended(const struct fbd_state *state, int pair)
+{
+    const int coupling = state->model->plan.modes[pair].coupling;
+    return coupling >= 0 && state->tree->couplings[coupling].gone;
+}
+
 double slip_velocity(const struct fbd_model *model, int pair, const struct instant *at)
 {
     const struct mode *mode = &model->plan.modes[pair];

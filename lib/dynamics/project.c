@@ -277,8 +277,8 @@ bool state_is_fixed(struct fbd_state *state)
 {
     const struct plan *plan = &state->model->plan;
     const struct tree *tree = state->model->tree;
-    if (!has_couplings(state->model) || plan->mode_count + (size_t)plan->own > 0 || tree->row_count < plan->n)
-        return false;
+    if (!has_couplings(state->model) || tree->ends || tree->row_count < plan->n) return false;
+    if (plan->mode_count + (size_t)plan->own > 0) return false;
     int independent = 0;
     state_evaluate_unshared(state);
     for (int j = 0; j < tree->row_count; j++) independent += !state->tree->rows[j].weak;

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "dynamics/state.h"
 
+#include "dynamics/reactions.h"
 #include "dynamics/rest_system.h"
 #include "dynamics/tree_system.h"
 #include "dynamics/user_states.h"
@@ -27,6 +28,7 @@ void state_evaluate_unshared(struct fbd_state *state)
     accelerations(state->model, &at, state->slots, state->a);
     tree_complete(state->model, state->tree);
     if (state->extended) world_refs_write(state->model, &at, state->y);
+    if (state->model->names_reactions) reactions_write(state->model, &at, state->slots, state->y);
     if (state->model->plan.own > 0) user_state_rates(state->model, &at, state->a + state->model->plan.n);
 }
 

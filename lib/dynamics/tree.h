@@ -66,6 +66,7 @@ struct tree_variation {
     struct vec p, v, d, e;
     struct acceleration A; /* at fixed accelerations of the joints */
     double held;
+    struct vec F; /* of the force of the joint on the link, where events name such forces */
 };
 
 /* The force on the joint of a link by a wrench on a link behind it, as u and uf of struct tree_rhs, and the

@@ -112,6 +112,16 @@ static void add_slots(const struct fbd_model *model, const struct instant *at, b
     }
 }
 
+/* Add the solution to the variations of the forces of joints, by accelerations in the world. */
+static void add_joint_forces(const struct tree *tree, struct tree_work *work, bool first)
+{
+    for (int i = 1; i < tree->joined; i++) {
+        const struct wrench dF = inertia_wrench(&work->links[i].I, work->x[i].A, work->x[i].p);
+        struct vec *F = &work->variation[i].F;
+        *F = first ? dF.force : vec_add(*F, dF.force);
+    }
+}
+
 /* Those of couplings. */
 static void set_coupling_slots(const struct tree *tree, const struct plan *plan, const double *z,
                                double *slots_along)
@@ -151,6 +161,7 @@ static void vary_joined(const struct fbd_model *model, const struct instant *at,
     tree_inward(tree, work, 1, tree->joined);
     tree_outward(tree, work, 1, tree->joined, a_along);
     if (tree->joined_watched > 0) add_slots(model, at, true, slots_along);
+    if (tree->reacts) add_joint_forces(tree, work, true);
 }
 
 /* By constraints and by friction that depends on forces in the joints. */
@@ -166,6 +177,7 @@ static void vary_answers(const struct fbd_model *model, const struct instant *at
     tree_add_unit(tree, work, a_along);
     if (holds(tree, work)) tree_rest(model, at, true, a_along);
     add_slots(model, at, false, slots_along);
+    if (tree->reacts) add_joint_forces(tree, work, false);
     set_coupling_slots(tree, &model->plan, work->z, slots_along);
 }
 

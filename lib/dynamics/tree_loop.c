@@ -130,7 +130,7 @@ bool tree_loop_find(const struct fbd_model *model, struct tree_loop *loop)
     double mass = 0, trace = 0;
     struct vec force = {0, 0};
     if (!tree_loop_may_be(model) || tree->couplings[0].kind != constraint_pin || !tree_is_in_chains(tree) ||
-        !is_loaded_simply(tree) || model->plan.mode_count > 0 || names_others(model) ||
+        !is_loaded_simply(tree) || model->plan.mode_count > 0 || tree->ends || names_others(model) ||
         (tree->links[2].parent == 0 && tree->links[3].parent == 0))
         return false;
     *loop = (struct tree_loop){.tree = tree};

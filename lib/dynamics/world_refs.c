@@ -26,6 +26,7 @@ static double choose(enum absolute_kind kind, struct motion_of_point at, double 
     case absolute_impulse:
     case absolute_mass:
     case absolute_mass_rate:
+    case absolute_reaction:
     case absolute_slip: break;
     }
     return 0;
@@ -86,6 +87,7 @@ void world_refs_write(const struct fbd_model *model, const struct instant *at, d
     for (size_t k = 0; k < model->absolute_count; k++) {
         const struct model_absolute *absolute = &model->absolutes[k];
         const struct model_body *body = &model->bodies[absolute->body];
+        if (absolute->kind == absolute_reaction) continue; /* reactions.h */
         if (absolute->kind == absolute_slip) {
             places[k] = slip_at(model, absolute, at);
             continue;
@@ -127,6 +129,7 @@ static double varied(const struct fbd_model *model, const struct model_absolute 
                      const struct instant *at, const struct direction *along)
 {
     const struct model_body *body = &model->bodies[absolute->body];
+    if (absolute->kind == absolute_reaction) return 0;
     if (absolute->kind == absolute_slip) return slip_along(model, absolute, at, along);
     if (absolute->kind == absolute_mass) {
         double variation;

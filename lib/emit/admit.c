@@ -184,6 +184,14 @@ static void check_friction(const struct fbd_model *model, fbd_errors *errors)
     }
 }
 
+static void check_events(const struct fbd_model *model, fbd_errors *errors)
+{
+    for (size_t i = 0; i < model->plan.watch_count; i++)
+        if (model->plan.watches[i].reacts)
+            lacks(errors, model->plan.watches[i].source->at, "an event that names a reaction",
+                  model->plan.watches[i].source->name);
+}
+
 bool emit_admits(const struct fbd_model *model, fbd_errors *errors)
 {
     const struct scene *scene = model->scene;
@@ -196,6 +204,7 @@ bool emit_admits(const struct fbd_model *model, fbd_errors *errors)
     for (size_t b = 0; b < scene->body_count; b++)
         if (scene->bodies[b].assemble)
             lacks(errors, scene->bodies[b].at, "a start that is found from couplings", scene->bodies[b].name);
+    check_events(model, errors);
     check_loads(model, errors);
     check_masses(model, errors);
     check_switches(model, errors);

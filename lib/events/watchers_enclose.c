@@ -166,8 +166,9 @@ static bool has_equation(const struct fbd_model *model, int body)
 bool watchers_can_enclose(const struct fbd_model *model, const struct watcher *watcher)
 {
     const struct plan *plan = &model->plan;
-    if (watcher->kind == watch_kink || watcher->kind == watch_user || watcher->kind == watch_share)
-        return true;
+    if (watcher->kind == watch_kink) return !plan->kinks[watcher->index].reacts;
+    if (watcher->kind == watch_user) return !plan->watches[watcher->index].reacts;
+    if (watcher->kind == watch_share) return true;
     if (watcher->kind == watch_lift || watcher->kind == watch_gap || watcher->kind == watch_edge)
         return false;
     if (watcher->kind == watch_contact) return has_equation(model, plan->contacts[watcher->index].body);

@@ -9,6 +9,7 @@
 #include "dynamics/contact.h"
 #include "dynamics/friction.h"
 #include "dynamics/modes.h"
+#include "dynamics/reactions.h"
 #include "dynamics/rest_system.h"
 #include "dynamics/tree_driven.h"
 #include "dynamics/user_states.h"
@@ -57,6 +58,8 @@ static double one_sided_value(const struct watchers *watchers, const struct watc
 {
     const struct fbd_model *model = view->state->model;
     int coupling = model->plan.modes[watcher->index].coupling;
+    *rate = 0;
+    if (mode_has_ended(view->state, watcher->index)) return HUGE_VAL;
     struct one_sided now = one_sided_at(model, &view->at, watcher->index);
     if (view->at.slip[watcher->index] != stick) {
         *rate = -now.rate;
@@ -71,6 +74,7 @@ static double one_sided_value(const struct watchers *watchers, const struct watc
 static bool is_off_its_surface(const struct fbd_state *state, const struct mode *mode)
 {
     if (mode->coupling < 0) return false;
+    if (state->tree->couplings[mode->coupling].gone) return true;
     int surface = state->model->tree->couplings[mode->coupling].surface;
     return surface >= 0 && state->slip[surface] != stick;
 }
@@ -209,8 +213,8 @@ static enum needs needs_of(const struct watcher *watcher, const struct fbd_state
     switch (watcher->kind) {
     case watch_gap:
     case watch_edge: return needs_motion;
-    case watch_kink:
-    case watch_user:
+    case watch_kink: return state->model->plan.kinks[watcher->index].reacts ? needs_forces : needs_flow;
+    case watch_user: return state->model->plan.watches[watcher->index].reacts ? needs_forces : needs_flow;
     case watch_share: return needs_flow;
     case watch_lift: return state->slip[watcher->index] == stick ? needs_forces : needs_motion;
     case watch_slip_stop:
@@ -234,6 +238,15 @@ static enum needs needs_of_set(const struct watcher_set *set, const struct fbd_s
         if (own > most) most = own;
     }
     return most;
+}
+
+/* Behind the extended vectors of the instant and of the flow. */
+static void set_reactions(struct view *view)
+{
+    struct fbd_state *state = view->state;
+    double *dy = state->extended + extended_size(state->model);
+    reactions_write(state->model, &view->at, view->slots, state->extended);
+    reactions_write_along(state->model, &view->at, &view->flow, view->slots, view->slots_along, dy);
 }
 
 /* Compute that at (t, y) in the present modes: forces are those without friction, with their variations. */
@@ -260,6 +273,7 @@ static void set_flow(struct view *view, enum needs needs)
     force_balance_along(state->model, &view->at, &view->flow, slots, slots_along);
     view->slots = slots;
     view->slots_along = slots_along;
+    if (state->model->names_reactions) set_reactions(view);
     if (!tree_joins(state->model->tree)) return;
     view->shared = tree_find_margin(state, &view->at, true, &view->flow, slots, slots_along, &view->arena,
                                     &view->margin);
@@ -352,8 +366,9 @@ static double user_rate(const struct watch *watch, struct fbd_state *state)
 {
     struct view view = {.state = state, .at = state_instant(state)};
     double rate;
-    set_flow(&view, needs_flow);
+    set_flow(&view, watch->reacts ? needs_forces : needs_flow);
     user_value(watch, &view, &rate);
+    arena_free(&view.arena);
     return rate;
 }
 
@@ -421,14 +436,27 @@ static void calm_driven(struct watchers *watchers, const struct fbd_state *state
     }
 }
 
+/* Does the coupling that begins or ends there wait for the other one, or has it begun or ended? */
+static bool watch_is_over(const struct fbd_state *state, const struct watch *watch)
+{
+    const struct coupling_state *couplings = state->tree->couplings;
+    return (watch->begins >= 0 && !couplings[watch->begins].waits) ||
+           (watch->ends >= 0 && couplings[watch->ends].gone);
+}
+
 void watchers_arm(struct watchers *watchers, struct fbd_state *state, double step)
 {
     const struct plan *plan = &state->model->plan;
     if (tree_joins(state->model->tree)) calm_driven(watchers, state, step);
     if (plan->watch_count == 0) return;
     const struct instant now = state_instant(state), at = instant_extend(state->model, &now);
+    if (state->model->names_reactions) reactions_copy(state->model, state->y, state->extended);
     for (size_t i = 0; i < plan->watch_count; i++) {
         const struct watch *watch = &plan->watches[i];
+        if (watch_is_over(state, watch)) {
+            watchers->armed[i] = 0;
+            continue;
+        }
         double value = formula_value(&watch->left, &at) - formula_value(&watch->right, &at),
                size = fabs(value);
         if (size > watchers->most[i] && size < HUGE_VAL) watchers->most[i] = size;

@@ -140,18 +140,23 @@ static void user_event(struct run *run, int watch, bool touched)
     run->watchers.armed[watch] = touched ? 0 : -run->watchers.armed[watch];
     run->watchers.fired[watch] = run->state->t;
     if (!counts) return;
+    if (watch_of_coupling(source)) {
+        run_change_coupling(run, watch);
+        return;
+    }
     log_event(run, FBD_EVENT_USER, -1, -1, watch);
     if (source->stop && run->end.outcome == FBD_GOING) run->end.outcome = FBD_STOPPED;
 }
 
-/* Is one of the user events that have crossed the end of the run? */
+/* Is one of the user events that have crossed the end of the run, or of a coupling? */
 static bool stops(const struct run *run)
 {
     const struct watcher_set *set = &run->watchers.moving;
     for (size_t i = 0; i < set->count; i++) {
         int index = set->watchers[i].index;
         if (!run->search.moving.crossed[i] || set->watchers[i].kind != watch_user) continue;
-        if (run->model->plan.watches[index].source->stop && counts_now(run, index)) return true;
+        const struct user_event *source = run->model->plan.watches[index].source;
+        if ((source->stop || watch_of_coupling(source)) && counts_now(run, index)) return true;
     }
     return false;
 }
@@ -410,7 +415,7 @@ static void close_up(struct run *run)
     state_evaluate(run->state);
 }
 
-void run_apply(struct run *run, const bool *timed, const bool *moving)
+static void apply_once(struct run *run, const bool *timed, const bool *moving)
 {
     const struct plan *plan = &run->model->plan;
     const struct watcher_set *sets[] = {&run->watchers.timed, &run->watchers.moving};
@@ -427,6 +432,7 @@ void run_apply(struct run *run, const bool *timed, const bool *moving)
         for (size_t i = 0; crossed[s] && i < sets[s]->count; i++)
             if (crossed[s][i]) happen(run, &sets[s]->watchers[i], crossing);
     zeno_switch_end(run);
+    run->ended = false; /* settling follows */
     if (run->contacts.due) run_contacts(run);
     run->contacts.due = false;
     if (!settle(run) && run->end.outcome == FBD_GOING) fail_unsettled(run);
@@ -446,4 +452,18 @@ void run_apply(struct run *run, const bool *timed, const bool *moving)
     run->recent.moment = run_end(run);
     if (run->end.outcome == FBD_GOING) count_crowd(run);
     if (moving) count_around(run);
+}
+
+void run_apply(struct run *run, const bool *timed, const bool *moving)
+{
+    apply_once(run, timed, moving);
+    run_apply_endings(run);
+}
+
+void run_apply_endings(struct run *run)
+{
+    while (run_change_couplings(run)) { /* each begins and ends once */
+        state_copy(run->during, run->state);
+        apply_once(run, NULL, NULL);
+    }
 }

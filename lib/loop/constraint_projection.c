@@ -159,6 +159,7 @@ static bool overlong_rope(struct run *run, double most)
     struct instant at = state_instant(run->state);
     for (size_t i = 0; i < plan->mode_count; i++) {
         if (plan->modes[i].kind != mode_rope || run->state->slip[i] == stick) continue;
+        if (mode_has_ended(run->state, (int)i)) continue;
         int coupling = plan->modes[i].coupling;
         double excess = one_sided_at(run->model, &at, (int)i).excess;
         if (excess <= most) continue;

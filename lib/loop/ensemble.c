@@ -356,11 +356,28 @@ static void scatter_modes(const struct group *group, const struct fbd_state *par
     }
 }
 
+/* The couplings that have begun or ended, with the references of those that begin. Those of one constraint are successive, here and in the whole. */
+static void scatter_ends(const struct group *group, const struct fbd_state *part, struct fbd_state *state)
+{
+    const struct tree *tree = group->model->tree, *whole = state->model->tree;
+    for (int i = 0, k = 0; whole->ends && i < tree->coupling_count; i++) {
+        const int local = tree->couplings[i].constraint;
+        const int constraint = group->selection ? group->selection->constraints[local] : local;
+        if (i == 0 || tree->couplings[i - 1].constraint != local) k = 0;
+        while (whole->couplings[k].constraint != constraint) k++;
+        state->tree->couplings[k].gone = part->tree->couplings[i].gone;
+        state->tree->couplings[k].waits = part->tree->couplings[i].waits;
+        if (tree->couplings[i].source->begins) state->tree->couplings[k] = part->tree->couplings[i];
+        k++;
+    }
+}
+
 /* Copy the state of an island to that of the whole. */
 static void scatter(const struct fbd_model *whole, const struct group *group, struct fbd_state *state)
 {
     scatter_coordinates(whole, group, state->y);
     scatter_modes(group, group->probe, state);
+    scatter_ends(group, group->probe, state);
 }
 
 static bool run_covers(const struct run *run, double t)
@@ -401,6 +418,7 @@ void ensemble_pass_on(const struct ensemble *ensemble, size_t index, struct fbd_
     for (size_t i = 0; i < plan_size(&group->model->plan); i++)
         state->y[group_component(ensemble->model, group, i)] += run->state->y[i] - run->work.y[i];
     scatter_modes(group, run->state, state);
+    scatter_ends(group, run->state, state);
 }
 
 static bool look(struct ensemble *ensemble, double t, look_at_run *look_at, struct fbd_state *state)

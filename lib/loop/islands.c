@@ -68,6 +68,14 @@ static int join_constraint(const struct scene *scene, int *parent, const struct 
     return body;
 }
 
+/* Join the bodies of the condition at which a constraint begins or ends with those of the constraint. */
+static int join_end(const struct scene *scene, int *parent, const struct constraint *constraint, int read)
+{
+    const int body = join_constraint(scene, parent, constraint);
+    if (read >= 0) join(parent, body, read);
+    return body;
+}
+
 /* group_of_event, group_of_coupling, group_of_constraint and group_of_absolute contain a body of each on
  * return. */
 static void join_all(const struct scene *scene, int *parent, struct islands *division)
@@ -87,6 +95,8 @@ static void join_all(const struct scene *scene, int *parent, struct islands *div
     for (size_t i = 0; i < scene->event_count; i++) {
         int read = join_read(scene, parent, scene->events[i].left, -1);
         read = join_read(scene, parent, scene->events[i].right, read);
+        const int of = scene->events[i].begins + scene->events[i].ends; /* one of them is 0 */
+        if (of > 0) read = join_end(scene, parent, &scene->constraints[of - 1], read);
         division->group_of_event[i] = read < 0 ? 0 : read;
     }
     for (size_t i = 0; i < scene->force_coupling_count; i++) {

@@ -26,6 +26,9 @@ static double left_beyond(const struct run *run, int pair)
 static void note_one_sided(struct run *run, const struct change *change)
 {
     const struct mode *mode = &run->model->plan.modes[change->pair];
+    if (mode_has_ended(run->state, change->pair)) return;
+    const bool begins = run->during->tree->couplings[mode->coupling].waits; /* has an event of its own */
+    if (begins) return;
     run->watchers.quiet[change->pair] = left_beyond(run, change->pair);
     bool rope = run->model->tree->couplings[mode->coupling].law->way;
     if (change->before == stick && change->after != stick)
@@ -71,6 +74,7 @@ static void note_rubbing(struct run *run, const struct change *change)
 {
     const struct mode *mode = &run->model->plan.modes[change->pair];
     int pair = change->pair, before = change->before, after = change->after;
+    if (mode_has_ended(run->state, pair)) return;
     if (!rubbed_throughout(run, mode)) return;
     if (before == stick && after != stick) {
         zeno_switch_log_stick(run, pair);

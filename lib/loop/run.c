@@ -46,7 +46,7 @@ static bool has_potentials(const struct fbd_model *model)
 static bool asks_forces(const struct run *run)
 {
     const struct plan *plan = &run->model->plan;
-    if (plan->kink_count > 0 || run->poles.count > 0) return true;
+    if (plan->kink_count > 0 || run->poles.count > 0 || run->model->names_reactions) return true;
     for (size_t i = 0; i < plan->mode_count; i++) {
         const struct mode *mode = &plan->modes[i];
         if (mode->kind != mode_single || tree_joins(run->model->tree) ||
@@ -178,6 +178,7 @@ static void start(struct run *run)
     run_release_contacts(run);
     log_lifts_at_start(run);
     run_check_counts(run);
+    run_apply_endings(run);
     energy_guard_begin(run);
     projection_begin(run);
     watchers_arm(&run->watchers, run->state, 0);

@@ -188,6 +188,7 @@ struct run {
     struct decided decided;
     struct contacts_work contacts;
     struct snap snap;
+    bool ended;          /* a coupling has begun or ended, and the modes are not settled yet */
     double *impact_work; /* per load: total work of impacts */
     struct energy_guard energy;
     double liveliest; /* the largest kinetic energy of jointed bodies so far */
@@ -303,6 +304,20 @@ void step_past_switch(struct run *run);
 /* Apply the events at run->state: `timed` and `moving` flag the functions of each set that have crossed; NULL
  * for none. Settles the modes. */
 void run_apply(struct run *run, const bool *timed, const bool *moving);
+
+/* Let couplings begin and end whose conditions are true at run->state, and settle the modes. `during` is free. */
+void run_apply_endings(struct run *run);
+
+/* Let the coupling of a watch begin or end; no effect if it has already. The modes are to be settled (run->ended). The
+ * same for all watches whose conditions are true: whether the modes are to be settled (coupling_events.c). */
+void run_change_coupling(struct run *run, int watch);
+bool run_change_couplings(struct run *run);
+
+/* Is it the begin or the end of a coupling? */
+static inline bool watch_of_coupling(const struct user_event *event)
+{
+    return event->begins > 0 || event->ends > 0;
+}
 
 /* Log the user events that have crossed at t; false when one of them ends the run. */
 bool log_user_events(struct run *run, double t);

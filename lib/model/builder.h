@@ -44,6 +44,9 @@ void slides_find(struct fbd_model *model);
  * when memory is out. */
 bool slips_find(struct fbd_model *model);
 
+/* Resolve the reactions that events name, and flag these events (reactions.c). */
+void reactions_find(struct fbd_model *model);
+
 /* Reject gears on fixed axes whose pitch circles do not touch, wheels that do not touch their racks, and
  * belts whose tension is undetermined or given twice. Add the preload of belts between axes at a constant
  * distance (gear_check.c). */

@@ -52,7 +52,8 @@ static struct formula make_formula(struct builder *builder, const struct value *
     if (switches > 0) {
         formula.branch = plan->branches;
         plan->branches += (int)switches;
-        add_kink(builder, &(struct kink){formula, body, load, own, switches, false, 0});
+        add_kink(builder, &(struct kink){
+                              .formula = formula, .body = body, .load = load, .own = own, .count = switches});
     }
     if (poles > 0 && (body >= 0 || own >= 0))
         add_pole(builder, &(struct pole){formula, body, load, own, poles});
@@ -223,7 +224,7 @@ static bool set_named_couplings(struct builder *builder)
         if (!source) return false;
         const struct constraint_law *law = &constraint_laws[constraint->kind];
         bool rubs = law->load_kind == load_normal && constraint->mu_s.expr;
-        source->kind = rubs ? load_friction : law->load_kind;
+        source->kind = rubs ? load_friction : law->load == no_load ? load_rope : law->load_kind;
         source->name = law->load_name ? arena_printf(&model->arena, "%s%s", constraint->name, law->load_name)
                                       : constraint->name;
         source->at = constraint->at;
@@ -283,11 +284,18 @@ static bool set_absolutes(struct fbd_model *model)
     for (size_t k = 0; model->absolutes && k < model->absolute_count; k++) {
         const struct absolute *absolute = &scene->absolutes[k];
         struct vec point = resolve_point(&absolute->point, &model->bodies[absolute->body]);
-        model->absolutes[k] = (struct model_absolute){
-            absolute->body, point, absolute->kind, model->bodies[absolute->body].first + absolute->part, -1,
-            false};
+        const bool reacts = absolute->kind == absolute_reaction;
+        model->absolutes[k] =
+            (struct model_absolute){.body = absolute->body,
+                                    .point = point,
+                                    .kind = absolute->kind,
+                                    .coordinate = model->bodies[absolute->body].first + absolute->part,
+                                    .pair = -1,
+                                    .part = (enum reaction_part)(reacts ? absolute->part : 0),
+                                    .load = -1};
         model->names_places |= absolute->moves;
-        model->names_poses |= absolute->moves && absolute->kind != absolute_slip;
+        model->names_poses |= absolute->moves && absolute->kind != absolute_slip && !reacts;
+        model->names_reactions |= reacts;
     }
     return model->absolutes != NULL;
 }
@@ -384,6 +392,7 @@ static struct fbd_model *compile(struct scene *scene, bool labels, const struct 
         set_rates(&builder);
         set_watches(&builder);
         if (done) done = slips_find(model);
+        if (done) reactions_find(model);
         if (done) slides_find(model);
         done = done && !model->arena.failed;
     }

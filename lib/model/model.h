@@ -88,9 +88,12 @@ struct model_absolute {
     int body;
     struct vec point;
     enum absolute_kind kind;
-    int coordinate; /* absolute_acceleration */
-    int pair;       /* absolute_slip: index into plan.modes, or -1 when that mode was removed */
-    bool even;      /* absolute_slip: remains a magnitude beyond the end of a mode, see slips.c */
+    int coordinate;          /* absolute_acceleration */
+    int pair;                /* absolute_slip: index into plan.modes, or -1 when that mode was removed */
+    bool even;               /* absolute_slip: remains a magnitude beyond the end of a mode, see slips.c */
+    enum reaction_part part; /* absolute_reaction: */
+    struct range couplings;  /* those of its constraint; none for others */
+    int load;                /* the spring or damper, or -1 */
 };
 
 /* A load with everything that it refers to resolved. */
@@ -128,7 +131,8 @@ struct fbd_model {
     size_t absolute_count;
     struct model_absolute *absolutes;
     bool names_places;         /* world positions are used, not only in hand derivations; */
-    bool names_poses;          /* others than the speeds at which bodies slip */
+    bool names_poses;          /* others than the speeds at which bodies slip, and reactions */
+    bool names_reactions;      /* events name reactions */
     struct vec *output_points; /* scene->output_points, in the frames of their bodies */
     struct plan plan;
     struct tree *tree;

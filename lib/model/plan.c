@@ -82,7 +82,19 @@ static void add_other_loads(struct builder *builder, int from, int to)
     }
 }
 
-/* A slide keeps the sum of forces across its line when the normal force is watched or friction needs it. */
+/* Does an event name the normal force of body b? */
+static bool normal_is_named(const struct fbd_model *model, int b)
+{
+    for (size_t k = 0; k < model->scene->absolute_count; k++) {
+        const struct absolute *absolute = &model->scene->absolutes[k];
+        if (absolute->kind == absolute_reaction && absolute->body == b && absolute->roll == 0 &&
+            absolute->part == reaction_normal)
+            return true;
+    }
+    return false;
+}
+
+/* A slide keeps the sum of forces across its line when the normal force is watched, named, or friction needs it. */
 static void plan_normals(struct fbd_model *model)
 {
     struct plan *plan = &model->plan;
@@ -94,7 +106,8 @@ static void plan_normals(struct fbd_model *model)
             if (model->loads[i].source->kind == load_friction) rubs = true;
             if (model->loads[i].source->kind == load_normal) normal = i;
         }
-        if (normal < 0 || (model->loads[normal].source->two_sided && !rubs)) continue;
+        if (normal < 0) continue;
+        if (model->loads[normal].source->two_sided && !rubs && !normal_is_named(model, (int)b)) continue;
         body->normal_slot = plan->slots++;
         if (!model->loads[normal].source->two_sided)
             plan->contacts[plan->contact_count++] = (struct contact){(int)b, normal, body->normal_slot, -1};

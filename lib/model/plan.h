@@ -102,6 +102,7 @@ struct kink {
     int body, load; /* its load; -1 for a user event and for the rate of a state */
     int own;        /* the user state, or -1 */
     size_t count;
+    bool reacts;     /* it names a reaction */
     bool slides;     /* some of its switches admit a sliding mode: see dynamics/sliding.h */
     unsigned places; /* a bit for each switch on a sum of coordinates: second-order sliding mode */
 };
@@ -123,6 +124,8 @@ struct pole {
 struct watch {
     const struct user_event *source;
     struct formula left, right;
+    bool reacts;      /* it names a reaction */
+    int begins, ends; /* the first coupling of the constraint that begins or ends there, or -1 */
 };
 
 /* Variables that a sum of forces may depend on. */

@@ -116,7 +116,7 @@ void plan_couplings(struct builder *builder)
             load++; /* the pieces of a rope share one, as do the features of a contact */
         last = coupling->constraint;
         coupling->load = load;
-        plans[coupling->kind](builder, coupling);
+        if (plans[coupling->kind]) plans[coupling->kind](builder, coupling);
     }
     for (size_t b = 0; b < model->body_count; b++) plan_drive(builder, &model->bodies[b]);
 }

@@ -32,6 +32,8 @@ static void mark_jointed(const struct fbd_model *model, bool *jointed)
     for (size_t c = 0; c < scene->constraint_count; c++)
         for (int end = 0; end < scene->constraints[c].end_count; end++)
             mark(jointed, scene->constraints[c].body[end]);
+    for (size_t k = 0; k < scene->absolute_count; k++)
+        if (absolute_is_of_pin(&scene->absolutes[k])) jointed[scene->absolutes[k].body] = true;
 }
 
 static bool find_family(struct fbd_model *model, struct family *family)

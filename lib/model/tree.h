@@ -148,6 +148,8 @@ struct tree {
     int joined_watched;             /* those of them that are jointed: they come first */
     int coupling_count, row_count;  /* see coupling.h */
     struct coupling *couplings;
+    bool ends;         /* some of them begin or end during a run */
+    bool reacts;       /* events name the forces of pivots */
     int meeting_count; /* see contact.h */
     struct meeting *meetings;
     /* of the unknowns of dynamics/tree_system.h, first the rows, then the friction modes: */

@@ -29,6 +29,8 @@ const char *fbd_event_kind_name(fbd_event_kind kind)
     case FBD_EVENT_SLIDING: return "sliding";
     case FBD_EVENT_SLIDING_ENDS: return "sliding_ends";
     case FBD_EVENT_TRACK_END: return "track_end";
+    case FBD_EVENT_COUPLING_ENDS: return "coupling_ends";
+    case FBD_EVENT_COUPLING_BEGINS: return "coupling_begins";
     }
     return "";
 }
@@ -199,6 +201,13 @@ void event_detail(const struct fbd_model *model, const struct run_event *event, 
     case FBD_EVENT_SLIDING: sliding_detail(model, event, name, detail, size); return;
     case FBD_EVENT_SLIDING_ENDS: snprintf(detail, size, "%s leaves its switch", name); return;
     case FBD_EVENT_TRACK_END: snprintf(detail, size, "an end of its track"); return;
+    case FBD_EVENT_COUPLING_ENDS:
+        snprintf(detail, size, "%s ends: %s", name, model->plan.watches[event->watch].source->text);
+        return;
+    case FBD_EVENT_COUPLING_BEGINS:
+        format_into(detail, size, "%s begins: %s; the impact takes %.6g %s", name,
+                    model->plan.watches[event->watch].source->text, event->force, energy_unit(model));
+        return;
     }
 }
 

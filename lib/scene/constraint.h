@@ -19,6 +19,7 @@ struct coupling_keys {
     const char *name;
     const struct node *between, *through, *radii, *body, *on, *center, *wound, *around;
     const struct node *x, *y, *from, *to; /* slot */
+    const struct node *since, *until;     /* conditions at which a constraint begins and ends */
     double stiffness, free_length, coefficient, length, radius, tension, along;
     bool inside, crossed, closed;
     struct value mu_s, mu_k, restitution, reel;
@@ -89,6 +90,9 @@ struct constraint {
     struct value mu_s,
         mu_k; /* roll: expr NULL for rolling without slip; contact: expr NULL for no friction; groove */
     struct contact_law contact; /* point_absent: the whole body */
+    const struct node *since,
+        *until;        /* the conditions at which it begins and ends, while the file is read; or NULL */
+    bool begins, ends; /* it has them: events of the scene have its index (struct user_event) */
 };
 
 /* The properties of a kind. */
@@ -125,6 +129,7 @@ extern const struct constraint_law constraint_laws[constraint_kinds];
 static inline bool constraint_has_load(const struct constraint *constraint)
 {
     const struct constraint_law *law = &constraint_laws[constraint->kind];
+    if (constraint->begins) return true; /* for the work of its impact */
     return law->load == always_load || (law->load == load_if_it_presses && constraint->presses != 0);
 }
 

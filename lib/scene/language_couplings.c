@@ -11,6 +11,21 @@ static const struct field name_fields[] = {
 };
 static const struct group named = {"a coupling", NULL, FIELDS(name_fields), NULL, 0, "with a name"};
 
+/* The keys of every constraint. */
+#define UNTIL_ROW                                                                                            \
+    FIELD_NODE(COUPLING(until), "until", field_scalar, 0, NULL,                                              \
+               "the condition at which it ends, as `tension > 500 N` or `t > 2 s`; default never")
+
+static const struct field until_fields[] = {UNTIL_ROW};
+static const struct field since_fields[] = {
+    FIELD_NODE(COUPLING(since), "from", field_scalar, 0, NULL,
+               "the condition at which it begins, as `t > 2 s`; default from the start"),
+    UNTIL_ROW,
+};
+static const struct group ending = {"a coupling", NULL, FIELDS(until_fields), &named, 0, "which may end"};
+static const struct group beginning = {"a coupling", NULL, FIELDS(since_fields),
+                                       &named,       0,    "which may begin and end"};
+
 #define BETWEEN_ROW                                                                                          \
     FIELD_ENTRIES(COUPLING(between), "between", field_list, required, each_word, NULL,                       \
                   "its two ends: body.point, ground.point or, for the centre of mass, a body")
@@ -18,6 +33,14 @@ static const struct group named = {"a coupling", NULL, FIELDS(name_fields), NULL
 #define COUPLING_GROUP(title, table, doc)                                                                    \
     {                                                                                                        \
         title, NULL, FIELDS(table), &named, 0, doc                                                           \
+    }
+#define CONSTRAINT_GROUP(title, table, doc)                                                                  \
+    {                                                                                                        \
+        title, NULL, FIELDS(table), &ending, 0, doc                                                          \
+    }
+#define BEGINNING_GROUP(title, table, doc)                                                                   \
+    {                                                                                                        \
+        title, NULL, FIELDS(table), &beginning, 0, doc                                                       \
     }
 
 static const struct field spring_fields[] = {
@@ -39,7 +62,7 @@ static const struct group damper_group =
     COUPLING_GROUP("a damper", damper_fields, "a linear damper between two points");
 
 static const struct field pin_fields[] = {BETWEEN_ROW};
-static const struct group pin_group = COUPLING_GROUP("a pin", pin_fields, "holds two points together");
+static const struct group pin_group = BEGINNING_GROUP("a pin", pin_fields, "holds two points together");
 
 static const struct field rod_fields[] = {
     BETWEEN_ROW,
@@ -47,7 +70,7 @@ static const struct field rod_fields[] = {
                  "distance; default that at the start"),
 };
 static const struct group rod_group =
-    COUPLING_GROUP("a rod", rod_fields, "massless: keeps two points at their distance");
+    BEGINNING_GROUP("a rod", rod_fields, "massless: keeps two points at their distance");
 
 static const struct field gear_fields[] = {
     FIELD_ENTRIES(COUPLING(between), "between", field_list, required, each_word, NULL,
@@ -57,7 +80,7 @@ static const struct field gear_fields[] = {
     FIELD_FLAG(COUPLING(inside), "inside", "true: the first turns inside the second, a ring"),
 };
 static const struct group gear_group =
-    COUPLING_GROUP("a gear", gear_fields, "two pitch circles that roll on each other without slip");
+    BEGINNING_GROUP("a gear", gear_fields, "two pitch circles that roll on each other without slip");
 
 static const struct field rope_fields[] = {
     FIELD_ENTRIES(COUPLING(through), "through", field_list, required, each_word, NULL,
@@ -68,7 +91,7 @@ static const struct field rope_fields[] = {
                   "the disc at an end of it that it is wound on"),
     FIELD_NODE(COUPLING(around), "around", field_map, 0, &around_group, "the drum on which it has friction"),
 };
-static const struct group rope_group = COUPLING_GROUP("a rope", rope_fields, "inextensible and massless");
+static const struct group rope_group = BEGINNING_GROUP("a rope", rope_fields, "inextensible and massless");
 
 static const struct field belt_fields[] = {
     FIELD_ENTRIES(COUPLING(between), "between", field_list, required, each_word, NULL,
@@ -81,7 +104,7 @@ static const struct field belt_fields[] = {
                  "of both strands while it drives nothing, where the axes keep their distance"),
 };
 static const struct group belt_group =
-    COUPLING_GROUP("a belt", belt_fields, "round two discs that it takes along without slip");
+    CONSTRAINT_GROUP("a belt", belt_fields, "round two discs that it takes along without slip");
 
 static const struct field roll_fields[] = {
     FIELD_NODE(COUPLING(body), "body", field_scalar, required, NULL, "the body that rolls"),
@@ -98,7 +121,7 @@ static const struct field roll_fields[] = {
                 "coefficient of kinetic friction"),
 };
 static const struct group roll_group =
-    COUPLING_GROUP("`roll`", roll_fields, "a round body on a line; without coefficients it never slips");
+    CONSTRAINT_GROUP("`roll`", roll_fields, "a round body on a line; without coefficients it never slips");
 
 static const struct field rack_fields[] = {
     FIELD_ENTRIES(COUPLING(between), "between", field_list, required, each_word, NULL,
@@ -106,7 +129,7 @@ static const struct field rack_fields[] = {
     FIELD_NUMBER(COUPLING(radius), "radius", a_length, positive, "pitch radius; default that of its shape"),
 };
 static const struct group rack_group =
-    COUPLING_GROUP("a rack", rack_fields, "a pitch circle and a line that move along together");
+    BEGINNING_GROUP("a rack", rack_fields, "a pitch circle and a line that move along together");
 
 static const struct choice slot_sides[] = {
     {"left", 1, "to the left of growing length"},
@@ -134,7 +157,7 @@ static const struct field slot_fields[] = {
                 "coefficient of kinetic friction; default that of static friction"),
 };
 static const struct group slot_group =
-    COUPLING_GROUP("a slot", slot_fields, "a point of a body stays on a line or curve of another one");
+    CONSTRAINT_GROUP("a slot", slot_fields, "a point of a body stays on a line or curve of another one");
 
 static const struct choice laws[] = {
     {"stronge", 0, "the work of restitution is e^2 times that of compression"},
@@ -164,6 +187,7 @@ static const struct field contact_fields[] = {
     FIELD_CHOICE(COUPLING(law), "law", laws, "the law of impact, which defines e"),
     FIELD_CHOICE(COUPLING(side), "side", contact_sides,
                  "with a line of the ground: the side of it on which the body stays; default `start`"),
+    UNTIL_ROW,
 };
 const struct group contact_group = {"a contact", NULL, FIELDS(contact_fields),
                                     NULL,        0,    "two bodies, or a body and the ground, that meet"};

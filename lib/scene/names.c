@@ -12,7 +12,8 @@ static const struct symbol unknown = {.kind = symbol_unknown};
 static const struct symbol failed_before = {.kind = symbol_failed};
 
 /* `body.x` */
-static struct symbol dotted_symbol(const struct names *names, const char *name, const char *dot)
+static struct symbol dotted_symbol(const struct names *names, const char *name, const char *dot,
+                                   struct pos at)
 {
     const struct reader *reader = names->reader;
     char body[node_longest_key + 1];
@@ -21,13 +22,14 @@ static struct symbol dotted_symbol(const struct names *names, const char *name, 
     memcpy(body, name, length);
     body[length] = '\0';
     const struct pair *pair = node_find(reader->bodies, body);
-    if (!pair) return unknown;
+    if (!pair) return reaction_symbol(names, name, at);
     int index = (int)(pair - reader->bodies->pairs);
     if (names->place == place_constant) return slot_symbol(DIM_NONE, 0);
     if (names->place == place_exact) return unknown;
     if (!reader->drafts[index].motion_known) return failed_before;
     struct symbol own = coordinate_symbol(names, index, dot + 1);
     if (own.kind == symbol_unknown) own = mass_symbol(names, index, dot + 1);
+    if (own.kind == symbol_unknown) own = joint_reaction_symbol(names, index, dot + 1, at);
     if (own.kind == symbol_unknown && names->place == place_hand)
         own = other_acceleration_symbol(names, index, dot + 1);
     if (own.kind == symbol_unknown && names->place == place_hand)
@@ -94,20 +96,21 @@ static struct symbol other_symbol(const struct names *names, const char *name)
 {
     if (names->place == place_load || names->place == place_exact) return load_symbol(names, name);
     if (names->place == place_hand) return hand_symbol(names, name);
+    if (names->of) return own_reaction_symbol(names, name);
     if (names->place == place_contact && strcmp(name, "approach") == 0)
         return slot_symbol(DIM_VELOCITY, 1 + scene_size(names->reader->scene) + hand_acceleration);
     return unknown;
 }
 
 /* `v0`, `cart.x0`: a coordinate or rate at the start of the run, unless the name has another meaning. */
-static struct symbol initial_symbol(const struct names *names, const char *name)
+static struct symbol initial_symbol(const struct names *names, const char *name, struct pos at)
 {
     const struct reader *reader = names->reader;
     const size_t length = strlen(name), end = length > 2 && name[length - 2] == '_' ? 2 : 1;
     if (names->sense != sense_now || length < 2 || name[length - 1] != '0') return unknown;
     const char *stem = arena_text(reader->arena, name, length - end), *dot = stem ? strchr(stem, '.') : NULL;
     if (!stem) return failed_before;
-    struct symbol symbol = dot ? dotted_symbol(names, stem, dot) : own_symbol(names, stem);
+    struct symbol symbol = dot ? dotted_symbol(names, stem, dot, at) : own_symbol(names, stem);
     const size_t slots = 2 * reader->scene->coordinate_count;
     if (symbol.kind != symbol_variable || symbol.slot < 1 || (size_t)symbol.slot > slots) return unknown;
     symbol.slot += (int)hand_sense_size(reader->scene);
@@ -116,11 +119,12 @@ static struct symbol initial_symbol(const struct names *names, const char *name)
 
 /* In a derivation an unknown name may be a force of the diagram; and points and the angle of the current body
  * need no prefix. */
-static struct symbol or_force(const struct names *names, const char *name, struct symbol symbol)
+static struct symbol or_force(const struct names *names, const char *name, struct symbol symbol,
+                              struct pos at)
 {
     if (names->place != place_hand || symbol.kind != symbol_unknown) return symbol;
     if (!names->reader->drafts[names->body].motion_known) return failed_before;
-    symbol = initial_symbol(names, name);
+    symbol = initial_symbol(names, name, at);
     if (symbol.kind != symbol_unknown) return symbol;
     symbol = force_symbol(names, name);
     if (symbol.kind == symbol_unknown) symbol = hand_place_symbol(names, names->body, name);
@@ -162,7 +166,7 @@ static struct symbol name_now(struct names *names, const char *name, struct pos 
     if (names->along && strcmp(name, "s") == 0) return slot_symbol(DIM_LENGTH, 1);
     if (own_states_name(reader, name))
         return reader->definition_readers->state(names, name + strlen("states."), at);
-    if (dot) return or_force(names, name, dotted_symbol(names, name, dot));
+    if (dot) return or_force(names, name, dotted_symbol(names, name, dot, at), at);
     if (strcmp(name, "t") == 0) return time_symbol(names);
     struct symbol own = own_symbol(names, name);
     size_t parameter;
@@ -175,7 +179,7 @@ static struct symbol name_now(struct names *names, const char *name, struct pos 
     if (strcmp(name, "slip") == 0) return names->slip ? slip_symbol(names) : misplaced_slip(names, at);
     if (names->place == place_load && strcmp(name, "distance") == 0) return distance_symbol(names, at);
     struct symbol other = is_declared(names, name) ? force_symbol(names, name)
-                                                   : or_force(names, name, other_symbol(names, name));
+                                                   : or_force(names, name, other_symbol(names, name), at);
     if (other.kind == symbol_constant)
         reader->varies = reader->names_varying = true; /* its origin is not tracked */
     return other;

@@ -54,6 +54,7 @@ struct names {
     enum hand_sense sense;       /* in a derivation: the time of its names */
     enum absolute_kind of_force; /* meaning of the name of a force: absolute_force, or its work or impulse */
     const char *curve;           /* the parameter of a curve, for hints; NULL elsewhere */
+    const struct constraint *of; /* in its `until`: its reactions need no prefix; or NULL */
     bool distance_known,
         distance_named; /* `distance` is allowed (in the size of a force toward a point); it was looked up */
     const char **known;
@@ -86,6 +87,18 @@ struct symbol names_absolute(struct reader *reader, enum place place, const stru
 
 /* Find a point of the body by its name: G, O of a pivot, or a named one; false if there is none. */
 bool names_point(const struct body *owner, const char *name, size_t length, struct point *point);
+
+/* ---- reactions in events (names_reaction.c) */
+
+/* `cord.tension`, `hinge.x`, `floor.normal` of a coupling or contact. symbol_unknown if no coupling has that name,
+ * symbol_failed after noting its reactions. */
+struct symbol reaction_symbol(const struct names *names, const char *name, struct pos at);
+
+/* `arm.pin.x`, `block.normal` of the joint of a body, given the name behind the body. */
+struct symbol joint_reaction_symbol(const struct names *names, int body, const char *name, struct pos at);
+
+/* `tension` in the `until` of a coupling. */
+struct symbol own_reaction_symbol(const struct names *names, const char *name);
 
 /* ---- names of derivations (names_force.c) */
 

@@ -44,9 +44,18 @@ static bool read_constraint(struct reader *reader, const struct chosen *chosen,
     constraint->at = chosen->at;
     constraint->length = keys->length;
     constraint->length_given = keys->length > 0;
-    const bool fine = constraint_laws[constraint->kind].read(reader, keys, constraint);
-    if (fine) place_slips(reader, constraint);
-    return fine;
+    constraint->until = keys->until;
+    constraint->since = keys->since;
+    constraint->ends = keys->until != NULL;
+    constraint->begins = keys->since != NULL;
+    if (!constraint_laws[constraint->kind].read(reader, keys, constraint)) return false;
+    place_slips(reader, constraint);
+    const struct node *when = keys->until ? keys->until : keys->since;
+    if (!when || !constraint_laws[constraint->kind].strands) return true;
+    diag_add(reader->errors, FBD_ERROR, "not-here", when->at,
+             "let a `rod` or a `rope` without `around` begin or end, which carries the same load",
+             "a belt, and a rope with friction on a drum, cannot begin or end during a run");
+    return false;
 }
 
 /* ---- forces */

@@ -25,20 +25,84 @@ static bool read_direction(struct reader *reader, const struct node *node, char 
     return false;
 }
 
+/* A condition in the key `key`; `of`: the reactions of this constraint need no prefix in it; or NULL. */
+struct condition {
+    const struct node *node;
+    const char *key, *hint;
+    const struct constraint *of;
+};
+
+static bool read_condition(struct reader *reader, const struct condition *condition, char *relation,
+                           struct user_event *event)
+{
+    const struct node *node = condition->node;
+    struct names names = {.reader = reader,
+                          .place = place_event,
+                          .body = reader->scene->body_count == 1 ? 0 : ground_body,
+                          .of = condition->of};
+    struct scope scope = names_scope(&names);
+    const struct expr_want want = {.any_dim = true, .what = condition->key};
+    event->at = node->at;
+    event->text = arena_text(reader->arena, node->text, node->length);
+    if (node->length == 0) return value_refuse(reader, node, condition->key, "a condition", condition->hint);
+    return value_relation(reader, node, &want, &scope, &event->left, relation, &event->right);
+}
+
 static bool read_when(struct reader *reader, const struct node *when, char *relation,
                       struct user_event *event)
 {
-    struct names names = {.reader = reader,
-                          .place = place_event,
-                          .body = reader->scene->body_count == 1 ? 0 : ground_body};
-    struct scope scope = names_scope(&names);
-    const struct expr_want want = {.any_dim = true, .what = "when"};
-    if (when->length == 0)
-        return value_refuse(reader, when, "when", "a condition", "write for example `x = 2[m]`");
-    event->at = when->at;
-    event->text = arena_text(reader->arena, when->text, when->length);
-    return value_relation(reader, when, &want, &scope, &event->left, relation, &event->right);
+    return read_condition(reader, &(struct condition){when, "when", "write for example `x = 2[m]`", NULL},
+                          relation, event);
 }
+
+/* ---- the begin and the end of couplings */
+
+static size_t count_endings(const struct scene *scene)
+{
+    size_t count = 0;
+    for (size_t i = 0; i < scene->constraint_count; i++)
+        count += (size_t)scene->constraints[i].begins + (size_t)scene->constraints[i].ends;
+    return count;
+}
+
+/* The condition in the key `from` or `until`. */
+static bool read_ending(struct reader *reader, const struct constraint *constraint, bool begins,
+                        struct user_event *event)
+{
+    const struct condition condition = {.node = begins ? constraint->since : constraint->until,
+                                        .key = begins ? "from" : "until",
+                                        .hint = begins ? "write for example `t > 2 s`"
+                                                       : "write for example `force > 500 N` or `t > 2 s`",
+                                        .of = begins ? NULL : constraint};
+    const int index = 1 + (int)(constraint - reader->scene->constraints);
+    char relation = 0;
+    *event = (struct user_event){.name = constraint->name,
+                                 .begins = begins ? index : 0,
+                                 .ends = begins ? 0 : index};
+    if (!read_condition(reader, &condition, &relation, event)) return false;
+    event->direction = relation == '<' ? -1 : 1;
+    if (relation == '<' || relation == '>') return true;
+    diag_add(reader->errors, FBD_ERROR, "expression-syntax", condition.node->at, condition.hint,
+             "`%s` must be a comparison with `<` or `>`, which becomes true", condition.key);
+    return false;
+}
+
+/* Append them to the events, which have room for them. */
+static bool read_endings(struct reader *reader)
+{
+    struct scene *scene = reader->scene;
+    bool fine = true;
+    for (size_t i = 0; i < scene->constraint_count; i++) {
+        const struct constraint *constraint = &scene->constraints[i];
+        if (constraint->begins)
+            fine = read_ending(reader, constraint, true, &scene->events[scene->event_count++]) && fine;
+        if (constraint->ends)
+            fine = read_ending(reader, constraint, false, &scene->events[scene->event_count++]) && fine;
+    }
+    return fine;
+}
+
+/* ---- events */
 
 static bool read_event(struct reader *reader, const struct node *node, struct user_event *event)
 {
@@ -83,23 +147,26 @@ static bool name_events(struct reader *reader)
     return fine;
 }
 
+/* `node` may be NULL. */
 static bool read_events(struct reader *reader, const struct node *node)
 {
     enum { most_events = 1000 };
     struct scene *scene = reader->scene;
-    bool list = node->kind == node_list, fine = true;
-    size_t count = list ? node->count : 1;
+    bool list = node && node->kind == node_list, fine = true;
+    size_t count = list ? node->count : node != NULL, endings = count_endings(scene);
     if (count > most_events) {
         diag_add(reader->errors, FBD_ERROR, "too-many-events", node->at, NULL, "more than %d events",
                  most_events);
         return false;
     }
-    scene->events = ARENA_ARRAY(reader->arena, count, struct user_event);
+    if (count + endings == 0) return true;
+    scene->events = ARENA_ARRAY(reader->arena, count + endings, struct user_event);
     if (!scene->events) return false;
     scene->event_count = count;
     for (size_t i = 0; i < count; i++)
         if (!read_event(reader, list ? node->items[i] : node, &scene->events[i])) fine = false;
-    return name_events(reader) && fine;
+    fine = name_events(reader) && fine;
+    return read_endings(reader) && fine;
 }
 
 /* ---- the run */
@@ -177,7 +244,7 @@ static bool check_accuracy(struct reader *reader, const struct node *map, const 
     return fields_exclude(reader, map, "accuracy", "step", hint) && fine;
 }
 
-static bool read_run(struct reader *reader, const struct node *map, struct pos at)
+static bool read_run(struct reader *reader, const struct node *map, struct pos at, const struct node **events)
 {
     struct simulate *simulate = &reader->scene->simulate;
     struct simulate_keys keys = {0};
@@ -192,12 +259,15 @@ static bool read_run(struct reader *reader, const struct node *map, struct pos a
                                   .propagate = keys.impacts == impacts_propagate,
                                   .method = method_choices[keys.method].name};
     if (!read_output(reader, keys.output, output)) fine = false;
-    return (!keys.events || read_events(reader, keys.events)) && fine;
+    *events = keys.events;
+    return fine;
 }
 
 bool simulate_read(struct reader *reader, const struct scene_keys *keys)
 {
     const struct pair *simulate = node_find(reader->root, "simulate");
-    bool run = !keys->simulate || read_run(reader, keys->simulate, simulate->at);
+    const struct node *events = NULL;
+    bool run = !keys->simulate || read_run(reader, keys->simulate, simulate->at, &events);
+    run = read_events(reader, events) && run;
     return read_output(reader, keys->output, node_find(reader->root, "output")) && run;
 }

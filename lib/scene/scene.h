@@ -93,6 +93,16 @@ enum hand_sense { sense_now, sense_initial, sense_before, sense_after, hand_sens
 
 enum { most_absolutes = 1000 };
 
+/* A number of a reaction. */
+enum reaction_part {
+    reaction_x, /* of the force on the first of its bodies in the file */
+    reaction_y,
+    reaction_force, /* its magnitude */
+    reaction_tension, /* of a rope, rod, spring or damper: positive when it pulls; the largest one of a rope's pieces */
+    reaction_normal,   /* of a contact the sum over its points */
+    reaction_friction, /* to the left of an observer who stands on the surface */
+};
+
 struct body {
     const char *name;
     struct pos at;
@@ -131,18 +141,26 @@ struct absolute {
         absolute_force,        /* in derivations: the force or moment of the diagram called `force` */
         absolute_ax,           /* acceleration of a point in the world */
         absolute_ay,
-        absolute_alpha,   /* angular acceleration */
-        absolute_inertia, /* moment of inertia about a point of the body */
-        absolute_work,    /* of a force during a run */
-        absolute_impulse, /* of a force during a run */
+        absolute_alpha,    /* angular acceleration */
+        absolute_inertia,  /* moment of inertia about a point of the body */
+        absolute_work,     /* of a force during a run */
+        absolute_impulse,  /* of a force during a run */
+        absolute_reaction, /* in events: of a constraint, a spring or damper, or the joint of the body */
     } kind;
-    int part;
-    const char *force;
+    int part;                    /* of absolute_reaction: enum reaction_part */
+    const char *force;           /* of absolute_reaction: name of the spring or damper; or NULL */
     const struct force_sum *sum; /* of a declared symbol, whose key is then `force` */
-    int roll;                    /* absolute_slip of a rolling body: 1 + index of its constraint; else 0 */
-    bool angular;                /* absolute_slip of a bearing */
-    bool moves;                  /* named by an equation of motion or an event; else only by derivations */
+    int roll; /* absolute_slip of a rolling body, absolute_reaction: 1 + index of its constraint; else 0 */
+    bool angular; /* absolute_slip of a bearing */
+    bool moves;   /* named by an equation of motion or an event; else only by derivations */
 };
+
+/* The force of a pivot in an event. */
+static inline bool absolute_is_of_pin(const struct absolute *absolute)
+{
+    return absolute->kind == absolute_reaction && absolute->roll == 0 && !absolute->force &&
+           absolute->part <= reaction_force;
+}
 
 /* A user state: z' = rate. */
 struct own_state {
@@ -182,6 +200,7 @@ struct user_event {
     const struct expr *left, *right; /* crosses where left - right = 0; right may be NULL */
     int direction;                   /* +1 rising, -1 falling, 0 both */
     bool stop;
+    int begins, ends; /* 1 + index of the constraint that begins or ends there; 0 of other events */
 };
 
 /* A point whose position, velocity and acceleration in the world are output. */
