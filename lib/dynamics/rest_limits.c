@@ -7,8 +7,9 @@
 #include <string.h>
 
 #include "dynamics/friction.h"
-#include "dynamics/rest_memo.h"
 #include "dynamics/rest_system.h"
+#include "numeric/least_distance.h"
+#include "numeric/vector.h"
 
 /* ---- limits */
 
@@ -26,42 +27,65 @@ static bool keeps_side(const struct rest_system *system, size_t pair)
            friction_coefficient(system->state->model, (int)pair, &mode->mu_k, &system->at, NULL, NULL) != 0;
 }
 
-/* Friction has two limits, other constraints one; unused ones are empty: 0 >= 0. `slots` and `lambda` may be
- * those of a column; without lambda those of the rows. */
-static void limit_values(const struct rest_system *system, const double *slots, size_t stride,
-                         const double *lambda, bool loads, double *values)
+static void add_bound(struct rest_system *system, struct rest_bound bound)
 {
-    const struct plan *plan = &system->state->model->plan;
-    const struct instant at = system->at;
-    double *next = values;
-    for (size_t i = 0; i < plan->contact_count; i++)
-        *next++ = -slots[(size_t)plan->contacts[i].slot * stride];
-    for (size_t i = 0; i < plan->mode_count; i++, next += 2) {
-        const struct mode *mode = &plan->modes[i];
-        next[0] = next[1] = 0;
-        if (keeps_side(system, i)) next[0] = -at.pull[i] * slots[(size_t)mode->normal_slot * stride];
-        if (!rest_has_limit(mode) || at.slip[i] != stick) continue;
-        if (mode->kind == mode_rope) {
-            int row = system->state->model->tree->couplings[mode->coupling].first_row;
-            next[0] = -(lambda ? lambda[row] : at.tree->rows[row].lambda);
-            continue;
-        }
-        double acceleration = 0, press = loads;
-        friction_surface_speed(mode, &at, &acceleration);
-        double hold = -slots[(size_t)mode->hold_slot * stride];
-        if (loads) hold += mode->inertia * acceleration;
-        if (mode->normal_slot >= 0) press = -at.pull[i] * slots[(size_t)mode->normal_slot * stride];
-        double resting = friction_coefficient(system->state->model, (int)i, &mode->mu_s, &at, NULL, NULL);
-        double moving = friction_coefficient(system->state->model, (int)i, &mode->mu_k, &at, NULL, NULL);
-        double limit = fmax(resting, moving) * press;
-        next[0] = limit - hold;
-        next[1] = limit + hold;
-    }
+    system->bounds[system->bound_count++] = bound;
 }
 
-size_t rest_limit_values(const struct rest_system *system)
+static void add_bounds_of_mode(struct rest_system *system, int pair)
 {
-    return system->state->model->plan.contact_count + 2 * system->state->model->plan.mode_count;
+    const struct fbd_model *model = system->state->model;
+    const struct mode *mode = &model->plan.modes[pair];
+    struct rest_bound bound = {.kind = bound_guide, .pair = pair, .unit = 1, .side = -1};
+    if (keeps_side(system, (size_t)pair)) add_bound(system, bound);
+    if (!rest_has_limit(mode) || system->at.slip[pair] != stick) return;
+    bound.kind = mode->kind == mode_rope ? bound_rope : bound_friction;
+    if (bound.kind == bound_friction) {
+        double resting = friction_coefficient(model, pair, &mode->mu_s, &system->at, NULL, NULL);
+        double moving = friction_coefficient(model, pair, &mode->mu_k, &system->at, NULL, NULL);
+        bound.mu = fmax(resting, moving);
+        if (mode->normal_slot < 0) bound.unit = system->length;
+        add_bound(system, bound);
+    }
+    bound.side = 1;
+    add_bound(system, bound);
+}
+
+bool rest_find_bounds(struct rest_system *system)
+{
+    const struct plan *plan = &system->state->model->plan;
+    system->bounds =
+        ARENA_ARRAY(system->arena, plan->contact_count + 2 * plan->mode_count + 1, struct rest_bound);
+    if (!system->bounds) return false;
+    for (size_t i = 0; i < plan->contact_count; i++) {
+        int pair = plan->contacts[i].pair;
+        bool open = pair >= 0 && mode_is_one_sided(&plan->modes[pair]) && system->at.slip[pair] != stick;
+        if (!open) add_bound(system, (struct rest_bound){.pair = pair, .contact = (int)i, .unit = 1});
+    }
+    for (size_t pair = 0; pair < plan->mode_count; pair++) add_bounds_of_mode(system, (int)pair);
+    return true;
+}
+
+/* `slots` and `lambda` may be those of a column; without lambda those of the rows. */
+static double bound_value(const struct rest_system *system, const struct rest_bound *bound,
+                          const double *slots, size_t stride, const double *lambda, bool loads)
+{
+    const struct fbd_model *model = system->state->model;
+    const struct instant at = system->at;
+    if (bound->kind == bound_normal)
+        return -slots[(size_t)model->plan.contacts[bound->contact].slot * stride];
+    const struct mode *mode = &model->plan.modes[bound->pair];
+    if (bound->kind == bound_rope) {
+        int row = model->tree->couplings[mode->coupling].first_row;
+        return -(lambda ? lambda[row] : at.tree->rows[row].lambda);
+    }
+    double press = loads;
+    if (mode->normal_slot >= 0) press = -at.pull[bound->pair] * slots[(size_t)mode->normal_slot * stride];
+    if (bound->kind == bound_guide) return press;
+    double acceleration = 0, hold = -slots[(size_t)mode->hold_slot * stride];
+    if (loads) friction_surface_speed(mode, &at, &acceleration);
+    hold += mode->inertia * acceleration;
+    return bound->mu * press + bound->side * hold;
 }
 
 /* Rounding, and the last digits of a coefficient in a file. */
@@ -92,139 +116,91 @@ struct rest_limit rest_limit_at(const struct rest_system *system, size_t index)
     return limit;
 }
 
-/* At the present lambda. */
-void rest_read_limits(const struct rest_system *system, double *values)
+void rest_read_bounds(const struct rest_system *system, double *values)
 {
-    limit_values(system, system->forces, 1, NULL, true, values);
+    for (size_t i = 0; i < system->bound_count; i++)
+        values[i] = bound_value(system, &system->bounds[i], system->forces, 1, NULL, true);
 }
 
-/* The slopes of the limits with respect to the coordinates of the null space: G, rest_limit_values x
- * basis_count. */
-bool rest_limit_slopes(struct rest_system *system, double *G)
+bool rest_bound_slopes(struct rest_system *system, double *G)
 {
-    size_t count = rest_limit_values(system), d = system->basis_count, m = system->m;
-    size_t rows = (size_t)system->state->model->tree->row_count;
-    double *one = ARENA_ARRAY(system->arena, count + 1, double);
-    double *unit = ARENA_ARRAY(system->arena, rows + 1, double);
-    if (!one || !unit) return false;
+    size_t d = system->basis_count, m = system->m;
+    double *unit = ARENA_ARRAY(system->arena, (size_t)system->state->model->tree->row_count + 1, double);
+    if (!unit) return false;
     for (size_t j = 0; j < m; j++) {
         unit[system->rows[j]] = 1;
-        limit_values(system, system->columns + j, m, unit, false, one);
+        for (size_t i = 0; i < system->bound_count; i++) {
+            double one = bound_value(system, &system->bounds[i], system->columns + j, m, unit, false);
+            if (one != 0) vector_add_multiple(G + i * d, system->basis + j * d, one, d);
+        }
         unit[system->rows[j]] = 0;
-        for (size_t i = 0; i < count; i++)
-            for (size_t k = 0; one[i] != 0 && k < d; k++) G[i * d + k] += one[i] * system->basis[j * d + k];
     }
     return true;
 }
 
 /* ---- the distance to the limits */
 
-/* The largest slope of value i in the null space; 0 if the value is constant. */
-static double slope_size(const double *G, size_t d, size_t i)
+static double bound_along(const struct rest_system *system, const double *slots_along,
+                          const double *lambda_along, const struct rest_bound *bound,
+                          const struct direction *flow)
+{
+    const struct fbd_model *model = system->state->model;
+    if (bound->kind == bound_normal) return -slots_along[model->plan.contacts[bound->contact].slot];
+    const struct mode *mode = &model->plan.modes[bound->pair];
+    if (bound->kind == bound_rope) return -lambda_along[model->tree->couplings[mode->coupling].first_row];
+    struct friction_values now = friction_at(model, bound->pair, &system->at, system->forces);
+    struct friction_values rate =
+        friction_along(model, bound->pair, &system->at, system->forces, flow, slots_along);
+    if (bound->kind == bound_guide) return system->at.pull[bound->pair] * rate.N;
+    double limit = now.limit_kinetic > now.limit_static ? rate.limit_kinetic : rate.limit_static;
+    return limit + bound->side * rate.hold;
+}
+
+/* The programme of a part: max s with h_i + G_i y >= unit_i s, for the bounds that change in it. */
+struct programme {
+    size_t size, count;
+    size_t *bound;     /* count: its number */
+    double *G, *h, *u; /* count x size, scaled; count; multipliers */
+};
+
+static double largest(const double *row, size_t n)
 {
     double most = 0;
-    for (size_t k = 0; k < d; k++) most = fmax(most, fabs(G[i * d + k]));
+    for (size_t k = 0; k < n; k++) most = fmax(most, fabs(row[k]));
     return most;
 }
 
-/* The mode of limit i, -1 for the normal force of a slide. */
-static int pair_of_limit(const struct plan *plan, size_t i)
-{
-    return i < plan->contact_count ? plan->contacts[i].pair : (int)((i - plan->contact_count) / 2);
-}
-
-/* The change of limit i for a unit margin: a force, or a moment at the length of the scene. */
-static double unit_of_limit(const struct rest_system *system, size_t i)
-{
-    const struct plan *plan = &system->state->model->plan;
-    int pair = pair_of_limit(plan, i);
-    if (i < plan->contact_count || !mode_is_friction(&plan->modes[pair])) return 1;
-    return plan->modes[pair].normal_slot < 0 ? system->length : 1;
-}
-
-static double limit_along(const struct rest_system *system, const double *slots_along,
-                          const double *lambda_along, size_t i, const struct direction *flow)
-{
-    const struct fbd_model *model = system->state->model;
-    const struct plan *plan = &model->plan;
-    if (i < plan->contact_count) return -slots_along[plan->contacts[i].slot];
-    int pair = pair_of_limit(plan, i);
-    const struct mode *mode = &plan->modes[pair];
-    if (mode->kind == mode_rope) return -lambda_along[model->tree->couplings[mode->coupling].first_row];
-    struct friction_values now = friction_at(model, pair, &system->at, system->forces);
-    struct friction_values rate = friction_along(model, pair, &system->at, system->forces, flow, slots_along);
-    if (keeps_side(system, (size_t)pair)) return system->at.pull[pair] * rate.N;
-    double limit = now.limit_kinetic > now.limit_static ? rate.limit_kinetic : rate.limit_static;
-    return (i - plan->contact_count) % 2 == 0 ? limit - rate.hold : limit + rate.hold;
-}
-
-/* The programme of a part: max s' with unit_i s' - G_i (y' - y'') <= b_i and s' <= cap, s', y', y'' >= 0, as
- * the complementarity of its optimality conditions. */
-struct programme {
-    const struct rest_part *part;
-    size_t limits, unknowns; /* inequalities including s' <= cap; 1 + 2 size of the part */
-    size_t *row, *limit;     /* limits - 1: rows of the part, and indices of the limits */
-    double *M, *q, *z, *w;
-};
-
 static bool programme_new(struct programme *of, const struct rest_system *system,
-                          const struct rest_part *part, bool guides)
+                          const struct rest_part *part, bool guides, const double *values)
 {
-    const struct plan *plan = &system->state->model->plan;
-    struct arena *arena = system->arena;
     const double negligible = 1e-9; /* of a unit of the reactions */
-    *of = (struct programme){.part = part, .unknowns = 1 + 2 * part->size};
-    of->row = ARENA_ARRAY(arena, part->limits + 1, size_t);
-    of->limit = ARENA_ARRAY(arena, part->limits + 1, size_t);
-    if (!of->row || !of->limit) return false;
+    struct arena *arena = system->arena;
+    *of = (struct programme){.size = part->size, .bound = part->limit, .G = part->G};
+    of->h = ARENA_ARRAY(arena, 2 * part->limits + 1, double);
+    if (!of->h) return false;
+    of->u = of->h + part->limits;
     for (size_t k = 0; k < part->limits; k++) {
-        size_t i = part->limit[k];
-        bool counts = guides || pair_of_limit(plan, i) >= 0;
-        if (!counts || slope_size(part->G, part->size, k) <= negligible * unit_of_limit(system, i)) continue;
-        of->row[of->limits] = k;
-        of->limit[of->limits++] = i;
+        const struct rest_bound *bound = &system->bounds[part->limit[k]];
+        const double *row = part->G + k * part->size;
+        if ((!guides && bound->pair < 0) || largest(row, part->size) <= negligible * bound->unit) continue;
+        for (size_t j = 0; j < part->size; j++) of->G[of->count * part->size + j] = row[j] / bound->unit;
+        of->h[of->count] = -values[part->limit[k]] / (bound->unit * system->force);
+        of->bound[of->count++] = part->limit[k];
     }
-    of->limits++;
-    size_t n = of->unknowns + of->limits;
-    of->M = ARENA_ARRAY(arena, n * n, double);
-    of->q = ARENA_ARRAY(arena, 3 * n, double);
-    of->z = of->q + n;
-    of->w = of->z + n;
-    return of->M && of->q;
+    return true;
 }
 
-static void set_inequality(struct programme *of, size_t row, size_t column, double a)
+/* The largest margin, not above one load beyond that of the least reactions. */
+static bool solve_programme(struct programme *of, const struct rest_system *system, double *margin)
 {
-    size_t n = of->unknowns + of->limits, i = of->unknowns + row;
-    of->M[column * n + i] = a;
-    of->M[i * n + column] = -a;
-}
-
-/* The largest margin divided by `size`; leaves the multipliers in z. */
-static double solve_programme(struct programme *of, const struct rest_system *system, int which,
-                              const double *values, double size)
-{
-    size_t d = of->part->size;
     double least = HUGE_VAL;
-    for (size_t k = 0; k + 1 < of->limits; k++)
-        least = fmin(least, values[of->limit[k]] / (unit_of_limit(system, of->limit[k]) * size));
-    for (size_t k = 0; k < of->limits; k++) {
-        bool cap = k + 1 == of->limits;
-        size_t i = of->limit[k];
-        double unit = cap ? 1 : unit_of_limit(system, i);
-        const double *G = cap ? NULL : of->part->G + of->row[k] * d;
-        set_inequality(of, k, 0, 1);
-        for (size_t j = 0; j < d && !cap; j++) {
-            set_inequality(of, k, 1 + j, -G[j] / unit);
-            set_inequality(of, k, 1 + d + j, G[j] / unit);
-        }
-        of->q[of->unknowns + k] = cap ? 1 + fmax(0, -least) : values[i] / (unit * size) - least;
+    for (size_t k = 0; k < of->count; k++) least = fmin(least, -of->h[k]);
+    if (!least_distance_rise(of->count, of->size, of->G, of->h, fmax(1, 1 + least), margin, of->u)) {
+        system->arena->failed = true;
+        return false;
     }
-    of->q[0] = -1;
-    enum lcp found = rest_memo_lcp(&system->state->tree->memo, which, of->unknowns + of->limits, of->M, of->q,
-                                   of->z, of->w);
-    if (found == lcp_no_memory) system->arena->failed = true;
-    return found == lcp_solved ? least + of->z[0] : least;
+    *margin *= system->force;
+    return true;
 }
 
 /* The rate of the margin of a part, and the modes after it is exhausted: those of the limits with
@@ -234,31 +210,23 @@ static double rate_of_margin(const struct rest_system *system, const struct prog
                              const struct direction *flow, int *gives)
 {
     const double share = 1e-9;
-    const struct plan *plan = &system->state->model->plan;
-    double sum = of->z[of->unknowns + of->limits - 1]; /* of the cap, which is constant */
     double rate = 0;
-    for (size_t k = 0; k + 1 < of->limits; k++) {
-        size_t i = of->limit[k];
-        int pair = pair_of_limit(plan, i);
-        double u = of->z[of->unknowns + k];
-        sum += u;
-        if (u <= share) continue;
-        rate += u / unit_of_limit(system, i) * limit_along(system, slots_along, lambda_along, i, flow);
-        if (pair < 0) continue;
-        bool back = mode_is_friction(&plan->modes[pair]) && (i - plan->contact_count) % 2 == 0;
-        gives[pair] = back ? slip_minus : slip_plus;
+    for (size_t k = 0; k < of->count; k++) {
+        const struct rest_bound *bound = &system->bounds[of->bound[k]];
+        if (of->u[k] <= share) continue;
+        rate += of->u[k] / bound->unit * bound_along(system, slots_along, lambda_along, bound, flow);
+        if (bound->pair >= 0) gives[bound->pair] = bound->side < 0 ? slip_minus : slip_plus;
     }
-    return sum > 0 ? rate / sum : rate;
+    return rate;
 }
 
 static void mark_limits(const struct rest_system *system, const struct programme *of,
                         struct rest_margin *margin)
 {
-    const struct plan *plan = &system->state->model->plan;
-    for (size_t k = 0; k + 1 < of->limits; k++) {
-        int pair = pair_of_limit(plan, of->limit[k]);
-        if (pair >= 0) margin->of[pair] = true;
-        if (of->limit[k] < plan->contact_count) margin->contacts[of->limit[k]] = true;
+    for (size_t k = 0; k < of->count; k++) {
+        const struct rest_bound *bound = &system->bounds[of->bound[k]];
+        if (bound->pair >= 0) margin->of[bound->pair] = true;
+        if (bound->kind == bound_normal) margin->contacts[bound->contact] = true;
     }
 }
 
@@ -280,7 +248,7 @@ bool rest_find_margin(struct rest_system *system, bool guides, const double *slo
 {
     const struct plan *plan = &system->state->model->plan;
     struct arena *arena = system->arena;
-    size_t count = rest_limit_values(system), d = system->basis_count, pairs = plan->mode_count;
+    size_t count = system->bound_count, d = system->basis_count, pairs = plan->mode_count;
     double *values = ARENA_ARRAY(arena, count + 1, double), *G = ARENA_ARRAY(arena, count * d + 1, double);
     int *gives = ARENA_ARRAY(arena, pairs + 1, int);
     *margin = (struct rest_margin){.size = system->force, .value = HUGE_VAL};
@@ -289,15 +257,16 @@ bool rest_find_margin(struct rest_system *system, bool guides, const double *slo
     margin->gives = ARENA_ARRAY(arena, pairs + 1, int);
     rest_restore(system);
     if (!values || !G || !gives || !margin->of || !margin->contacts || !margin->gives) return false;
-    if (!rest_limit_slopes(system, G)) return false;
-    rest_read_limits(system, values);
+    if (!rest_bound_slopes(system, G)) return false;
+    rest_read_bounds(system, values);
     for (int which = 0; which < system->parts; which++) {
         struct rest_part part;
         struct programme of;
-        if (!rest_part(system, G, which, &part) || !programme_new(&of, system, &part, guides)) return false;
-        if (of.limits == 1) continue;
-        double value = solve_programme(&of, system, which, values, system->force) * system->force;
-        if (arena->failed) return false;
+        double value;
+        if (!rest_part(system, G, which, &part) || !programme_new(&of, system, &part, guides, values))
+            return false;
+        if (of.count == 0) continue;
+        if (!solve_programme(&of, system, &value)) return false;
         mark_limits(system, &of, margin);
         memset(gives, 0, pairs * sizeof *gives);
         double rate = rate_of_margin(system, &of, slots_along, lambda_along, flow, gives);

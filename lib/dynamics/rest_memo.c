@@ -9,9 +9,6 @@
 struct part_memo {
     double *matrix; /* the decomposed matrix */
     struct qr qr;
-    double *problem; /* M and q of n rows, then z and w */
-    size_t n;
-    enum lcp found;
 };
 
 struct rest_memo {
@@ -50,41 +47,11 @@ const struct qr *rest_memo_qr(struct rest_memo **memo, int which, size_t rows, s
     return NULL;
 }
 
-enum lcp rest_memo_lcp(struct rest_memo **memo, int which, size_t n, const double *M, const double *q,
-                       double *z, double *w)
-{
-    struct part_memo *part = part_of(memo, which);
-    const size_t square = n * n, bytes = n * sizeof *q;
-    if (!part) return lcp_no_memory;
-    double *kept = part->problem;
-    if (kept && part->n == n && memcmp(kept, M, square * sizeof *M) == 0 &&
-        memcmp(kept + square, q, bytes) == 0) {
-        memcpy(z, kept + square + n, bytes);
-        memcpy(w, kept + square + 2 * n, bytes);
-        return part->found;
-    }
-    free(kept);
-    part->problem = NULL;
-    enum lcp found = lcp_solve(n, M, q, z, w);
-    if (found == lcp_no_memory) return found;
-    kept = malloc((square + 3 * n) * sizeof *kept + 1);
-    if (!kept) return lcp_no_memory;
-    memcpy(kept, M, square * sizeof *M);
-    memcpy(kept + square, q, bytes);
-    memcpy(kept + square + n, z, bytes);
-    memcpy(kept + square + 2 * n, w, bytes);
-    part->problem = kept;
-    part->n = n;
-    part->found = found;
-    return found;
-}
-
 void rest_memo_free(struct rest_memo *memo)
 {
     for (int i = 0; memo && i < memo->count; i++) {
         free(memo->parts[i].matrix);
         qr_free(&memo->parts[i].qr);
-        free(memo->parts[i].problem);
     }
     if (memo) free(memo->parts);
     free(memo);

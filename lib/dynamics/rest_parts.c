@@ -33,13 +33,13 @@ static bool meet(const void *context, int i, int j)
 static double *follow_null_vectors(struct rest_system *system)
 {
     size_t m = system->m, d = system->basis_count, count = system->reactions;
-    double *rows = ARENA_ARRAY(system->arena, (count + rest_limit_values(system)) * d + 1, double);
+    double *rows = ARENA_ARRAY(system->arena, (count + system->bound_count) * d + 1, double);
     for (size_t i = 0; rows && i < count; i++)
         for (size_t j = 0; j < m; j++) {
             double R = system->R[i * m + j];
             for (size_t k = 0; R != 0 && k < d; k++) rows[i * d + k] += R * system->basis[j * d + k];
         }
-    return rows && rest_limit_slopes(system, rows + count * d) ? rows : NULL;
+    return rows && rest_bound_slopes(system, rows + count * d) ? rows : NULL;
 }
 
 static bool find_parts(struct rest_system *system, const double *rows)
@@ -48,7 +48,7 @@ static bool find_parts(struct rest_system *system, const double *rows)
     double *most = ARENA_ARRAY(system->arena, d + 1, double);
     system->part = ARENA_ARRAY(system->arena, d + 1, int);
     if (!most || !system->part) return false;
-    struct meeting_rows all = {system->reactions + rest_limit_values(system), d, rows, most};
+    struct meeting_rows all = {system->reactions + system->bound_count, d, rows, most};
     for (size_t i = 0; i < all.rows; i++)
         for (size_t k = 0; k < d; k++) most[k] = fmax(most[k], fabs(rows[i * d + k]));
     system->parts = parts_find((int)d, meet, &all, system->part);
@@ -101,7 +101,7 @@ bool rest_set_basis(struct rest_system *system, double *start)
 
 bool rest_part(const struct rest_system *system, const double *G, int which, struct rest_part *part)
 {
-    size_t count = rest_limit_values(system), d = system->basis_count;
+    size_t count = system->bound_count, d = system->basis_count;
     *part = (struct rest_part){.column = ARENA_ARRAY(system->arena, d + 1, size_t),
                                .limit = ARENA_ARRAY(system->arena, count + 1, size_t)};
     if (!part->column || !part->limit) return false;

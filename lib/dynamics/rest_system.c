@@ -124,8 +124,8 @@ static void evaluate(struct rest_system *system)
 
 static bool limits_hold(const struct rest_system *system, double *values)
 {
-    size_t count = rest_limit_values(system);
-    rest_read_limits(system, values);
+    size_t count = system->bound_count;
+    rest_read_bounds(system, values);
     for (size_t i = 0; i < count; i++)
         if (!(values[i] >= -rest_limit_slack(system))) return false;
     return true;
@@ -156,7 +156,7 @@ bool rest_vary(struct rest_system *system, size_t k, double size)
 static double size_of_way(const struct rest_system *system, const double *values)
 {
     double size = system->force;
-    for (size_t i = 0; i < rest_limit_values(system); i++) size = fmax(size, fabs(values[i]));
+    for (size_t i = 0; i < system->bound_count; i++) size = fmax(size, fabs(values[i]));
     return size;
 }
 
@@ -182,13 +182,13 @@ static bool keep_part_limits(struct rest_system *system, const double *G, const 
 static bool keep_limits(struct rest_system *system)
 {
     struct arena *arena = system->arena;
-    size_t count = rest_limit_values(system), d = system->basis_count;
+    size_t count = system->bound_count, d = system->basis_count;
     double *values = ARENA_ARRAY(arena, count + 1, double);
     double *G = ARENA_ARRAY(arena, count * d + 1, double), *w = ARENA_ARRAY(arena, d + 1, double);
     if (!values || !G || !w) return false;
     system->within_limits = limits_hold(system, values);
     if (system->within_limits || d == 0) return true;
-    if (!rest_limit_slopes(system, G)) return false;
+    if (!rest_bound_slopes(system, G)) return false;
     double size = size_of_way(system, values);
     for (int pass = 0; pass < 2 && !system->within_limits; pass++) {
         double slack = pass == 0 ? 0 : rest_limit_slack(system) / 2;
@@ -299,6 +299,7 @@ bool rest_solve(struct rest_system *system, struct fbd_state *state, struct aren
     if (!allocate(system)) return false;
     rest_forces(state->model, &system->at, system->lambda, true, system->slots0, system->Q);
     if (!find_sizes(system)) return false;
+    if (!rest_find_bounds(system)) return false;
     set_scales(system);
     for (int pass = 0; pass < most_passes; pass++) {
         if (!balance(system)) return false;
@@ -364,7 +365,7 @@ bool rest_open(struct rest_system *system, struct fbd_state *state, const struct
     if (!allocate(system) || !keep_base(system, slots) || !find_sizes(system)) return false;
     for (size_t j = 0; system->force == 0 && j < system->m; j++) /* for rotations without a load */
         system->force = fabs(system->base.lambda[system->rows[j]]);
-    if (system->force == 0) return false; /* all forces are zero */
+    if (system->force == 0 || !rest_find_bounds(system)) return false; /* all forces are zero */
     set_scales(system);
     set_columns(system);
     double *least = ARENA_ARRAY(arena, system->m + 1, double);

@@ -16,8 +16,9 @@
  * problem of its own. In a stack of boxes each interface is a part, in which two corners share the load.
  *
  * There are solutions within the limits if the largest s with h(y) >= s, for all limits that depend on y, is
- * not negative: a linear programme, max s. Its rate of change is that of the limits at its multipliers u, s'
- * = sum u_i h_i', since u is orthogonal to all changes of y.
+ * not negative: a linear programme, max s, in which s rises until limits cannot be satisfied
+ * (least_distance_rise). Its rate of change is that of the limits at its multipliers u, s' = sum u_i h_i', since u is
+ * orthogonal to all changes of y.
  */
 #ifndef FBD_DYNAMICS_REST_SYSTEM_H
 #define FBD_DYNAMICS_REST_SYSTEM_H
@@ -27,6 +28,16 @@
 #include "dynamics/diagram.h"
 #include "dynamics/statics.h"
 #include "numeric/qr.h"
+
+/* A limit in force, as a function h >= 0 of the forces: of a normal force, of the tension of a rope, of the loaded side of a
+ * guide that slips; of friction mu N - F and mu N + F. */
+struct rest_bound {
+    enum { bound_normal, bound_rope, bound_guide, bound_friction } kind;
+    int pair, contact; /* the mode, -1 for the normal force of a slide; index into plan.contacts */
+    double mu,
+        unit; /* the larger coefficient; the change of h for a unit margin: a force, or a moment at the length */
+    int side; /* of F: -1 or 1 */
+};
 
 /* The system and its solution. */
 struct rest_system {
@@ -49,6 +60,8 @@ struct rest_system {
     double *slots0, *columns; /* slots; slots x m */
     double *r, *R;            /* reactions; reactions x m */
     double force, length;
+    struct rest_bound *bounds;
+    size_t bound_count;
     struct qr qr;       /* of E */
     double *least;      /* m: from the base to the least reactions, limits or not */
     double *basis;      /* m x indeterminacy: lambda for a unit of r */
@@ -89,12 +102,14 @@ struct rest_limit rest_limit_at(const struct rest_system *system, size_t index);
 /* Do the active constraints leave multipliers indeterminate, by the pivots of the elimination? */
 bool rest_is_open(const struct fbd_model *model, const struct instant *at);
 
-/* All limits as functions h >= 0 at the present lambda: their number, values and tolerance for zero; their
- * slopes in the basis, values x basis_count, are added to G (false when memory is out). */
-size_t rest_limit_values(const struct rest_system *system);
-void rest_read_limits(const struct rest_system *system, double *values);
+/* Find the limits in force. False when memory is out. */
+bool rest_find_bounds(struct rest_system *system);
+
+/* Their values at the present lambda, the tolerance for zero, and their slopes in the basis, bound_count x basis_count, which
+ * are added to G (false when memory is out). */
+void rest_read_bounds(const struct rest_system *system, double *values);
 double rest_limit_slack(const struct rest_system *system);
-bool rest_limit_slopes(struct rest_system *system, double *G);
+bool rest_bound_slopes(struct rest_system *system, double *G);
 
 /* Set the basis from the null vectors of E, and add to `start` the step to the least reactions, without
  * limits. False when memory is out. */

@@ -265,7 +265,7 @@ static enum holds_found solve_affine(struct affine *of, struct hold_problem *pro
     if (!set_forces(of)) return holds_lost;
     set_answers(of);
     set_problem(of);
-    enum lcp lcp = lcp_solve_from(of->m, of->M, of->q, cover, of->z, of->w);
+    enum lcp lcp = lcp_solve(of->m, of->M, of->q, cover, of->z, of->w);
     if (lcp != lcp_solved) return lcp == lcp_no_memory ? holds_no_memory : holds_lost;
     for (size_t i = 0; i < problem->count; i++) {
         problem->holds[i].force = value(of, row(of->f, of, i), of->z);

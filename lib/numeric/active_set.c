@@ -49,6 +49,16 @@ static size_t most_violated(const struct active_set *set, const struct half_spac
     return worst;
 }
 
+/* r = R^-1 d. */
+static void substitute(struct active_set *set)
+{
+    for (size_t k = set->active; k-- > 0;) {
+        set->r[k] = set->d[k];
+        for (size_t j = k + 1; j < set->active; j++) set->r[k] -= set->R[j * set->n + k] * set->r[j];
+        set->r[k] /= set->R[k * set->n + k];
+    }
+}
+
 /* The step of x, the part of the normal that is orthogonal to all equations and active limits; d, its components along the
  * latter; and r, the decrease of their multipliers. Returns the squared size of the step. */
 static double set_directions(struct active_set *set, const struct half_spaces *spaces, size_t which)
@@ -64,11 +74,7 @@ static double set_directions(struct active_set *set, const struct half_spaces *s
             vector_add_multiple(set->step, active_set_row(set, k), -share, n);
             if (k >= set->rank) set->d[k - set->rank] += share;
         }
-    for (size_t k = active; k-- > 0;) {
-        set->r[k] = set->d[k];
-        for (size_t j = k + 1; j < active; j++) set->r[k] -= set->R[j * n + k] * set->r[j];
-        set->r[k] /= set->R[k * n + k];
-    }
+    substitute(set);
     return vector_dot(set->step, set->step, n);
 }
 
@@ -91,8 +97,8 @@ static void rotate(double *a, double *b, double c, double s)
     *a = first;
 }
 
-/* Drop active limit l; Givens rotations restore the triangle. */
-static void deactivate(struct active_set *set, size_t l)
+/* Givens rotations restore the triangle. */
+void active_set_drop(struct active_set *set, size_t l)
 {
     size_t n = set->n, last = --set->active;
     set->is_active[set->limit[l]] = false;
@@ -113,17 +119,18 @@ static void deactivate(struct active_set *set, size_t l)
 static size_t first_to_drop(const struct active_set *set, double *part)
 {
     size_t first = set->active;
+    double most = 0;
     *part = HUGE_VAL;
+    for (size_t k = 0; k < set->active; k++) most = fmax(most, fabs(set->r[k]));
     for (size_t k = 0; k < set->active; k++) {
-        if (!(set->r[k] > 0) || !(set->u[k] / set->r[k] < *part)) continue;
+        if (!(set->r[k] > pivoting_zero * most) || !(set->u[k] / set->r[k] < *part)) continue;
         *part = set->u[k] / set->r[k];
         first = k;
     }
     return first;
 }
 
-/* Satisfy a violated limit; false where the others exclude it. */
-static bool satisfy(struct active_set *set, const struct half_spaces *spaces, size_t which)
+bool active_set_add(struct active_set *set, const struct half_spaces *spaces, size_t which)
 {
     double multiplier = 0, normal;
     for (;;) {
@@ -141,18 +148,35 @@ static bool satisfy(struct active_set *set, const struct half_spaces *spaces, si
             activate(set, which, square, multiplier);
             return true;
         }
-        deactivate(set, first);
+        active_set_drop(set, first);
     }
+}
+
+void active_set_begin(struct active_set *set, const struct half_spaces *spaces)
+{
+    set->active = 0;
+    memset(set->is_active, 0, spaces->count * sizeof *set->is_active);
+}
+
+void active_set_rates(struct active_set *set)
+{
+    size_t n = set->n;
+    memset(set->step, 0, n * sizeof *set->step);
+    for (size_t k = 0; k < set->active; k++) {
+        const double *R = set->R + k * n;
+        set->d[k] = (1 - vector_dot(R, set->d, k)) / R[k];
+        vector_add_multiple(set->step, active_set_row(set, set->rank + k), set->d[k], n);
+    }
+    substitute(set);
 }
 
 size_t active_set_satisfy(struct active_set *set, const struct half_spaces *spaces, double size)
 {
     size_t most = 20 + 20 * set->n, which = spaces->count;
-    set->active = 0;
-    memset(set->is_active, 0, spaces->count * sizeof *set->is_active);
+    active_set_begin(set, spaces);
     for (size_t round = 0; round < most; round++) {
         which = most_violated(set, spaces, size);
-        if (which == spaces->count || !satisfy(set, spaces, which)) return which;
+        if (which == spaces->count || !active_set_add(set, spaces, which)) return which;
     }
     return which;
 }

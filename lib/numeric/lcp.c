@@ -263,12 +263,7 @@ enum lcp lcp_find_basis(size_t n, const double *M, const double *q, int cover, b
     return found;
 }
 
-enum lcp lcp_solve(size_t n, const double *M, const double *q, double *z, double *w)
-{
-    return lcp_solve_from(n, M, q, 0, z, w);
-}
-
-enum lcp lcp_solve_from(size_t n, const double *M, const double *q, int cover, double *z, double *w)
+enum lcp lcp_solve(size_t n, const double *M, const double *q, int cover, double *z, double *w)
 {
     enum { rounds = 6 };
     struct tableau tableau;

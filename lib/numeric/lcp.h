@@ -25,12 +25,9 @@ enum lcp {
     lcp_no_memory
 };
 
-/* M is n by n, row by row; z and w take n. In a solution z_i = 0 or w_i = 0 exactly. */
-enum lcp lcp_solve(size_t n, const double *M, const double *q, double *z, double *w);
-
-/* The same with start number `cover`, another column in place of the column of ones (0): if one start ends in
- * a ray or fails by rounding, another may succeed. */
-enum lcp lcp_solve_from(size_t n, const double *M, const double *q, int cover, double *z, double *w);
+/* M is n by n, row by row; z and w take n. In a solution z_i = 0 or w_i = 0 exactly. Start number `cover` (0: the column of
+ * ones): if one start ends in a ray or fails by rounding, another may succeed. */
+enum lcp lcp_solve(size_t n, const double *M, const double *q, int cover, double *z, double *w);
 
 /* The same, but only which z_k are basic in the solution; the others are zero. O(n^2) for each pivot. M and q are of one size
  * already: they are not scaled. */

@@ -39,13 +39,13 @@ static void one_unknown_is_found_or_there_is_none(void **unused)
 {
     (void)unused;
     double z, w;
-    assert_int_equal(lcp_solve(1, (double[]){2}, (double[]){3}, &z, &w), lcp_solved);
+    assert_int_equal(lcp_solve(1, (double[]){2}, (double[]){3}, 0, &z, &w), lcp_solved);
     assert_true(z == 0 && w == 3);
-    assert_int_equal(lcp_solve(1, (double[]){2}, (double[]){-3}, &z, &w), lcp_solved);
+    assert_int_equal(lcp_solve(1, (double[]){2}, (double[]){-3}, 0, &z, &w), lcp_solved);
     assert_true(fabs(z - 1.5) < 1e-15 && w == 0);
-    assert_int_equal(lcp_solve(1, (double[]){-2}, (double[]){-3}, &z, &w), lcp_ray);
-    assert_int_equal(lcp_solve(1, (double[]){0}, (double[]){-1}, &z, &w), lcp_ray);
-    assert_int_equal(lcp_solve(0, NULL, NULL, &z, &w), lcp_solved);
+    assert_int_equal(lcp_solve(1, (double[]){-2}, (double[]){-3}, 0, &z, &w), lcp_ray);
+    assert_int_equal(lcp_solve(1, (double[]){0}, (double[]){-1}, 0, &z, &w), lcp_ray);
+    assert_int_equal(lcp_solve(0, NULL, NULL, 0, &z, &w), lcp_solved);
 }
 
 /* A block on two feet that are one: the rows are the same, and tie in every pivot. */
@@ -55,7 +55,7 @@ static void redundant_rows_do_not_cycle(void **unused)
     double M[36], q[6], z[6], w[6], sum = 0;
     for (size_t i = 0; i < 36; i++) M[i] = 0.5;
     for (size_t i = 0; i < 6; i++) q[i] = -9.81;
-    assert_int_equal(lcp_solve(6, M, q, z, w), lcp_solved);
+    assert_int_equal(lcp_solve(6, M, q, 0, z, w), lcp_solved);
     for (size_t i = 0; i < 6; i++) sum += z[i];
     assert_true(fabs(sum - 2 * 9.81) < 1e-12);
 }
@@ -90,8 +90,7 @@ static void monotone_problems_are_solved(void **unused)
             for (size_t k = 0; k < n; k++) q[i] -= M[i * n + k] * z[k] / scale[k];
         }
         for (int cover = 0; cover < 4; cover++) {
-            if (lcp_solve_from(n, M, q, cover, z, w) != lcp_solved)
-                fail_msg("seed %d: not solved", (int)seed);
+            if (lcp_solve(n, M, q, cover, z, w) != lcp_solved) fail_msg("seed %d: not solved", (int)seed);
             check_solution(n, M, q, z, w, scale);
         }
     }

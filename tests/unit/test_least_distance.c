@@ -82,6 +82,66 @@ static void random_polyhedra_have_no_nearer_point(void **unused)
     }
 }
 
+static void a_level_rises_to_the_middle_between_opposite_limits(void **unused)
+{
+    (void)unused;
+    static const double G[] = {1, 0, -1, 0, 0, 1}, h[] = {1, -4, 0}; /* x >= 1 + s, x <= 4 - s */
+    double u[3], level;
+    assert_true(least_distance_rise(3, 2, G, h, 9, &level, u));
+    assert_true(fabs(level - 1.5) < rounding && fabs(u[0] - 0.5) < rounding && fabs(u[1] - 0.5) < rounding);
+    assert_true(u[2] == 0);
+    assert_true(least_distance_rise(3, 2, G, h, 0.5, &level, u));
+    assert_true(level == 0.5 && u[0] == 0 && u[1] == 0 && u[2] == 0);
+}
+
+/* A level with multipliers: no point reaches a higher one, since sum u (G x - h) = - sum u h = level for every x. */
+static void assert_greatest(int rows, int size, const double *G, const double *h, double most)
+{
+    double u[64], x[16], lower[64], level, sum = 0, bound = 0;
+    assert_true(least_distance_rise((size_t)rows, (size_t)size, G, h, most, &level, u));
+    for (int i = 0; i < rows; i++) {
+        assert_true(u[i] >= 0);
+        sum += u[i];
+        bound -= u[i] * h[i];
+        lower[i] = h[i] + level - 1e-8;
+    }
+    assert_int_equal(least_distance((size_t)rows, (size_t)size, G, lower, x), least_distance_found);
+    if (sum == 0) {
+        assert_true(level == most);
+        return;
+    }
+    assert_true(fabs(sum - 1) < rounding && fabs(bound - level) < 1e-9);
+    for (int k = 0; k < size; k++) {
+        double product = 0;
+        for (int i = 0; i < rows; i++) product += u[i] * G[i * size + k];
+        assert_true(fabs(product) < 1e-9);
+    }
+}
+
+/* Small whole numbers: many limits are reached at once, and many depend on each other. */
+static void greatest_levels_have_multipliers_that_prove_it(void **unused)
+{
+    (void)unused;
+    enum { most_rows = 60, most_size = 15, trials = 2000 };
+    struct random_numbers numbers = {20261128};
+    for (int trial = 0; trial < trials; trial++) {
+        double G[most_rows * most_size], h[most_rows];
+        bool whole = random_chance(&numbers, 0.5);
+        int size = 1 + (int)random_between(&numbers, 0, most_size),
+            rows = 1 + (int)random_between(&numbers, 0, most_rows);
+        double few = random_between(&numbers, 0.1, 1);
+        for (int i = 0; i < rows; i++) {
+            h[i] = random_between(&numbers, -3, 3);
+            if (whole) h[i] = round(h[i]);
+            for (int k = 0; k < size; k++) {
+                G[i * size + k] = random_perhaps(&numbers, few, -2, 2);
+                if (whole) G[i * size + k] = round(G[i * size + k]);
+            }
+        }
+        assert_greatest(rows, size, G, h, random_between(&numbers, 3, 20));
+    }
+}
+
 static int no_handler(void **unused)
 {
     (void)unused;
@@ -97,6 +157,8 @@ int main(void)
         cmocka_unit_test(a_wedge_has_its_tip),
         cmocka_unit_test(inequalities_that_contradict_each_other_are_said),
         cmocka_unit_test(random_polyhedra_have_no_nearer_point),
+        cmocka_unit_test(a_level_rises_to_the_middle_between_opposite_limits),
+        cmocka_unit_test(greatest_levels_have_multipliers_that_prove_it),
     };
     return cmocka_run_group_tests(tests, no_handler, NULL);
 }
