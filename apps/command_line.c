@@ -69,6 +69,13 @@ static bool says_itself(int option)
            option == option_completion;
 }
 
+static bool write_examples(const struct command_line *line, const char *kind)
+{
+    const bool asked = line->write_examples && strcmp(kind, "examples") == 0;
+    if (asked) line->write_examples();
+    return asked;
+}
+
 /* `next`: the word after the option and its value, or NULL. */
 static bool say(const struct command_line *line, int option, const char *next, enum exit_code *code)
 {
@@ -79,7 +86,7 @@ static bool say(const struct command_line *line, int option, const char *next, e
     else if (option == option_schema)
         print_schema(code);
     else if (option == option_completion && !completion_write(line, optarg) &&
-             !model_names_write(optarg, next))
+             !model_names_write(optarg, next) && !write_examples(line, optarg))
         return no_completion(line, code);
     else if (option == option_version)
         printf("%s %s\n", line->program, fbd_version());

@@ -28,7 +28,8 @@ struct command_line {
     const char *program, *help[2];
     /* long options, including those of COMMAND_LINE_END; values of the others start at option_first */
     const struct option *options;
-    bool silent; /* another process prints the messages */
+    void (*write_examples)(void); /* prints the names of the examples for the completion; may be NULL */
+    bool silent;                  /* another process prints the messages */
 };
 
 enum { option_help = 256, option_version, option_completion, option_schema, option_first };

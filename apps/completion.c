@@ -43,7 +43,7 @@ static const struct named *named_by(const char *option)
 {
     static const struct named all[] = {
         {"set", "parameters", "="}, {"vary", "parameters", "="}, {"method", "methods", ""},
-        {"body", "bodies", ""},     {"without", "effects", ""},
+        {"body", "bodies", ""},     {"without", "effects", ""},  {"example", "examples", ""},
     };
     for (size_t i = 0; i < sizeof all / sizeof *all; i++)
         if (strcmp(option, all[i].option) == 0) return &all[i];
@@ -159,9 +159,7 @@ static int least(int a, int b)
     return a < b ? a : b;
 }
 
-/* Restricted Damerau-Levenshtein distance: number of letters to insert, delete, replace or exchange with the
- * next one. */
-static int distance(const char *a, const char *b)
+int completion_distance(const char *a, const char *b)
 {
     enum { longest = 32 };
     int d[longest + 1][longest + 1], n = (int)strlen(a), m = (int)strlen(b);
@@ -186,7 +184,7 @@ const char *completion_nearest(const struct command_line *line, const char *wron
     const char *nearest = NULL;
     int fewest = length <= 4 ? 2 : 3; /* distance must be less */
     for (const struct option *o = line->options; o->name; o++) {
-        int d = distance(name, o->name);
+        int d = completion_distance(name, o->name);
         if (d >= fewest) continue;
         fewest = d;
         nearest = o->name;

@@ -62,7 +62,7 @@ static const struct option long_options[] = {
     COMMAND_LINE_END,
 };
 
-static const struct command_line line = {"fbd-cost", {help}, long_options, false};
+static const struct command_line line = {"fbd-cost", {help}, long_options, NULL, false};
 
 static bool usage(const char *message, const char *what)
 {

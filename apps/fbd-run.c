@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "complain.h"
+#include "examples.h"
 #include "fbd_export.h"
 #include "fbd_grade.h"
 #include "fbd_study.h"
@@ -386,6 +387,8 @@ static enum exit_code act(const fbd_model *model, const struct options *options,
     case action_linearize: return show_state(model, options, errors);
     case action_grade:
     case action_handout:
+    case action_examples:
+    case action_example:
     case action_run: break;
     }
     return run(model, options, errors);
@@ -475,10 +478,12 @@ int main(int argc, char **argv)
     gsl_set_error_handler_off(); /* every status is checked instead */
     if (options_read(argc, argv, &options, &code)) {
         options.json_written = &json_written;
-        code = options.action == action_grade     ? grading(&options)
-               : options.action == action_handout ? handout(&options)
-               : options.watch                    ? run_again_and_again(&options)
-                                                  : read_and_act(&options);
+        code = options.action == action_grade      ? grading(&options)
+               : options.action == action_handout  ? handout(&options)
+               : options.action == action_examples ? examples_list()
+               : options.action == action_example  ? examples_print(options.example)
+               : options.watch                     ? run_again_and_again(&options)
+                                                   : read_and_act(&options);
     }
     return (int)code;
 }

@@ -5,6 +5,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
+#include "examples.h"
 #include "fbd_export.h"
 #include "fmu.h"
 #include "gnuplot.h"
@@ -69,6 +70,8 @@ enum {
     option_runs,
     option_fit,
     option_parameters,
+    option_examples,
+    option_example,
 };
 
 static const struct option long_options[] = {
@@ -126,14 +129,14 @@ static const struct option long_options[] = {
     {"runs", required_argument, NULL, option_runs},
     {"fit", required_argument, NULL, option_fit},
     {"parameters", required_argument, NULL, option_parameters},
+    {"examples", no_argument, NULL, option_examples},
+    {"example", required_argument, NULL, option_example},
     {"schema", no_argument, NULL, option_schema},
     COMMAND_LINE_END,
 };
 
-static const struct command_line line = {"fbd-run",
-                                         {options_help, options_help_without_run},
-                                         long_options,
-                                         false};
+static const struct command_line line = {
+    "fbd-run", {options_help, options_help_without_run}, long_options, examples_write_names, false};
 
 static bool usage(const char *message, const char *what)
 {
@@ -144,8 +147,8 @@ static bool choose_action(struct options *options, enum action action)
 {
     if (options->action != action_run && options->action != action)
         return usage("only one of --equations, --linearize, --static, --explain, --check-hand, --check, "
-                     "--emit-c, --fmu, --grade "
-                     "and --handout at a time",
+                     "--emit-c, --fmu, --grade, "
+                     "--handout, --examples and --example at a time",
                      "");
     options->action = action;
     return true;
@@ -284,24 +287,13 @@ static bool take_option(const struct command_line *unused, int option, void *con
     case option_check: return choose_action(options, action_check);
     case option_emit_c: options->emit_c = optarg; return choose_action(options, action_emit_c);
     case option_grade: options->model = optarg; return choose_action(options, action_grade);
+    case option_examples: return choose_action(options, action_examples);
+    case option_example: options->example = optarg; return choose_action(options, action_example);
     case option_handout: return choose_action(options, action_handout);
     case option_fmu: options->fmu = optarg; return fmu_can_be_made() && choose_action(options, action_fmu);
     case option_fmu_version: return take_fmu_version(&options->fmu_version);
     default: return take_drawing(options, option);
     }
-}
-
-static bool plot_can_be_written(const char *file)
-{
-    const char *end = strrchr(file, '.');
-    if (!end || (strcmp(end, ".svg") != 0 && strcmp(end, ".png") != 0 && strcmp(end, ".pdf") != 0))
-        return usage("--plot wants a file whose name ends in .svg, .png or .pdf, not ", file);
-    if (!gnuplot_is_there())
-        return usage(
-            "--plot needs gnuplot, which is not installed (Debian: gnuplot-nox); --gnuplot FILE writes the "
-            "script for it",
-            "");
-    return true;
 }
 
 enum { place_count = 10 };
@@ -417,7 +409,7 @@ static bool outputs_agree(const struct options *options)
         return usage("--note describes the file as it is: comment its entries out, instead of --without", "");
     if (options->plot_of && !options->plot && !options->gnuplot)
         return usage("--plot-of goes with --plot or --gnuplot", "");
-    if (options->plot && !plot_can_be_written(options->plot)) return false;
+    if (options->plot && !plot_can_be_written(&line, options->plot)) return false;
     if (!options->csv && options->ledger) return usage("--ledger goes with --csv", "");
     if (!options->csv && !options->html && !options->note && options->every > 0)
         return usage("--every goes with --csv, --html or --note", "");
@@ -483,10 +475,19 @@ static void choose_symbols(struct options *options)
         options->action = action_equations;
 }
 
+/* The examples need no model, and no other option. */
+static bool options_take_examples(int argc, char **argv, const struct options *options)
+{
+    const int words = options->action == action_example && !strchr(argv[1], '=') ? 3 : 2;
+    return argc == words || usage("--examples and --example NAME stand alone", "");
+}
+
 bool options_read(int argc, char **argv, struct options *options, enum exit_code *code)
 {
     *options = (struct options){.run = FBD_OPTIONS_DEFAULT, .seed = 1};
     if (!command_line_options(&line, argc, argv, take_option, options, code)) return false;
+    if (options->action == action_examples || options->action == action_example)
+        return options_take_examples(argc, argv, options);
     choose_symbols(options);
     options->run.error_bars |= options->note != NULL;
     if (options->action != action_grade)

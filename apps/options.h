@@ -23,6 +23,8 @@ struct options {
         action_grade,   /* `model` is the key of `answers` */
         action_handout, /* `model` is the key */
         action_fmu,
+        action_examples, /* without a model, as is the next */
+        action_example,
     } action;
     fbd_setting settings[most_settings];
     size_t setting_count;
@@ -48,6 +50,7 @@ struct options {
     const char *parameters; /* those to fit, with commas between; NULL for all */
     const char *find;       /* a question, or NULL */
     size_t find_runs;       /* of the scan of the range, or 0 */
+    const char *example;    /* the name of action_example */
     const char *fmu;
     int fmu_version; /* 0 when not given */
     bool watch, live;

@@ -82,6 +82,8 @@ const char options_help_without_run[] =
     "  --exam               with --page: without the key in it, an answer to hand in\n"
     "\n"
     "About the program\n"
+    "  --examples           the models that come with the program, by topic\n"
+    "  --example NAME       print one of them: --example incline > incline.yaml\n"
     "  --schema             the model language as JSON Schema, for editors\n"
     "  --completion SHELL   completion of these options for bash, zsh or fish\n"
     "  -h, --help, --version\n"

@@ -145,7 +145,7 @@ static bool options_agree(const struct command_line *line, struct sweep_options 
 /* The temporary names of the table must not be the model file either. */
 bool sweep_outputs_differ(const struct sweep_options *options, const fbd_errors *errors)
 {
-    const struct command_line line = {"fbd-sweep", {help}, long_options, false};
+    const struct command_line line = {"fbd-sweep", {help}, long_options, NULL, false};
     char target[place_size], part[place_size + 16] = "", key[place_size + 16] = "";
     if (options->csv && place_descriptor(options->csv) < 0 && place_target(options->csv, target)) {
         snprintf(part, sizeof part, "%s.part", target);
@@ -161,7 +161,7 @@ bool sweep_outputs_differ(const struct sweep_options *options, const fbd_errors 
 bool sweep_options_read(int argc, char **argv, bool silent, struct sweep_options *options,
                         enum exit_code *code)
 {
-    const struct command_line line = {"fbd-sweep", {help}, long_options, silent};
+    const struct command_line line = {"fbd-sweep", {help}, long_options, NULL, silent};
     *options = (struct sweep_options){.run = FBD_OPTIONS_DEFAULT, .plan = {.run = &options->run, .seed = 1}};
     options->plan.settings = options->settings;
     options->plan.vary = options->vary;
