@@ -177,6 +177,7 @@ static void set_load(struct builder *builder, struct model_load *load, const str
     load->offset_x = builder_formula(builder, &source->offset_x, body, index);
     load->offset_y = builder_formula(builder, &source->offset_y, body, index);
     load->couple = builder_formula(builder, &source->couple, body, index);
+    builder_formula(builder, &source->zero_distance, body, index); /* for its pole */
 }
 
 static void set_loads(struct builder *builder)

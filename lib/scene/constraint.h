@@ -19,9 +19,10 @@ struct coupling_keys {
     const char *name;
     const struct node *between, *through, *radii, *body, *on, *center, *wound, *around;
     const struct node *x, *y, *from, *to; /* slot */
+    const struct node *force;             /* actuator */
     double stiffness, free_length, coefficient, length, radius, tension, along;
     bool inside, crossed, closed;
-    struct value mu_s, mu_k, restitution, reel;
+    struct value mu_s, mu_k, restitution, reel, moment;
     int law, side; /* enum impact_law, enum contact_side */
 };
 

@@ -38,6 +38,27 @@ static const struct field damper_fields[] = {
 static const struct group damper_group =
     COUPLING_GROUP("a damper", damper_fields, "a linear damper between two points");
 
+static const struct field actuator_fields[] = {
+    FIELD_ENTRIES(COUPLING(between), "between", field_list, required, each_word, NULL,
+                  "of a moment two bodies, the second one also `ground`; of a force two points as for a spring"),
+    FIELD_VALUE(COUPLING(moment), "moment", a_moment, stored,
+                "on the first body, counter-clockwise; its opposite acts on the second"),
+    FIELD_NODE(COUPLING(force), "force", field_scalar, 0, NULL,
+               "on the line of both points: above zero it pulls them together, below zero it pushes them "
+               "apart; it may name their `distance`"),
+    FIELD_NUMBER(COUPLING(along), "along", an_angle, 0,
+                 "of a force at the first point: its direction in the frame of the second body, in place of "
+                 "the line of the points"),
+};
+static const struct group actuator_group = COUPLING_GROUP(
+    "an actuator", actuator_fields, "a motor or cylinder: a given moment or force between two bodies");
+
+static const struct law actuator_law = {.effect = "actuator",
+                                        .written_as_c = true,
+                                        .drawing = "applied",
+                                        .work = "counted as work: a given force between two bodies",
+                                        .between = "on one of two bodies, its opposite on the other"};
+
 static const struct field pin_fields[] = {BETWEEN_ROW};
 static const struct group pin_group = COUPLING_GROUP("a pin", pin_fields, "holds two points together");
 
@@ -171,6 +192,7 @@ const struct group contact_group = {"a contact", NULL, FIELDS(contact_fields),
 static const struct kind kinds[] = {
     {"spring", load_spring, &spring_group, ~0u, NULL, NULL},
     {"damper", load_damper, &damper_group, ~0u, NULL, NULL},
+    {"actuator", load_actuator, &actuator_group, ~0u, NULL, &actuator_law},
     {"pin", coupling_constraint + constraint_pin, &pin_group, ~0u, NULL, NULL},
     {"rod", coupling_constraint + constraint_rod, &rod_group, ~0u, NULL, NULL},
     {"rope", coupling_constraint + constraint_rope, &rope_group, ~0u, NULL, NULL},
