@@ -118,8 +118,8 @@ static struct motion_of_point guided_end(const struct fbd_model *model, const st
     const struct vec p = point_motion(body, &pose, load->point).p;
     if (load->partner < 0) return (struct motion_of_point){p, {0, 0}};
     const struct pose on = body_pose(&model->bodies[load->partner], at);
-    return (struct motion_of_point){
-        p, vec_add(on.velocity, vec_scale(on.omega, vec_perp(vec_sub(p, on.origin))))};
+    return (struct motion_of_point){p, vec_add(on.velocity,
+                                               vec_scale(on.omega, vec_perp(vec_sub(p, on.origin))))};
 }
 
 struct motion_of_point other_end(const struct fbd_model *model, const struct model_load *load,

@@ -173,8 +173,7 @@ void tree_load(const struct tree *tree, const struct instant *at, const struct l
     for (int i = of[list_forces].first; i < range_end(of[list_forces]); i++) force(&tree->forces[i], at);
     for (int i = of[list_moments].first; i < range_end(of[list_moments]); i++)
         moment(&tree->moments[i], formula_value(&tree->moments[i].value, at), x);
-    for (int i = of[list_springs].first; i < range_end(of[list_springs]); i++)
-        spring(&tree->springs[i], at);
+    for (int i = of[list_springs].first; i < range_end(of[list_springs]); i++) spring(&tree->springs[i], at);
     for (int i = of[list_drags].first; i < range_end(of[list_drags]); i++) {
         const struct tree_drag *drag = &tree->drags[i];
         struct arm arm = arm_of(&links[drag->link], drag->point);

@@ -223,7 +223,8 @@ static bool set_named_couplings(struct builder *builder)
         struct load *source = ARENA_ARRAY(&model->arena, 1, struct load);
         if (!source) return false;
         const struct constraint_law *law = &constraint_laws[constraint->kind];
-        bool rubs = law->load_kind == load_normal && constraint->mu_s.expr;
+        bool rubs =
+            law->load_kind == load_normal && (constraint->mu_s.expr || constraint->surface_speed.expr);
         source->kind = rubs ? load_friction : law->load_kind;
         source->name = law->load_name ? arena_printf(&model->arena, "%s%s", constraint->name, law->load_name)
                                       : constraint->name;

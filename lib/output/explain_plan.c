@@ -37,7 +37,8 @@ static void write_terms(struct text *text, const struct fbd_model *model)
     write_list(text, tree->following_count, "constant force or moment that turns with its body");
     write_list(text, tree->force_count, "force of a formula at a point of a body");
     write_list(text, tree->moment_count, "moment of a formula on a body");
-    write_list(text, tree->spring_count, "spring, damper or actuator between two points of bodies or the ground");
+    write_list(text, tree->spring_count,
+               "spring, damper or actuator between two points of bodies or the ground");
     write_list(text, tree->drag_count, "drag at a point of a body");
     write_list(text, (size_t)plan->own, "state with an equation of its own");
     write_list(text, plan->mode_count, "dry friction, as modes stick and slip");

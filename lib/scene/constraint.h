@@ -22,7 +22,7 @@ struct coupling_keys {
     const struct node *force;             /* actuator */
     double stiffness, free_length, coefficient, length, radius, tension, along;
     bool inside, crossed, closed;
-    struct value mu_s, mu_k, restitution, reel, moment;
+    struct value mu_s, mu_k, restitution, reel, moment, surface_speed;
     int law, side; /* enum impact_law, enum contact_side */
 };
 
@@ -89,6 +89,7 @@ struct constraint {
     double along;  /* roll, rack: direction of the line in the frame of end 1 */
     struct value mu_s,
         mu_k; /* roll: expr NULL for rolling without slip; contact: expr NULL for no friction; groove */
+    struct value surface_speed; /* roll, contact: of the skin of end 1, over t alone; expr NULL at rest */
     struct contact_law contact; /* point_absent: the whole body */
 };
 

@@ -26,6 +26,9 @@ bool coupling_circle_set(struct reader *reader, struct constraint *constraint, i
 bool actuator_read(struct reader *reader, const struct chosen *chosen, struct names *names,
                    const struct coupling_keys *keys, struct force_coupling *coupling);
 
+/* The speed of the surface of end 1: a function of t alone, without jumps. */
+bool surface_speed_read(struct reader *reader, const struct value *speed, struct constraint *constraint);
+
 /* Two points; two turning bodies with their circles; and the remaining kinds (read_wheels.c). */
 bool points_read(struct reader *reader, const struct coupling_keys *keys, struct constraint *constraint);
 bool wheels_read(struct reader *reader, const struct coupling_keys *keys, struct constraint *constraint);

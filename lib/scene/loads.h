@@ -115,11 +115,11 @@ enum load_kind {
     moment_damper,
     moment_friction,
     moment_potential,
-    load_drive,   /* not listed: the force of a prescribed motion */
-    load_rope,    /* not listed: a rope under `couplings`, see struct constraint */
-    load_contact, /* not listed: a contact, likewise */
-    load_belt,    /* not listed: a belt, likewise */
-    load_carried, /* not listed: no force, but the energy carried by a varying mass */
+    load_drive,    /* not listed: the force of a prescribed motion */
+    load_rope,     /* not listed: a rope under `couplings`, see struct constraint */
+    load_contact,  /* not listed: a contact, likewise */
+    load_belt,     /* not listed: a belt, likewise */
+    load_carried,  /* not listed: no force, but the energy carried by a varying mass */
     load_actuator, /* not listed: a given force between two bodies, under `couplings` */
 };
 

@@ -104,7 +104,8 @@ static bool read_force(struct reader *reader, const struct chosen *chosen, struc
     struct load *load = &entry.keys.load;
     names->distance_known = !load->guided;
     names->distance_named = false;
-    const bool read = value_formula(reader, keys->force, "force", a_force, stored, &entry.scope, &load->value);
+    const bool read =
+        value_formula(reader, keys->force, "force", a_force, stored, &entry.scope, &load->value);
     names->distance_known = false;
     if (!read) return false;
     load->point = coupling->point[0];
@@ -119,8 +120,7 @@ static bool read_force(struct reader *reader, const struct chosen *chosen, struc
 
 static bool check_keys(struct reader *reader, const struct chosen *chosen, bool moment)
 {
-    if (!fields_exclude(reader, chosen->node, "moment", "force",
-                        "write two actuators where both act") ||
+    if (!fields_exclude(reader, chosen->node, "moment", "force", "write two actuators where both act") ||
         !fields_exclude(reader, chosen->node, "moment", "along", "a moment in the plane has no direction"))
         return false;
     if (moment || node_find(chosen->node, "force")) return true;

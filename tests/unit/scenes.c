@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "notes.h"
 #include "scenes.h"
+#include "notes.h"
 
 #include <setjmp.h>
 #include <stdarg.h>

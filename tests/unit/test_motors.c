@@ -19,9 +19,9 @@
 
 #include "dynamics/forward.h"
 #include "dynamics/modes.h"
-#include "output/equations.h"
 #include "gallery.h"
 #include "model/model.h"
+#include "output/equations.h"
 #include "random_trees.h"
 #include "rest/balance.h"
 #include "scene_fixture.h"
@@ -73,10 +73,11 @@ static bool is_particle(const char *tree, int b)
 /* A couple as two opposite forces a metre apart in the body. */
 static void write_couple(char *out, int k, const char *sign, const char *value)
 {
-    snprintf(out, text_room,
-             "      - applied: {name: p%d, value: \"%s(%s)/1[m]\", angle: 90 deg, frame: body, at: [1, 0]}\n"
-             "      - applied: {name: q%d, value: \"-%s(%s)/1[m]\", angle: 90 deg, frame: body, at: [0, 0]}\n",
-             k, sign, value, k, sign, value);
+    snprintf(
+        out, text_room,
+        "      - applied: {name: p%d, value: \"%s(%s)/1[m]\", angle: 90 deg, frame: body, at: [1, 0]}\n"
+        "      - applied: {name: q%d, value: \"-%s(%s)/1[m]\", angle: 90 deg, frame: body, at: [0, 0]}\n",
+        k, sign, value, k, sign, value);
 }
 
 static void draw_moment(struct random_numbers *numbers, struct motor *motor, int k)
@@ -90,8 +91,8 @@ static void draw_moment(struct random_numbers *numbers, struct motor *motor, int
         snprintf(value, sizeof value,
                  "%.17g[N*m]*cos(%.17g[rad/s]*t) - %.17g[N*m*s]*b%d.angle_dot + %.17g[N*m]*states.z",
                  some(numbers), some(numbers), random_between(numbers, 0, 1), a, some(numbers));
-    snprintf(motor->coupling, text_room,
-             "  - actuator: {name: m%d, between: [b%d, %s], moment: \"%s\"}\n", k, a, other, value);
+    snprintf(motor->coupling, text_room, "  - actuator: {name: m%d, between: [b%d, %s], moment: \"%s\"}\n", k,
+             a, other, value);
     write_couple(motor->force[0], k, "", value);
     if (b >= 0) write_couple(motor->force[1], k, "-", value);
 }
@@ -109,8 +110,8 @@ static void draw_pull(struct random_numbers *numbers, struct motor *motor, int k
     char given[400], written[600];
     snprintf(given, sizeof given, form, stiff, "distance", wave, damp, a);
     snprintf(written, sizeof written, form, stiff, far, wave, damp, a);
-    snprintf(motor->coupling, text_room,
-             "  - actuator: {name: m%d, between: [b%d.P, %s], force: \"%s\"}\n", k, a, other, given);
+    snprintf(motor->coupling, text_room, "  - actuator: {name: m%d, between: [b%d.P, %s], force: \"%s\"}\n",
+             k, a, other, given);
     for (int end = 0; end < 2; end++)
         snprintf(motor->force[end], text_room,
                  "      - applied: {name: p%d, value: [\"%s(%s)*%s/%s\", \"%s(%s)*%s/%s\"], at: %s}\n", k,
@@ -128,8 +129,8 @@ static void draw_guided(struct random_numbers *numbers, struct motor *motor, int
     if (b >= 0) snprintf(other, sizeof other, "b%d.P", b);
     snprintf(angle, sizeof angle, b < 0 ? "%.17g" : "%.17g + b%d.angle", along, b);
     snprintf(motor->coupling, text_room,
-             "  - actuator: {name: m%d, between: [b%d.P, %s], force: \"%s\", along: %.17g rad}\n", k, a, other,
-             value, along);
+             "  - actuator: {name: m%d, between: [b%d.P, %s], force: \"%s\", along: %.17g rad}\n", k, a,
+             other, value, along);
     snprintf(motor->force[0], text_room,
              "      - applied: {name: p%d, value: \"%s\", angle: \"%s\", at: P}\n", k, value, angle);
     snprintf(motor->force[1], text_room,
@@ -316,7 +317,8 @@ static void compare_runs(struct checks *checks, const struct drawn *drawn, const
         snprintf(body, sizeof body, "b%d", drawn->motors[k].body[0]);
         snprintf(load, sizeof load, "m%d", k);
         const double want = works_of(drawn, &listed, k);
-        check_close(checks, "work", fbd_result_work(coupled.result, body, load), want, same * (1 + fabs(want)));
+        check_close(checks, "work", fbd_result_work(coupled.result, body, load), want,
+                    same * (1 + fabs(want)));
     }
     trial_close(&coupled);
     trial_close(&listed);
