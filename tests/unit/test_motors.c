@@ -359,8 +359,38 @@ static void motors_are_two_opposite_loads(void **unused)
     checks_end(&checks);
 }
 
+/* Two weights on one line pull each other until they meet at t = sqrt(2 d m / (2 F)): on the line of the points the
+ * force has no direction there, along a direction they pass each other with v = F t/m. */
+static void points_that_meet_leave_no_direction(void **unused)
+{
+    (void)unused;
+    struct checks checks = {0};
+    static const char *const forces[] = {"force: 0.5 N", "force: -0.5 N, along: 0 deg"};
+    for (int k = 0; k < 2; k++) {
+        char text[500];
+        snprintf(
+            text, sizeof text,
+            "fbd: 1\nbodies:\n  a: {mass: 1, motion: slide, initial: {x: 1}}\n  b: {mass: 1, motion: slide}\n"
+            "couplings:\n  - actuator: {name: ram, between: [a, b], %s}\nsimulate: {until: 2}\n",
+            forces[k]);
+        struct trial trial = trial_parse(text);
+        trial_run(&trial, NULL);
+        check_that(&checks, "its end", trial.outcome == (k == 0 ? FBD_FAILED : FBD_DONE));
+        const double t = k == 0 ? sqrt(2) : 2;
+        check_close(&checks, "a.v", trial_get(&trial, "a.v"), -0.5 * t, 1e-7);
+        check_close(&checks, "b.x", trial_get(&trial, "b.x"), 0.25 * t * t, 1e-7);
+        /* the power is F times the rate at which they approach, on both bodies together */
+        check_close(&checks, "work", fbd_result_work(trial.result, "a", "ram"), 0.25 * t * t, 1e-7);
+        trial_close(&trial);
+    }
+    checks_end(&checks);
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(motors_are_two_opposite_loads)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(motors_are_two_opposite_loads),
+        cmocka_unit_test(points_that_meet_leave_no_direction),
+    };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
