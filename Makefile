@@ -94,8 +94,8 @@ compare: $(BUILD)/.tests
 # Tests whose scenes, values or texts are drawn, with DRAWS times as many as in every change; some two minutes.
 DRAWS = 5
 GENERATORS = actuators cams carried_slides cases contact_tolerances corners dead_centres decks drawn_answers driven emit_drawn hints \
-	hoists hand_impacts hand_run impulses level_floors linearize_couplings lines long_pendulum nasty nonunique notation_drawn not_finite pairs piles place_works plane printed_lines pulled_row \
-	reactions redundant_pins residual rolls scales sheets shelf sliding slots stick_slips stiff_motions sweep switch_holds symbolic_lines \
+	hoists hand_impacts hand_run impulses level_floors linearize_couplings lines long_pendulum motors nasty nonunique notation_drawn not_finite pairs piles place_works plane printed_lines pulled_row \
+	reactions redundant_pins residual rolls scales sheets shelf sliding slots stick_slips stiff_motions surface_speed sweep switch_holds symbolic_lines \
 	wheels works written_systems
 generators: $(BUILD)/.tests
 	ninja -C $(BUILD)

@@ -382,7 +382,7 @@ enum { FBD_CONNECTION_ENDS = 8 };
 /* A coupling or contact, or a spring or damper between two bodies. Texts live as long as the model, and are NULL past the
  * last one. */
 typedef struct fbd_connection {
-    const char *kind; /* as of fbd_coupling, or "spring", "damper" */
+    const char *kind; /* as of fbd_coupling, or "spring", "damper", "actuator" */
     const char *name;
     int line, column;
     bool friction;                              /* slot, rope: with friction */

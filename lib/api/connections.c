@@ -38,10 +38,16 @@ static fbd_connection of_constraint(const struct constraint *constraint)
     return connection;
 }
 
+static const char *kind_of(const struct load *load)
+{
+    if (load->kind == load_spring) return "spring";
+    return load->kind == load_damper ? "damper" : "actuator";
+}
+
 static fbd_connection of_force(const struct force_coupling *coupling)
 {
     const struct load *load = &coupling->load;
-    return (fbd_connection){.kind = load->kind == load_damper ? "damper" : "spring",
+    return (fbd_connection){.kind = kind_of(load),
                             .name = load->name,
                             .line = load->at.line,
                             .column = load->at.column,

@@ -98,7 +98,7 @@ static void gear(const struct view *view, const struct coupling *coupling, const
 
 static struct at_line at_line_of(const struct coupling *coupling, const struct coupling_state *state)
 {
-    return (struct at_line){0, coupling->end[0], coupling->end[1], coupling->e, state->side[0]};
+    return (struct at_line){0, coupling->end[0], coupling->end[1], coupling->e, state->side[0], 1};
 }
 
 static void roll(const struct view *view, const struct coupling *coupling, const struct coupling_state *state,
@@ -272,10 +272,11 @@ bool couplings_go_on(const struct tree *tree)
 
 /* ---- rolling and sliding bodies */
 
-void coupling_set_feature(const struct fbd_model *model, struct tree_work *work, int index, int feature)
+void coupling_set_feature(const struct fbd_model *model, const struct instant *at, int index, int feature)
 {
     const struct coupling *coupling = &model->tree->couplings[index];
-    struct view view = view_of(model, work);
+    struct tree_work *work = at->tree;
+    const struct view view = {model, model->tree, work, false, at, NULL};
     work->couplings[index].feature = feature;
     work->couplings[index].zero = 0;
     contact_rows(&view, coupling, &work->couplings[index], &work->rows[coupling->first_row]);
@@ -340,6 +341,7 @@ double coupling_slip_rounding(const struct fbd_model *model, const struct instan
         /* For a body at rest the only scale of speed is that of falling over. */
         if (touches) size = fmax(size, sqrt(vec_norm(model->scene->gravity) * arm));
     }
+    size = fmax(size, fabs(row_along(model, at->tree, coupling)->surface));
     /* A body was brought to rest by a projection, with all moving ones; a contact by its impulses. */
     double moves = touches ? 0 : fastest(model->tree, at->tree, reach);
     return 64 * DBL_EPSILON * (size + remoteness(model, at, coupling, size)) + 4 * DBL_EPSILON * moves;
@@ -352,15 +354,16 @@ double coupling_slip_velocity(const struct fbd_model *model, const struct instan
 }
 
 struct slip_rate coupling_slip(const struct fbd_model *model, const struct instant *at, int index,
-                               bool varied)
+                               const struct direction *along)
 {
+    const bool varied = along != NULL;
     const struct coupling *coupling = &model->tree->couplings[index];
     const struct coupling_state *state = &at->tree->couplings[index];
-    struct view view = {model, model->tree, at->tree, varied, NULL, NULL};
+    struct view view = {model, model->tree, at->tree, varied, at, along};
     struct at_line where = at_line_of(coupling, state);
-    struct row along;
-    row_line(&view, coupling, &where, state->zero, NULL, &along);
-    return (struct slip_rate){along.g.x1, along.g.d1};
+    struct row tangent;
+    row_line(&view, coupling, &where, state->zero, NULL, &tangent);
+    return (struct slip_rate){tangent.g.x1, tangent.g.d1};
 }
 
 double coupling_slip_acceleration(const struct fbd_model *model, const struct instant *at, int coupling)

@@ -21,6 +21,8 @@
  *   contact, at a side: as roll, with the side's outward normal; of two circles:
  *          g = |C_1 - C_2| - R_1 - R_2, and R_1 (phi - theta_1) + R_2 (phi - theta_2) along them, phi the
  *          angle of the line of centres
+ *   A surface that moves with the speed s(t) along the tangent: g' has -s, and g is 0; sticking is a constraint of
+ *          velocities.
  *   rack   g = e . (C - P) + s R (theta_C - theta_P), n = s k x e pointing to the side of the circle
  *
  * The rates are J v, the forces J^T: the ports of a row have the power lambda g'.
@@ -44,7 +46,8 @@ bool port_turns(const struct port *port);
 
 struct row {
     struct jet g;
-    double lambda; /* the multiplier, when solved */
+    double lambda;  /* the multiplier, when solved */
+    double surface; /* the speed of a moving surface that is subtracted in the rate of its tangential row */
     int port_count;
     bool redundant; /* linearly dependent on the rows before it */
     bool weak;      /* possibly dependent */
@@ -91,7 +94,7 @@ void slots_follow(const struct fbd_model *model, struct tree_work *work);
 
 /* Set coupling `index`, of a contact, to a feature of its contact pair (or to none), at the positions of the
  * links. */
-void coupling_set_feature(const struct fbd_model *model, struct tree_work *work, int index, int feature);
+void coupling_set_feature(const struct fbd_model *model, const struct instant *at, int index, int feature);
 
 /* The velocity of the contact point of a rolling or sliding body along its line, and its acceleration; after
  * accelerations() at the instant. A velocity within rounding of zero is zero. */
@@ -103,9 +106,9 @@ struct slip_rate {
     double value, variation;
 };
 
-/* The velocity from positions and velocities of the links; `varied`: and its variation with them. */
+/* The velocity from positions and velocities of the links, and its variation along a direction, or NULL. */
 struct slip_rate coupling_slip(const struct fbd_model *model, const struct instant *at, int index,
-                               bool varied);
+                               const struct direction *along);
 
 double coupling_slip_acceleration(const struct fbd_model *model, const struct instant *at, int coupling);
 

@@ -4,6 +4,25 @@
  */
 #include "dynamics/constraint_view.h"
 
+/* The surface is that of end 1, and runs counter-clockwise round it: with n the normal from end 1 to end 0 its velocity
+ * is s k x n. The tangent of circles is k x u with u from the base to the circle; whichever of both is end 1, the rate
+ * of g has -s. At a line the tangent e has n = +-side k x e with + for a base that is end 1, and again the rate is that
+ * of the circle relative to the base, so that it has +side s in both cases. A line of the ground has its direction. */
+void row_move(const struct view *view, const struct coupling *coupling, double sign, struct row *along)
+{
+    if (!coupling->moves || sign == 0) return;
+    double rate = 0, second = 0, same, dt = view->along ? view->along->dt : 0;
+    double speed = coupling->surface_speed.constant;
+    const struct expr *expr = coupling->surface_speed.expr;
+    along->g.x = 0;
+    if (expr && view->at)
+        speed = expr_eval_second(expr, view->at->t, view->at->y, 0, 0,
+                                 formula_branches(&coupling->surface_speed, view->at), &rate, &same, &second);
+    along->surface = sign * speed;
+    along->g =
+        jet_sub(along->g, jet_scale(sign, (struct jet){0, speed, rate, speed * dt, rate * dt, second * dt}));
+}
+
 void row_line(const struct view *view, const struct coupling *coupling, const struct at_line *at, double zero,
               struct row *normal, struct row *along)
 {
@@ -15,6 +34,7 @@ void row_line(const struct view *view, const struct coupling *coupling, const st
     struct jet turned = jet_sub(angle_of(view, at->circle.link), angle_of(view, at->base.link));
     struct jet g = jet_add(jet_dot(e, d), jet_scale(s * R, turned));
     start_row(along, jet_sub(g, jet_constant(zero)));
+    row_move(view, coupling, at->moves, along);
     add_port(view, along, coupling, at->k, Q, e);
     add_port(view, along, coupling, 1 - at->k, Q, negative(e));
     if (!normal) return;
@@ -39,6 +59,7 @@ static void circles(const struct view *view, const struct coupling *coupling, co
     struct jet g = jet_add(jet_scale(R1, jet_sub(phi, angle_of(view, at->circle.link))),
                            jet_scale(R2, jet_sub(phi, angle_of(view, at->base.link))));
     start_row(along, nearest(jet_sub(g, jet_constant(zero)), turn * (R1 + R2)));
+    row_move(view, coupling, 1, along);
     add_port(view, along, coupling, at->k, Q, t);
     add_port(view, along, coupling, 1 - at->k, Q, negative(t));
 }
@@ -51,13 +72,15 @@ static struct at_line at_feature(const struct view *view, const struct coupling 
     const struct meeting *meeting = &tree->meetings[coupling->meeting];
     struct touch touch = meeting_touch(meeting, state->feature);
     int k = touch.moving;
+    const double side = touch.side != 0 ? touch.side : state->side[0];
     *are_circles = touch.circles;
     return (struct at_line){
         .k = k,
         .circle = {.link = meeting->shape[k].link, .point = touch.point, .radius = touch.radius},
         .base = {.link = meeting->shape[1 - k].link, .point = touch.base, .radius = touch.base_radius},
         .e = touch.e,
-        .side = touch.side != 0 ? touch.side : state->side[0]};
+        .side = side,
+        .moves = coupling->source->contact.line ? 1 : -side};
 }
 
 /* A unit moment on a link, as two forces of a couple. */

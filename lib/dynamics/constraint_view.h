@@ -92,6 +92,7 @@ static inline struct jet_vec negative(struct jet_vec a)
 static inline void start_row(struct row *row, struct jet g)
 {
     row->g = g;
+    row->surface = 0;
     row->port_count = 0;
 }
 
@@ -108,7 +109,11 @@ struct at_line {
     struct coupling_end circle, base;
     struct vec e; /* direction of the line, in the frame of its link */
     double side;  /* the normal is side k x e */
+    double moves; /* direction of the moving surface along e, 0 for none */
 };
+
+/* Subtract the speed of the surface, in direction `sign`, from the tangential row. */
+void row_move(const struct view *view, const struct coupling *coupling, double sign, struct row *along);
 
 /* The row along the line, and with `normal` also the row normal to it. */
 void row_line(const struct view *view, const struct coupling *coupling, const struct at_line *at, double zero,

@@ -75,9 +75,10 @@ static void start_meeting(struct fbd_state *state, int index)
     else
         choose_side(model, state->tree, index);
     int features[2], count = meeting_touching(model, state->tree, index, near, features);
+    const struct instant at = state_instant(state);
     for (int k = 0; k < count; k++) {
         if (!rests(model, state->tree, index, features[k])) continue;
-        coupling_set_feature(model, state->tree, meeting->first_coupling + k, features[k]);
+        coupling_set_feature(model, &at, meeting->first_coupling + k, features[k]);
         state->slip[tree->couplings[meeting->first_coupling + k].surface] = stick;
     }
 }
@@ -109,9 +110,10 @@ static void close_for_lifting(struct fbd_state *state, int index)
     const struct meeting *meeting = &model->tree->meetings[index];
     double near = meeting_near(model, state->tree, index);
     int features[2], count = meeting_touching(model, state->tree, index, start_share * near, features);
+    const struct instant at = state_instant(state);
     for (int k = 0; k < meeting->coupling_count; k++) {
         if (k >= count || feature_gap(model, state->tree, index, features[k]).x > near) continue;
-        coupling_set_feature(model, state->tree, meeting->first_coupling + k, features[k]);
+        coupling_set_feature(model, &at, meeting->first_coupling + k, features[k]);
         state->slip[model->tree->couplings[meeting->first_coupling + k].surface] = stick;
     }
 }

@@ -82,6 +82,17 @@ static void act_in_joint(const struct model_body *body, const struct tree_state 
     if (body->joint->path == path_curve) arrow->point = link->p;
 }
 
+static struct vec actuator_force(const struct fbd_model *model, const struct model_load *load,
+                                 struct vec point, const struct instant *at)
+{
+    const double value = formula_value(&load->value, at);
+    if (!load->source->guided) return pull_force(value, vec_sub(point, other_end(model, load, at).p));
+    const struct vec ground = {1, 0};
+    const struct vec turn =
+        load->partner < 0 ? ground : body_pose(&model->bodies[load->partner], at).rotation;
+    return guided_force(value, turn, vec_unit(load->source->along));
+}
+
 static void spring_arrow(const struct fbd_model *model, const struct model_load *load,
                          struct motion_of_point point, const struct instant *at, struct arrow *arrow)
 {
@@ -146,6 +157,7 @@ static void pose_arrow(const struct fbd_model *model, int index, const struct po
     case load_applied: arrow->force = applied_force(load, pose, at); break;
     case load_spring:
     case load_damper: spring_arrow(model, load, point, at, arrow); break;
+    case load_actuator: arrow->force = actuator_force(model, load, point.p, at); break;
     case load_drag: arrow->force = drag_of_load(load, point.v, at); break;
     case load_potential:
     case moment_potential: potential_arrow(body, load, at, arrow); break;
@@ -241,6 +253,7 @@ bool load_is_of_motion(const struct fbd_model *model, int index)
     case load_applied:
     case load_spring:
     case load_damper:
+    case load_actuator:
     case load_drag:
     case load_potential:
     case moment_potential:

@@ -63,7 +63,7 @@ struct balance {
 struct balance balance_of(const struct model_body *body, const struct instant *at, const struct arrow *arrows,
                           size_t count);
 
-/* Position and velocity of the other end of a spring or damper. */
+/* Position and velocity of the other end of a spring, damper or actuator, where the opposite of its force acts. */
 struct motion_of_point other_end(const struct fbd_model *model, const struct model_load *load,
                                  const struct instant *at);
 

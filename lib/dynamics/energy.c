@@ -109,9 +109,23 @@ static double by_quadrature(const struct fbd_model *model, const struct model_lo
 
 /* ---- V of a load */
 
+/* The place of the force of a guided actuator, as a point of the body at its other end. */
+static struct motion_of_point guided_end(const struct fbd_model *model, const struct model_load *load,
+                                         const struct instant *at)
+{
+    const struct model_body *body = &model->bodies[load->body];
+    const struct pose pose = body_pose(body, at);
+    const struct vec p = point_motion(body, &pose, load->point).p;
+    if (load->partner < 0) return (struct motion_of_point){p, {0, 0}};
+    const struct pose on = body_pose(&model->bodies[load->partner], at);
+    return (struct motion_of_point){p, vec_add(on.velocity,
+                                               vec_scale(on.omega, vec_perp(vec_sub(p, on.origin))))};
+}
+
 struct motion_of_point other_end(const struct fbd_model *model, const struct model_load *load,
                                  const struct instant *at)
 {
+    if (load->source->guided) return guided_end(model, load, at);
     if (load->partner < 0) return (struct motion_of_point){load->anchor, {0, 0}};
     const struct model_body *partner = &model->bodies[load->partner];
     struct pose pose = body_pose(partner, at);

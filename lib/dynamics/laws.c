@@ -16,6 +16,14 @@ struct vec link_variation(const struct link_law *law, struct motion_of_point at,
     return vec_sub(vec_scale(-d_tension, u), vec_scale(tension, d_u));
 }
 
+struct vec pull_variation(double F, double dF, struct vec d, struct vec dd)
+{
+    const double length = vec_norm(d);
+    const struct vec u = vec_scale(1 / length, d);
+    const struct vec du = vec_scale(1 / length, vec_sub(dd, vec_scale(vec_dot(u, dd), u)));
+    return vec_sub(vec_scale(-dF, u), vec_scale(F, du));
+}
+
 struct vec drag_variation(const struct drag_law *law, struct vec v, struct vec dv)
 {
     double speed = vec_norm(v);

@@ -31,6 +31,21 @@ static inline struct vec link_force(const struct link_law *law, struct motion_of
 
 struct vec link_variation(const struct link_law *law, struct motion_of_point at, struct motion_of_point d);
 
+/* Actuator between two points that pulls with F on the line of its points, d from the second to the first: on the first
+ * f = -F d/l. At l = 0 it has no direction; a run ends there (`zero_distance` of struct load). */
+static inline struct vec pull_force(double F, struct vec d)
+{
+    return vec_scale(-F / vec_norm(d), d);
+}
+
+struct vec pull_variation(double F, double dF, struct vec d, struct vec dd);
+
+/* The same in direction e of the other body, whose frame is turned by `turn`: F is along e. */
+static inline struct vec guided_force(double F, struct vec turn, struct vec e)
+{
+    return vec_scale(F, vec_turn(turn, e));
+}
+
 /* Drag against the velocity v of the point: f = -(c + k |v|) v. */
 struct drag_law {
     double linear, quadratic;

@@ -46,8 +46,14 @@ double load_power_rounding(const struct fbd_model *model, size_t index, const st
     const struct load_rounding of = load_rounding(model, index, at);
     const struct model_body *body = &model->bodies[load->body];
     struct pose pose = body_pose(body, at);
-    double speed = vec_norm(point_motion(body, &pose, load->point).v);
-    return vec_norm(of.force) * speed + fabs(of.couple * pose.omega);
+    double speed = vec_norm(point_motion(body, &pose, load->point).v), omega = fabs(pose.omega);
+    if (load->partner >= 0) {
+        const struct model_body *partner = &model->bodies[load->partner];
+        const struct pose other = body_pose(partner, at);
+        speed += vec_norm(point_motion(partner, &other, load->anchor).v);
+        omega += fabs(other.omega);
+    }
+    return vec_norm(of.force) * speed + fabs(of.couple) * omega;
 }
 
 /* The size of couplings: they determine the position of a body relative to that, not to the origin. */

@@ -25,8 +25,10 @@ void modes_drive(struct fbd_state *state)
         state->y[plan->n + mode->coordinate] = friction_surface_speed(mode, &at, &acceleration);
     }
     const struct tree *tree = state->model->tree;
-    for (int i = 0; i < tree->coupling_count; i++)
+    for (int i = 0; i < tree->coupling_count; i++) {
         if (tree->couplings[i].reels) resolve_drive(state, &tree->couplings[i].reel);
+        if (tree->couplings[i].surface_speed.expr) resolve_drive(state, &tree->couplings[i].surface_speed);
+    }
 }
 
 /* Set a number; returns whether it changes. */

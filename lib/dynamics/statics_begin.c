@@ -12,9 +12,14 @@
 #include "dynamics/tree_system.h"
 
 /* -1 or +1 for a surface that moves under the body, 0 if it is at rest as well. */
-static enum slip slip_at_rest(const struct mode *mode, const struct instant *at)
+static enum slip slip_at_rest(const struct fbd_model *model, const struct mode *mode,
+                              const struct instant *at)
 {
     if (friction_is_never(mode)) return slip_plus;
+    if (mode->kind == mode_tangent) {
+        const double surface = at->tree->rows[model->tree->couplings[mode->coupling].first_row + 1].surface;
+        return surface > 0 ? slip_minus : surface < 0 ? slip_plus : stick;
+    }
     if (mode->coupling >= 0 || mode->kind == mode_drive) return stick;
     double acceleration, speed = friction_surface_speed(mode, at, &acceleration);
     return speed > 0 ? slip_minus : speed < 0 ? slip_plus : stick;
@@ -54,8 +59,8 @@ bool rest_begin(struct fbd_state *state)
     struct instant at = state_instant(state);
     for (int pair = 0; pair < (int)model->plan.mode_count; pair++) {
         const struct mode *mode = &model->plan.modes[pair];
-        state->slip[pair] =
-            mode_is_one_sided(mode) ? (int)one_sided_at_rest(state, pair) : (int)slip_at_rest(mode, &at);
+        state->slip[pair] = mode_is_one_sided(mode) ? (int)one_sided_at_rest(state, pair)
+                                                    : (int)slip_at_rest(model, mode, &at);
     }
     for (int i = 0; i < model->tree->count; i++) {
         state->tree->links[i].locked = false;

@@ -51,14 +51,59 @@ static struct link_law law_of(const struct tree_spring *spring)
     return (struct link_law){{0, 0}, spring->stiffness, spring->free_length, spring->damping};
 }
 
-static void spring(const struct tree_spring *spring, const struct tree_state *links, struct tree_rhs *x)
+/* The end where the opposite of a force acts: that of a guided one is at the same place as the force. */
+static struct arm second_arm(const struct tree_spring *spring, const struct tree_state *links,
+                             const struct arm *first)
 {
+    const struct tree_state *s = &links[spring->link[1]];
+    if (!spring->guided) return arm_of(s, spring->point[1]);
+    const struct vec r = vec_sub(first->at.p, s->p);
+    return (struct arm){r, {first->at.p, vec_add(s->v, vec_scale(s->omega, vec_perp(r)))}};
+}
+
+static void spring(const struct tree_spring *spring, const struct instant *at)
+{
+    const struct tree_state *links = at->tree->links;
+    struct tree_rhs *x = at->tree->x;
     struct arm first = arm_of(&links[spring->link[0]], spring->point[0]);
-    struct arm second = arm_of(&links[spring->link[1]], spring->point[1]);
+    struct arm second = second_arm(spring, links, &first);
     struct link_law law = law_of(spring);
-    struct vec f = link_force(&law, between(&first.at, &second.at));
+    struct motion_of_point reach = between(&first.at, &second.at);
+    struct vec f = !spring->actuated ? link_force(&law, reach)
+                   : spring->guided  ? guided_force(formula_value(&spring->pull, at),
+                                                    links[spring->link[1]].turn, spring->along)
+                                     : pull_force(formula_value(&spring->pull, at), reach.p);
     apply(&x[spring->link[0]], first.r, f);
     apply(&x[spring->link[1]], second.r, vec_scale(-1, f));
+}
+
+/* The variation of the force of an actuator, and of the arm of its opposite where it is guided: the place moves with
+ * the first point, not with the second body. */
+static void actuator_along(const struct tree_spring *spring, const struct instant *at,
+                           const struct direction *along)
+{
+    const struct tree_work *work = at->tree;
+    const struct tree_state *s = &work->links[spring->link[0]], *t = &work->links[spring->link[1]];
+    const struct tree_variation *dt = &work->variation[spring->link[1]];
+    const struct arm first = arm_of(s, spring->point[0]);
+    const struct arm d_first = arm_along(s, &work->variation[spring->link[0]], &first);
+    const struct arm second = second_arm(spring, work->links, &first);
+    struct arm d_second = arm_along(t, dt, &second);
+    double d_value;
+    const double value = formula_along(&spring->pull, at, along, &d_value);
+    struct vec f, df;
+    if (spring->guided) {
+        const struct vec e = vec_turn(t->turn, spring->along);
+        f = vec_scale(value, e);
+        df = vec_add(vec_scale(d_value, e), vec_scale(dt->angle, vec_perp(f)));
+        d_second.r = vec_sub(d_first.at.p, dt->p);
+    } else {
+        const struct vec reach = vec_sub(first.at.p, second.at.p);
+        f = pull_force(value, reach);
+        df = pull_variation(value, d_value, reach, vec_sub(d_first.at.p, d_second.at.p));
+    }
+    apply_along(&work->x[spring->link[0]], &first, &d_first, f, df);
+    apply_along(&work->x[spring->link[1]], &second, &d_second, vec_scale(-1, f), vec_scale(-1, df));
 }
 
 static void spring_along(const struct tree_spring *spring, const struct tree_work *work)
@@ -106,6 +151,12 @@ static void force_along(const struct tree_force *force, const struct instant *at
     apply_along(&at->tree->x[force->link], &arm, &d, f, df);
 }
 
+static void moment(const struct tree_moment *moment, double value, struct tree_rhs *x)
+{
+    x[moment->link].p.moment -= value;
+    if (moment->partner > 0) x[moment->partner].p.moment += value;
+}
+
 /* ---- all loads */
 
 void tree_load(const struct tree *tree, const struct instant *at, const struct link_loads *loads)
@@ -121,9 +172,8 @@ void tree_load(const struct tree *tree, const struct instant *at, const struct l
     }
     for (int i = of[list_forces].first; i < range_end(of[list_forces]); i++) force(&tree->forces[i], at);
     for (int i = of[list_moments].first; i < range_end(of[list_moments]); i++)
-        x[tree->moments[i].link].p.moment -= formula_value(&tree->moments[i].value, at);
-    for (int i = of[list_springs].first; i < range_end(of[list_springs]); i++)
-        spring(&tree->springs[i], links, x);
+        moment(&tree->moments[i], formula_value(&tree->moments[i].value, at), x);
+    for (int i = of[list_springs].first; i < range_end(of[list_springs]); i++) spring(&tree->springs[i], at);
     for (int i = of[list_drags].first; i < range_end(of[list_drags]); i++) {
         const struct tree_drag *drag = &tree->drags[i];
         struct arm arm = arm_of(&links[drag->link], drag->point);
@@ -149,10 +199,13 @@ void tree_load_along(const struct tree *tree, const struct instant *at, const st
     for (int i = of[list_moments].first; i < range_end(of[list_moments]); i++) {
         double variation_of_moment;
         formula_along(&tree->moments[i].value, at, along, &variation_of_moment);
-        x[tree->moments[i].link].p.moment -= variation_of_moment;
+        moment(&tree->moments[i], variation_of_moment, x);
     }
     for (int i = of[list_springs].first; i < range_end(of[list_springs]); i++)
-        spring_along(&tree->springs[i], at->tree);
+        if (tree->springs[i].actuated)
+            actuator_along(&tree->springs[i], at, along);
+        else
+            spring_along(&tree->springs[i], at->tree);
     for (int i = of[list_drags].first; i < range_end(of[list_drags]); i++) {
         const struct tree_drag *drag = &tree->drags[i];
         struct arm arm = arm_of(&links[drag->link], drag->point);

@@ -168,7 +168,10 @@ void tree_loop_forces(const struct tree_loop *loop, const struct instant *at, co
     for (size_t i = 0; i < tree->moment_count; i++) {
         const struct tree_moment *moment = &tree->moments[i];
         const struct tree_loop_link *own = loop->of[moment->link];
-        if (own->turns) f[own - l] += own->unit * formula_value(&moment->value, at);
+        const struct tree_loop_link *partner = moment->partner > 0 ? loop->of[moment->partner] : NULL;
+        const double value = formula_value(&moment->value, at);
+        if (own->turns) f[own - l] += own->unit * value;
+        if (partner && partner->turns) f[partner - l] -= partner->unit * value;
     }
     for (size_t i = 0; i < tree->force_count; i++) {
         const struct tree_force *force = &tree->forces[i];

@@ -40,7 +40,7 @@ static double choose(enum absolute_kind kind, struct motion_of_point at, double 
 static double relative_speed(const struct fbd_model *model, int pair, const struct instant *at)
 {
     const struct mode *mode = &model->plan.modes[pair];
-    if (mode->coupling >= 0) return at->slip[pair] * coupling_slip(model, at, mode->coupling, false).value;
+    if (mode->coupling >= 0) return at->slip[pair] * coupling_slip(model, at, mode->coupling, NULL).value;
     double v = at->y[model->plan.n + mode->coordinate];
     return at->slip[pair] * (v - formula_value(&mode->surface_speed, at));
 }
@@ -60,7 +60,7 @@ static double slip_along(const struct fbd_model *model, const struct model_absol
     const struct mode *mode = &model->plan.modes[slip->pair];
     int sign = at->slip[slip->pair];
     if (slip->even && relative_speed(model, slip->pair, at) < 0) sign = -sign;
-    if (mode->coupling >= 0) return sign * coupling_slip(model, at, mode->coupling, true).variation;
+    if (mode->coupling >= 0) return sign * coupling_slip(model, at, mode->coupling, along).variation;
     double d_speed, dv = along->dy[model->plan.n + mode->coordinate];
     formula_along(&mode->surface_speed, at, along, &d_speed);
     return sign * (dv - d_speed);

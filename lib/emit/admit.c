@@ -151,6 +151,8 @@ static void check_loads(const struct fbd_model *model, fbd_errors *errors)
         const struct load *load = model->loads[i].source;
         if (i < model->coupled_count && load_law(load)->of_constraint)
             lacks(errors, load->at, "a load of a kind that is not known here", load->name);
+        if (load->guided)
+            lacks(errors, load->at, "a force between two bodies in a given direction (`along`)", load->name);
     }
 }
 

@@ -8,7 +8,8 @@
 struct emit_origin load_origin(const struct model_load *load, const char *key, struct dim dim)
 {
     const struct load *source = load->source;
-    bool mixed = load_is_placed(source) || load_has_wind(source) || source->toward || source->reaction;
+    bool mixed = load_is_placed(source) || load_has_wind(source) || source->toward || source->reaction ||
+                 source->kind == load_actuator;
     return (struct emit_origin){mixed ? (struct pos){0, 0} : source->at, key, dim, load->body};
 }
 

@@ -94,6 +94,9 @@ const char *emit_link_force(struct emitter *emitter, const struct model_load *lo
         const char *free = load_number(emitter, load, "free_length", source->free_length, DIM_LENGTH);
         return emit_printf(emitter, "spring(%s, %s, %s)", k, free, reach);
     }
+    if (source->kind == load_actuator)
+        return emit_printf(emitter, "vec_scale(-(%s)/vec_norm(%s), %s)",
+                           load_formula(emitter, load, "force", &load->value, DIM_FORCE), reach, reach);
     const char *c = load_number(emitter, load, "coefficient", source->coefficient, DIM_DAMPING);
     return emit_printf(emitter, "damper(%s, %s, %s)", c, reach, velocity);
 }

@@ -102,16 +102,16 @@ static void world_force(struct emitter *emitter, const struct model_load *load, 
                 place_of(emitter, load->body, point), force, emitter->body[load->body], load->source->name);
 }
 
-/* Write a constant force and couple that turn with the link. */
-static void following(struct tree_writer *writer, const struct model_load *load, const char *suffix,
+/* Write a constant force and couple that turn with the link of body b. */
+static void following(struct tree_writer *writer, const struct model_load *load, int b, const char *suffix,
                       const char *point, const char *force, const char *couple)
 {
     struct emitter *emitter = writer->emitter;
     const char *owner = emitter->load[load - emitter->model->loads];
     const char *name = emit_constant(emitter, "struct following", emit_join(emitter, owner, suffix));
-    const char *link = link_name(emitter, emitter->model->bodies[load->body].place.link);
-    text_printf(&emitter->derive, "    c->%s = follow(&c->%s.place, %s, %s, %s);\n", name,
-                emitter->body[load->body], point, force, couple);
+    const char *link = link_name(emitter, emitter->model->bodies[b].place.link);
+    text_printf(&emitter->derive, "    c->%s = follow(&c->%s.place, %s, %s, %s);\n", name, emitter->body[b],
+                point, force, couple);
     text_printf(&writer->following, "    apply_following(&l->%s, &c->%s); /* %s */\n", link, name,
                 load->source->name);
 }
@@ -135,12 +135,18 @@ static void varying(struct tree_writer *writer, const struct model_load *load, c
 static void moment(struct tree_writer *writer, const struct model_load *load, const struct formula *formula,
                    const char *value)
 {
-    const char *link = link_name(writer->emitter, writer->emitter->model->bodies[load->body].place.link);
-    if (formula_is_constant(formula))
-        following(writer, load, "couple", "((struct vec){0, 0})", "((struct vec){0, 0})", value);
-    else
-        text_printf(&writer->moments, "    l->%s.p_own.moment -= %s; /* %s */\n", link, value,
-                    load->source->name);
+    static const char *const suffixes[] = {"couple", "opposite"}, none[] = "((struct vec){0, 0})";
+    const int bodies[] = {load->body, load->partner};
+    for (int end = 0; end < 2 && bodies[end] >= 0; end++) {
+        const struct model_body *body = &writer->emitter->model->bodies[bodies[end]];
+        if (formula_is_constant(formula))
+            following(writer, load, bodies[end], suffixes[end], none, none,
+                      end == 0 ? value : emit_printf(writer->emitter, "-(%s)", value));
+        else
+            text_printf(&writer->moments, "    l->%s.p_own.moment %s= %s; /* %s */\n",
+                        link_name(writer->emitter, body->place.link), end == 0 ? "-" : "+", value,
+                        load->source->name);
+    }
 }
 
 /* Write a force with a direction given by its angle. */
@@ -153,7 +159,7 @@ static void directed(struct tree_writer *writer, const struct model_load *load, 
     if (!formula_is_constant(formula))
         varying(writer, load, point, frame, value, angle);
     else if (frame)
-        following(writer, load, suffix, point, force, "0");
+        following(writer, load, load->body, suffix, point, force, "0");
     else
         world_force(emitter, load, point, force);
 }
@@ -245,6 +251,7 @@ static void tree_load(struct tree_writer *writer, const struct model_load *load)
     case load_drag: drag(writer, load); break;
     case load_spring:
     case load_damper:
+    case load_actuator:
         if (load->linked) linked(writer, load);
         break;
     case moment_applied:

@@ -26,7 +26,10 @@ static bool has_body(const fbd_model *model, const char *name)
 
 static bool exerts_force(const fbd_connection *connection)
 {
-    return strcmp(connection->kind, "spring") == 0 || strcmp(connection->kind, "damper") == 0;
+    static const char *const kinds[] = {"spring", "damper", "actuator"};
+    for (size_t k = 0; k < sizeof kinds / sizeof *kinds; k++)
+        if (strcmp(connection->kind, kinds[k]) == 0) return true;
+    return false;
 }
 
 static const char *end_name(const fbd_model *model, int body)

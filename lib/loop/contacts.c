@@ -85,7 +85,8 @@ static const struct tree *tree_of(const struct run *run)
 static void set_feature(struct run *run, int coupling, int feature)
 {
     struct fbd_state *state = run->state;
-    coupling_set_feature(run->model, state->tree, coupling, feature);
+    const struct instant at = state_instant(state);
+    coupling_set_feature(run->model, &at, coupling, feature);
     state->slip[tree_of(run)->couplings[coupling].surface] = feature == no_feature ? slip_plus : stick;
 }
 

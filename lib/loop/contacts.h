@@ -43,6 +43,7 @@ struct striker {
     bool rubs;       /* it has a tangential row, in which there may be friction */
     double v_n, v_t; /* before */
     double reel;     /* of a rope: the prescribed rate of its length */
+    double surface;  /* the speed of its surface, relative to which v_t is */
     bool stays;      /* no contact; opened with a speed so small that it stays closed (zeno.c) */
 };
 
@@ -54,10 +55,10 @@ struct striker_twin {
 };
 
 /* The energy that its impulses P take from the bodies, with the speeds v after. */
-static inline double striker_taken(const struct striker *striker, const double v[2], const double P[2])
+static inline double striker_taken(const struct striker *point, const double v[2], const double P[2])
 {
-    double across = P[0] * ((striker->v_n + v[0]) / 2 - striker->reel);
-    return striker->rubs ? across + P[1] * (striker->v_t + v[1]) / 2 : across;
+    double across = P[0] * ((point->v_n + v[0]) / 2 - point->reel);
+    return point->rubs ? across + P[1] * ((point->v_t + v[1]) / 2 + point->surface) : across;
 }
 
 /* A past impact: impulses along normal and tangent, their work, and the velocities of the point before and

@@ -96,6 +96,7 @@ static void set_striker(struct run *run, int i, struct striker *striker)
     const struct row *rows = &run->state->tree->rows[coupling->first_row];
     striker->v_n = normal_rate(run, striker);
     striker->v_t = coupling->row_count > 1 && !rope ? rows[1].g.x1 : 0;
+    striker->surface = coupling->moves ? rows[1].surface : 0;
     run->contacts.speed = fmax(run->contacts.speed, speed_at(run, rows));
 }
 

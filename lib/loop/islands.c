@@ -103,6 +103,7 @@ static void join_all(const struct scene *scene, int *parent, struct islands *div
         const int *body = scene->force_couplings[i].body;
         division->group_of_coupling[i] = body[0] != ground_body ? body[0] : body[1];
         if (body[0] != ground_body && body[1] != ground_body) join(parent, body[0], body[1]);
+        join_load(scene, parent, &scene->force_couplings[i].load, division->group_of_coupling[i]);
     }
     for (size_t i = 0; i < scene->constraint_count; i++)
         division->group_of_constraint[i] = join_constraint(scene, parent, &scene->constraints[i]);

@@ -201,6 +201,7 @@ static enum expr_degree degree_of_load(const struct fbd_model *model, const stru
     case load_drag: return degree_of_drag(model, body, load);
     case moment_spring:
     case moment_damper: return expr_affine;
+    case load_actuator:
     case load_rope:
     case load_belt:
     case load_carried:

@@ -31,7 +31,8 @@ static double acceleration_of(struct run *run, int coupling, int feature)
     struct fbd_state *state = work->trial;
     const struct tree *tree = tree_of(run);
     state_copy(state, run->state);
-    coupling_set_feature(run->model, state->tree, coupling, feature);
+    const struct instant at = state_instant(state);
+    coupling_set_feature(run->model, &at, coupling, feature);
     state->slip[tree->couplings[coupling].surface] = slip_plus;
     for (int i = 0; i < work->struck; i++) {
         const struct striker *striker = &work->strikers[i];

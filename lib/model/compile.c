@@ -178,6 +178,7 @@ static void set_load(struct builder *builder, struct model_load *load, const str
     load->offset_x = builder_formula(builder, &source->offset_x, body, index);
     load->offset_y = builder_formula(builder, &source->offset_y, body, index);
     load->couple = builder_formula(builder, &source->couple, body, index);
+    builder_formula(builder, &source->zero_distance, body, index); /* for its pole */
 }
 
 static void set_loads(struct builder *builder)
@@ -223,7 +224,8 @@ static bool set_named_couplings(struct builder *builder)
         struct load *source = ARENA_ARRAY(&model->arena, 1, struct load);
         if (!source) return false;
         const struct constraint_law *law = &constraint_laws[constraint->kind];
-        bool rubs = law->load_kind == load_normal && constraint->mu_s.expr;
+        bool rubs =
+            law->load_kind == load_normal && (constraint->mu_s.expr || constraint->surface_speed.expr);
         source->kind = rubs ? load_friction : law->load == no_load ? load_rope : law->load_kind;
         source->name = law->load_name ? arena_printf(&model->arena, "%s%s", constraint->name, law->load_name)
                                       : constraint->name;

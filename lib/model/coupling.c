@@ -65,6 +65,8 @@ bool model_has_speeds_given(const struct fbd_model *model)
     if (model_is_driven(model)) return true;
     for (size_t i = 0; i < model->plan.mode_count && model->tree->coupling_count > 0; i++)
         if (model->plan.modes[i].surface_speed.expr) return true;
+    for (int i = 0; i < model->tree->coupling_count; i++)
+        if (model->tree->couplings[i].surface_speed.expr) return true;
     return false;
 }
 

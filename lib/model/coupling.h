@@ -37,13 +37,15 @@ struct coupling {
     bool length_given; /* rod, rope */
     double length;
     int wound[2]; /* rope: enum wound_side at the start and end of the piece, on a disc that it is wound on */
-    double spare[2];     /* and its wound length at the start, or HUGE_VAL */
-    bool reels;          /* rope: its length is a function of time, `length` at t = 0 */
-    struct formula reel; /* that function */
-    int strands;         /* with tension >= 0: 2 of a belt, else 0 */
-    int slack_slot[2];   /* slots of minus their tensions */
-    int normal_slot;     /* roll, one-sided or rough slot: slot of minus its normal force */
-    int load;            /* roll, rope: its entry in the model's loads */
+    double spare[2];              /* and its wound length at the start, or HUGE_VAL */
+    bool reels;                   /* rope: its length is a function of time, `length` at t = 0 */
+    struct formula reel;          /* that function */
+    bool moves;                   /* roll, contact: its surface has a speed of its own, */
+    struct formula surface_speed; /* which is this function of time */
+    int strands;                  /* with tension >= 0: 2 of a belt, else 0 */
+    int slack_slot[2];            /* slots of minus their tensions */
+    int normal_slot;              /* roll, one-sided or rough slot: slot of minus its normal force */
+    int load;                     /* roll, rope: its entry in the model's loads */
     int pair;    /* roll, contact: mode of its dry friction; rope: its mode; index into plan.modes, or -1 */
     int surface; /* roll, contact: the mode of its normal force, closed (`stick`) or open; index into
                         plan.modes, else -1 */

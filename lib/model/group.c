@@ -84,6 +84,9 @@ static void copy_coupling(const struct copy *copy, const struct force_coupling *
     *coupling = *from;
     for (int end = 0; end < 2; end++)
         if (from->body[end] != ground_body) coupling->body[end] = copy->selection->local[from->body[end]];
+    struct value *formulas[most_formulas_of_a_load];
+    load_formulas(&coupling->load, formulas);
+    for (size_t k = 0; k < most_formulas_of_a_load; k++) renumber(copy, &formulas[k]->expr);
 }
 
 static void copy_constraint(const struct copy *copy, const struct constraint *from)

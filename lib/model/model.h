@@ -101,8 +101,8 @@ struct model_load {
     const struct load *source;
     int body;
     struct vec point;  /* where it acts, body frame */
-    struct vec anchor; /* spring, damper: the other end, on the ground or on `partner` */
-    bool linked;       /* spring or damper that has another end */
+    struct vec anchor; /* spring, damper, actuator: the other end, on the ground or on `partner` */
+    bool linked;       /* spring, damper or actuator that has another end */
     int partner;       /* coupling: the body at the other end, where `anchor` is in its frame; else -1 */
     struct formula value, angle, fx, fy, potential;
     struct formula offset_x, offset_y, couple; /* see struct load; zero at `point` itself */

@@ -40,6 +40,9 @@ static void plan_surface(struct builder *builder, struct coupling *coupling)
     plan->contacts[plan->contact_count++] =
         (struct contact){body, coupling->load, coupling->normal_slot, coupling->surface};
     if (coupling->source->mu_s.expr) add_rubbing(builder, coupling);
+    coupling->moves = coupling->source->surface_speed.expr != NULL;
+    coupling->surface_speed =
+        builder_formula(builder, &coupling->source->surface_speed, body, coupling->load);
 }
 
 /* A rope is taut or slack. */

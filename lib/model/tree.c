@@ -214,14 +214,20 @@ static void add_following(struct builder *builder, const struct model_body *body
     tree->following[tree->following_count++] = (struct tree_following){body->place.link, turned, moment};
 }
 
-static void add_moment(struct builder *builder, const struct model_body *body, const struct formula *value)
+/* The opposite acts on `partner`, NULL for none. */
+static void add_moment(struct builder *builder, const struct model_body *body,
+                       const struct model_body *partner, const struct formula *value)
 {
     struct tree *tree = builder->model->tree;
+    const struct vec none = {0, 0};
     if (formula_is_constant(value) && value->constant == 0) return;
-    if (formula_is_constant(value))
-        add_following(builder, body, (struct vec){0, 0}, (struct vec){0, 0}, value->constant);
-    else
-        tree->moments[tree->moment_count++] = (struct tree_moment){body->place.link, *value};
+    if (!formula_is_constant(value)) {
+        tree->moments[tree->moment_count++] =
+            (struct tree_moment){body->place.link, partner ? partner->place.link : 0, *value};
+        return;
+    }
+    add_following(builder, body, none, none, value->constant);
+    if (partner) add_following(builder, partner, none, none, -value->constant);
 }
 
 static void add_varying(struct builder *builder, const struct model_body *body, const struct model_load *load,
@@ -267,7 +273,7 @@ static void add_applied(struct builder *builder, const struct model_body *body, 
     } else {
         add_varying(builder, body, load, frame, &load->value, load->angle);
     }
-    if (load_is_placed(load->source)) add_moment(builder, body, &load->couple);
+    if (load_is_placed(load->source)) add_moment(builder, body, NULL, &load->couple);
 }
 
 /* Add the term of the wind, and the drag as in still air. */
@@ -303,10 +309,15 @@ static void add_spring(struct builder *builder, const struct model_body *body, c
                                    .stiffness = source->stiffness,
                                    .free_length = source->free_length,
                                    .damping = source->coefficient};
+    spring->actuated = source->kind == load_actuator;
+    spring->guided = source->guided;
+    spring->pull = load->value;
+    spring->along = vec_unit(source->along);
     if (load->partner < 0) return;
     const struct placement *partner = &builder->model->bodies[load->partner].place;
     spring->link[1] = partner->link;
     spring->point[1] = placement_point(partner, load->anchor);
+    spring->along = vec_turn(partner->turn, spring->along);
 }
 
 static void add_joint_spring(struct builder *builder, const struct model_body *body,
@@ -344,9 +355,13 @@ void tree_add_load(struct builder *builder, int index)
     case load_gravity: add_gravity(builder, load->body); break;
     case load_applied: add_applied(builder, body, load); break;
     case load_spring:
-    case load_damper: add_spring(builder, body, load); break;
+    case load_damper:
+    case load_actuator: add_spring(builder, body, load); break;
     case load_drag: add_drag(builder, body, load); break;
-    case moment_applied: add_moment(builder, body, &load->value); break;
+    case moment_applied:
+        add_moment(builder, body, load->partner < 0 ? NULL : &builder->model->bodies[load->partner],
+                   &load->value);
+        break;
     case moment_spring:
     case moment_damper: add_joint_spring(builder, body, source); break;
     case load_drive:
@@ -412,8 +427,10 @@ static bool *find_twisted(struct fbd_model *model)
         if (load_is_placed(load->source) ||
             is_off_center(&model->bodies[load->body], at_origin ? (struct vec){0, 0} : load->point))
             twisted[load->body] = true;
-        if (load->partner >= 0 && is_off_center(&model->bodies[load->partner], load->anchor))
+        const bool couple = load->source->kind == moment_applied || load->source->guided;
+        if (load->partner >= 0 && (couple || is_off_center(&model->bodies[load->partner], load->anchor)))
             twisted[load->partner] = true;
+        if (load->linked && load->source->kind == moment_applied) twisted[load->body] = true;
     }
     if (twisted) find_held(model, twisted);
     return twisted;

@@ -76,16 +76,21 @@ struct tree_force {
     struct vec direction; /* for a constant angle: in the world, or in the link when it turns with it */
 };
 
+/* A moment that varies; the opposite acts on `partner`, 0 for none. */
 struct tree_moment {
-    int link;
+    int link, partner;
     struct formula value;
 };
 
-/* A spring and damper between two points; link 0 is the ground. */
+/* A spring, damper and actuator between two points; link 0 is the ground. The actuator pulls with `pull`; where it is
+ * `guided`, it acts at the first point, in direction `along` of the second link. */
 struct tree_spring {
     int link[2];
     struct vec point[2];
     double stiffness, free_length, damping;
+    bool actuated, guided;
+    struct formula pull;
+    struct vec along;
 };
 
 struct tree_drag {

@@ -121,7 +121,7 @@ static void write_springs(struct text *text, const struct fbd_model *model)
     enum { most_named = 8 };
     size_t first = model->listed_count, count = model->coupled_count - first;
     if (count == 0) return;
-    text_add(text, "  spring or damper between bodies (no row)\n      ");
+    text_add(text, "  spring, damper or actuator between bodies (no row)\n      ");
     for (size_t i = 0; i < count && i < most_named; i++)
         text_printf(text, "%s%s", i ? ", " : "", model->loads[first + i].source->name);
     if (count > most_named) text_printf(text, " and %zu more", count - most_named);

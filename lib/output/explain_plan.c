@@ -37,7 +37,8 @@ static void write_terms(struct text *text, const struct fbd_model *model)
     write_list(text, tree->following_count, "constant force or moment that turns with its body");
     write_list(text, tree->force_count, "force of a formula at a point of a body");
     write_list(text, tree->moment_count, "moment of a formula on a body");
-    write_list(text, tree->spring_count, "spring or damper between two points of bodies or the ground");
+    write_list(text, tree->spring_count,
+               "spring, damper or actuator between two points of bodies or the ground");
     write_list(text, tree->drag_count, "drag at a point of a body");
     write_list(text, (size_t)plan->own, "state with an equation of its own");
     write_list(text, plan->mode_count, "dry friction, as modes stick and slip");
@@ -84,6 +85,7 @@ static unsigned load_depends(const struct fbd_model *model, const struct model_b
     case load_applied: return turns && !load->source->body_frame ? on | depends_place : on;
     case load_spring:
     case moment_spring: return load->source->coefficient != 0 ? depends_place | depends_rate : depends_place;
+    case load_actuator: return on | depends_place;
     case load_damper: return load->linked ? depends_place | depends_rate : depends_rate;
     case moment_damper: return depends_rate;
     case load_drag: return turns ? on | depends_place | depends_rate : on | depends_rate;

@@ -52,6 +52,8 @@ static double pull_of(const struct fbd_model *model, int body, const struct arro
                       const struct instant *at)
 {
     const struct model_load *load = load_of(model, arrow);
+    if (load->source->guided) /* along its direction on the first body */
+        return formula_value(&load->value, at);
     struct vec other =
         load->body == body ? other_end(model, load, at).p : load_arrow(model, arrow->load, at, NULL).point;
     struct vec away = vec_sub(other, arrow->point);

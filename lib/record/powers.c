@@ -122,7 +122,8 @@ static bool has_expressions(const struct fbd_model *model)
     for (size_t i = 0; i < model->load_count; i++) has |= is_written(&model->loads[i]);
     for (size_t b = 0; b < model->body_count; b++)
         has |= model->bodies[b].varies || model->bodies[b].drive >= 0;
-    for (int i = 0; i < model->tree->coupling_count; i++) has |= model->tree->couplings[i].reels;
+    for (int i = 0; i < model->tree->coupling_count; i++)
+        has |= model->tree->couplings[i].reels || model->tree->couplings[i].surface_speed.expr;
     for (size_t i = 0; i < model->plan.mode_count; i++) {
         const struct mode *mode = &model->plan.modes[i];
         has |= mode->mu_s.expr || mode->mu_k.expr || mode->surface_speed.expr;

@@ -20,9 +20,10 @@ struct coupling_keys {
     const struct node *between, *through, *radii, *body, *on, *center, *wound, *around;
     const struct node *x, *y, *from, *to; /* slot */
     const struct node *since, *until;     /* conditions at which a constraint begins and ends */
+    const struct node *force;             /* actuator */
     double stiffness, free_length, coefficient, length, radius, tension, along;
     bool inside, crossed, closed;
-    struct value mu_s, mu_k, restitution, reel;
+    struct value mu_s, mu_k, restitution, reel, moment, surface_speed;
     int law, side; /* enum impact_law, enum contact_side */
 };
 
@@ -89,6 +90,7 @@ struct constraint {
     double along;  /* roll, rack: direction of the line in the frame of end 1 */
     struct value mu_s,
         mu_k; /* roll: expr NULL for rolling without slip; contact: expr NULL for no friction; groove */
+    struct value surface_speed; /* roll, contact: of the skin of end 1, over t alone; expr NULL at rest */
     struct contact_law contact; /* point_absent: the whole body */
     const struct node *since,
         *until;        /* the conditions at which it begins and ends, while the file is read; or NULL */

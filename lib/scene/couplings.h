@@ -5,7 +5,9 @@
 #ifndef FBD_SCENE_COUPLINGS_H
 #define FBD_SCENE_COUPLINGS_H
 
+#include "scene/fields.h"
 #include "scene/language.h"
+#include "scene/names.h"
 #include "scene/reader.h"
 
 /* Read all ends; at least one of them moves, and no two subsequent ones are on the same body. */
@@ -19,6 +21,13 @@ bool body_turns(const struct body *body);
 
 /* The circle at end k: its centre, and its radius if that is not given (0). The body turns. */
 bool coupling_circle_set(struct reader *reader, struct constraint *constraint, int k, double radius);
+
+/* A given moment or force between two bodies (read_actuator.c), when its keys other than `force` are read. */
+bool actuator_read(struct reader *reader, const struct chosen *chosen, struct names *names,
+                   const struct coupling_keys *keys, struct force_coupling *coupling);
+
+/* The speed of the surface of end 1: a function of t alone, without jumps. */
+bool surface_speed_read(struct reader *reader, const struct value *speed, struct constraint *constraint);
 
 /* Two points; two turning bodies with their circles; and the remaining kinds (read_wheels.c). */
 bool points_read(struct reader *reader, const struct coupling_keys *keys, struct constraint *constraint);

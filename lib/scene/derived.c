@@ -246,6 +246,22 @@ bool derive_toward(struct entry *entry, bool distance_named)
     return load->target == ground_body || derive_angle(entry, "-", &load->return_angle);
 }
 
+/* ---- between two points */
+
+bool derive_zero_distance(struct entry *entry, bool distance_named)
+{
+    struct load *load = &entry->keys.load;
+    struct derived derived = {.entry = entry};
+    if (distance_named) {
+        add_with_distance(&derived, entry->keys.value);
+        if (!compile(&derived, a_force, &load->value)) return false;
+    }
+    add_constant(&derived, 1, DIM_LENGTH);
+    text_add(&derived.text, "/");
+    add_distance(&derived);
+    return compile(&derived, a_number, &load->zero_distance);
+}
+
 /* ---- force with an offset */
 
 /* A component of the force in the frame of the force: along x (0) or y (1). */

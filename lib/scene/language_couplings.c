@@ -61,6 +61,29 @@ static const struct field damper_fields[] = {
 static const struct group damper_group =
     COUPLING_GROUP("a damper", damper_fields, "a linear damper between two points");
 
+static const struct field actuator_fields[] = {
+    FIELD_ENTRIES(
+        COUPLING(between), "between", field_list, required, each_word, NULL,
+        "of a moment two bodies, the second one also `ground`; of a force two points as for a spring"),
+    FIELD_VALUE(COUPLING(moment), "moment", a_moment, stored,
+                "on the first body, counter-clockwise; its opposite acts on the second"),
+    FIELD_NODE(COUPLING(force), "force", field_scalar, 0, NULL,
+               "on the line of both points: above zero it pulls them together, below zero it pushes them "
+               "apart; it may name their `distance`"),
+    FIELD_NUMBER(COUPLING(along), "along", an_angle, 0,
+                 "of a force at the first point: its direction in the frame of the second body, in place of "
+                 "the line of the points"),
+};
+static const struct group actuator_group =
+    COUPLING_GROUP("an actuator", actuator_fields,
+                   "a motor or cylinder: a given moment or force between two bodies");
+
+static const struct law actuator_law = {.effect = "actuator",
+                                        .written_as_c = true,
+                                        .drawing = "applied",
+                                        .work = "counted as work: a given force between two bodies",
+                                        .between = "on one of two bodies, its opposite on the other"};
+
 static const struct field pin_fields[] = {BETWEEN_ROW};
 static const struct group pin_group = BEGINNING_GROUP("a pin", pin_fields, "holds two points together");
 
@@ -119,6 +142,8 @@ static const struct field roll_fields[] = {
                 "coefficient of static friction"),
     FIELD_VALUE(COUPLING(mu_k), "kinetic", a_number, not_negative | slips | stored,
                 "coefficient of kinetic friction"),
+    FIELD_VALUE(COUPLING(surface_speed), "surface_speed", a_velocity, stored,
+                "of the surface along the line, as of a conveyor belt; an expression of t; default 0"),
 };
 static const struct group roll_group =
     CONSTRAINT_GROUP("`roll`", roll_fields, "a round body on a line; without coefficients it never slips");
@@ -187,6 +212,10 @@ static const struct field contact_fields[] = {
     FIELD_CHOICE(COUPLING(law), "law", laws, "the law of impact, which defines e"),
     FIELD_CHOICE(COUPLING(side), "side", contact_sides,
                  "with a line of the ground: the side of it on which the body stays; default `start`"),
+    FIELD_VALUE(COUPLING(surface_speed), "surface_speed", a_velocity, stored,
+                "of the surface of the partner: of a line along it, of a polygon or body counter-clockwise "
+                "round it; an "
+                "expression of t; default 0"),
     UNTIL_ROW,
 };
 const struct group contact_group = {"a contact", NULL, FIELDS(contact_fields),
@@ -195,6 +224,7 @@ const struct group contact_group = {"a contact", NULL, FIELDS(contact_fields),
 static const struct kind kinds[] = {
     {"spring", load_spring, &spring_group, ~0u, NULL, NULL},
     {"damper", load_damper, &damper_group, ~0u, NULL, NULL},
+    {"actuator", load_actuator, &actuator_group, ~0u, NULL, &actuator_law},
     {"pin", coupling_constraint + constraint_pin, &pin_group, ~0u, NULL, NULL},
     {"rod", coupling_constraint + constraint_rod, &rod_group, ~0u, NULL, NULL},
     {"rope", coupling_constraint + constraint_rope, &rope_group, ~0u, NULL, NULL},

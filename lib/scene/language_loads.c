@@ -289,6 +289,25 @@ static const struct field moment_applied_fields[] = {
 static const struct group moment_applied_group =
     LOAD_GROUP("an applied moment", "value", moment_applied_fields, "a given moment");
 
+/* Warn of a moment on a body that moves on another one, which is rarely meant to come from outside. */
+static bool moment_applied_finish(struct entry *entry)
+{
+    const struct motion *motion = entry->motion;
+    if (!motion || motion->parent == ground_body) return true;
+    struct reader *reader = entry->reader;
+    const char *body = reader->bodies->pairs[entry->body].key,
+               *on = reader->bodies->pairs[motion->parent].key;
+    diag_add(
+        reader->errors, FBD_WARNING, "no-reaction", entry->chosen.at,
+        diag_hint(reader->errors,
+                  "a motor between the two is under `couplings`: `- actuator: {between: [%s, %s], moment: "
+                  "...}`; where it does come from outside, `between: [%s, ground]`",
+                  body, on, body),
+        "this moment acts on `%s` from outside: it has no reaction on `%s`, on which that body moves", body,
+        on);
+    return true;
+}
+
 static const struct field moment_spring_fields[] = {
     FIELD_NUMBER(LOAD(stiffness), "stiffness", a_torsional_stiffness, required | not_negative | stored,
                  "moment per angle"),
@@ -326,7 +345,8 @@ static const struct group moment_potential_group =
 
 static const struct kind moments[] = {
     {"applied", moment_applied, &moment_applied_group, on_turning | on_weld | on_track, NO_TURNING,
-     LAW(.effect = "applied moment", .written_as_c = true, .drawing = "applied")},
+     LAW(.effect = "applied moment", .written_as_c = true, .drawing = "applied",
+         .finish = moment_applied_finish)},
     {"spring", moment_spring, &moment_spring_group, on_turning, NO_TURNING,
      LAW(.effect = "spring (moment)", .written_as_c = true, .drawing = "spring", .letter = "M",
          .place = acts_in_joint, .rate = rate_never, .finish = moment_spring_finish,

@@ -84,6 +84,10 @@ bool derive_scaled(struct entry *entry, double size);
 bool derive_value(struct entry *entry, const char *key, const struct value *value, enum quantity quantity,
                   const char *behind, enum quantity wanted, struct value *result);
 
+/* A length over the distance of the two points of an actuator, whose pole is where it has no direction; also `value` if
+ * it names the distance. */
+bool derive_zero_distance(struct entry *entry, bool distance_named);
+
 /* Of a thrust: its size from the exhaust speed, or its force from the velocity of the mass in the world,
  * along the line of a slide or, where `velocity` is a pair, as components. */
 bool derive_exhaust(struct entry *entry);

@@ -115,11 +115,12 @@ enum load_kind {
     moment_damper,
     moment_friction,
     moment_potential,
-    load_drive,   /* not listed: the force of a prescribed motion */
-    load_rope,    /* not listed: a rope under `couplings`, see struct constraint */
-    load_contact, /* not listed: a contact, likewise */
-    load_belt,    /* not listed: a belt, likewise */
-    load_carried, /* not listed: no force, but the energy carried by a varying mass */
+    load_drive,    /* not listed: the force of a prescribed motion */
+    load_rope,     /* not listed: a rope under `couplings`, see struct constraint */
+    load_contact,  /* not listed: a contact, likewise */
+    load_belt,     /* not listed: a belt, likewise */
+    load_carried,  /* not listed: no force, but the energy carried by a varying mass */
+    load_actuator, /* not listed: a given force between two bodies, under `couplings` */
 };
 
 /* A distributed load along a line: its length, and the distance of the resultant from its start. */
@@ -160,6 +161,12 @@ struct load {
     double free_length; /* spring with an anchor; neutral coordinate without */
     double coefficient; /* damper: N s/m or N m s/rad */
 
+    /* actuator: along the line of its points, where `zero_distance`, a length over their distance, has its pole;
+     * or where `guided`, in a direction of the body at the other end */
+    struct value zero_distance;
+    bool guided;
+    double along;
+
     bool reels; /* rope: its length varies with time, which does work */
 
     double linear, quadratic; /* drag: N s/m, N s^2/m^2 */
@@ -199,13 +206,13 @@ static inline bool load_drags_still_air(const struct load *load)
 }
 
 /* All formulas of a load; each may be absent. */
-enum { most_formulas_of_a_load = 11 };
+enum { most_formulas_of_a_load = 12 };
 
 static inline void load_formulas(struct load *load, struct value *formulas[static most_formulas_of_a_load])
 {
     struct value *all[] = {&load->value,    &load->angle,    &load->fx,        &load->fy,
                            &load->mu_s,     &load->mu_k,     &load->potential, &load->surface_speed,
-                           &load->offset_x, &load->offset_y, &load->couple};
+                           &load->offset_x, &load->offset_y, &load->couple,    &load->zero_distance};
     for (int i = 0; i < most_formulas_of_a_load; i++) formulas[i] = all[i];
 }
 

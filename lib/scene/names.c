@@ -177,7 +177,8 @@ static struct symbol name_now(struct names *names, const char *name, struct pos 
     if (state.kind != symbol_unknown) return state;
     if (strcmp(name, "g") == 0) return reader->definition_readers->gravity(reader, at);
     if (strcmp(name, "slip") == 0) return names->slip ? slip_symbol(names) : misplaced_slip(names, at);
-    if (names->place == place_load && strcmp(name, "distance") == 0) return distance_symbol(names, at);
+    const bool of_force = names->place == place_load || names->distance_known;
+    if (of_force && strcmp(name, "distance") == 0) return distance_symbol(names, at);
     struct symbol other = is_declared(names, name) ? force_symbol(names, name)
                                                    : or_force(names, name, other_symbol(names, name), at);
     if (other.kind == symbol_constant)

@@ -114,6 +114,37 @@ static bool is_none(const struct value *mu)
     return mu->expr && expr_is_constant(mu->expr) && expr_value(mu->expr) == 0;
 }
 
+bool surface_speed_read(struct reader *reader, const struct value *speed, struct constraint *constraint)
+{
+    const int *slots;
+    if (!speed->expr || (expr_is_constant(speed->expr) && expr_value(speed->expr) == 0)) return true;
+    constraint->surface_speed = *speed;
+    if (expr_variables(speed->expr, &slots) > 0) {
+        diag_add(reader->errors, FBD_ERROR, "not-here", speed->at, "write it as an expression of t",
+                 "`surface_speed` cannot depend on a motion here: a belt that a body drives is a body");
+        return false;
+    }
+    for (size_t i = 0; i < expr_switches(speed->expr); i++) {
+        if (!expr_switch_jumps(speed->expr, i)) continue;
+        diag_add(reader->errors, FBD_ERROR, "not-here", speed->at,
+                 "let it grow in a short time, as `v*clamp(t/0.1[s], 0, 1)`",
+                 "`surface_speed` jumps: a body that sticks cannot follow");
+        return false;
+    }
+    return true;
+}
+
+/* A surface without friction moves nothing along. */
+static bool check_surface(struct reader *reader, const struct constraint *constraint)
+{
+    const struct value *speed = &constraint->surface_speed;
+    if (!speed->expr || constraint->mu_s.expr) return true;
+    diag_add(reader->errors, FBD_ERROR, "missing-key", speed->at,
+             "add for example `static: 0.5, kinetic: 0.4`",
+             "`surface_speed` needs friction: without it the surface moves nothing along");
+    return false;
+}
+
 bool contact_read(struct reader *reader, const struct coupling_keys *keys, struct constraint *constraint)
 {
     const struct node *list = keys->between;
@@ -129,6 +160,8 @@ bool contact_read(struct reader *reader, const struct coupling_keys *keys, struc
     constraint->mu_k = keys->mu_k.expr ? keys->mu_k : keys->mu_s;
     if (is_none(&constraint->mu_s) && is_none(&constraint->mu_k))
         constraint->mu_s = constraint->mu_k = (struct value){0};
+    if (!surface_speed_read(reader, &keys->surface_speed, constraint) || !check_surface(reader, constraint))
+        return false;
     if (!check_restitution(reader, &keys->restitution) || !read_sides(reader, list, constraint)) return false;
     if (!read_line_side(reader, list, keys->side, constraint)) return false;
     if (constraint->body[0] == constraint->body[1]) {

@@ -111,7 +111,10 @@ static bool read_coupling(struct reader *reader, const struct node *node, bool c
                                    .stiffness = keys.stiffness,
                                    .free_length = keys.free_length,
                                    .coefficient = keys.coefficient};
-    if (!read_between(reader, keys.between, coupling)) return false;
+    coupling->load.law = chosen.kind->law;
+    fine = (chosen.kind->law ? actuator_read(reader, &chosen, &names, &keys, coupling)
+                             : read_between(reader, keys.between, coupling)) &&
+           fine;
     for (int end = 0; end < 2; end++) name->body[end] = coupling->body[end];
     return fine;
 }

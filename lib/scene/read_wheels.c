@@ -140,6 +140,7 @@ bool roll_read(struct reader *reader, const struct coupling_keys *keys, struct c
     constraint->point[1] = (struct point){.kind = point_fixed, .at = on->at};
     constraint->mu_s = keys->mu_s;
     constraint->mu_k = keys->mu_k;
+    if (!surface_speed_read(reader, &keys->surface_speed, constraint)) return false;
     if (node_find(reader->bodies, on->text)) return body_name_read(reader, on, "on", &constraint->body[1]);
     const struct ground_line *line = ground_line_find(reader, on);
     if (!line) return false;

@@ -29,9 +29,9 @@ struct hand_summand {
     const struct expr *expr;
 };
 
-/* A spring or damper between a point of a body and a point of another one, or of the ground. */
+/* A spring, damper or actuator between a point of a body and a point of another one, or of the ground. */
 struct force_coupling {
-    struct load load; /* load_spring or load_damper: name, position, law */
+    struct load load; /* load_spring, load_damper, load_actuator or moment_applied: name, position, law */
     int body[2];      /* ground_body for the ground; not both */
     struct point point[2];
 };

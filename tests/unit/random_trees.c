@@ -3,6 +3,7 @@
 
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 static int pick(struct random_numbers *numbers, int count)
 {
@@ -50,18 +51,50 @@ static void write_forces(FILE *out, struct random_numbers *numbers, const struct
                 0.1 + 0.1 * pick(numbers, 2));
 }
 
-static void write_moments(FILE *out, struct random_numbers *numbers, const struct random_tree *tree,
-                          const char *kind)
+static const char motor[] = "\"2[N*m]*cos(t*1[rad/s])\"";
+
+static bool is_pivot(const char *kind)
 {
-    bool pivot = kind[0] == 'p' && kind[1] == 'i', turns = pivot || (kind[0] == 'p' && kind[1] == 'l');
-    if (!turns) return;
+    return kind[0] == 'p' && kind[1] == 'i';
+}
+
+static bool turns(const char *kind)
+{
+    return is_pivot(kind) || (kind[0] == 'p' && kind[1] == 'l');
+}
+
+static void write_moments(FILE *out, struct random_numbers *numbers, const struct random_tree *tree,
+                          int parent, const char *kind)
+{
+    const bool pivot = is_pivot(kind);
+    if (!turns(kind)) return;
     fprintf(out, "    moments:\n      - spring: {stiffness: 5, neutral: %g rad}\n", some(numbers));
     if (tree->conservative) return;
-    fprintf(out, "      - damper: 0.2\n      - applied: {name: motor, value: \"2[N*m]*cos(t*1[rad/s])\"}\n");
+    fprintf(out, "      - damper: 0.2\n");
+    if (parent < 0) fprintf(out, "      - applied: {name: motor, value: %s}\n", motor);
     if (pivot && tree->friction) fprintf(out, "      - friction: 0.3 N*m\n");
 }
 
-static void write_body(FILE *out, struct random_numbers *numbers, const struct random_tree *tree, int b)
+struct written {
+    int parent;
+    const char *kind;
+};
+
+/* A motor on the joint of a body that moves on another one. A particle takes no moment. */
+static void write_motor(FILE *out, const struct written *bodies, int b)
+{
+    const int parent = bodies[b].parent;
+    if (parent < 0 || !turns(bodies[b].kind)) return;
+    fprintf(out, "  - actuator: {name: motor%d, between: [b%d, ", b, b);
+    if (strcmp(bodies[parent].kind, "particle") == 0)
+        fprintf(out, "ground");
+    else
+        fprintf(out, "b%d", parent);
+    fprintf(out, "], moment: %s}\n", motor);
+}
+
+static struct written write_body(FILE *out, struct random_numbers *numbers, const struct random_tree *tree,
+                                 int b)
 {
     int parent = b > 0 && pick(numbers, 8) > 0 ? pick(numbers, b) : b > 0 ? -1 : -1;
     const char *kind;
@@ -70,7 +103,8 @@ static void write_body(FILE *out, struct random_numbers *numbers, const struct r
     fprintf(out, "    points: {P: [%g, %g]}\n", some(numbers), some(numbers));
     write_motion(out, numbers, tree, parent, &kind);
     write_forces(out, numbers, tree, kind);
-    write_moments(out, numbers, tree, kind);
+    write_moments(out, numbers, tree, parent, kind);
+    return (struct written){parent, kind};
 }
 
 char *random_tree_text(struct random_numbers *numbers, const struct random_tree *tree)
@@ -80,8 +114,11 @@ char *random_tree_text(struct random_numbers *numbers, const struct random_tree 
     FILE *out = open_memstream(&text, &size);
     if (!out) return NULL;
     fprintf(out, "fbd: 1\nbodies:\n");
-    for (int b = 0; b < tree->bodies; b++) write_body(out, numbers, tree, b);
+    struct written *bodies = calloc((size_t)tree->bodies, sizeof *bodies);
+    for (int b = 0; bodies && b < tree->bodies; b++) bodies[b] = write_body(out, numbers, tree, b);
     fprintf(out, "couplings:\n");
+    for (int b = 0; bodies && !tree->conservative && b < tree->bodies; b++) write_motor(out, bodies, b);
+    free(bodies);
     for (int b = 1; b < tree->bodies; b++)
         fprintf(out, "  - spring: {between: [b%d.P, b%d], stiffness: 20, free_length: 0.7}\n", b,
                 pick(numbers, b));
