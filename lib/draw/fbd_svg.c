@@ -9,7 +9,9 @@
 #include <string.h>
 
 #include "base/api_check.h"
+#include "base/engineering.h"
 #include "base/format.h"
+#include "base/printed.h"
 #include "draw/panel.h"
 #include "fbd_export.h"
 #include "fbd_view.h"
@@ -31,15 +33,22 @@ double round_up(double value)
     return 10 * power;
 }
 
-const char *printed_unit(const char *unit)
+static const int value_digits = 4, scale_digits = 6;
+
+static const char *write_value(struct arena *arena, double value, const char *unit, int digits)
 {
-    static const char *const units[][2] = {{"N*m", "N·m"},
-                                           {"lbf*ft", "lbf·ft"},
-                                           {"kg*m^2", "kg·m²"},
-                                           {"slug*ft^2", "slug·ft²"}};
-    for (size_t i = 0; i < sizeof units / sizeof *units; i++)
-        if (strcmp(unit, units[i][0]) == 0) return units[i][1];
-    return unit;
+    struct text text = {0};
+    const struct scaled_unit scaled = unit_for(unit, fabs(value), false);
+    number_write(&text, value / scaled.size, digits);
+    text_printf(&text, " %s", scaled.name);
+    const char *written = text.failed ? NULL : arena_printf(arena, "%s", text.data);
+    text_free(&text);
+    return written ? written : "";
+}
+
+const char *panel_value(struct panel *panel, double value, const char *unit)
+{
+    return write_value(panel->arena, value, unit, value_digits);
 }
 
 struct sheet {
@@ -80,17 +89,30 @@ bool panel_start(struct panel *panel, const fbd_state *state, const fbd_view *vi
     return panel->forces != NULL;
 }
 
+/* A symbol with its indices in braces. */
+static const char *indexed(struct arena *arena, const char *symbol)
+{
+    struct text text = {0};
+    text_symbol_indexed(&text, symbol);
+    const char *written = text.failed ? NULL : arena_printf(arena, "%s", text.data ? text.data : "");
+    text_free(&text);
+    return written ? written : "";
+}
+
 static bool start_panel(struct sheet *sheet, struct panel *panel, size_t body)
 {
     if (!panel_start(panel, sheet->state, sheet->view, body, sheet->drawing, &sheet->arena)) return false;
     if (!sheet->symbols) return true;
+    const char **symbols = ARENA_ARRAY(&sheet->arena, panel->force_count + 1, const char *);
     const char **moments = ARENA_ARRAY(&sheet->arena, panel->force_count + 1, const char *);
-    for (size_t i = 0; moments && i < panel->force_count; i++) {
-        const fbd_force *force = &panel->forces[i];
-        moments[i] = force->moment ? force->printed : arena_printf(&sheet->arena, "M(%s)", force->printed);
+    for (size_t i = 0; symbols && moments && i < panel->force_count; i++) {
+        symbols[i] = indexed(&sheet->arena, panel->forces[i].symbol);
+        moments[i] =
+            panel->forces[i].moment ? symbols[i] : arena_printf(&sheet->arena, "M(%s)", symbols[i]);
     }
+    panel->symbols = symbols;
     panel->moments = moments;
-    return moments != NULL;
+    return symbols && moments;
 }
 
 /* Set the scales by the maxima of all bodies, including those not drawn, so that a part of a scene has the
@@ -120,19 +142,36 @@ static void set_scales(struct sheet *sheet, size_t body_count)
     }
 }
 
+static bool set_lengths(struct sheet *sheet, size_t body_count)
+{
+    double *sizes = ARENA_ARRAY(&sheet->arena, body_count, double), largest = 0;
+    if (!sizes) return false;
+    for (size_t i = 0; i < body_count; i++) {
+        sizes[i] = panel_measure(&sheet->panels[i]);
+        if (isfinite(sizes[i])) largest = fmax(largest, sizes[i]);
+    }
+    for (size_t i = 0; i < body_count; i++) panel_set_scale(&sheet->panels[i], sizes[i], largest);
+    return true;
+}
+
 /* ---- text under a panel */
 
-static void note_scales(const struct panel *panel, struct text *notes)
+static void note_scale(struct panel *panel, struct text *notes, const char *what, double size,
+                       const char *unit)
+{
+    text_printf(notes, "%s = %s\n", what, write_value(panel->arena, size, unit, scale_digits));
+}
+
+static void note_scales(struct panel *panel, struct text *notes)
 {
     bool forces = false, moments = false;
     for (size_t i = 0; i < panel->drawn_count; i++)
         (panel->drawn[i].radius > 0 ? (moments = true) : (forces = true));
-    if (forces) text_printf(notes, "forces: 10 mm = %g %s\n", panel->scale.force, panel->units.force);
+    if (forces) note_scale(panel, notes, "forces: 10 mm", panel->scale.force, panel->units.force);
     if (moments)
-        text_printf(notes, "moments: 90° of arc = %g %s\n", panel->scale.moment,
-                    printed_unit(panel->units.moment));
+        note_scale(panel, notes, "moments: 90° of arc", panel->scale.moment, panel->units.moment);
     if (panel->sized)
-        text_printf(notes, "lengths: 10 mm = %g %s\n", 10 / panel->millimetres, panel->units.length);
+        note_scale(panel, notes, panel->enlarged ? "enlarged, lengths: 10 mm" : "lengths: 10 mm", 10 / panel->millimetres, panel->units.length);
     bool small = false;
     for (size_t i = 0; i < panel->drawn_count; i++) small |= panel->drawn[i].small;
     if (small) text_add(notes, "dashed: too small for the scale\n");
@@ -141,19 +180,23 @@ static void note_scales(const struct panel *panel, struct text *notes)
 static void note_zeros(const struct panel *panel, struct text *notes)
 {
     const char *before = "zero here: ";
+    const double widest = 70;
+    double width = 0;
     for (size_t i = 0; i < panel->force_count; i++) {
         bool drawn = false;
         for (size_t k = 0; k < panel->drawn_count; k++) drawn |= panel->drawn[k].source == &panel->forces[i];
         if (drawn) continue;
-        text_printf(notes, "%s%s", before,
-                    panel->moments ? panel->forces[i].printed : panel->forces[i].arrow.name);
+        const char *name = panel->symbols ? panel->symbols[i] : panel->forces[i].arrow.name;
+        width += svg_text_width(before, note_size) + svg_text_width(name, note_size);
+        if (width > widest) before = ",\n", width = svg_text_width(name, note_size);
+        text_printf(notes, "%s%s", before, name);
         before = ", ";
     }
     if (before[0] == ',') text_add(notes, "\n");
 }
 
 /* List the symbols with values and names, one line for each line of the worksheet. */
-static void note_answers(const struct panel *panel, struct text *notes)
+static void note_answers(struct panel *panel, struct text *notes)
 {
     for (size_t i = 0; i < panel->drawn_count; i++) {
         const struct panel_arrow *arrow = &panel->drawn[i];
@@ -161,8 +204,8 @@ static void note_answers(const struct panel *panel, struct text *notes)
         const char *symbol = panel_symbol(panel, arrow);
         const char *unit = arrow->radius > 0 ? panel->units.moment : panel->units.force;
         bool named = strcmp(symbol, arrow->source->arrow.name) != 0;
-        text_printf(notes, "%s = %.4g %s%s%s\n", symbol, arrow->value, printed_unit(unit), named ? ", " : "",
-                    named ? arrow->source->arrow.name : "");
+        text_printf(notes, "%s = %s%s%s\n", symbol, panel_value(panel, arrow->value, unit),
+                    named ? ", " : "", named ? arrow->source->arrow.name : "");
     }
 }
 
@@ -172,7 +215,7 @@ static void note_lines(const struct panel *panel, struct text *notes)
     for (size_t i = 0; i <= panel->force_count; i++) text_add(notes, "_\n");
 }
 
-static void write_notes_of(const struct panel *panel, struct text *notes)
+static void write_notes_of(struct panel *panel, struct text *notes)
 {
     const fbd_drawing *drawing = panel->drawing;
     if (drawing->worksheet) {
@@ -184,15 +227,16 @@ static void write_notes_of(const struct panel *panel, struct text *notes)
     note_zeros(panel, notes);
 }
 
-static void write_heading(const struct panel *panel, struct text *text, struct vec at)
+static void write_heading(struct panel *panel, struct text *text, struct vec at)
 {
     const fbd_mass mass = fbd_view_mass(panel->view, panel->index);
     const bool pivot = panel->body.motion == FBD_MOTION_PIVOT;
     struct text line = {0};
-    text_printf(&line, "%s = %.4g %s", panel->moments ? mass.printed : "m", mass.mass, panel->units.mass);
+    text_printf(&line, "%s = %s", panel->symbols ? indexed(panel->arena, mass.symbol) : "m",
+                panel_value(panel, mass.mass, panel->units.mass));
     if (pivot || panel->body.motion == FBD_MOTION_PLANAR)
-        text_printf(&line, ", %s = %.4g %s", pivot ? "I_O" : "I_G", pivot ? mass.I_O : mass.I_G,
-                    printed_unit(panel->units.inertia));
+        text_printf(&line, ", %s = %s", pivot ? "I_{O}" : "I_{G}",
+                    panel_value(panel, pivot ? mass.I_O : mass.I_G, panel->units.inertia));
     svg_text_at(text, "heading", at, panel->body.name);
     if (line.failed)
         text->failed = true;
@@ -216,7 +260,6 @@ void panel_write_notes(const struct panel *panel, struct text *text)
 
 void panel_draw(struct panel *panel)
 {
-    panel_set_scale(panel);
     bool in_front = panel_fixtures_in_front(panel);
     if (!in_front) panel_fixtures(panel);
     panel_body(panel);
@@ -283,7 +326,7 @@ static void write_lines(struct text *notes, struct vec at, struct text *text)
     }
 }
 
-static void write_panel(const struct panel *panel, struct text *notes, struct vec corner, struct text *text)
+static void write_panel(struct panel *panel, struct text *notes, struct vec corner, struct text *text)
 {
     text_printf(text, "<g class=\"diagram\" id=\"%s\">\n", panel->body.name);
     write_heading(panel, text, (struct vec){corner.x, corner.y + 4});
@@ -391,6 +434,7 @@ static bool make_panels(struct sheet *sheet)
     for (size_t b = 0; b < count; b++)
         if (!start_panel(sheet, &sheet->panels[b], b)) return false;
     set_scales(sheet, count);
+    if (!set_lengths(sheet, count)) return false;
     for (size_t b = 0; b < count; b++)
         if (!drawing->body || strcmp(sheet->panels[b].body.name, drawing->body) == 0)
             sheet->panels[sheet->count++] = sheet->panels[b];
