@@ -125,9 +125,8 @@ static bool may_end_at_point(const struct panel *panel, const struct panel_arrow
 {
     struct vec out = vec_sub(arrow->tail, panel_point(panel, panel_place(panel, panel->G)));
     const double outward = 0.5; /* mm */
-    return !arrow->component &&
-           vec_dot(out, vec_sub(arrow->head, arrow->tail)) <=
-               outward * vec_norm(vec_sub(arrow->head, arrow->tail));
+    return !arrow->component && vec_dot(out, vec_sub(arrow->head, arrow->tail)) <=
+                                    outward * vec_norm(vec_sub(arrow->head, arrow->tail));
 }
 
 /* Let the arrow end where it starts; undone by a second call. */

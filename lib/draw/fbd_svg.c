@@ -35,15 +35,22 @@ double round_up(double value)
 
 static const int value_digits = 4, scale_digits = 6;
 
+/* A finished text as one of the arena; "" when memory is out, which the arena records. */
+static const char *keep(struct arena *arena, struct text *text)
+{
+    const char *kept = text->failed ? NULL : arena_printf(arena, "%s", text->data ? text->data : "");
+    arena->failed |= !kept;
+    text_free(text);
+    return kept ? kept : "";
+}
+
 static const char *write_value(struct arena *arena, double value, const char *unit, int digits)
 {
     struct text text = {0};
     const struct scaled_unit scaled = unit_for(unit, fabs(value), false);
     number_write(&text, value / scaled.size, digits);
     text_printf(&text, " %s", scaled.name);
-    const char *written = text.failed ? NULL : arena_printf(arena, "%s", text.data);
-    text_free(&text);
-    return written ? written : "";
+    return keep(arena, &text);
 }
 
 const char *panel_value(struct panel *panel, double value, const char *unit)
@@ -94,9 +101,7 @@ static const char *indexed(struct arena *arena, const char *symbol)
 {
     struct text text = {0};
     text_symbol_indexed(&text, symbol);
-    const char *written = text.failed ? NULL : arena_printf(arena, "%s", text.data ? text.data : "");
-    text_free(&text);
-    return written ? written : "";
+    return keep(arena, &text);
 }
 
 static bool start_panel(struct sheet *sheet, struct panel *panel, size_t body)
@@ -107,8 +112,7 @@ static bool start_panel(struct sheet *sheet, struct panel *panel, size_t body)
     const char **moments = ARENA_ARRAY(&sheet->arena, panel->force_count + 1, const char *);
     for (size_t i = 0; symbols && moments && i < panel->force_count; i++) {
         symbols[i] = indexed(&sheet->arena, panel->forces[i].symbol);
-        moments[i] =
-            panel->forces[i].moment ? symbols[i] : arena_printf(&sheet->arena, "M(%s)", symbols[i]);
+        moments[i] = panel->forces[i].moment ? symbols[i] : arena_printf(&sheet->arena, "M(%s)", symbols[i]);
     }
     panel->symbols = symbols;
     panel->moments = moments;
@@ -168,10 +172,10 @@ static void note_scales(struct panel *panel, struct text *notes)
     for (size_t i = 0; i < panel->drawn_count; i++)
         (panel->drawn[i].radius > 0 ? (moments = true) : (forces = true));
     if (forces) note_scale(panel, notes, "forces: 10 mm", panel->scale.force, panel->units.force);
-    if (moments)
-        note_scale(panel, notes, "moments: 90° of arc", panel->scale.moment, panel->units.moment);
+    if (moments) note_scale(panel, notes, "moments: 90° of arc", panel->scale.moment, panel->units.moment);
     if (panel->sized)
-        note_scale(panel, notes, panel->enlarged ? "enlarged, lengths: 10 mm" : "lengths: 10 mm", 10 / panel->millimetres, panel->units.length);
+        note_scale(panel, notes, panel->enlarged ? "enlarged, lengths: 10 mm" : "lengths: 10 mm",
+                   10 / panel->millimetres, panel->units.length);
     bool small = false;
     for (size_t i = 0; i < panel->drawn_count; i++) small |= panel->drawn[i].small;
     if (small) text_add(notes, "dashed: too small for the scale\n");
@@ -204,8 +208,8 @@ static void note_answers(struct panel *panel, struct text *notes)
         const char *symbol = panel_symbol(panel, arrow);
         const char *unit = arrow->radius > 0 ? panel->units.moment : panel->units.force;
         bool named = strcmp(symbol, arrow->source->arrow.name) != 0;
-        text_printf(notes, "%s = %s%s%s\n", symbol, panel_value(panel, arrow->value, unit),
-                    named ? ", " : "", named ? arrow->source->arrow.name : "");
+        text_printf(notes, "%s = %s%s%s\n", symbol, panel_value(panel, arrow->value, unit), named ? ", " : "",
+                    named ? arrow->source->arrow.name : "");
     }
 }
 
@@ -475,6 +479,7 @@ static char *make_svg(fbd_state *state, const fbd_drawing *drawing, fbd_errors *
     bool done = make_panels(&sheet);
     if (done) write_sheet(&sheet);
     const char *odd = done ? body_without_scale(&sheet) : NULL;
+    sheet.text.failed |= sheet.arena.failed;
     for (size_t i = 0; i < sheet.count; i++) {
         if (sheet.panels[i].under.failed || sheet.notes[i].failed) sheet.text.failed = true;
         text_free(&sheet.panels[i].under);

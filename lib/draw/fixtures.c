@@ -64,7 +64,7 @@ static void set_base(struct panel *panel)
     struct vec G = panel->G, e = vec_of(panel->pose.along), down = vec_scale(-1, vec_of(panel->pose.normal));
     struct vec in_body = {vec_dot(down, e), vec_dot(down, vec_perp(e))};
     double reach = panel->shaped ? shapes_reach(panel->model, panel->index, G, in_body)
-                                : block_half_height / panel->millimetres;
+                                 : block_half_height / panel->millimetres;
     if (panel->plate.rider >= 0) {
         struct vec corners[4];
         wedge_corners(panel, corners);
@@ -161,7 +161,8 @@ static void draw_part(struct panel *panel, const fbd_shape *part)
         break;
     case FBD_SHAPE_POLYGON:
         svg_polygon(text, css, corners, 4);
-        for (int i = 0; i < 4; i++) labelling_avoid(&panel->labels, corners[i], corners[(i + 1) % 4], on_outline);
+        for (int i = 0; i < 4; i++)
+            labelling_avoid(&panel->labels, corners[i], corners[(i + 1) % 4], on_outline);
         break;
     case FBD_SHAPE_UNKNOWN: break;
     }

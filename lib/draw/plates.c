@@ -13,7 +13,8 @@ static void add_point(struct plate *plate, struct vec point)
 }
 
 /* Add the point where a slot presses on the body, from the world. */
-static void add_place(struct plate *plate, const fbd_view *view, const fbd_body *body, int b, struct vec place)
+static void add_place(struct plate *plate, const fbd_view *view, const fbd_body *body, int b,
+                      struct vec place)
 {
     const fbd_pose pose = fbd_view_pose(view, (size_t)b);
     const struct vec back = {pose.cosine, -pose.sine};

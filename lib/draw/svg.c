@@ -176,7 +176,7 @@ static double advance(const char *string, size_t length)
         667, 611, 278, 278, 278, 469, 556, 333, 556, 556, 500, 556, 556, 278,  556, 556, 222, 222, 500,
         222, 833, 556, 556, 556, 556, 333, 500, 278, 556, 500, 722, 500, 500,  500, 334, 260, 334, 584,
     };
-    const short other = 600;        /* Greek letters and signs */
+    const short other = 600; /* Greek letters and signs */
     long sum = 0;
     for (const char *c = string; c < string + length; c++) {
         if (*c >= ' ' && *c <= '~')
