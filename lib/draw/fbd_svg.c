@@ -9,9 +9,7 @@
 #include <string.h>
 
 #include "base/api_check.h"
-#include "base/engineering.h"
 #include "base/format.h"
-#include "base/printed.h"
 #include "draw/panel.h"
 #include "fbd_export.h"
 #include "fbd_view.h"
@@ -22,41 +20,6 @@ static const double margin = 5, gap = 8, heading_height = 13, line_height = 4.2,
 
 /* Sheets are scaled down to fit a page, to at least the readable size; longer sheets exceed a page. */
 static const double least_size = 0.55, size_step = 0.05;
-
-double round_up(double value)
-{
-    if (!(value > 0)) return 1;
-    double power = pow(10, floor(log10(value)));
-    static const double steps[] = {1, 1.5, 2, 2.5, 3, 4, 5, 6, 8, 10};
-    for (int i = 0; i < 10; i++)
-        if (steps[i] * power >= value * (1 - 1e-9)) return steps[i] * power;
-    return 10 * power;
-}
-
-static const int value_digits = 4, scale_digits = 6;
-
-/* A finished text as one of the arena; "" when memory is out, which the arena records. */
-static const char *keep(struct arena *arena, struct text *text)
-{
-    const char *kept = text->failed ? NULL : arena_printf(arena, "%s", text->data ? text->data : "");
-    arena->failed |= !kept;
-    text_free(text);
-    return kept ? kept : "";
-}
-
-static const char *write_value(struct arena *arena, double value, const char *unit, int digits)
-{
-    struct text text = {0};
-    const struct scaled_unit scaled = unit_for(unit, fabs(value), false);
-    number_write(&text, value / scaled.size, digits);
-    text_printf(&text, " %s", scaled.name);
-    return keep(arena, &text);
-}
-
-const char *panel_value(struct panel *panel, double value, const char *unit)
-{
-    return write_value(panel->arena, value, unit, value_digits);
-}
 
 struct sheet {
     struct arena arena;
@@ -96,14 +59,6 @@ bool panel_start(struct panel *panel, const fbd_state *state, const fbd_view *vi
     return panel->forces != NULL;
 }
 
-/* A symbol with its indices in braces. */
-static const char *indexed(struct arena *arena, const char *symbol)
-{
-    struct text text = {0};
-    text_symbol_indexed(&text, symbol);
-    return keep(arena, &text);
-}
-
 static bool start_panel(struct sheet *sheet, struct panel *panel, size_t body)
 {
     if (!panel_start(panel, sheet->state, sheet->view, body, sheet->drawing, &sheet->arena)) return false;
@@ -111,7 +66,7 @@ static bool start_panel(struct sheet *sheet, struct panel *panel, size_t body)
     const char **symbols = ARENA_ARRAY(&sheet->arena, panel->force_count + 1, const char *);
     const char **moments = ARENA_ARRAY(&sheet->arena, panel->force_count + 1, const char *);
     for (size_t i = 0; symbols && moments && i < panel->force_count; i++) {
-        symbols[i] = indexed(&sheet->arena, panel->forces[i].symbol);
+        symbols[i] = panel_indexed(&sheet->arena, panel->forces[i].symbol);
         moments[i] = panel->forces[i].moment ? symbols[i] : arena_printf(&sheet->arena, "M(%s)", symbols[i]);
     }
     panel->symbols = symbols;
@@ -160,10 +115,10 @@ static bool set_lengths(struct sheet *sheet, size_t body_count)
 
 /* ---- text under a panel */
 
-static void note_scale(struct panel *panel, struct text *notes, const char *what, double size,
+static void note_scale(struct panel *panel, struct text *notes, const char *name, double size,
                        const char *unit)
 {
-    text_printf(notes, "%s = %s\n", what, write_value(panel->arena, size, unit, scale_digits));
+    text_printf(notes, "%s = %s\n", name, panel_scale_value(panel, size, unit));
 }
 
 static void note_scales(struct panel *panel, struct text *notes)
@@ -236,7 +191,7 @@ static void write_heading(struct panel *panel, struct text *text, struct vec at)
     const fbd_mass mass = fbd_view_mass(panel->view, panel->index);
     const bool pivot = panel->body.motion == FBD_MOTION_PIVOT;
     struct text line = {0};
-    text_printf(&line, "%s = %s", panel->symbols ? indexed(panel->arena, mass.symbol) : "m",
+    text_printf(&line, "%s = %s", panel->symbols ? panel_indexed(panel->arena, mass.symbol) : "m",
                 panel_value(panel, mass.mass, panel->units.mass));
     if (pivot || panel->body.motion == FBD_MOTION_PLANAR)
         text_printf(&line, ", %s = %s", pivot ? "I_{O}" : "I_{G}",

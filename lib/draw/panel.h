@@ -139,4 +139,10 @@ double round_up(double value);
 /* A value to four digits with its unit: 10.15 kN. */
 const char *panel_value(struct panel *panel, double value, const char *unit);
 
+/* A scale, to six digits. */
+const char *panel_scale_value(struct panel *panel, double value, const char *unit);
+
+/* A symbol with its indices in braces, as svg_text takes them. */
+const char *panel_indexed(struct arena *arena, const char *symbol);
+
 #endif
