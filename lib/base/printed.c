@@ -46,21 +46,54 @@ static void add_low(struct text *text, char c)
         text_add(text, c == 'k' ? "ₖ" : "ₛ");
 }
 
-void text_symbol(struct text *text, const char *symbol)
+/* Append the index behind an underscore; returns the length of the symbol that it takes. */
+typedef size_t add_index(struct text *text, const char *index);
+
+static size_t add_low_index(struct text *text, const char *index)
+{
+    const size_t length = low_index(index);
+    for (size_t i = 0; i < length; i++) add_low(text, index[i]);
+    return length;
+}
+
+static size_t add_index_in_braces(struct text *text, const char *index)
+{
+    size_t length = 0;
+    while (is_word(index[length]) || index[length] == '_') length++;
+    const char *letter = greek_letter(index, length);
+    if (length == 0) return 0;
+    text_add(text, "_{");
+    if (letter)
+        text_add(text, letter);
+    else
+        text_add_bytes(text, index, length);
+    text_add(text, "}");
+    return length;
+}
+
+static void add_symbol(struct text *text, const char *symbol, add_index *index)
 {
     for (const char *c = symbol; *c;) {
         size_t length = 0;
         while (is_word(c[length])) length++;
         const char *letter = greek_letter(c, length);
-        size_t low = *c == '_' ? low_index(c + 1) : 0;
+        size_t low = *c == '_' ? index(text, c + 1) : 0;
         if (letter)
             text_add(text, letter);
         else if (length)
             text_add_bytes(text, c, length);
-        else if (low)
-            for (size_t i = 0; i < low; i++) add_low(text, c[1 + i]);
-        else if (*c != ' ')
+        else if (!low && *c != ' ')
             text_add_bytes(text, c, 1);
         c += letter || length ? length : 1 + low;
     }
+}
+
+void text_symbol(struct text *text, const char *symbol)
+{
+    add_symbol(text, symbol, add_low_index);
+}
+
+void text_symbol_indexed(struct text *text, const char *symbol)
+{
+    add_symbol(text, symbol, add_index_in_braces);
 }

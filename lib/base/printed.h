@@ -13,4 +13,7 @@ const char *greek_letter(const char *name, size_t length);
 /* Append the symbol with Greek letters, and indices as far as there are characters for them. */
 void text_symbol(struct text *text, const char *symbol);
 
+/* Append the symbol with Greek letters, and each index in braces: "mu_k N" as "μ_{k}N". A drawing sets these lower. */
+void text_symbol_indexed(struct text *text, const char *symbol);
+
 #endif

@@ -2,7 +2,8 @@
  *
  * Forces as arrows to scale, moments as arcs.
  *
- * Arrows that would overlap on the same line of action are drawn side by side.
+ * Arrows that would overlap on the same line of action end at their points instead of starting there (a normal force
+ * below its contact, a weight above G), or are drawn side by side.
  */
 #include <float.h>
 #include <string.h>
@@ -88,7 +89,7 @@ static struct vec tail_of(const struct panel *panel, const fbd_force *force)
 /* True if two arrows overlap on nearly the same line. */
 static bool lie_together(const struct panel_arrow *a, const struct panel_arrow *b)
 {
-    if (b->radius > 0) return false;
+    if (a->radius > 0 || b->radius > 0) return false;
     struct vec d = vec_sub(a->head, a->tail), e = vec_sub(b->head, b->tail);
     double length = vec_norm(d);
     const double parallel = 0.05, near = 1.6, touch = 0.6;
@@ -99,41 +100,103 @@ static bool lie_together(const struct panel_arrow *a, const struct panel_arrow *
     return fmin(length, fmax(from, to)) - fmax(0, fmin(from, to)) > touch;
 }
 
-static void step_aside(const struct panel *panel, struct panel_arrow *arrow)
+static bool is_free(const struct panel *panel, const struct panel_arrow *arrow)
+{
+    bool free = true;
+    for (size_t i = 0; i < panel->drawn_count; i++)
+        free &= &panel->drawn[i] == arrow || !lie_together(arrow, &panel->drawn[i]);
+    return free;
+}
+
+/* Move a force with its components. */
+static void move_arrow(struct panel *panel, struct panel_arrow *arrow, struct vec way)
+{
+    for (struct panel_arrow *other = panel->drawn; other < panel->drawn + panel->drawn_count; other++) {
+        const bool part = !arrow->component && other->component && other->source == arrow->source;
+        if (other != arrow && !part) continue;
+        other->tail = vec_add(other->tail, way);
+        other->head = vec_add(other->head, way);
+    }
+}
+
+/* A force that does not point away from the body may end at its point: a force that presses from outside, a
+ * weight from above. */
+static bool may_end_at_point(const struct panel *panel, const struct panel_arrow *arrow)
+{
+    struct vec out = vec_sub(arrow->tail, panel_point(panel, panel_place(panel, panel->G)));
+    const double outward = 0.5; /* mm */
+    return !arrow->component && vec_dot(out, vec_sub(arrow->head, arrow->tail)) <=
+                                    outward * vec_norm(vec_sub(arrow->head, arrow->tail));
+}
+
+/* Let the arrow end where it starts; undone by a second call. */
+static void reverse_end(struct panel *panel, struct panel_arrow *arrow)
+{
+    struct vec back = vec_sub(arrow->tail, arrow->head);
+    move_arrow(panel, arrow, arrow->ends_at_point ? vec_scale(-1, back) : back);
+    arrow->ends_at_point = !arrow->ends_at_point;
+}
+
+static void step_aside(struct panel *panel, struct panel_arrow *arrow)
 {
     enum { most_steps = 8 };
-    struct vec d = vec_sub(arrow->head, arrow->tail), tail = arrow->tail, head = arrow->head;
+    struct vec d = vec_sub(arrow->head, arrow->tail);
     struct vec across = vec_scale(side_step / vec_norm(d), vec_perp(d));
-    for (int step = 0; step <= most_steps; step++) {
+    int now = 0;
+    for (int step = 0; step <= most_steps && !is_free(panel, arrow); step++) {
         int aside = (step + 1) / 2 * (step % 2 ? 1 : -1); /* 0, 1, -1, 2, -2, ... */
-        arrow->tail = vec_add(tail, vec_scale(aside, across));
-        arrow->head = vec_add(head, vec_scale(aside, across));
-        bool free = true;
-        for (size_t i = 0; i < panel->drawn_count; i++) free &= !lie_together(arrow, &panel->drawn[i]);
-        if (free) return;
+        move_arrow(panel, arrow, vec_scale(aside - now, across));
+        now = aside;
     }
+}
+
+/* Separate two arrows on one line: either or both end at their points; else the weight, or the second, steps
+ * aside, so that a reaction stays at its contact. */
+static void separate_pair(struct panel *panel, struct panel_arrow *a, struct panel_arrow *b)
+{
+    const bool may_a = may_end_at_point(panel, a), may_b = may_end_at_point(panel, b);
+    for (int choice = 1; choice <= 3; choice++) {
+        const bool turn_b = choice & 1, turn_a = choice & 2;
+        if ((turn_a && !may_a) || (turn_b && !may_b)) continue;
+        if (turn_a) reverse_end(panel, a);
+        if (turn_b) reverse_end(panel, b);
+        if (is_free(panel, a) && is_free(panel, b)) return;
+        if (turn_a) reverse_end(panel, a);
+        if (turn_b) reverse_end(panel, b);
+    }
+    const bool weight = strcmp(a->source->kind, "gravity") == 0 && !a->component;
+    step_aside(panel, weight ? a : b);
+}
+
+static void separate_arrows(struct panel *panel)
+{
+    for (size_t b = 0; b < panel->drawn_count; b++)
+        for (size_t a = 0; a < b; a++)
+            if (lie_together(&panel->drawn[a], &panel->drawn[b]))
+                separate_pair(panel, &panel->drawn[a], &panel->drawn[b]);
 }
 
 const char *panel_symbol(const struct panel *panel, const struct panel_arrow *arrow)
 {
-    return arrow->radius > 0 ? panel->moments[arrow->source - panel->forces] : arrow->source->printed;
+    const size_t i = (size_t)(arrow->source - panel->forces);
+    return arrow->radius > 0 ? panel->moments[i] : panel->symbols[i];
 }
 
 static const char *label_of(struct panel *panel, const struct panel_arrow *arrow, const char *name,
                             const char *unit)
 {
     if (panel->moments && !arrow->component) return panel_symbol(panel, arrow);
-    return arena_printf(panel->arena, "%s %.4g %s", name, arrow->value, unit);
+    return arena_printf(panel->arena, "%s %s", name, panel_value(panel, arrow->value, unit));
 }
 
 static void avoid_arrow(struct panel *panel, const struct panel_arrow *arrow)
 {
-    labelling_avoid(&panel->labels, arrow->tail, arrow->head, 12);
+    labelling_avoid(&panel->labels, arrow->tail, arrow->head, on_arrow);
     struct vec d = vec_sub(arrow->head, arrow->tail);
     double length = vec_norm(d);
     struct vec back = vec_sub(arrow->head, vec_scale(head_length / length, d)),
                side = vec_scale(head_width / 2 / length, vec_perp(d));
-    labelling_avoid(&panel->labels, vec_add(back, side), vec_sub(back, side), 12);
+    labelling_avoid(&panel->labels, vec_add(back, side), vec_sub(back, side), on_arrow);
 }
 
 static void draw_force(struct panel *panel, const fbd_force *source, struct vec force, const char *name,
@@ -149,13 +212,20 @@ static void draw_force(struct panel *panel, const fbd_force *source, struct vec 
                                   .tail = tail_of(panel, source)};
     struct vec unit = panel_direction(vec_scale(1 / size, force));
     arrow->head = vec_add(arrow->tail, vec_scale(fmax(length, shortest_arrow), unit));
-    step_aside(panel, arrow);
-    const char *text = label_of(panel, arrow, name, panel->units.force);
-    arrow->label = labelling_add(&panel->labels, text, label_size, arrow->head, unit, 1.2);
+    arrow->text = label_of(panel, arrow, name, panel->units.force);
+    panel->drawn_count++;
+}
+
+/* Label a force at its head; at its tail where it ends at the body. */
+static void label_force(struct panel *panel, struct panel_arrow *arrow)
+{
+    struct vec d = vec_sub(arrow->head, arrow->tail), unit = vec_scale(1 / vec_norm(d), d);
+    struct vec free_end = arrow->ends_at_point ? arrow->tail : arrow->head;
+    struct vec out = arrow->ends_at_point ? vec_scale(-1, unit) : unit;
+    arrow->label = labelling_add(&panel->labels, arrow->text, label_size, free_end, out, 1.2);
     avoid_arrow(panel, arrow);
     box_take(&panel->extent, arrow->tail);
     box_take(&panel->extent, arrow->head);
-    panel->drawn_count++;
 }
 
 /* Draw components along the axes of the world; on a slide along and across it; none if one of them nearly
@@ -167,8 +237,8 @@ static void draw_components(struct panel *panel, const fbd_force *source, double
     double along = vec_dot(force, x), across = vec_dot(force, y);
     double size = vec_norm(force);
     if (is_nothing(size, largest) || fmin(fabs(along), fabs(across)) < least_component * size) return;
-    const char *names[] = {arena_printf(panel->arena, "%s_x", source->arrow.name),
-                           arena_printf(panel->arena, slide ? "%s_n" : "%s_y", source->arrow.name)};
+    const char *names[] = {arena_printf(panel->arena, "%s_{x}", source->arrow.name),
+                           arena_printf(panel->arena, slide ? "%s_{n}" : "%s_{y}", source->arrow.name)};
     if (!names[0] || !names[1]) return;
     draw_force(panel, source, vec_scale(along, x), names[0], "-x");
     draw_force(panel, source, vec_scale(across, y), names[1], slide ? "-n" : "-y");
@@ -197,18 +267,22 @@ static void draw_moment(struct panel *panel, const fbd_force *source, int index,
                                   .radius = first_radius + next_radius * index,
                                   .start = 0.35 + 1.1 * index};
     arrow->sweep = arrow->small ? copysign(least_sweep, sweep) : sweep;
-    const char *text = label_of(panel, arrow, source->arrow.name, printed_unit(panel->units.moment));
+    arrow->text = label_of(panel, arrow, source->arrow.name, panel->units.moment);
+    panel->drawn_count++;
+}
+
+static void label_moment(struct panel *panel, struct panel_arrow *arrow)
+{
     struct vec tip = arc_point(arrow, 1);
     struct vec out = vec_scale(1 / arrow->radius, vec_sub(tip, arrow->tail));
-    arrow->label = labelling_add(&panel->labels, text, label_size, tip, out, 1.8);
+    arrow->label = labelling_add(&panel->labels, arrow->text, label_size, tip, out, 1.8);
     enum { pieces = 12 };
     for (int i = 0; i < pieces; i++) {
         struct vec from = arc_point(arrow, (double)i / pieces), to = arc_point(arrow, (i + 1.0) / pieces);
-        labelling_avoid(&panel->labels, from, to, 12);
+        labelling_avoid(&panel->labels, from, to, on_arrow);
         box_take(&panel->extent, from);
         box_take(&panel->extent, to);
     }
-    panel->drawn_count++;
 }
 
 void panel_arrows(struct panel *panel)
@@ -228,6 +302,9 @@ void panel_arrows(struct panel *panel)
             !panel_is_shifted(panel, source))
             draw_moment(panel, source, moments++, force ? "-moment" : "");
     }
+    separate_arrows(panel);
+    for (size_t i = 0; i < panel->drawn_count; i++)
+        (panel->drawn[i].radius > 0 ? label_moment : label_force)(panel, &panel->drawn[i]);
 }
 
 /* ---- writing */

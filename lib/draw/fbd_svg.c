@@ -21,27 +21,6 @@ static const double margin = 5, gap = 8, heading_height = 13, line_height = 4.2,
 /* Sheets are scaled down to fit a page, to at least the readable size; longer sheets exceed a page. */
 static const double least_size = 0.55, size_step = 0.05;
 
-double round_up(double value)
-{
-    if (!(value > 0)) return 1;
-    double power = pow(10, floor(log10(value)));
-    static const double steps[] = {1, 1.5, 2, 2.5, 3, 4, 5, 6, 8, 10};
-    for (int i = 0; i < 10; i++)
-        if (steps[i] * power >= value * (1 - 1e-9)) return steps[i] * power;
-    return 10 * power;
-}
-
-const char *printed_unit(const char *unit)
-{
-    static const char *const units[][2] = {{"N*m", "N·m"},
-                                           {"lbf*ft", "lbf·ft"},
-                                           {"kg*m^2", "kg·m²"},
-                                           {"slug*ft^2", "slug·ft²"}};
-    for (size_t i = 0; i < sizeof units / sizeof *units; i++)
-        if (strcmp(unit, units[i][0]) == 0) return units[i][1];
-    return unit;
-}
-
 struct sheet {
     struct arena arena;
     struct fbd_state *state;
@@ -84,13 +63,15 @@ static bool start_panel(struct sheet *sheet, struct panel *panel, size_t body)
 {
     if (!panel_start(panel, sheet->state, sheet->view, body, sheet->drawing, &sheet->arena)) return false;
     if (!sheet->symbols) return true;
+    const char **symbols = ARENA_ARRAY(&sheet->arena, panel->force_count + 1, const char *);
     const char **moments = ARENA_ARRAY(&sheet->arena, panel->force_count + 1, const char *);
-    for (size_t i = 0; moments && i < panel->force_count; i++) {
-        const fbd_force *force = &panel->forces[i];
-        moments[i] = force->moment ? force->printed : arena_printf(&sheet->arena, "M(%s)", force->printed);
+    for (size_t i = 0; symbols && moments && i < panel->force_count; i++) {
+        symbols[i] = panel_indexed(&sheet->arena, panel->forces[i].symbol);
+        moments[i] = panel->forces[i].moment ? symbols[i] : arena_printf(&sheet->arena, "M(%s)", symbols[i]);
     }
+    panel->symbols = symbols;
     panel->moments = moments;
-    return moments != NULL;
+    return symbols && moments;
 }
 
 /* Set the scales by the maxima of all bodies, including those not drawn, so that a part of a scene has the
@@ -120,19 +101,36 @@ static void set_scales(struct sheet *sheet, size_t body_count)
     }
 }
 
+static bool set_lengths(struct sheet *sheet, size_t body_count)
+{
+    double *sizes = ARENA_ARRAY(&sheet->arena, body_count, double), largest = 0;
+    if (!sizes) return false;
+    for (size_t i = 0; i < body_count; i++) {
+        sizes[i] = panel_measure(&sheet->panels[i]);
+        if (isfinite(sizes[i])) largest = fmax(largest, sizes[i]);
+    }
+    for (size_t i = 0; i < body_count; i++) panel_set_scale(&sheet->panels[i], sizes[i], largest);
+    return true;
+}
+
 /* ---- text under a panel */
 
-static void note_scales(const struct panel *panel, struct text *notes)
+static void note_scale(struct panel *panel, struct text *notes, const char *name, double size,
+                       const char *unit)
+{
+    text_printf(notes, "%s = %s\n", name, panel_scale_value(panel, size, unit));
+}
+
+static void note_scales(struct panel *panel, struct text *notes)
 {
     bool forces = false, moments = false;
     for (size_t i = 0; i < panel->drawn_count; i++)
         (panel->drawn[i].radius > 0 ? (moments = true) : (forces = true));
-    if (forces) text_printf(notes, "forces: 10 mm = %g %s\n", panel->scale.force, panel->units.force);
-    if (moments)
-        text_printf(notes, "moments: 90° of arc = %g %s\n", panel->scale.moment,
-                    printed_unit(panel->units.moment));
+    if (forces) note_scale(panel, notes, "forces: 10 mm", panel->scale.force, panel->units.force);
+    if (moments) note_scale(panel, notes, "moments: 90° of arc", panel->scale.moment, panel->units.moment);
     if (panel->sized)
-        text_printf(notes, "lengths: 10 mm = %g %s\n", 10 / panel->millimetres, panel->units.length);
+        note_scale(panel, notes, panel->enlarged ? "enlarged, lengths: 10 mm" : "lengths: 10 mm",
+                   10 / panel->millimetres, panel->units.length);
     bool small = false;
     for (size_t i = 0; i < panel->drawn_count; i++) small |= panel->drawn[i].small;
     if (small) text_add(notes, "dashed: too small for the scale\n");
@@ -141,19 +139,23 @@ static void note_scales(const struct panel *panel, struct text *notes)
 static void note_zeros(const struct panel *panel, struct text *notes)
 {
     const char *before = "zero here: ";
+    const double widest = 70;
+    double width = 0;
     for (size_t i = 0; i < panel->force_count; i++) {
         bool drawn = false;
         for (size_t k = 0; k < panel->drawn_count; k++) drawn |= panel->drawn[k].source == &panel->forces[i];
         if (drawn) continue;
-        text_printf(notes, "%s%s", before,
-                    panel->moments ? panel->forces[i].printed : panel->forces[i].arrow.name);
+        const char *name = panel->symbols ? panel->symbols[i] : panel->forces[i].arrow.name;
+        width += svg_text_width(before, note_size) + svg_text_width(name, note_size);
+        if (width > widest) before = ",\n", width = svg_text_width(name, note_size);
+        text_printf(notes, "%s%s", before, name);
         before = ", ";
     }
     if (before[0] == ',') text_add(notes, "\n");
 }
 
 /* List the symbols with values and names, one line for each line of the worksheet. */
-static void note_answers(const struct panel *panel, struct text *notes)
+static void note_answers(struct panel *panel, struct text *notes)
 {
     for (size_t i = 0; i < panel->drawn_count; i++) {
         const struct panel_arrow *arrow = &panel->drawn[i];
@@ -161,7 +163,7 @@ static void note_answers(const struct panel *panel, struct text *notes)
         const char *symbol = panel_symbol(panel, arrow);
         const char *unit = arrow->radius > 0 ? panel->units.moment : panel->units.force;
         bool named = strcmp(symbol, arrow->source->arrow.name) != 0;
-        text_printf(notes, "%s = %.4g %s%s%s\n", symbol, arrow->value, printed_unit(unit), named ? ", " : "",
+        text_printf(notes, "%s = %s%s%s\n", symbol, panel_value(panel, arrow->value, unit), named ? ", " : "",
                     named ? arrow->source->arrow.name : "");
     }
 }
@@ -172,7 +174,7 @@ static void note_lines(const struct panel *panel, struct text *notes)
     for (size_t i = 0; i <= panel->force_count; i++) text_add(notes, "_\n");
 }
 
-static void write_notes_of(const struct panel *panel, struct text *notes)
+static void write_notes_of(struct panel *panel, struct text *notes)
 {
     const fbd_drawing *drawing = panel->drawing;
     if (drawing->worksheet) {
@@ -184,15 +186,16 @@ static void write_notes_of(const struct panel *panel, struct text *notes)
     note_zeros(panel, notes);
 }
 
-static void write_heading(const struct panel *panel, struct text *text, struct vec at)
+static void write_heading(struct panel *panel, struct text *text, struct vec at)
 {
     const fbd_mass mass = fbd_view_mass(panel->view, panel->index);
     const bool pivot = panel->body.motion == FBD_MOTION_PIVOT;
     struct text line = {0};
-    text_printf(&line, "%s = %.4g %s", panel->moments ? mass.printed : "m", mass.mass, panel->units.mass);
+    text_printf(&line, "%s = %s", panel->symbols ? panel_indexed(panel->arena, mass.symbol) : "m",
+                panel_value(panel, mass.mass, panel->units.mass));
     if (pivot || panel->body.motion == FBD_MOTION_PLANAR)
-        text_printf(&line, ", %s = %.4g %s", pivot ? "I_O" : "I_G", pivot ? mass.I_O : mass.I_G,
-                    printed_unit(panel->units.inertia));
+        text_printf(&line, ", %s = %s", pivot ? "I_{O}" : "I_{G}",
+                    panel_value(panel, pivot ? mass.I_O : mass.I_G, panel->units.inertia));
     svg_text_at(text, "heading", at, panel->body.name);
     if (line.failed)
         text->failed = true;
@@ -216,7 +219,6 @@ void panel_write_notes(const struct panel *panel, struct text *text)
 
 void panel_draw(struct panel *panel)
 {
-    panel_set_scale(panel);
     bool in_front = panel_fixtures_in_front(panel);
     if (!in_front) panel_fixtures(panel);
     panel_body(panel);
@@ -283,7 +285,7 @@ static void write_lines(struct text *notes, struct vec at, struct text *text)
     }
 }
 
-static void write_panel(const struct panel *panel, struct text *notes, struct vec corner, struct text *text)
+static void write_panel(struct panel *panel, struct text *notes, struct vec corner, struct text *text)
 {
     text_printf(text, "<g class=\"diagram\" id=\"%s\">\n", panel->body.name);
     write_heading(panel, text, (struct vec){corner.x, corner.y + 4});
@@ -391,6 +393,7 @@ static bool make_panels(struct sheet *sheet)
     for (size_t b = 0; b < count; b++)
         if (!start_panel(sheet, &sheet->panels[b], b)) return false;
     set_scales(sheet, count);
+    if (!set_lengths(sheet, count)) return false;
     for (size_t b = 0; b < count; b++)
         if (!drawing->body || strcmp(sheet->panels[b].body.name, drawing->body) == 0)
             sheet->panels[sheet->count++] = sheet->panels[b];
@@ -431,6 +434,7 @@ static char *make_svg(fbd_state *state, const fbd_drawing *drawing, fbd_errors *
     bool done = make_panels(&sheet);
     if (done) write_sheet(&sheet);
     const char *odd = done ? body_without_scale(&sheet) : NULL;
+    sheet.text.failed |= sheet.arena.failed;
     for (size_t i = 0; i < sheet.count; i++) {
         if (sheet.panels[i].under.failed || sheet.notes[i].failed) sheet.text.failed = true;
         text_free(&sheet.panels[i].under);

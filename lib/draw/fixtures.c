@@ -63,8 +63,8 @@ static void set_base(struct panel *panel)
 {
     struct vec G = panel->G, e = vec_of(panel->pose.along), down = vec_scale(-1, vec_of(panel->pose.normal));
     struct vec in_body = {vec_dot(down, e), vec_dot(down, vec_perp(e))};
-    double reach = panel->sized ? shapes_reach(panel->model, panel->index, G, in_body)
-                                : block_half_height / panel->millimetres;
+    double reach = panel->shaped ? shapes_reach(panel->model, panel->index, G, in_body)
+                                 : block_half_height / panel->millimetres;
     if (panel->plate.rider >= 0) {
         struct vec corners[4];
         wedge_corners(panel, corners);
@@ -73,38 +73,29 @@ static void set_base(struct panel *panel)
     panel->base = vec_add(panel_place(panel, G), vec_scale(reach, down));
 }
 
-void panel_set_scale(struct panel *panel)
+void panel_set_scale(struct panel *panel, double size, double largest)
 {
-    const struct vec G = panel->G, pin = vec_of(panel->body.pin);
-    struct vec low, high;
-    panel->sized = shapes_size(panel->model, panel->index, &low, &high);
-    if (!panel->sized) low = high = G;
-    low = (struct vec){fmin(low.x, G.x), fmin(low.y, G.y)};
-    high = (struct vec){fmax(high.x, G.x), fmax(high.y, G.y)};
-    panel->plate = plate_of(panel->model, panel->view, panel->index);
-    const struct plate *plate = &panel->plate;
-    for (size_t i = 0; i < plate->count; i++) {
-        low = (struct vec){fmin(low.x, plate->points[i].x), fmin(low.y, plate->points[i].y)};
-        high = (struct vec){fmax(high.x, plate->points[i].x), fmax(high.y, plate->points[i].y)};
-    }
-    if (plate->wheel > 0) {
-        low =
-            (struct vec){fmin(low.x, plate->hub.x - plate->wheel), fmin(low.y, plate->hub.y - plate->wheel)};
-        high = (struct vec){fmax(high.x, plate->hub.x + plate->wheel),
-                            fmax(high.y, plate->hub.y + plate->wheel)};
-    }
-    if (panel->body.motion == FBD_MOTION_PIVOT) {
-        low = (struct vec){fmin(low.x, pin.x), fmin(low.y, pin.y)};
-        high = (struct vec){fmax(high.x, pin.x), fmax(high.y, pin.y)};
-    }
-    double size = vec_norm(vec_sub(high, low));
-    panel->middle = panel_place(panel, vec_scale(0.5, vec_add(low, high)));
-    panel->millimetres = size > 0 ? 10 / round_up(10 * size / body_size) : 1;
-    panel->sized = panel->sized || size > 0;
+    const double least = 8; /* mm on paper */
+    double scale = largest > 0 ? 10 / round_up(10 * largest / body_size) : 1;
+    panel->enlarged = size > 1e-9 * largest && size * scale < least;
+    panel->sized = size > 1e-9 * largest;
+    panel->millimetres = panel->enlarged ? 10 / round_up(10 * size / (body_size / 3)) : scale;
     if (panel->body.motion == FBD_MOTION_SLIDE) set_base(panel);
 }
 
 /* ---- the body */
+
+/* Avoid both edges of a bar. */
+static void avoid_bar(struct panel *panel, struct vec from, struct vec to)
+{
+    const double half_width = 1.3;
+    struct vec d = vec_sub(to, from);
+    const double length = vec_norm(d);
+    if (length == 0) return;
+    struct vec side = vec_scale(half_width / length, vec_perp(d));
+    labelling_avoid(&panel->labels, vec_add(from, side), vec_add(to, side), on_outline);
+    labelling_avoid(&panel->labels, vec_sub(from, side), vec_sub(to, side), on_outline);
+}
 
 static void draw_part(struct panel *panel, const fbd_shape *part)
 {
@@ -122,11 +113,12 @@ static void draw_part(struct panel *panel, const fbd_shape *part)
     case FBD_SHAPE_BAR:
         svg_line(text, "bar", corners[0], corners[1]);
         svg_line(text, "bar-inside", corners[0], corners[1]);
-        labelling_avoid(&panel->labels, corners[0], corners[1], 3);
+        avoid_bar(panel, corners[0], corners[1]);
         break;
     case FBD_SHAPE_POLYGON:
         svg_polygon(text, css, corners, 4);
-        for (int i = 0; i < 4; i++) labelling_avoid(&panel->labels, corners[i], corners[(i + 1) % 4], 9);
+        for (int i = 0; i < 4; i++)
+            labelling_avoid(&panel->labels, corners[i], corners[(i + 1) % 4], on_outline);
         break;
     case FBD_SHAPE_UNKNOWN: break;
     }
@@ -145,7 +137,7 @@ static void take_part(struct panel *panel, const fbd_shape *part)
     for (int i = 0; i < sides; i++) {
         struct vec from = vec_unit(2 * pi * i / sides), to = vec_unit(2 * pi * (i + 1) / sides);
         labelling_avoid(&panel->labels, vec_add(center, vec_scale(reach, from)),
-                        vec_add(center, vec_scale(reach, to)), 5);
+                        vec_add(center, vec_scale(reach, to)), on_outline);
     }
 }
 
@@ -154,7 +146,7 @@ static void edge(struct panel *panel, const struct vec *corners, size_t count)
 {
     svg_polygon(&panel->under, "body", corners, count);
     for (size_t i = 0; i < count; i++) {
-        labelling_avoid(&panel->labels, corners[i], corners[(i + 1) % count], 9);
+        labelling_avoid(&panel->labels, corners[i], corners[(i + 1) % count], on_outline);
         box_take(&panel->extent, corners[i]);
     }
 }
@@ -228,8 +220,8 @@ static void draw_center(struct panel *panel)
     text_printf(&panel->under,
                 " v%.2f a%.2f %.2f 0 0 1 %.2f %.2f z m0,0 v%.2f a%.2f %.2f 0 0 1 %.2f %.2f z\"/>\n", -r, r, r,
                 r, r, r, r, r, -r, -r);
-    labelling_avoid(&panel->labels, (struct vec){G.x - r, G.y}, (struct vec){G.x + r, G.y}, 20);
-    panel_note(panel, "G", G, (struct vec){-0.8, -0.6});
+    labelling_avoid(&panel->labels, (struct vec){G.x - r, G.y}, (struct vec){G.x + r, G.y}, on_outline);
+    labelling_add(&panel->labels, "G", label_size, G, (struct vec){-0.8, -0.6}, r + 0.4);
 }
 
 void panel_body(struct panel *panel)

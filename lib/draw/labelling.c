@@ -6,7 +6,7 @@
 #include <string.h>
 
 /* Costs, as equivalent distance from the anchor in mm. */
-static const double on_a_label = 1e4, off_direction = 2.5, needs_leader = 6;
+static const double on_a_label = 1e4, leader_on_label = 200, off_direction = 2.5, needs_leader = 6;
 
 static const double padding = 0.6, pi = 3.141592653589793;
 
@@ -90,11 +90,26 @@ static double covered(const struct label_place *label, const struct obstacle *se
     return leave > enter ? (leave - enter) * vec_norm(d) : 0;
 }
 
+static struct obstacle leader_of(const struct label_place *label)
+{
+    return (struct obstacle){.from = label->anchor, .to = labelling_leader(label)};
+}
+
+/* The cost of labels that overlap, or of which one is crossed by the other's leader. */
+static double cost_of_labels(const struct label_place *a, const struct label_place *b)
+{
+    const struct obstacle from_a = leader_of(a), from_b = leader_of(b);
+    double cost = boxes_meet(a, b) ? on_a_label : 0;
+    if (a->leader && covered(b, &from_a) > 0) cost += leader_on_label;
+    if (b->leader && covered(a, &from_b) > 0) cost += leader_on_label;
+    return cost;
+}
+
 static double cost_of_place(const struct labelling *labelling, size_t index, const struct label_place *label)
 {
     double cost = 0;
     for (size_t i = 0; i < labelling->label_count; i++)
-        if (i != index && boxes_meet(label, &labelling->labels[i])) cost += on_a_label;
+        if (i != index) cost += cost_of_labels(label, &labelling->labels[i]);
     for (size_t i = 0; i < labelling->obstacle_count; i++) {
         double length = covered(label, &labelling->obstacles[i]);
         if (length > 0) cost += labelling->obstacles[i].cost * (1 + length / 4);

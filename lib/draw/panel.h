@@ -15,6 +15,9 @@
 /* Sizes on paper [mm]. */
 static const double label_size = 3.4, note_size = 2.9, longest_arrow = 40, shortest_arrow = 5;
 
+/* Costs of a label on a line [mm]: the line of a body or an arrow is worth a far place with a leader. */
+static const double on_outline = 60, on_arrow = 60;
+
 /* Scales of forces and moments: 10 mm correspond to `force`, a quarter turn of an arc to `moment`. */
 struct arrow_scale {
     double force, moment;
@@ -27,7 +30,9 @@ struct panel_arrow {
     bool component, small;       /* small: drawn longer than to scale */
     double value;                /* of the label */
     struct vec tail, head;       /* a force, on paper */
+    bool ends_at_point;          /* its head is at the point where it acts, else its tail */
     double radius, start, sweep; /* a moment: arc around `tail`, angles as in the world */
+    const char *text;
     size_t label;
 };
 
@@ -47,11 +52,14 @@ struct panel {
         largest; /* of all bodies of the scene; smaller values than its round-off level count as zero */
     const fbd_drawing *drawing;
     struct plate plate;
-    const char *const *moments; /* symbols of the couples, M(R) of a force R; NULL without symbols */
+    const char *const *symbols; /* of the forces, with indices in braces; NULL without symbols */
+    const char *const *moments; /* and of the couples, M(R) of a force R */
 
     struct vec middle;  /* of the body, in the world: the origin of the paper */
     double millimetres; /* on paper per unit of length of the scene */
     bool sized;         /* the body has a size, so that a scale of lengths exists */
+    bool shaped;        /* by its shape in the file */
+    bool enlarged;      /* drawn to a larger scale than the other bodies of the sheet */
     struct vec base;    /* slide: point of contact with its surface, in the world */
     struct vec seat;    /* wedge: middle of the surface of the body on it, on paper */
 
@@ -85,8 +93,15 @@ bool panel_start(struct panel *panel, const fbd_state *state, const fbd_view *vi
 /* Draw the panel; on a worksheet without arrows, but with room for them. */
 void panel_draw(struct panel *panel);
 
-/* Draw the body and its centre of mass; panel_set_scale sets middle and scale, and comes first. */
-void panel_set_scale(struct panel *panel);
+/* Set the middle of the body; returns its size, the diagonal of a rectangle around its outline and the points where
+ * forces act, in lengths of the scene. */
+double panel_measure(struct panel *panel);
+
+/* Set the scale of lengths: that in which the largest body of the sheet fits its panel; a much smaller body of this size
+ * is drawn larger. */
+void panel_set_scale(struct panel *panel, double size, double largest);
+
+/* Draw the body and its centre of mass. */
 void panel_body(struct panel *panel);
 
 /* Draw ground, slide or pivot, axes and angles: beneath the body, or in front of it. */
@@ -121,7 +136,13 @@ struct arrow_scale panel_largest(const struct panel *panel);
 /* The next round number, at least `value`: at most two digits times a power of ten. */
 double round_up(double value);
 
-/* A unit as it is printed: N·m for N*m. */
-const char *printed_unit(const char *unit);
+/* A value to four digits with its unit: 10.15 kN. */
+const char *panel_value(struct panel *panel, double value, const char *unit);
+
+/* A scale, to six digits. */
+const char *panel_scale_value(struct panel *panel, double value, const char *unit);
+
+/* A symbol with its indices in braces, as svg_text takes them. */
+const char *panel_indexed(struct arena *arena, const char *symbol);
 
 #endif

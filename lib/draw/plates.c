@@ -2,6 +2,7 @@
 #include "draw/plates.h"
 
 #include <math.h>
+#include <string.h>
 
 /* Add a point unless it coincides with an earlier one to round-off. */
 static void add_point(struct plate *plate, struct vec point)
@@ -11,7 +12,17 @@ static void add_point(struct plate *plate, struct vec point)
     if (plate->count < most_plate_points) plate->points[plate->count++] = point;
 }
 
-static void add_couplings(struct plate *plate, const fbd_view *view, int b)
+/* Add the point where a slot presses on the body, from the world. */
+static void add_place(struct plate *plate, const fbd_view *view, const fbd_body *body, int b,
+                      struct vec place)
+{
+    const fbd_pose pose = fbd_view_pose(view, (size_t)b);
+    const struct vec back = {pose.cosine, -pose.sine};
+    add_point(plate,
+              vec_add(vec_of(body->pin), vec_turn(back, vec_sub(place, (struct vec){pose.x, pose.y}))));
+}
+
+static void add_couplings(struct plate *plate, const fbd_view *view, const fbd_body *body, int b)
 {
     for (size_t i = 0; i < fbd_view_coupling_count(view); i++)
         for (size_t k = 0; k < fbd_view_coupling(view, i).end_count; k++) {
@@ -19,6 +30,8 @@ static void add_couplings(struct plate *plate, const fbd_view *view, int b)
             if (end.body != b) continue;
             if (end.radius > plate->wheel) plate->wheel = end.radius, plate->hub = vec_of(end.point);
             if (!(end.radius > 0)) add_point(plate, vec_of(end.point));
+            if (strcmp(fbd_view_coupling(view, i).kind, "slot") == 0 && end.place_count > 0)
+                add_place(plate, view, body, b, vec_of(end.places[0]));
         }
 }
 
@@ -79,7 +92,7 @@ struct plate plate_of(const fbd_model *model, const fbd_view *view, size_t body)
     if (shapes_size(model, body, &low, &high) || b.motion == FBD_MOTION_PARTICLE ||
         b.motion == FBD_MOTION_TRACK)
         return plate;
-    add_couplings(&plate, view, (int)body);
+    add_couplings(&plate, view, &b, (int)body);
     add_joints(&plate, model, &b, (int)body);
     add_springs(&plate, view, (int)body);
     if (b.motion == FBD_MOTION_SLIDE)

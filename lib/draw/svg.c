@@ -94,27 +94,79 @@ void svg_polygon(struct text *text, const char *css, const struct vec *corners, 
     text_add(text, "\"/>\n");
 }
 
+/* The next index of a line, "_{k}": its letters without the braces; NULL when there is none. */
+static const char *next_index(const char *string, size_t *length)
+{
+    for (const char *c = strstr(string, "_{"); c; c = strstr(c + 2, "_{")) {
+        *length = strcspn(c + 2, "}");
+        if (*length > 0 && c[2 + *length] == '}') return c + 2;
+    }
+    return NULL;
+}
+
+static void escape_bytes(struct text *text, const char *string, size_t length)
+{
+    struct text part = {0};
+    text_add_bytes(&part, string, length);
+    if (part.data) svg_escape(text, part.data);
+    text->failed |= part.failed;
+    text_free(&part);
+}
+
+/* Write the text between two indices; `low` behind an index, from whose shift it returns. The blank at the start of such
+ * a piece would be dropped. */
+static void write_piece(struct text *text, const char *string, size_t length, bool low)
+{
+    if (length == 0) return;
+    if (low) text_add(text, "<tspan dy=\"-.2em\">");
+    if (low && *string == ' ') {
+        text_add(text, "\u00a0");
+        string++;
+        length--;
+    }
+    escape_bytes(text, string, length);
+    if (low) text_add(text, "</tspan>");
+}
+
+/* Write a line with its indices lower; a shift `dy` holds for the rest of the line. */
+static void write_line(struct text *text, const char *string)
+{
+    size_t length;
+    bool low = false;
+    for (const char *index; (index = next_index(string, &length)); low = true) {
+        const size_t before = (size_t)(index - 2 - string);
+        write_piece(text, string, before, low);
+        text_printf(text, "<tspan class=\"index\"%s>", low && before == 0 ? "" : " dy=\".286em\"");
+        escape_bytes(text, index, length);
+        text_add(text, "</tspan>");
+        string = index + length + 1;
+    }
+    write_piece(text, string, strlen(string), low);
+}
+
+static void write_text(struct text *text, const char *css, const char *middle, struct vec start,
+                       const char *string)
+{
+    text_printf(text, "<text class=\"%s%s\"", css, middle);
+    attribute(text, "x", start.x);
+    attribute(text, "y", start.y);
+    text_add(text, ">");
+    write_line(text, string);
+    text_add(text, "</text>\n");
+}
+
 void svg_text(struct text *text, const char *css, struct vec center, double size, const char *string)
 {
-    text_printf(text, "<text class=\"%s middle\"", css);
-    attribute(text, "x", center.x);
-    attribute(text, "y", center.y + 0.35 * size);
-    text_add(text, ">");
-    svg_escape(text, string);
-    text_add(text, "</text>\n");
+    write_text(text, css, " middle", (struct vec){center.x, center.y + 0.35 * size}, string);
 }
 
 void svg_text_at(struct text *text, const char *css, struct vec start, const char *string)
 {
-    text_printf(text, "<text class=\"%s\"", css);
-    attribute(text, "x", start.x);
-    attribute(text, "y", start.y);
-    text_add(text, ">");
-    svg_escape(text, string);
-    text_add(text, "</text>\n");
+    write_text(text, css, "", start, string);
 }
 
-double svg_text_width(const char *string, double size)
+/* The width of the characters in a thousandth of the font size. */
+static double advance(const char *string, size_t length)
 {
     /* Advance widths of Helvetica, ' ' to '~', in thousandths of the font size (Adobe's font metrics). */
     static const short widths[] = {
@@ -124,16 +176,25 @@ double svg_text_width(const char *string, double size)
         667, 611, 278, 278, 278, 469, 556, 333, 556, 556, 500, 556, 556, 278,  556, 556, 222, 222, 500,
         222, 833, 556, 556, 556, 556, 333, 500, 278, 556, 500, 722, 500, 500,  500, 334, 260, 334, 584,
     };
-    const short other = 600;        /* Greek letters and signs */
-    const double substitute = 1.12; /* DejaVu Sans is wider by this factor */
+    const short other = 600; /* Greek letters and signs */
     long sum = 0;
-    for (const unsigned char *c = (const unsigned char *)string; *c; c++) {
+    for (const char *c = string; c < string + length; c++) {
         if (*c >= ' ' && *c <= '~')
             sum += widths[*c - ' '];
         else if ((*c & 0xC0) != 0x80) /* the first byte of a character */
             sum += other;
     }
-    return substitute * size * (double)sum / 1000;
+    return (double)sum;
+}
+
+double svg_text_width(const char *string, double size)
+{
+    const double substitute = 1.12, low = 0.7; /* DejaVu Sans is wider; size of an index */
+    double sum = 0;
+    size_t length;
+    for (const char *index; (index = next_index(string, &length)); string = index + length + 1)
+        sum += advance(string, (size_t)(index - 2 - string)) + low * advance(index, length);
+    return substitute * size * (sum + advance(string, strlen(string))) / 1000;
 }
 
 /* All rules are restricted to class `fbd`, so that the style does not affect the page around it. Dark only on
@@ -142,6 +203,7 @@ const char svg_style[] =
     ".fbd text{font-family:Arial,Helvetica,'Liberation Sans','Nimbus "
     "Sans',sans-serif;font-size:3.4px;fill:#111}\n"
     ".fbd .middle{text-anchor:middle}\n"
+    ".fbd .index{font-size:.7em}\n"
     ".fbd .heading{font-size:4.6px;font-weight:bold}\n"
     ".fbd .note{font-size:2.9px;fill:#555}\n"
     ".fbd .paper{fill:#fff}\n"

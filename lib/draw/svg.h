@@ -33,7 +33,7 @@ void svg_circle(struct text *text, const char *css, struct vec center, double ra
 /* A closed polygon. */
 void svg_polygon(struct text *text, const char *css, const struct vec *corners, size_t count);
 
-/* A line of text, centred at `center` (its middle is about 0.35 of its size above its base line). */
+/* A line of text, in which "N_{1}" is N with an index, centred at `center` (its middle is about 0.35 of its size above its base line). */
 void svg_text(struct text *text, const char *css, struct vec center, double size, const char *string);
 
 /* The same, starting at `start` on the base line. */

@@ -37,7 +37,7 @@ bool unit_parse(const char *text, size_t length, enum unit_system system, fbd_er
 
 /* The coherent unit in `system` of a quantity of dimension `dim`: "m/s", "N*m", "slug*ft^2"; "" for a pure
  * number. Writes at most `size` bytes with the terminating zero. A moment and an energy have the same
- * dimension: this gives "N*m" and "lbf*ft"; unit_name_energy gives "J" for SI. */
+ * dimension: this gives "N*m" and "lbf*ft"; unit_name_energy gives "J" and "ft*lbf". */
 void unit_name(struct dim dim, enum unit_system system, char *buffer, size_t size);
 const char *unit_name_energy(enum unit_system system);
 

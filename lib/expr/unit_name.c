@@ -70,7 +70,7 @@ void unit_examples(struct dim dim, char *buffer, size_t size)
 
 const char *unit_name_energy(enum unit_system system)
 {
-    return system == unit_si ? "J" : "lbf*ft";
+    return system == unit_si ? "J" : "ft*lbf";
 }
 
 /* ---- composing */

@@ -380,6 +380,8 @@ bool drawing_add_bodies(struct text *text, struct text *pictures, const fbd_stat
     for (size_t b = 0; b < count && !arena.failed; b++) {
         struct cut_free cut = {.text = text, .pictures = pictures};
         if (!panel_start(&cut.panel, state, view, b, &drawing, &arena)) break;
+        const double size = panel_measure(&cut.panel);
+        panel_set_scale(&cut.panel, size, size);
         panel_draw(&cut.panel);
         text_add(text, b ? ",\n{" : "{");
         json_text_member(text, "name", cut.panel.body.name);

@@ -6,10 +6,12 @@
 #ifndef FBD_NOTE_NOTE_H
 #define FBD_NOTE_NOTE_H
 
+#include "base/engineering.h"
 #include "fbd_study.h"
 #include "fbd_view.h"
 #include "note/document.h"
-#include "note/values.h"
+
+enum { note_digits = 6, force_digits = 5, error_digits = 2 };
 
 /* A scene of more bodies has its first ones drawn and no list of all equations. */
 enum { most_drawn_bodies = 12 };

@@ -24,7 +24,8 @@ check 'without the ground' lacks 'class="(ground|hatch)"' out
 check '--supports' exits 0 draw "$incline" --supports
 check 'draws it' says 'class="hatch"' out
 check '--symbols' exits 0 draw "$incline" --symbols
-for symbol in mg N μₖN push; do
+index='<tspan class="index" dy=".286em">' back='</tspan><tspan dy="-.2em">' nbsp=$(printf '\302\240')
+for symbol in mg N "μ${index}k${back}N</tspan>" push; do
     check "labels an arrow $symbol" says ">$symbol</text>" out
 done
 check 'without values' lacks 'class="label middle"[^<]*> *[a-z]* [0-9.]+ N<' out
@@ -32,13 +33,15 @@ check '--worksheet' exits 0 draw "$crank" --worksheet
 check 'has no arrows' lacks 'class="arrow' out
 check 'but bodies' says 'id="crank-outline"' out
 check '--solution' exits 0 draw "$crank" --solution
-check 'has symbols with their values' says '>R₂ = 19.66 N, pin<' out
-check 'and those of the opposite force' says '>R₂ = 19.66 N, connecting_rod.pin<' out
+check 'has symbols with their values' says ">R${index}2$back${nbsp}= 19.66 N, pin<" out
+check 'and those of the opposite force' says ">R${index}2$back${nbsp}= 19.66 N, connecting_rod.pin<" out
 check 'all bodies have one scale of forces' sh -c '[ "$(grep -o "forces: 10 mm = [^<]*" out | sort -u | wc -l)" -eq 1 ]'
 check '--scale' exits 0 draw "$crank" --scale 12
 check 'is that of every body' sh -c '[ "$(grep -c "forces: 10 mm = 12 N" out)" -eq 3 ]'
 check 'with its unit' exits 0 draw "$crank" --scale '0.1 kN'
 check 'it is that as well' says 'forces: 10 mm = 100 N<' out
+check 'thousands have a prefix' exits 0 draw "$crank" --scale '30 kN'
+check '(kN)' says 'forces: 10 mm = 30 kN<' out
 check 'and in another system' exits 0 draw "$models/kinetics/drop_us.yaml" --scale '10 N'
 check 'what it is there, 10/4.4482216152605 lbf' says 'forces: 10 mm = 2.2480[0-9]* lbf' out
 check 'a body alone has the scale of the scene' exits 0 draw "$crank" --body piston
@@ -98,8 +101,8 @@ bodies:
 simulate: {until: 1 s}
 END
 check '--svg --components on a body that is carried' exits 0 run --svg - --components carried.yaml
-check 'are along its line in the world' says 'gravity_x 84\.96 N' out
-check 'and across it' says 'gravity_n 49\.05 N' out
+check 'are along its line in the world' says "gravity${index}x$back${nbsp}84\.96 N" out
+check 'and across it' says "gravity${index}n$back${nbsp}49\.05 N" out
 
 # ---- LaTeX
 check '--equations --latex' exits 0 run --equations --latex "$incline"

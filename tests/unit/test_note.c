@@ -14,11 +14,11 @@
 
 #include <cmocka.h>
 
+#include "base/engineering.h"
 #include "base/printed.h"
 #include "base/sha256.h"
 #include "fbd_export.h"
 #include "fbd_view.h"
-#include "note/values.h"
 
 static const char block[] =
     "fbd: 1\n"
@@ -76,7 +76,9 @@ static void numbers_are_those_of_engineers(void **context)
     writes(12345.67, "kg", 3, "12346\u00a0kg");
     writes(2.6e-16, "1", 2, "2.6·10⁻¹⁶");
     writes(0.00025, "", 2, "0.00025");
-    writes(1.5e4, "lbf", 4, "15000\u00a0lbf");
+    writes(9999, "lbf", 4, "9999\u00a0lbf");
+    writes(1.5e4, "lbf", 4, "15\u00a0kip");
+    writes(2.5e4, "ft*lbf", 4, "25\u00a0ft·kip");
     writes(INFINITY, "N", 4, "?\u00a0N");
 }
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "note/values.h"
+#include "base/engineering.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -41,6 +41,18 @@ static bool takes_prefix(const char *unit)
     return false;
 }
 
+/* A force in pounds, or a moment, energy or stiffness of them, in thousands: kip, ft·kip. */
+static bool in_kips(struct scaled_unit *scaled, const char *unit, double size)
+{
+    const char *pound = strstr(unit, "lbf");
+    char kips[sizeof scaled->name];
+    if (!pound || !(size >= 1e4) || !isfinite(size)) return false;
+    snprintf(kips, sizeof kips, "%.*skip%s", (int)(pound - unit), unit, pound + strlen("lbf"));
+    print_unit(scaled->name, sizeof scaled->name, "", kips);
+    scaled->size = 1e3;
+    return true;
+}
+
 static struct scaled_unit in_degrees(const char *unit)
 {
     const double degree = 3.14159265358979323846 / 180;
@@ -54,7 +66,7 @@ struct scaled_unit unit_for(const char *unit, double size, bool degrees)
     struct scaled_unit scaled = {.size = 1};
     const char *prefix = "";
     if (degrees && (strcmp(unit, "rad") == 0 || strcmp(unit, "rad/s") == 0)) return in_degrees(unit);
-    if (strcmp(unit, "1") == 0) return scaled;
+    if (strcmp(unit, "1") == 0 || in_kips(&scaled, unit, size)) return scaled;
     if (takes_prefix(unit) && size >= 1e4 && isfinite(size)) {
         prefix = size >= 1e7 ? "M" : "k";
         scaled.size = size >= 1e7 ? 1e6 : 1e3;

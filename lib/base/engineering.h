@@ -2,12 +2,10 @@
  *
  * Numbers with units as engineers write them: 10.15 kN, 4.8 mm, 9.81 m/s², 2.6·10⁻¹⁶.
  */
-#ifndef FBD_NOTE_VALUES_H
-#define FBD_NOTE_VALUES_H
+#ifndef FBD_BASE_ENGINEERING_H
+#define FBD_BASE_ENGINEERING_H
 
 #include "base/text.h"
-
-enum { note_digits = 6, force_digits = 5, error_digits = 2 };
 
 /* A unit and its size in the coherent unit. */
 struct scaled_unit {
@@ -15,8 +13,8 @@ struct scaled_unit {
     double size;
 };
 
-/* The unit in which a value of this size is written: with k or M for forces, moments, energies and stiffnesses of 10,000
- * and more, mm below a centimetre; degrees where `degrees`. */
+/* The unit in which a value of this size is written: with k or M, in US units as kip, for forces, moments, energies and
+ * stiffnesses of 10,000 and more, mm below a centimetre; degrees where `degrees`. */
 struct scaled_unit unit_for(const char *unit, double size, bool degrees);
 
 /* A number with so many significant digits; beyond 1e-4 to 1e6 with a power of ten. A number that is not finite is "?". */
