@@ -329,10 +329,6 @@ static void accelerate_joined(const struct fbd_model *model, const struct instan
 {
     const struct tree *tree = model->tree;
     struct tree_work *work = at->tree;
-    if (tree->joined_by_pivots) {
-        tree_pivots(model, at, slots, a);
-        return;
-    }
     lock(model, at);
     if (!at->moved) tree_move_joined(model, at);
     tree_bias(tree, at, model->plan.n);

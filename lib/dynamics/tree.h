@@ -233,9 +233,6 @@ void tree_outward(const struct tree *tree, struct tree_work *work, int from, int
 int tree_push(const struct tree *tree, const struct tree_work *work, int *at, struct wrench *p, int count,
               struct tree_push *pushes);
 
-/* All sweeps at once where jointed links are free pivots, tree->joined_by_pivots (tree_pivots.c). */
-void tree_pivots(const struct fbd_model *model, const struct instant *at, const double *slots, double *a);
-
 /* Does any slide slip whose friction depends on its normal force? */
 bool tree_slips(const struct tree *tree, const struct instant *at);
 

@@ -225,17 +225,12 @@ static void write_tree(struct emitter *emitter)
     const struct tree *tree = emitter->model->tree;
     struct text lines = {0};
     text_add(&lines, emit_new_links);
-    if (tree->joined_by_pivots) {
-        text_add(&lines, "    set_out_links(s, y, f, &l);\n");
-        if (emitter->walks) text_add(&lines, "    load_links(s, t, y, &l);\n");
-    } else {
-        lock_joints(emitter, &lines);
-        text_add(&lines, "    move_links(s, y, &l);\n    bias_links(s, y, &l);\n");
-        if (emitter->walks) text_add(&lines, "    load_links(s, t, y, &l);\n");
-        text_add(&lines, "    push_joints(f, &l);\n");
-        rub_bearings(emitter, &lines);
-        text_add(&lines, "    start_links(s, &l);\n    factor_links(&l);\n");
-    }
+    lock_joints(emitter, &lines);
+    text_add(&lines, "    move_links(s, y, &l);\n    bias_links(s, y, &l);\n");
+    if (emitter->walks) text_add(&lines, "    load_links(s, t, y, &l);\n");
+    text_add(&lines, "    push_joints(f, &l);\n");
+    rub_bearings(emitter, &lines);
+    text_add(&lines, "    start_links(s, &l);\n    factor_links(&l);\n");
     text_add(&lines, "    pass_links_inward(&l);\n    give_links_outward(&l, a);\n");
     if (tree->joined_watched > 0) {
         text_add(&lines, "    transmit_links(&l);\n");

@@ -356,31 +356,6 @@ static const char *outward(struct emitter *emitter, int i)
                        emitter->coordinate[link->coordinate]);
 }
 
-/* A shorter pass, for trees with free pivots only. */
-static const char *set_out(struct emitter *emitter, int i)
-{
-    const struct tree_link *link = &emitter->model->tree->links[i];
-    const char *name = link_name(emitter, i), *q = emitter->coordinate[link->coordinate];
-    return emit_printf(emitter, "    set_out(&l->%s, &l->%s, &c->%s.link, y[%s], y[%s], f[%s]);\n", name,
-                       link_name(emitter, link->parent), name, q, emitter->rate[link->coordinate], q);
-}
-
-static const char *passed_in(struct emitter *emitter, int i)
-{
-    const struct tree_link *link = &emitter->model->tree->links[i];
-    const char *name = link_name(emitter, i), *on = link_name(emitter, link->parent);
-    if (link->end == i + 1) return emit_printf(emitter, "    pass_last_inward(&l->%s, &l->%s);\n", name, on);
-    return emit_printf(emitter, "    pass_inward(&l->%s, &l->%s);\n", name, on);
-}
-
-static const char *given_out(struct emitter *emitter, int i)
-{
-    const struct tree_link *link = &emitter->model->tree->links[i];
-    return emit_printf(emitter, "    a[%s] = give_outward(&l->%s, &l->%s);\n",
-                       emitter->coordinate[link->coordinate], link_name(emitter, i),
-                       link_name(emitter, link->parent));
-}
-
 static const char *placed_link(struct emitter *emitter, int i)
 {
     return emit_printf(emitter, "    start_link(&l->%s, &c->%s.link);\n", link_name(emitter, i),
@@ -406,30 +381,7 @@ static void write_struct(struct emitter *emitter)
     text_add(out, ";\n};\n\n");
 }
 
-static void write_pivots(struct emitter *emitter)
-{
-    write_pass(
-        emitter,
-        "/* Outward: where each link is, and what keeps it on its course. */\nstatic void set_out_links",
-        "const struct scene *s, const double *y, const double *f, struct links *l", true, set_out);
-    write_pass(emitter,
-               "/* Inward: what each link has with all that hangs on it. */\nstatic void pass_links_inward",
-               "struct links *l", false, passed_in);
-    write_pass(emitter, "/* Outward: the accelerations of the joints. */\nstatic void give_links_outward",
-               "struct links *l, double *a", true, given_out);
-}
-
-static bool needs_moves(const struct emitter *emitter)
-{
-    const struct fbd_model *model = emitter->model;
-    for (size_t k = 0; k < model->absolute_count; k++)
-        if (emitter->used[k] && model->absolutes[k].kind != absolute_slip &&
-            !model->bodies[model->absolutes[k].body].alone)
-            return true;
-    return !model->tree->joined_by_pivots;
-}
-
-static void write_general(struct emitter *emitter)
+static void write_sweeps(struct emitter *emitter)
 {
     write_pass(emitter,
                "/* Outward: how each link would accelerate if no joint gave way, and what keeps it on that "
@@ -462,13 +414,9 @@ void emit_tree(struct emitter *emitter)
     if (tree_joins(tree)) {
         derive_links(emitter);
         write_struct(emitter);
-        if (needs_moves(emitter))
-            write_pass(emitter, "/* Outward: where each link is and how it moves. */\nstatic void move_links",
-                       "const struct scene *s, const double *y, struct links *l", true, moved);
+        write_pass(emitter, "/* Outward: where each link is and how it moves. */\nstatic void move_links",
+                   "const struct scene *s, const double *y, struct links *l", true, moved);
         write_loads(&writer);
-        if (tree->joined_by_pivots)
-            write_pivots(emitter);
-        else
-            write_general(emitter);
+        write_sweeps(emitter);
     }
 }

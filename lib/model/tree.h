@@ -140,7 +140,6 @@ struct tree {
     struct link_loads *alone_loads; /* of each link that stands alone, from `joined` on */
     bool loaded;                    /* a load of the lists above acts on jointed links */
     bool curved;                    /* there are tracks */
-    bool joined_by_pivots;          /* every joint of jointed links is a pivot without dry friction */
     double mass_ratio;              /* heaviest over lightest link */
     int pair_count;                 /* jointed links whose dry friction depends on a normal force */
     int *pairs;                     /* their numbers */

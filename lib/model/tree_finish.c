@@ -72,10 +72,7 @@ bool tree_finish(struct fbd_model *model)
     if (!share_loads(model)) return false;
     tree->loaded = tree->joined_loads.any || tree->bulk_count > 0;
     tree->mass_ratio = mass_ratio(tree);
-    tree->joined_by_pivots = tree->joined_watched == 0 && tree->bulk_count == 0;
-    for (int i = 1; i < tree->joined; i++) {
-        if (!link_joint(&tree->links[i])->has_axis) tree->joined_by_pivots = false;
+    for (int i = 1; i < tree->joined; i++)
         if (tree->links[i].track) tree->curved = true;
-    }
     return couplings_order(model);
 }

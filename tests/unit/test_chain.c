@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Trees of free pivots, which have a recursion of their own, and long chains.
+ * Long chains.
  */
 #include <setjmp.h>
 #include <stdarg.h>
@@ -11,6 +11,7 @@
 
 #include "dynamics/state.h"
 #include "dynamics/tree.h"
+#include "random_numbers.h"
 #include "random_trees.h"
 #include "scenes.h"
 
@@ -18,106 +19,6 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
-
-/* ---- the recursion for pivots against the general one */
-
-/* What one of them finds. */
-struct findings {
-    double *a, *jacobian;
-    struct tree_state *links;
-};
-
-static struct findings find(struct fbd_state *state, bool pivots)
-{
-    size_t n = (size_t)state->model->plan.n, count = (size_t)state->model->tree->count, size = 2 * n;
-    struct findings found = {calloc(n, sizeof(double)), calloc(size * (size + 1), sizeof(double)),
-                             calloc(count, sizeof(struct tree_state))};
-    assert_true(found.a && found.jacobian && found.links);
-    state->model->tree->joined_by_pivots = pivots;
-    struct instant at = state_instant(state);
-    state_jacobian(state->model, &at, state->scratch, found.jacobian, found.jacobian + size * size);
-    state_evaluate(state);
-    for (size_t i = 0; i < n; i++) found.a[i] = state->a[i];
-    for (size_t i = 0; i < count; i++) found.links[i] = state->tree->links[i];
-    return found;
-}
-
-static void release(struct findings *found)
-{
-    free(found->a);
-    free(found->jacobian);
-    free(found->links);
-}
-
-/* Two ways of rounding: the numbers agree to some thousand roundings of the largest one. */
-static void expect_same(const char *what, uint64_t seed, const double *got, const double *want, size_t count)
-{
-    double largest = 0;
-    for (size_t i = 0; i < count; i++) largest = fmax(largest, fabs(want[i]));
-    for (size_t i = 0; i < count; i++) {
-        double off = fabs(got[i] - want[i]) / largest;
-        if (!(off <= 4096 * DBL_EPSILON))
-            print_error("seed %d: %s: got %.17g, wanted %.17g, off by %.3g of the largest\n", (int)seed, what,
-                        got[i], want[i], off);
-        assert_true(off <= 4096 * DBL_EPSILON);
-    }
-}
-
-static void pivots_move_as_in_the_general_recursion(void **unused)
-{
-    (void)unused;
-    for (uint64_t seed = 1; seed <= 40; seed++) {
-        struct random_numbers numbers = {seed};
-        struct random_tree tree = {.bodies = 2 + (int)(seed % 9), .loops = (int)(seed % 3), .pivots = true};
-        char *text = random_tree_text(&numbers, &tree);
-        assert_non_null(text);
-        fbd_model *model = model_from(text);
-        free(text);
-        struct fbd_state *state = state_new(model);
-        assert_non_null(state);
-        assert_true(model->tree->joined_by_pivots);
-        size_t n = (size_t)model->plan.n;
-        for (size_t i = 0; i < 2 * n; i++) state->y[i] = random_between(&numbers, -2, 2);
-        struct findings own = find(state, true), general = find(state, false);
-        expect_same("acceleration", seed, own.a, general.a, n);
-        expect_same("Jacobian", seed, own.jacobian, general.jacobian, 2 * n * (2 * n + 1));
-        for (int i = 1; i < model->tree->count; i++) {
-            const struct tree_state *s = &own.links[i], *t = &general.links[i];
-            expect_same("motion", seed, (double[]){s->angle, s->omega, s->p.x, s->p.y, s->v.x, s->v.y},
-                        (double[]){t->angle, t->omega, t->p.x, t->p.y, t->v.x, t->v.y}, 6);
-            expect_same("acceleration of a link", seed, (double[]){s->A.alpha, s->A.a.x, s->A.a.y},
-                        (double[]){t->A.alpha, t->A.a.x, t->A.a.y}, 3);
-            expect_same("reaction", seed, (double[]){s->F.moment, s->F.force.x, s->F.force.y},
-                        (double[]){t->F.moment, t->F.force.x, t->F.force.y}, 3);
-        }
-        release(&own);
-        release(&general);
-        state_free(state);
-        fbd_model_free(model);
-    }
-}
-
-static void other_joints_and_dry_bearings_take_the_general_recursion(void **unused)
-{
-    (void)unused;
-    static const char head[] = "fbd: 1\nbodies:\n  a: {mass: 1, shape: rod, length: 1, motion: pivot}\n"
-                               "  b:\n    mass: 1\n    shape: rod\n    length: 1\n    motion: ";
-    static const char *const tails[] = {
-        "{pivot: {on: a}}\n",
-        "{slide: {on: a}}\n",
-        "{planar: {on: a}}\n",
-        "{pivot: {on: a}}\n    moments: [{friction: 1 N*m}]\n",
-    };
-    for (int k = 0; k < 4; k++) {
-        char text[400];
-        snprintf(text, sizeof text, "%s%s", head, tails[k]);
-        fbd_model *model = model_from(text);
-        assert_int_equal(model->tree->joined_by_pivots, k == 0);
-        fbd_model_free(model);
-    }
-}
-
-/* ---- long chains */
 
 static fbd_model *chain_of(int n)
 {
@@ -229,8 +130,6 @@ static void memory_grows_with_the_number_of_rods(void **unused)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(pivots_move_as_in_the_general_recursion),
-        cmocka_unit_test(other_joints_and_dry_bearings_take_the_general_recursion),
         cmocka_unit_test(forward_and_inverse_dynamics_of_long_chains_agree_to_rounding),
         cmocka_unit_test(memory_grows_with_the_number_of_rods),
     };
