@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/double_double.h"
+#include "numeric/tolerances.h"
 
 static const double lowest = 0.125; /* h rho of the first length */
 
@@ -73,10 +74,9 @@ static void add_one(size_t dim, struct double_double *matrix)
 /* sum += term, element by element; is every term negligible compared with its sum? */
 static bool add_small(size_t size, const struct double_double *term, struct double_double *sum)
 {
-    const double negligible = 0x1p-108;
     bool small = true;
     for (size_t i = 0; i < size; i++) {
-        small &= fabs(term[i].x) <= negligible * fabs(sum[i].x);
+        small &= fabs(term[i].x) <= negligible_dd * fabs(sum[i].x);
         sum[i] = dd_add(sum[i], term[i]);
     }
     return small;

@@ -85,8 +85,9 @@ static const double least_newton_rate = 1e-4, least_error_ratio = 1e-12;
 static const double least_growth = 1e-20;
 
 /* Linear systems: an excess of h rho by which a step may be longer after rounding; terms of the series of the exponential below
- * a fraction of a rounding; and terms of sums that are small already. */
-static const double rounded_reach = 1e-9, series_end = 4e-18, series_rest = 1e-19;
+ * a fraction of a rounding; and, relative, below the resolution of double-double numbers, 2^-106: a term that does not change its
+ * sum. */
+static const double rounded_reach = 1e-9, series_end = 4e-18, negligible_dd = 0x1p-108;
 
 /* ---- events */
 

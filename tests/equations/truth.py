@@ -60,6 +60,7 @@ class Scene:
                 for entry in body.get(list_name) or []:
                     entry = Entry(entry, list_name == "moments")
                     self.entries[b][entry.name] = entry
+        self.couplings = [Entry(entry, False).name for entry in self.file.get("couplings") or []]
         self.parents = {b: self.parent_of(body.get("motion")) for b, body in self.file["bodies"].items()}
 
     @staticmethod
@@ -427,7 +428,7 @@ class Judge:
                 assert signs <= {1} or lone, f"{symbol} has a minus sign on {owner}"
         for symbol, moment in self.kinds.items():
             letter = re.sub(r"_[0-9]+$", "", symbol)
-            named = any(letter == e.name for entries in scene.entries.values() for e in entries.values())
+            named = letter in scene.couplings or any(letter in entries for entries in scene.entries.values())
             assert named or (letter == "M") == moment, f"{symbol} for a {'moment' if moment else 'force'}"
 
 
