@@ -101,7 +101,8 @@ static enum expr_degree switching_degree(const struct instr *instr, const enum e
     return op_is_by_quotient(instr->op) && b != expr_constant_between ? of_any(a, b) : larger(a, b);
 }
 
-static enum expr_degree switch_degree(const struct expr *expr, size_t index, enum expr_degree of_time, int last)
+static enum expr_degree switch_degree(const struct expr *expr, size_t index, enum expr_degree of_time,
+                                      int last)
 {
     enum expr_degree degree[frame_limit], worst = expr_constant_between;
     bool jumps = begin(expr, of_time, last, degree);

@@ -63,7 +63,7 @@ struct own {
     void (*eval)(const gsl_odeiv2_step *step, double at, double *y); /* at theta; an exact one at t - t0 */
     int (*powers)(const gsl_odeiv2_step *step, size_t i, const struct powers_piece *piece,
                   double *c); /* or NULL */
-    bool exact; /* without evaluations */
+    bool exact;               /* without evaluations */
 };
 
 static const struct own owns[] = {

@@ -24,8 +24,8 @@ struct linear {
     double *term;           /* terms x dim: h^(k+1) A^k f0 / (k+1)! */
     double *power;          /* (most powers + 1) x dim: of a piece of the step, in powers of s from -1 to 1 */
     struct powers_piece piece;
-    int degree;     /* of that piece; below zero: none */
-    double *A;      /* dim x dim */
+    int degree; /* of that piece; below zero: none */
+    double *A;  /* dim x dim */
     struct doublings doublings;
     double memory[];
 };

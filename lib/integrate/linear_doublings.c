@@ -86,8 +86,8 @@ static bool add_small(size_t size, const struct double_double *term, struct doub
 static void next_term(const struct doublings *d, const struct double_double *A, double k,
                       const struct double_double *term, struct double_double *next)
 {
-    const struct double_double factor = dd_divide((struct double_double){doublings_length(d, 0), 0},
-                                                  (struct double_double){k, 0});
+    const struct double_double factor =
+        dd_divide((struct double_double){doublings_length(d, 0), 0}, (struct double_double){k, 0});
     multiply(d->dim, A, term, next);
     for (size_t i = 0; i < d->dim * d->dim; i++) next[i] = dd_multiply(next[i], factor);
 }

@@ -17,9 +17,9 @@ static const double linear_reach = 0x1p125; /* h rho of the longest step */
 
 struct doublings {
     size_t dim;
-    double rho;             /* bound of |A| */
-    int made, room;         /* lengths that are computed, and that there is memory for */
-    double *matrices;       /* for each length dim x dim: Phi, then the exponential; or NULL */
+    double rho;                 /* bound of |A| */
+    int made, room;             /* lengths that are computed, and that there is memory for */
+    double *matrices;           /* for each length dim x dim: Phi, then the exponential; or NULL */
     struct double_double *last; /* the same of the last length, then scratch of twice the size; or NULL */
 };
 

@@ -102,8 +102,8 @@ struct snap {
 struct event_search {
     struct scan timed, moving;
     bool knows_timed; /* timed.t and timed.crossed are those of the next zero (functions that are affine) */
-    bool *reads;  /* for each group of moving functions: the components that it reads */
-    bool *wanted; /* the groups that are searched at present */
+    bool *reads;      /* for each group of moving functions: the components that it reads */
+    bool *wanted;     /* the groups that are searched at present */
     bool paced,
         paced_by_motion; /* sampled functions may change as fast as formulas do; with the motion, too */
     bool follows_places; /* the trajectory polynomial includes positions in the world */

@@ -394,8 +394,10 @@ static struct fbd_model *compile(struct scene *scene, bool labels, const struct 
         set_rates(&builder);
         set_watches(&builder);
         if (done) done = slips_find(model);
-        if (done) reactions_find(model);
-        if (done) slides_find(model);
+        if (done) {
+            reactions_find(model);
+            slides_find(model);
+        }
         done = done && !model->arena.failed;
     }
     if (!done) diag_out_of_memory(errors);
