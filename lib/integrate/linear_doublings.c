@@ -128,7 +128,7 @@ static bool make_room(struct doublings *d, int count)
 {
     enum { at_once = 16, of_last = 5 };
     const size_t size = d->dim * d->dim;
-    if (!d->last) d->last = malloc(of_last * size * sizeof *d->last);
+    if (!d->last) d->last = calloc(of_last * size, sizeof *d->last);
     if (!d->last) return false;
     if (count <= d->room) return true;
     const int room = (count / at_once + 1) * at_once;

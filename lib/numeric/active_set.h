@@ -50,10 +50,10 @@ static inline double *active_set_row(const struct active_set *set, size_t k)
 size_t active_set_satisfy(struct active_set *set, const struct half_spaces *spaces, double size);
 
 /* One step at a time. Begin without active limits; make a violated one active, false where the others exclude it: then
- * its normal plus those of the active ones times -r is zero, with r <= 0; drop active limit k. */
+ * its normal plus those of the active ones times -r is zero, with r <= 0; drop active limit l. */
 void active_set_begin(struct active_set *set, const struct half_spaces *spaces);
 bool active_set_add(struct active_set *set, const struct half_spaces *spaces, size_t which);
-void active_set_drop(struct active_set *set, size_t k);
+void active_set_drop(struct active_set *set, size_t l);
 
 /* As `least` of all active limits rises by one unit: x changes by `step`, and their multipliers by r. */
 void active_set_rates(struct active_set *set);
